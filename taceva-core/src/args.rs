@@ -1,4 +1,4 @@
-//! Arguments of a driver: declared as data, given as text, checked before anything is opened.
+//! Arguments of a driver: declared as data, parsed from text, and checked before a device is opened.
 
 mod error;
 mod kind;
@@ -15,7 +15,7 @@ pub use value::ArgValue;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Arguments of one driver, checked against its declarations. Arguments that are not given have their defaults.
+/// Arguments of one driver, checked against its declarations. Omitted arguments have their defaults.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, Args};
@@ -36,10 +36,10 @@ pub struct Args {
 }
 
 impl Args {
-    /// Parses arguments as written after the colon of a selector: `key=value;key=value`. `;;` is a semicolon within a value.
+    /// Parses the arguments after the colon of a selector: `key=value;key=value`. `;;` is a semicolon within a value.
     ///
     /// # Errors
-    /// [`ArgError`] for the first fault.
+    /// [`ArgError`] for the first invalid argument.
     pub fn parse(specs: &[ArgSpec], text: &str) -> Result<Args, ArgError> {
         let mut pairs = Vec::new();
         for part in parts(text) {
@@ -51,10 +51,10 @@ impl Args {
         Args::from_pairs(specs, pairs)
     }
 
-    /// Checks arguments given as pairs of key and text, for example those of a table in a scene.
+    /// Checks arguments given as pairs of key and text, for example from a table in a scene.
     ///
     /// # Errors
-    /// [`ArgError`] for the first fault.
+    /// [`ArgError`] for the first invalid argument.
     pub fn from_pairs(
         specs: &[ArgSpec],
         pairs: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
@@ -88,15 +88,15 @@ impl Args {
         Ok(Args { values })
     }
 
-    /// The value of `key`, if it was given or has a default.
+    /// Value of `key`; `None` for an omitted argument without a default.
     pub fn get(&self, key: &str) -> Option<&ArgValue> {
         self.values.get(key)
     }
 
-    /// The value of `key`, a whole number.
+    /// Value of `key`, a whole number.
     ///
     /// # Panics
-    /// If the driver did not declare `key` as a whole number that is required or has a default: a mistake of its code.
+    /// If the driver does not declare `key` as a whole number, required or with a default. This is a bug in the driver.
     pub fn whole(&self, key: &str) -> i64 {
         match self.get(key) {
             Some(&ArgValue::Whole(value)) => value,
@@ -104,10 +104,10 @@ impl Args {
         }
     }
 
-    /// The value of `key`, a number in the unit it was declared with.
+    /// Value of `key`, a number in the declared unit.
     ///
     /// # Panics
-    /// As [`whole`](Args::whole).
+    /// Under the condition of [`whole`](Args::whole).
     pub fn number(&self, key: &str) -> f64 {
         match self.get(key) {
             Some(&ArgValue::Number(value)) => value,
@@ -115,10 +115,10 @@ impl Args {
         }
     }
 
-    /// The value of `key`: a text, a path or a choice.
+    /// Value of `key`: a text, a path or a choice.
     ///
     /// # Panics
-    /// As [`whole`](Args::whole).
+    /// Under the condition of [`whole`](Args::whole).
     pub fn text(&self, key: &str) -> &str {
         match self.get(key) {
             Some(ArgValue::Text(value)) => value,
@@ -129,7 +129,7 @@ impl Args {
     /// Value of the switch `key`.
     ///
     /// # Panics
-    /// As [`whole`](Args::whole).
+    /// Under the condition of [`whole`](Args::whole).
     pub fn flag(&self, key: &str) -> bool {
         match self.get(key) {
             Some(&ArgValue::Flag(value)) => value,
@@ -139,7 +139,7 @@ impl Args {
 }
 
 impl ArgSpec {
-    /// True if `args` hold a value for this argument other than its default.
+    /// True if `args` give this argument a value other than its default.
     pub fn is_set_by(&self, args: &Args) -> bool {
         match &self.presence {
             Presence::Default(value) => args.get(&self.key) != Some(value),
@@ -148,7 +148,7 @@ impl ArgSpec {
     }
 }
 
-/// The error that `key` is not declared.
+/// Error for an undeclared `key`.
 fn unknown(key: &str, specs: &[ArgSpec]) -> ArgError {
     let known: Vec<String> = specs.iter().map(|spec| spec.key.clone()).collect();
     ArgError::Unknown {
@@ -158,7 +158,7 @@ fn unknown(key: &str, specs: &[ArgSpec]) -> ArgError {
     }
 }
 
-/// The error that a required argument is not given.
+/// Error for a missing required argument.
 fn missing(spec: &ArgSpec) -> ArgError {
     ArgError::Missing {
         key: spec.key.clone(),
@@ -189,7 +189,7 @@ fn parts(text: &str) -> Vec<String> {
 }
 
 impl fmt::Display for Args {
-    /// Canonical text: every argument, defaults too, sorted by key. [`parse`](Args::parse) reads it back.
+    /// Writes the canonical text: every argument, defaults included, sorted by key. [`parse`](Args::parse) reads this text.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (position, (key, value)) in self.values.iter().enumerate() {
             let separator = if position == 0 { "" } else { ";" };

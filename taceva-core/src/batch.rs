@@ -36,12 +36,12 @@ pub struct Batch {
 }
 
 impl Batch {
-    /// A batch of ready columns.
+    /// A batch of complete columns.
     ///
     /// # Shapes
     /// `truth`, `prediction`: one column per channel, all of one length; `points`: of that length.
     /// # Panics
-    /// If the shapes differ: a mistake of the caller's code, not of its data.
+    /// If the shapes differ. This is a bug in the caller.
     pub fn from_columns(
         channels: Channels,
         truth: Vec<Column>,
@@ -89,7 +89,7 @@ impl Batch {
     /// The same batch with the texts of `field`: scene, unit, phase, kind of grating or digest of the frame.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the field does not hold text.
+    /// If the length differs from the number of rows, or the values of the field are not text.
     #[must_use]
     pub fn with_labels(mut self, field: Field, labels: Labels) -> Batch {
         assert_eq!(labels.index().len(), self.rows, "a label for each row");
@@ -153,7 +153,7 @@ impl Batch {
     /// The same batch with the numbers of `field`: depth step, repeat, time in s, spacings in whole nm, intensity.
     ///
     /// # Panics
-    /// If the length differs from the number of rows, or the field does not hold numbers.
+    /// If the length differs from the number of rows, or the values of the field are not numbers.
     #[must_use]
     pub fn with_numbers(mut self, field: Field, numbers: Column) -> Batch {
         assert_eq!(numbers.len(), self.rows, "a number for each row");
@@ -197,8 +197,8 @@ impl Batch {
         }
     }
 
-    /// The batch with periodic angles moved by whole periods. Each prediction is then nearest to its truth, and each truth nearest to the
-    /// centre of its channel in `centres`, if there is one.
+    /// The batch with periodic angles shifted by whole periods. Each prediction is then nearest to its truth, and each truth nearest to the
+    /// centre of its channel in `centres`. A channel without a centre keeps its truths.
     ///
     /// `None` if no channel has a period, so that the batch needs no change.
     ///
@@ -251,44 +251,44 @@ impl Batch {
         &self.channels
     }
 
-    /// The truth of the channel at `position`, as the reference instruments measured it.
+    /// True values of the channel at `position`, from the reference instruments.
     pub fn truth(&self, position: usize) -> &Column {
         &self.truth[position]
     }
 
-    /// The prediction of the channel at `position`.
+    /// The predictions of the channel at `position`.
     pub fn prediction(&self, position: usize) -> &Column {
         &self.prediction[position]
     }
 
-    /// The contact point of each sample, if samples name one.
+    /// The contact point of each sample; `None` if any sample has no point.
     pub fn points(&self) -> Option<&Labels> {
         self.points.as_ref()
     }
 
-    /// The recording of each sample, if the batch combines several recordings.
+    /// The recording of each sample; `None` unless the batch combines several recordings.
     pub fn recordings(&self) -> Option<&Labels> {
         self.recordings.as_ref()
     }
 
-    /// The name of each sample, if the batch carries them.
+    /// The name of each sample; `None` if the batch has no names.
     pub fn samples(&self) -> Option<&Labels> {
         self.samples.as_ref()
     }
 
-    /// The texts of `field`, if the batch carries them: scene, unit, phase, kind of grating or digest of the frame.
+    /// The texts of `field`: scene, unit, phase, kind of grating or digest of the frame. `None` if the batch has none.
     pub fn labels(&self, field: Field) -> Option<&Labels> {
         self.labels.get(&field)
     }
 
-    /// The numbers of `field`, if the batch carries them: depth step, repeat, time in s, spacings in whole nm (exact in
-    /// binary64), intensity.
+    /// The numbers of `field`: depth step, repeat, time in s, spacings in whole nm (exact in binary64), intensity. `None` if the batch has
+    /// none.
     pub fn numbers(&self, field: Field) -> Option<&Column> {
         self.numbers.get(&field)
     }
 }
 
-/// Fields that are texts.
+/// Fields with text values.
 const LABELS: [Field; 5] = [
     Field::Scene,
     Field::UnitId,
@@ -297,7 +297,7 @@ const LABELS: [Field; 5] = [
     Field::FrameDigest,
 ];
 
-/// Fields that are numbers.
+/// Fields with numbers.
 const NUMBERS: [Field; 6] = [
     Field::DepthStep,
     Field::Repeat,

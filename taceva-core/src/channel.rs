@@ -40,7 +40,7 @@ impl Channel {
     pub const FY: Channel = Channel::fixed("Fy", Unit::Newton);
     /// Normal force, positive in compression.
     pub const FZ: Channel = Channel::fixed("Fz", Unit::Newton);
-    /// The six channels of a contact, in the order that they have everywhere.
+    /// The six channels of a contact, in canonical order.
     pub const SIX: [Channel; 6] = [
         Channel::PX,
         Channel::PY,
@@ -61,11 +61,11 @@ impl Channel {
         }
     }
 
-    /// The channel called `name`: one of the six, or an extra one such as `Rx` in degrees or `shear_x` in mm.
+    /// Channel called `name`: one of the six, or an extra channel such as `Rx` in degrees or `shear_x` in mm.
     ///
     /// # Errors
     /// [`ChannelError`] if the name is not an ASCII letter followed by letters, digits or `_`, or is longer than
-    /// [`NAME_MAX`](Channel::NAME_MAX) bytes. Also if one of the six channels has a unit other than its own.
+    /// [`NAME_MAX`](Channel::NAME_MAX) bytes. Also if one of the six channels has a different unit from its standard unit.
     pub fn named(name: &str, unit: Unit) -> Result<Channel, ChannelError> {
         if let Some(known) = Channel::SIX
             .into_iter()
@@ -124,7 +124,7 @@ impl Channel {
         self.name.as_str()
     }
 
-    /// Unit of its values.
+    /// Unit of the channel's values.
     pub fn unit(&self) -> Unit {
         self.unit
     }
@@ -150,10 +150,9 @@ impl Channel {
         })
     }
 
-    /// Number equivalent to `value` that is nearest to `reference`: `value` itself without a period, else `value` plus a multiple of the
-    /// period.
+    /// Number nearest to `reference` among `value` and, for a channel with a period, `value` plus whole periods.
     ///
-    /// A value at most half a period away is returned unchanged, to the bit.
+    /// Returns `value` unchanged, to the bit, if it differs from `reference` by at most half a period.
     pub fn nearest(&self, value: f64, reference: f64) -> f64 {
         let Some(period) = self.period_in_unit() else {
             return value;
@@ -186,10 +185,10 @@ pub struct Channels {
 }
 
 impl Channels {
-    /// The given channels in canonical order.
+    /// Sorts the given channels into canonical order.
     ///
     /// # Errors
-    /// [`ChannelError::Twice`] if a name comes twice.
+    /// [`ChannelError::Twice`] if two channels have one name.
     pub fn new(channels: impl IntoIterator<Item = Channel>) -> Result<Channels, ChannelError> {
         let mut list: Vec<Channel> = channels.into_iter().collect();
         list.sort_by_cached_key(|channel| {
@@ -209,12 +208,12 @@ impl Channels {
         Ok(Channels { list })
     }
 
-    /// Index of the channel called `name`; `None` if there is none.
+    /// Index of the channel called `name`; `None` for an unknown name.
     pub fn position(&self, name: &str) -> Option<usize> {
         self.list.iter().position(|channel| channel.name() == name)
     }
 
-    /// The channel called `name`.
+    /// The channel called `name`; `None` for an unknown name.
     pub fn by_name(&self, name: &str) -> Option<&Channel> {
         self.list.iter().find(|channel| channel.name() == name)
     }
@@ -257,12 +256,12 @@ impl<'a> IntoIterator for &'a Channels {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChannelError {
-    /// The name has other characters than letters, digits and `_`, or is too long.
+    /// The name is too long, or has a character other than letters, digits and `_`.
     Name {
         /// The name as given.
         name: String,
     },
-    /// One of the six channels in a unit that is not its own.
+    /// One of the six channels has a unit other than its standard unit.
     Unit {
         /// The channel.
         name: String,
@@ -271,14 +270,14 @@ pub enum ChannelError {
         /// Unit found.
         found: Unit,
     },
-    /// A period of a channel that is no angle, or one outside 1 to 360 degrees.
+    /// The channel is not an angle, or the period is outside 1 to 360 degrees.
     Period {
         /// The channel.
         name: String,
         /// The period as given, degrees.
         degrees: u16,
     },
-    /// The same channel twice.
+    /// The same channel occurs twice.
     Twice {
         /// The channel.
         name: String,

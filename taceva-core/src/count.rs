@@ -1,8 +1,8 @@
-//! Numbers of things in words.
+//! Counts in words.
 
 use std::fmt;
 
-/// A number with its noun, which ends in `s`, `es` or `ies` unless the number is 1.
+/// Count and noun. The noun ends in `s`, `es` or `ies` unless the count is 1.
 ///
 /// ```
 /// use taceva_core::counted;
@@ -25,7 +25,7 @@ where
     }
 }
 
-/// The word that goes with a number: `one` with 1, `many` with every other.
+/// Selects a word by count: `one` for 1, else `many`.
 ///
 /// ```
 /// use taceva_core::{by_count, counted};

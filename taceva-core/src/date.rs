@@ -3,9 +3,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A day of the Gregorian calendar, written `2026-05-12`. Days compare by time.
+/// A day of the Gregorian calendar, written `2026-05-12`. Earlier days compare as less.
 ///
-/// This crate computes the calendar itself, because it has no required dependency.
+/// The crate has no required dependency, so it computes the calendar itself.
 ///
 /// ```
 /// use taceva_core::Date;
@@ -110,7 +110,7 @@ impl FromStr for Date {
     }
 }
 
-/// A text that is no day of the calendar.
+/// Error for a text that is not a day of the calendar.
 ///
 /// ```
 /// use taceva_core::Date;

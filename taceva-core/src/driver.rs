@@ -1,21 +1,21 @@
-//! The contract of each kind of device, built in or from a plugin: sensor, robot, force transducer, lighting, changer.
+//! Interface of each kind of device, built in or from a plugin: sensor, robot, force transducer, lighting, changer.
 //!
 //! # The order of calls
-//! 1. A [`Factory`](crate::Factory) opens a device from checked [`Args`](crate::Args); nothing moves and no light changes.
-//! 2. `start`, then any number of readings, then `stop`; both may be called twice, and a stopped device starts again.
+//! 1. A [`Factory`](crate::Factory) opens a device from checked [`Args`](crate::Args). Opening moves nothing and changes no light.
+//! 2. `start`, then any number of readings, then `stop`. Both may be called twice, and a stopped device can start again.
 //! 3. Dropping a device stops it and releases its resources, in every state.
 //!
 //! # Time
-//! This crate reads no clock. A caller states its timeout as a [`Deadline`]: a real device measures it on the clock of the machine, a
-//! simulated one on the virtual clock of its bench. A call that does not finish in time returns
+//! This crate reads no clock. A caller states its timeout as a [`Deadline`]: a real device measures the time on the clock of the machine, a
+//! simulated device on the virtual clock of its bench. A call that does not finish in time returns
 //! [`ErrorKind::Timeout`](crate::ErrorKind::Timeout) and leaves the device usable.
 //!
 //! # Threads
-//! Each device takes one call at a time. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: they may be called
-//! from any thread during any other call.
+//! Each device takes one call at a time. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: any thread
+//! may call these during any other call.
 //!
 //! mm, degrees, N and N·mm in the sensor's frame. Values must be finite. An infinite value or NaN from the caller is
-//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument). From the device it is [`DeviceFault`](crate::ErrorKind::DeviceFault).
+//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument). From the device such a value is [`DeviceFault`](crate::ErrorKind::DeviceFault).
 //! [`check_pose`] and [`check_wrench`] check both.
 
 mod bench;

@@ -1,9 +1,9 @@
-//! The closed list of ways in which a device, a plugin or a file can fail.
+//! Complete list of the kinds of failure of a device, a plugin or a file.
 
 use std::fmt;
 
-/// Kind of failure of a device, a plugin or a file. Its number is the negated status of the C boundary. It gets no further variant before
-/// the next major version of that boundary, which defines the list.
+/// Kind of failure of a device, a plugin or a file. Its number is the negated status code of the plugin interface, whose next major
+/// version may add kinds. Before that version, this type gets no further variant.
 ///
 /// ```
 /// use taceva_core::ErrorKind;
@@ -12,21 +12,21 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(i32)]
 pub enum ErrorKind {
-    /// The thing named does not exist.
+    /// The named object does not exist.
     NotFound = 1,
-    /// The thing exists, but this user may not open it.
+    /// The object exists, but this user may not open it.
     PermissionDenied = 2,
-    /// Another program or user holds it.
+    /// Another program or user has the object open.
     Busy = 3,
     /// No answer within the deadline.
     Timeout = 4,
-    /// The link is gone.
+    /// The connection is lost.
     Disconnected = 5,
     /// The operation is not supported.
     Unsupported = 6,
-    /// An argument of the caller is impossible.
+    /// An argument of the caller is invalid.
     InvalidArgument = 7,
-    /// Bytes that do not follow their format.
+    /// Bytes that violate their format.
     Protocol = 8,
     /// A value outside the allowed range.
     OutOfRange = 9,
@@ -34,18 +34,18 @@ pub enum ErrorKind {
     Interrupted = 10,
     /// The device reports a fault.
     DeviceFault = 11,
-    /// The two sides of a boundary disagree on its layout.
+    /// The two sides of a binary interface have different layouts.
     Abi = 12,
-    /// Nothing more will come.
+    /// The source has no further data.
     EndOfStream = 13,
-    /// Foreign code panicked and was contained.
+    /// A plugin's code panicked, and the panic was caught.
     Panicked = 14,
     /// A bug in TacEva.
     Internal = 15,
 }
 
 impl ErrorKind {
-    /// Every kind, in the order of its number.
+    /// Every kind, in numerical order.
     pub const ALL: [ErrorKind; 15] = [
         ErrorKind::NotFound,
         ErrorKind::PermissionDenied,

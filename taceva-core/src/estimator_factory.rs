@@ -1,11 +1,11 @@
-//! Factory of one kind of model: found by key, configured by settings, and able to load models that it fitted before.
+//! Factory of one kind of model: found by key, configured by settings, and able to load its saved models.
 
 use crate::args::{ArgSpec, Args};
 use crate::id::DriverKey;
 use crate::model::{ModelError, Saved, SavedRegressor, TrainingSet};
 use crate::progress::Progress;
 
-/// An estimator that is found by its key. It declares its settings, and its fitted models can be saved.
+/// Estimator with a key, declared settings and a format for its fitted models.
 ///
 /// ```
 /// use taceva_core::{
@@ -78,13 +78,13 @@ use crate::progress::Progress;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait EstimatorFactory: Send + Sync {
-    /// Name by which users select it: the id of the plugin, `/`, and a word.
+    /// Key by which users select the estimator: the id of the plugin, `/`, and a word.
     fn key(&self) -> &DriverKey;
 
     /// Title of a few words.
     fn title(&self) -> &str;
 
-    /// Declarations of its settings.
+    /// Declarations of the estimator's settings.
     fn settings(&self) -> &[ArgSpec] {
         &[]
     }
@@ -92,16 +92,16 @@ pub trait EstimatorFactory: Send + Sync {
     /// Fits a model to the samples of `request`.
     ///
     /// # Errors
-    /// As [`Estimator::fit`](crate::Estimator::fit).
+    /// The errors of [`Estimator::fit`](crate::Estimator::fit).
     fn fit(&self, request: &FitRequest<'_>) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
     /// Loads a saved model.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `Protocol` for bytes that are not one of its models, whether damaged or hostile.
+    /// [`ModelError`] of kind `Protocol` for bytes that this estimator did not save, whether damaged or hostile.
     fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError>;
 
-    /// Digest of its library, `sha256:` and 64 hexadecimal digits; `None` if it is linked into the program.
+    /// Digest of the estimator's library, `sha256:` and 64 hexadecimal digits; `None` if the estimator is linked into the program.
     ///
     /// # Errors
     /// [`ModelError`] if the library cannot be read.
@@ -109,10 +109,10 @@ pub trait EstimatorFactory: Send + Sync {
         Ok(None)
     }
 
-    /// Accepts or refuses a model that was fitted by the build `fitted_by`; an implementation may warn that the build differs.
+    /// Accepts or rejects a model fitted by the build `fitted_by`. An implementation may warn about a different build.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `PermissionDenied` if only the build that fitted it may load it.
+    /// [`ModelError`] of kind `PermissionDenied` if only the build that fitted the model may load it.
     fn admit(&self, fitted_by: Option<&str>) -> Result<(), ModelError> {
         let _ = fitted_by;
         Ok(())
@@ -135,11 +135,11 @@ pub trait EstimatorFactory: Send + Sync {
 pub struct FitRequest<'a> {
     /// Settings, checked against the declarations of the estimator.
     pub settings: &'a Args,
-    /// Samples to learn from.
+    /// Samples for the fit.
     pub training: &'a TrainingSet<'a>,
-    /// Samples to choose settings by.
+    /// Samples for the choice of settings; `None` if there are none.
     pub validation: Option<&'a TrainingSet<'a>>,
-    /// Receives the progress of the fit, and may cancel it.
+    /// Receives the progress of the fit and can cancel the fit.
     pub progress: &'a dyn Progress,
 }
 
@@ -158,7 +158,7 @@ impl<'a> FitRequest<'a> {
         }
     }
 
-    /// The same fit with samples to choose settings by.
+    /// The same fit with samples for the choice of settings.
     #[must_use]
     pub fn with_validation(
         self,

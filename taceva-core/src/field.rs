@@ -1,4 +1,4 @@
-//! Parts of a sample, as data: unread parts are neither decoded nor stored.
+//! Parts of a sample, as data. Unread parts are neither decoded nor stored.
 
 use std::fmt;
 use std::ops::BitOr;
@@ -13,37 +13,37 @@ use std::ops::BitOr;
 #[repr(u8)]
 #[non_exhaustive]
 pub enum Field {
-    /// The picture of the gel.
+    /// Picture of the gel.
     Frame,
-    /// The readings of the reference instruments.
+    /// Readings of the reference instruments.
     Truth,
-    /// The predictions of a model.
+    /// Predictions of a model.
     Prediction,
-    /// The contact point: the cluster of every interval.
+    /// Contact point; confidence intervals cluster samples by this point.
     Point,
-    /// The depth level within a point.
+    /// Depth level within a contact point.
     DepthStep,
-    /// The number of the repeat.
+    /// Number of the repeat.
     Repeat,
-    /// Load or unload.
+    /// Branch of the press: load or unload.
     Phase,
-    /// The lighting scene or the like.
+    /// Lighting scene, or another condition of the recording.
     Scene,
-    /// The sensor unit.
+    /// Individual unit of the sensor model.
     UnitId,
-    /// The time.
+    /// Time of the sample.
     Stamp,
-    /// The relief of the grating that is touched: lines or dots.
+    /// Relief of the touched grating: lines or dots.
     Kind,
-    /// The spacing of that grating.
+    /// Spacing of the touched grating.
     Spacing,
-    /// The spacing that a model predicts.
+    /// Spacing that a model predicts.
     PredictedSpacing,
-    /// The mean brightness of the picture.
+    /// Mean brightness of the picture.
     Intensity,
-    /// The digest of the picture's bytes: shows that pictures are equal without decoding them.
+    /// Digest of the picture's bytes. Equal digests show equal pictures without decoding.
     FrameDigest,
-    /// The numbers of the taxels, of a sensor that has them.
+    /// Numbers of the taxels, for a sensor with taxels.
     Signals,
 }
 
@@ -68,7 +68,7 @@ impl Field {
         Field::Signals,
     ];
 
-    /// The word used in plans and messages.
+    /// Name in plans and messages.
     pub const fn name(self) -> &'static str {
         match self {
             Field::Frame => "frame",
@@ -112,7 +112,7 @@ pub struct FieldSet {
 impl FieldSet {
     /// No field.
     pub const EMPTY: FieldSet = FieldSet { bits: 0 };
-    /// Fields that scores of predictions read: truth, prediction and contact point.
+    /// Fields that scores of predictions need: truth, prediction and contact point.
     pub const PAIRS: FieldSet = FieldSet::EMPTY
         .with(Field::Truth)
         .with(Field::Prediction)
@@ -137,7 +137,7 @@ impl FieldSet {
         self.bits & 1 << field as u8 != 0
     }
 
-    /// The fields in order.
+    /// Fields in declaration order.
     pub fn iter(self) -> impl Iterator<Item = Field> {
         Field::ALL
             .into_iter()

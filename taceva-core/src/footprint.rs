@@ -1,10 +1,10 @@
-//! Sensing surface of a sensor. It is declared and never derived from samples, so bins do not move with the samples.
+//! Sensing surface of a sensor. The surface is declared and never derived from samples, so bins do not move with the samples.
 
 use std::fmt;
 
 use crate::nanometre::Nanometre;
 
-/// Outline of the sensing surface seen from above, centred on the sensor's axis, and its greatest indentation.
+/// Outline of the sensing surface in top view, centred on the sensor's axis, and its greatest indentation.
 ///
 /// ```
 /// use taceva_core::{Footprint, Nanometre};
@@ -38,15 +38,15 @@ pub enum Outline {
     },
     /// A rectangle with sides along x and y.
     Rectangle {
-        /// Half its width.
+        /// Half the width, along x.
         half_x: Nanometre,
-        /// Half its height.
+        /// Half the height, along y.
         half_y: Nanometre,
     },
 }
 
 impl Footprint {
-    /// A disc of `radius_mm`, pressed at most `depth_max_mm` deep.
+    /// Disc with the radius `radius_mm` and the greatest indentation `depth_max_mm`.
     ///
     /// # Errors
     /// [`FootprintError`] for a length that is not positive, or beyond 10 m.
@@ -55,10 +55,10 @@ impl Footprint {
         Footprint::new(Outline::Disc { radius }, depth_max_mm)
     }
 
-    /// A rectangle that reaches from −half to +half along x and y.
+    /// Rectangle from −half to +half along x and y.
     ///
     /// # Errors
-    /// As [`disc`](Footprint::disc).
+    /// The errors of [`disc`](Footprint::disc).
     pub fn rectangle(
         half_x_mm: f64,
         half_y_mm: f64,
@@ -81,12 +81,12 @@ impl Footprint {
         self.outline
     }
 
-    /// The greatest indentation, if it is declared.
+    /// Greatest indentation; `None` if not declared.
     pub fn depth_max(&self) -> Option<Nanometre> {
         self.depth_max
     }
 
-    /// Half the width and half the height of the smallest rectangle around it.
+    /// Half-width and half-height of the smallest enclosing rectangle.
     pub fn half_extent(&self) -> [Nanometre; 2] {
         match self.outline {
             Outline::Disc { radius } => [radius, radius],
@@ -94,7 +94,7 @@ impl Footprint {
         }
     }
 
-    /// Greatest distance of a point of the surface from the centre: the radius, or half the diagonal rounded up to a nanometre.
+    /// Greatest distance of a surface point from the centre: the radius, or half the diagonal rounded up to a nanometre.
     pub fn reach(&self) -> Nanometre {
         match self.outline {
             Outline::Disc { radius } => radius,
@@ -107,7 +107,7 @@ impl Footprint {
         }
     }
 
-    /// True if the place is on the surface, edge included.
+    /// True if the point is on the surface, edge included.
     pub fn contains(&self, x: Nanometre, y: Nanometre) -> bool {
         match self.outline {
             Outline::Disc { radius } => square(x) + square(y) <= square(radius),

@@ -1,4 +1,4 @@
-//! A picture of the gel: owned, or in the caller's buffer.
+//! Pictures of the gel, owned or in the caller's buffer.
 
 mod info;
 
@@ -6,7 +6,7 @@ pub use info::{FrameInfo, PixelFormat};
 
 use std::fmt;
 
-/// A frame that owns its pixels, row by row from the top, without padding.
+/// A frame that owns its pixels, stored row by row from the top, without padding.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -22,12 +22,12 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame of `bytes`.
+    /// Frame with the pixels `bytes`.
     ///
     /// # Shapes
     /// `bytes`: height × width × samples × bytes per sample.
     /// # Errors
-    /// [`FrameError`] if there are more or fewer bytes.
+    /// [`FrameError`] if the number of bytes is wrong.
     pub fn new(info: FrameInfo, bytes: Vec<u8>) -> Result<Frame, FrameError> {
         check_len(info, bytes.len())?;
         Ok(Frame { info, bytes })
@@ -59,13 +59,13 @@ impl Frame {
     }
 }
 
-/// Steps of a 16-bit sample per step of an 8-bit camera.
+/// Steps of a 16-bit sample per step of an 8-bit sample.
 const STEPS_OF_16_BIT: u64 = 256;
 
 impl Frame {
-    /// The mean luma, (299 R + 587 G + 114 B) / 1000 of each pixel, in steps of an 8-bit camera; 0 for a frame without pixels.
+    /// Mean luma, (299 R + 587 G + 114 B) / 1000 of each pixel, on the 8-bit scale from 0 to 255; 0 for a frame without pixels.
     ///
-    /// The sum is exact, and the quotient is rounded once, up to 35 thousand million 8-bit or 137 million 16-bit pixels.
+    /// The sum is exact, and the quotient is rounded once. This holds up to 35 · 10⁹ 8-bit pixels or 137 · 10⁶ 16-bit pixels.
     ///
     /// ```
     /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -104,7 +104,7 @@ impl Frame {
     }
 }
 
-/// 299 R + 587 G + 114 B, summed over red, green and blue in turn.
+/// Sum of 299 R + 587 G + 114 B over samples in the order red, green, blue.
 fn weighted(samples: impl Iterator<Item = u64>) -> u64 {
     let mut sums = [0; 3];
     for (position, sample) in samples.enumerate() {
@@ -114,7 +114,7 @@ fn weighted(samples: impl Iterator<Item = u64>) -> u64 {
     299 * red + 587 * green + 114 * blue
 }
 
-/// A frame to be written into, in the caller's buffer.
+/// A writable frame in the caller's buffer.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, FrameMut, PixelFormat};
@@ -131,10 +131,10 @@ pub struct FrameMut<'a> {
 }
 
 impl<'a> FrameMut<'a> {
-    /// A frame over `bytes`.
+    /// Writable frame in the buffer `bytes`.
     ///
     /// # Errors
-    /// [`FrameError`] if `bytes` has another length than the frame.
+    /// [`FrameError`] if the length of `bytes` differs from that of the frame.
     pub fn new(info: FrameInfo, bytes: &'a mut [u8]) -> Result<FrameMut<'a>, FrameError> {
         check_len(info, bytes.len())?;
         Ok(FrameMut { info, bytes })
@@ -145,7 +145,7 @@ impl<'a> FrameMut<'a> {
         self.info
     }
 
-    /// The pixels to write.
+    /// Writable pixels.
     pub fn bytes_mut(&mut self) -> &mut [u8] {
         self.bytes
     }
@@ -162,7 +162,7 @@ fn check_len(info: FrameInfo, found: usize) -> Result<(), FrameError> {
     }
 }
 
-/// A buffer that does not fit its frame.
+/// A buffer whose length differs from that of its frame.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};

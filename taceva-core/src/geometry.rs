@@ -1,8 +1,8 @@
-//! Position and rotation of the tool in the sensor's frame.
+//! Points, rotations and poses in the sensor's frame.
 
 use crate::quantity::{Degree, Millimetre};
 
-/// A place in the sensor's frame: x and y along the gel, z into it. A plain value, which gets no further fields.
+/// A point in the sensor's frame: x and y along the gel, z into the gel. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point};
@@ -11,15 +11,15 @@ use crate::quantity::{Degree, Millimetre};
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Point {
-    /// Along the gel.
+    /// Coordinate along the gel.
     pub x: Millimetre,
-    /// Along the gel, a quarter turn from x.
+    /// Coordinate along the gel, perpendicular to x.
     pub y: Millimetre,
-    /// Into the gel: the indentation depth.
+    /// Coordinate into the gel: the indentation depth.
     pub z: Millimetre,
 }
 
-/// A turn about the sensor's axes, applied x, then y, then z. A plain value, which gets no further fields.
+/// Rotation about the sensor's axes, applied about x, then y, then z. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::{Degree, Rotation};
@@ -28,15 +28,15 @@ pub struct Point {
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Rotation {
-    /// About x.
+    /// Angle about x.
     pub x: Degree,
-    /// About y.
+    /// Angle about y.
     pub y: Degree,
-    /// About z.
+    /// Angle about z.
     pub z: Degree,
 }
 
-/// The tool in the sensor's frame. A plain value, which gets no further fields.
+/// Pose of the tool in the sensor's frame. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point, Pose};
@@ -53,10 +53,10 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// The nearest pose on the grid of whole nanometres and whole 10⁻⁹ degrees.
+    /// Nearest pose with whole nanometres and whole 10⁻⁹ degrees.
     ///
-    /// Poses cross the plugin boundary in metres and quaternions. The grid is finer than any robot, and a pose on it survives the
-    /// conversion unchanged. A driver that reports such poses gives the same numbers built in or as a plugin.
+    /// Poses cross the plugin interface in metres and quaternions. The grid is finer than any robot's resolution, and the conversion keeps a
+    /// pose on the grid unchanged. A driver that reports such poses returns the same numbers built in or as a plugin.
     ///
     /// ```
     /// use taceva_core::{Millimetre, Pose};

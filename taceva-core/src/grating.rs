@@ -1,9 +1,9 @@
-//! Gratings of boards for spatial resolution.
+//! Gratings for tests of spatial resolution.
 
 use std::fmt;
 
-/// The relief of a grating; both have one period in each direction they repeat in. It gets no further variant in a compatible version: spatial
-/// resolution is defined for these two, and another relief is another metric.
+/// Relief of a grating, with one period in each direction of repetition. It gets no further variant in a compatible version: the metrics of
+/// spatial resolution are defined for these two kinds.
 ///
 /// ```
 /// use taceva_core::GratingKind;
@@ -15,7 +15,7 @@ use std::fmt;
 pub enum GratingKind {
     /// Parallel ridges.
     Line,
-    /// A square grid of bumps.
+    /// A square lattice of bumps.
     Dot,
 }
 
@@ -23,7 +23,7 @@ impl GratingKind {
     /// Both kinds.
     pub const ALL: [GratingKind; 2] = [GratingKind::Line, GratingKind::Dot];
 
-    /// The word used in tables.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             GratingKind::Line => "line",
@@ -31,7 +31,7 @@ impl GratingKind {
         }
     }
 
-    /// The kind written as `name`.
+    /// Kind with the name `name`; `None` for another text.
     pub fn from_name(name: &str) -> Option<GratingKind> {
         GratingKind::ALL
             .into_iter()

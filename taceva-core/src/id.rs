@@ -1,4 +1,4 @@
-//! The name of a driver, the same on the command line, in scenes and in the registry.
+//! Names of drivers, identical on the command line, in scenes and in the registry.
 
 use std::borrow::{Borrow, Cow};
 use std::fmt;
@@ -21,10 +21,10 @@ impl DriverKey {
     /// Longest key, in bytes.
     pub const LENGTH_MAX: usize = 128;
 
-    /// A constant key in the code.
+    /// Key from a constant.
     ///
     /// # Panics
-    /// If it is not a key; in a constant this is an error of the compiler.
+    /// If `key` is not a valid key. In a constant, the compiler reports this as an error.
     pub const fn fixed(key: &'static str) -> DriverKey {
         assert!(
             is_key(key.as_bytes()),

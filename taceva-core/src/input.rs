@@ -1,4 +1,4 @@
-//! The input of a model: the picture of a camera, or the numbers of taxels.
+//! Input of a model: the picture of a camera, or the numbers of taxels.
 
 use std::fmt;
 
@@ -47,9 +47,9 @@ impl<'a> From<&'a Signals> for Input<'a> {
     }
 }
 
-/// The kind and size of the input of a model.
+/// Kind and size of a model's input.
 ///
-/// In files it is one key, `frame` or `signals`, with the numbers of that kind.
+/// Files store one key, `frame` or `signals`, with the size of that kind.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, InputInfo, PixelFormat};
@@ -68,7 +68,7 @@ pub enum InputInfo {
 }
 
 impl InputInfo {
-    /// Field of a sample that holds the input.
+    /// Field of a sample that contains the input.
     pub const fn field(&self) -> Field {
         match self {
             InputInfo::Frame(_) => Field::Frame,

@@ -1,13 +1,13 @@
-//! Instruction set of loops over many numbers.
+//! Instruction sets for vectorised loops.
 
 use std::fmt;
 use std::str::FromStr;
 use std::sync::OnceLock;
 
-/// Environment variable that selects an instruction set by name.
+/// Environment variable with the name of an instruction set.
 const VARIABLE: &str = "TACEVA_ISA";
 
-/// An instruction set with kernels of its own.
+/// An instruction set with specialised kernels.
 ///
 /// Each kernel documents whether its results depend on the choice. NEON kernels are compiled for 64-bit ARM only.
 ///
@@ -26,7 +26,7 @@ pub enum Isa {
     Avx2,
     /// NEON: vectors of 16 bytes.
     Neon,
-    /// Instructions of the compiler's target, without fused multiplication.
+    /// Instructions of the compile target, without fused multiplication.
     Portable,
 }
 
@@ -34,7 +34,7 @@ impl Isa {
     /// Every instruction set, the widest vectors first.
     pub const ALL: [Isa; 4] = [Isa::Avx512, Isa::Avx2, Isa::Neon, Isa::Portable];
 
-    /// The name in `TACEVA_ISA` and in reports.
+    /// Name in `TACEVA_ISA` and in reports.
     pub const fn name(self) -> &'static str {
         match self {
             Isa::Avx512 => "avx512",
@@ -47,7 +47,7 @@ impl Isa {
     /// The instruction set called `name`.
     ///
     /// # Errors
-    /// [`IsaError::Unknown`] if none is.
+    /// [`IsaError::Unknown`] if no instruction set has this name.
     pub fn from_name(name: &str) -> Result<Isa, IsaError> {
         let named = Isa::ALL.into_iter().find(|isa| isa.name() == name);
         named.ok_or_else(|| IsaError::Unknown {
@@ -77,7 +77,7 @@ impl Isa {
         }
     }
 
-    /// Instruction sets of this machine, the fastest first.
+    /// Instruction sets of this machine, widest vectors first.
     pub fn available() -> Vec<Isa> {
         Isa::ALL
             .into_iter()
@@ -85,9 +85,9 @@ impl Isa {
             .collect()
     }
 
-    /// Instruction set to use: the one that `TACEVA_ISA` names, or else the fastest of this machine.
+    /// Instruction set named by `TACEVA_ISA`, or else the available set with the widest vectors.
     ///
-    /// The variable is read once per process, and an unusable value is ignored. A program that must reject it calls
+    /// The variable is read once per process, and an invalid value is ignored. A program that must reject an invalid value calls
     /// [`requested`](Isa::requested).
     pub fn detect() -> Isa {
         static DETECTED: OnceLock<Isa> = OnceLock::new();
@@ -97,10 +97,10 @@ impl Isa {
         })
     }
 
-    /// Instruction set that the environment variable `TACEVA_ISA` names; `None` if it is not set.
+    /// Instruction set named by the environment variable `TACEVA_ISA`; `None` if the variable is not set.
     ///
     /// # Errors
-    /// [`IsaError`] if it names an unknown instruction set, or one that this machine lacks.
+    /// [`IsaError`] if the variable names an unknown instruction set, or one that this machine lacks.
     pub fn requested() -> Result<Option<Isa>, IsaError> {
         let Some(name) = std::env::var_os(VARIABLE) else {
             return Ok(None);
@@ -133,7 +133,7 @@ impl FromStr for Isa {
     }
 }
 
-/// Rejected choice of an instruction set.
+/// Reason for rejecting the choice of an instruction set.
 ///
 /// ```
 /// use taceva_core::{Isa, IsaError};

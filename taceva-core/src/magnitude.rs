@@ -1,11 +1,11 @@
-//! Greatest magnitude of numbers that are recorded and scored.
+//! Greatest magnitude of recorded and scored numbers.
 
-/// Greatest magnitude of a value that is a sample, 2¹⁰²¹ ≈ 2.247 · 10³⁰⁷: sums, differences and means of two such values stay finite.
+/// Greatest magnitude of a sample's value, 2¹⁰²¹ ≈ 2.247 · 10³⁰⁷. Sums, differences and means of two values up to this limit stay finite.
 ///
-/// Readers reject greater numbers by name. A metric could only count them as invalid.
+/// Readers reject a greater number and name its place. A metric can only count such a number as invalid.
 pub const MAGNITUDE_MAX: f64 = f64::from_bits(0x7fc0_0000_0000_0000);
 
-/// True if `value` can be recorded and scored: finite, with a magnitude up to [`MAGNITUDE_MAX`].
+/// True if `value` may be recorded and scored: finite, with a magnitude of at most [`MAGNITUDE_MAX`].
 ///
 /// ```
 /// use taceva_core::is_scorable;

@@ -1,4 +1,4 @@
-//! Interface of models. Fitting an [`Estimator`] gives a [`Regressor`]; only the latter can predict.
+//! Interface of models. Fitting an [`Estimator`] returns a [`Regressor`]; only a regressor can predict.
 
 mod error;
 mod features;
@@ -11,7 +11,7 @@ pub use training::{Targets, TrainingSet};
 use crate::channel::{Channel, Channels};
 use crate::progress::Progress;
 
-/// A model with its settings, not fitted yet.
+/// A model with its settings before the fit.
 ///
 /// ```
 /// use taceva_core::{
@@ -69,13 +69,13 @@ use crate::progress::Progress;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Estimator: Send + Sync {
-    /// Name by which people choose it: `ridge`, or the key of a plugin's estimator.
+    /// Name by which users select the estimator: `ridge`, or the key of a plugin's estimator.
     fn name(&self) -> &str;
 
-    /// Fits a model to `training`. Open settings are chosen on `validation`, if it is given.
+    /// Fits a model to `training`. If `validation` is given, its samples choose the open settings.
     ///
     /// # Errors
-    /// [`ModelError`] if the sets do not fit each other, nothing can be learnt from them, or `progress` was cancelled.
+    /// [`ModelError`] if the two sets do not match, the samples determine no model, or `progress` was cancelled.
     fn fit(
         &self,
         training: &TrainingSet<'_>,
@@ -118,22 +118,22 @@ pub trait Estimator: Send + Sync {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Regressor: Send + Sync {
-    /// Channels that it predicts.
+    /// Predicted channels.
     fn channels(&self) -> &Channels;
 
-    /// The shape of features it takes.
+    /// Required shape of features.
     fn shape(&self) -> FeatureShape;
 
-    /// Predicts every sample of `features`.
+    /// Predicts all channels for every sample of `features`.
     ///
     /// # Shapes
-    /// `into`: `[samples, channels]`, the caller's.
+    /// `into`: `[samples, channels]`, allocated by the caller.
     /// # Errors
     /// [`ModelError`] if a shape differs, or a prediction is not finite.
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// First prediction that is not finite, in words: its sample, its channel and its value. Each sample has a row of all `channels`.
+/// First prediction that is not finite, in words: sample, channel and value. `predictions` has one row of all `channels` per sample.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, not_finite};
@@ -154,7 +154,7 @@ pub fn not_finite(channels: &Channels, predictions: &[f64]) -> Option<String> {
     ))
 }
 
-/// A fitted model that can be saved as bytes in its own format, such as a plugin's format.
+/// A fitted model that can be saved as bytes in a format of its own.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, FeatureShape, Features, Regressor};
@@ -188,10 +188,10 @@ pub fn not_finite(channels: &Channels, predictions: &[f64]) -> Option<String> {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait SavedRegressor: Regressor {
-    /// The model as bytes from which its estimator loads it again, on every machine.
+    /// Model as bytes from which its estimator can load the model on every machine.
     ///
     /// # Errors
-    /// [`ModelError`] if it cannot be written.
+    /// [`ModelError`] if the model cannot be serialised.
     fn save(&self) -> Result<Vec<u8>, ModelError>;
 }
 
@@ -210,9 +210,9 @@ pub trait SavedRegressor: Regressor {
 pub struct Saved<'a> {
     /// Bytes from [`SavedRegressor::save`].
     pub bytes: &'a [u8],
-    /// Channels that it predicts.
+    /// Predicted channels.
     pub channels: &'a Channels,
-    /// The shape of features it takes.
+    /// Required shape of features.
     pub shape: FeatureShape,
 }
 

@@ -1,9 +1,9 @@
-//! Lengths that are compared: whole nanometres, because `0.40 − 0.35 ≤ 0.05` is false in binary64.
+//! Lengths for comparisons: whole nanometres, because `0.40 − 0.35 ≤ 0.05` is false in binary64.
 
 use std::fmt;
 use std::str::FromStr;
 
-/// A length in whole nanometres. It gets no further field: it is its number.
+/// A length in whole nanometres. It gets no further field: the number is the whole value.
 ///
 /// ```
 /// use taceva_core::Nanometre;
@@ -17,7 +17,7 @@ pub struct Nanometre(pub i64);
 
 /// Nanometres in a millimetre.
 const PER_MILLIMETRE: f64 = 1e6;
-/// Greatest magnitude, nm: whole numbers up to here (9000 km) are exact in binary64.
+/// Greatest magnitude, nm: whole numbers up to this limit (9000 km) are exact in binary64.
 const GREATEST: i64 = 1 << 53;
 
 impl Nanometre {
@@ -33,12 +33,12 @@ impl Nanometre {
         (nanometres.abs() <= GREATEST as f64).then_some(Nanometre(nanometres as i64))
     }
 
-    /// In mm, rounded once.
+    /// Length in mm, rounded once.
     pub fn to_millimetres(self) -> f64 {
         self.to_f64() / PER_MILLIMETRE
     }
 
-    /// The number of nanometres, exact up to 2⁵³.
+    /// Number of nanometres, exact up to 2⁵³.
     pub fn to_f64(self) -> f64 {
         self.0 as f64
     }

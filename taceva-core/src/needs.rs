@@ -1,8 +1,8 @@
-//! Requirements of a consumer on a stream.
+//! Requirements of a consumer on the stream of samples.
 
 use crate::field::FieldSet;
 
-/// Requirements of a metric or another consumer on a stream. Pure data, so planning opens neither devices nor files.
+/// Requirements of a metric or another consumer on a stream. Requirements are plain data, so planning opens neither devices nor files.
 ///
 /// ```
 /// use taceva_core::{FieldSet, Needs};
@@ -12,11 +12,11 @@ use crate::field::FieldSet;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Needs {
-    /// Fields that a value requires.
+    /// Required fields of each sample.
     pub fields: FieldSet,
-    /// Channels that a value requires.
+    /// Required channels of each sample.
     pub channels: &'static [&'static str],
-    /// Least number of samples; with fewer the value is undefined.
+    /// Least number of samples. With fewer samples the value is undefined.
     pub least_samples: u64,
 }
 
@@ -30,13 +30,13 @@ impl Needs {
         }
     }
 
-    /// The same with required channels.
+    /// The same requirements with required channels.
     #[must_use]
     pub const fn with_channels(self, channels: &'static [&'static str]) -> Needs {
         Needs { channels, ..self }
     }
 
-    /// The same with the least number of samples.
+    /// The same requirements with the least number of samples.
     #[must_use]
     pub const fn with_least_samples(self, least_samples: u64) -> Needs {
         Needs {

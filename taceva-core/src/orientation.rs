@@ -2,7 +2,7 @@
 
 use crate::quantity::Degree;
 
-/// Orientation of a body, as a unit quaternion; a quaternion and its negative are one orientation.
+/// Orientation of a body, as a unit quaternion. A quaternion and its negative are the same orientation.
 ///
 /// # Units
 /// Rotation vectors are in radians.
@@ -21,7 +21,7 @@ pub struct Orientation {
     w: f64,
 }
 
-/// Greatest distance of the norm of a quaternion from 1, for quaternions from files with few decimals.
+/// Greatest deviation of a quaternion's norm from 1. Files may state quaternions with few decimals.
 const NORM_TOLERANCE: f64 = 0.01;
 
 impl Orientation {
@@ -70,7 +70,7 @@ impl Orientation {
         Degree((4.0 * norm(&apart).atan2(norm(&along))).to_degrees())
     }
 
-    /// Orientation on the shortest way to `other`, at `share` of it from 0 to 1.
+    /// Orientation on the shortest path to `other`, at the fraction `share` of the path, from 0 to 1.
     pub fn toward(self, other: Orientation, share: f64) -> Orientation {
         let other = other.beside(self);
         let half = self.angle_to(other).0.to_radians() / 2.0;
@@ -103,7 +103,7 @@ impl Orientation {
         ]
     }
 
-    /// The same orientation, with the sign of the quaternion that is nearer to `other`.
+    /// The same orientation, with the sign of the quaternion chosen nearer to `other`.
     fn beside(self, other: Orientation) -> Orientation {
         let pairs = self.quaternion().into_iter().zip(other.quaternion());
         let product: f64 = pairs.map(|(a, b)| a * b).sum();

@@ -1,8 +1,8 @@
-//! End of a press, and the limit of the gel that may have caused it.
+//! Outcomes of a press, and the limits of the gel that end a press.
 
 use std::fmt;
 
-/// A limit of the gel that a press is kept within.
+/// Limit of the gel that ends a press.
 ///
 /// ```
 /// use taceva_core::Limit;
@@ -25,7 +25,7 @@ impl Limit {
     /// Every limit.
     pub const ALL: [Limit; 3] = [Limit::Depth, Limit::NormalForce, Limit::ShearForce];
 
-    /// The word used in tables.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Limit::Depth => "depth",
@@ -34,7 +34,7 @@ impl Limit {
         }
     }
 
-    /// The limit written as `name`.
+    /// Limit with the name `name`; `None` for another text.
     pub fn from_name(name: &str) -> Option<Limit> {
         Limit::ALL.into_iter().find(|limit| limit.name() == name)
     }
@@ -46,7 +46,7 @@ impl fmt::Display for Limit {
     }
 }
 
-/// End of a press.
+/// Outcome of a press.
 ///
 /// ```
 /// use taceva_core::{Limit, PressOutcome};
@@ -58,12 +58,12 @@ impl fmt::Display for Limit {
 #[cfg_attr(feature = "serde", serde(into = "&'static str", try_from = "String"))]
 #[non_exhaustive]
 pub enum PressOutcome {
-    /// Every waypoint was visited.
+    /// The tip visited every waypoint.
     Complete,
-    /// A limit ended the approach. The unreached waypoint has its sample at the place where the tip rests within the limits. Deeper
-    /// waypoints are skipped, and those of the retreat are visited. A limit met during the search for the gel leaves no sample.
+    /// A limit ended the approach. The sample of the unreached waypoint is taken where the tip rests within the limits. Deeper waypoints are
+    /// skipped, and the waypoints of the retreat are visited. A limit reached during the search for the gel leaves no sample.
     Limited(Limit),
-    /// The search for the gel reached its end without contact.
+    /// The search for the gel ended without contact.
     NoContact,
 }
 
@@ -82,7 +82,7 @@ impl PressOutcome {
         PressOutcome::NoContact,
     ];
 
-    /// The word used in files.
+    /// Name in files.
     pub const fn name(self) -> &'static str {
         match self {
             PressOutcome::Complete => "complete",
@@ -93,7 +93,7 @@ impl PressOutcome {
         }
     }
 
-    /// The outcome written as `name`.
+    /// Outcome with the name `name`; `None` for another text.
     pub fn from_name(name: &str) -> Option<PressOutcome> {
         let mut outcomes = PressOutcome::ALL.into_iter();
         outcomes.find(|outcome| outcome.name() == name)

@@ -1,4 +1,4 @@
-//! Catches panics of foreign code and returns their messages.
+//! Catches panics of plugin code and returns their messages.
 
 use std::cell::Cell;
 use std::panic::{self, AssertUnwindSafe};
@@ -9,7 +9,7 @@ thread_local! {
     static DEPTH: Cell<usize> = const { Cell::new(0) };
 }
 
-/// Returns the value of `run`, or the message of its panic, which is not printed. Panics outside `run` still call the program's hook.
+/// Returns the value of `run`, or the message of its panic without printing it. Panics outside `run` still call the program's hook.
 pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     static HOOK: Once = Once::new();
     HOOK.call_once(|| {
@@ -26,7 +26,7 @@ pub fn contained<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     outcome
 }
 
-/// Returns the value of `run`, or the message of its panic, which the program's hook has printed.
+/// Returns the value of `run`, or the message of its panic, which the program's panic hook has printed.
 pub fn caught<T>(run: impl FnOnce() -> T) -> Result<T, String> {
     panic::catch_unwind(AssertUnwindSafe(run)).map_err(|payload| {
         let message = match payload.downcast_ref::<&str>() {

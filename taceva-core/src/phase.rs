@@ -19,7 +19,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// The word used in tables.
+    /// Name in tables.
     pub const fn name(self) -> &'static str {
         match self {
             Phase::Load => "load",
@@ -27,7 +27,7 @@ impl Phase {
         }
     }
 
-    /// The phase written as `name`.
+    /// Phase with the name `name`; `None` for another text.
     pub fn from_name(name: &str) -> Option<Phase> {
         [Phase::Load, Phase::Unload]
             .into_iter()

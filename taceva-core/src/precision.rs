@@ -1,6 +1,6 @@
-//! Rounding to single precision.
+//! Conversions of a number that round: to single precision, an index or a count.
 
-/// The nearest number of single precision, in which features, signals and weights are kept.
+/// Nearest number of single precision, the storage format of features, signals and weights.
 ///
 /// ```
 /// use taceva_core::single;
@@ -13,7 +13,7 @@ pub const fn single(value: f64) -> f32 {
     value as f32
 }
 
-/// The whole part as an index or a size: 0 for NaN and below 0, the greatest number beyond it.
+/// Whole part as an index or a size. NaN and negative numbers give 0; a number above the greatest index gives the greatest index.
 ///
 /// ```
 /// use taceva_core::whole_size;
@@ -29,7 +29,7 @@ pub const fn whole_size(value: f64) -> usize {
     value as usize
 }
 
-/// The whole part as a count: 0 for NaN and below 0, the greatest number beyond it.
+/// Whole part as a count. NaN and negative numbers give 0; a number above the greatest count gives the greatest count.
 ///
 /// ```
 /// use taceva_core::whole_count;

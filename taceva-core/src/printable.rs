@@ -1,4 +1,4 @@
-//! External text for display: names, ids and paths may hold characters that control a terminal.
+//! External text for display. Names, ids and paths may contain characters that control a terminal.
 
 use std::ffi::OsStr;
 use std::fmt;
@@ -35,9 +35,9 @@ impl fmt::Display for Shown<'_> {
     }
 }
 
-/// Escapes text of several lines; line feeds and tabs stay.
+/// Escapes text of several lines. Line feeds and tabs are unchanged.
 ///
-/// Last check before a terminal, for text assembled by other code.
+/// Last check before a terminal, for text that other code composed.
 pub fn shown_lines(text: &str) -> String {
     let mut written = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -79,7 +79,7 @@ pub fn markdown(text: &str) -> String {
     escaped
 }
 
-/// True for characters that control the display or are invisible: control characters (C0 and C1), marks of writing direction and line
+/// True for invisible characters and for characters that control the display: control characters (C0 and C1), direction marks and line
 /// separators. Also true for zero-width characters, with which two different names look the same.
 pub fn is_obeyed(letter: char) -> bool {
     letter.is_control()

@@ -1,6 +1,6 @@
 //! Progress reports and cancellation of long operations.
 
-/// Receives the progress of a long operation, to show, log or ignore it.
+/// Receives the progress of a long operation, to show, log or ignore the reports.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,29 +27,29 @@
 /// assert_eq!(progress.0.into_inner(), 12);
 /// ```
 pub trait Progress: Send + Sync {
-    /// Begins a stage: its name, and its number of steps if that is known. Does nothing by default.
+    /// Begins a stage with its name and its number of steps; `None` if unknown. Does nothing by default.
     fn begin(&self, stage: &str, steps: Option<u64>) {
         let _ = (stage, steps);
     }
-    /// Reports `steps` more done in the current stage. Does nothing by default.
+    /// Reports `steps` further completed steps of the current stage. Does nothing by default.
     fn advance(&self, steps: u64) {
         let _ = steps;
     }
     /// Ends the current stage. Does nothing by default.
     fn end(&self) {}
-    /// True if the work should stop at the next safe place.
+    /// True if the operation should stop at the next safe point.
     fn is_cancelled(&self) -> bool;
-    /// True after a second request to stop: a moving robot halts where it is, without retracting first.
+    /// True after a second request to stop. A moving robot then halts at once, without retracting first.
     fn is_insisted(&self) -> bool {
         false
     }
-    /// Shows `words` at once, also while a question stands, and never waits. Does nothing by default.
+    /// Shows `words` at once, even while a question is open, and never waits. Does nothing by default.
     fn remark(&self, words: &str) {
         let _ = words;
     }
 }
 
-/// A progress that shows nothing and never cancels.
+/// Progress receiver that shows nothing and never cancels.
 ///
 /// ```
 /// use taceva_core::{Progress, SilentProgress};

@@ -1,4 +1,4 @@
-//! Numbers with their unit in their type, for public signatures in which a bare `f64` would be ambiguous. None gets a further field.
+//! Numbers with their unit in the type, for public signatures in which a bare `f64` would be ambiguous. These types get no further field.
 
 use std::fmt;
 

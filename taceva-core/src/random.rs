@@ -1,10 +1,10 @@
-//! Random numbers that are the same on every machine: words of the generator SplitMix64, looked up by counter or taken one after another.
+//! Random numbers that are the same on every machine: words of the generator SplitMix64, computed by counter or drawn in sequence.
 //!
-//! A number that is looked up depends on a key and a counter, never on earlier draws. Use [`Draws`] wherever work may be resumed, reordered
-//! or divided among threads. [`SplitMix64`] gives the same words in sequence. [`mix`] makes keys: a seed combined with a purpose, a press
-//! or a sample by exclusive or, and mixed once for each of them.
+//! A number computed by counter depends on a key and a counter, never on earlier draws. Use [`Draws`] if work may be resumed, reordered
+//! or divided among threads. [`SplitMix64`] draws the same words in sequence. [`mix`] makes keys: combine a seed with a purpose, a press
+//! or a sample by exclusive or, and mix after each.
 //!
-//! None of these numbers is fit for cryptography.
+//! These numbers are not fit for cryptography.
 //!
 //! ```
 //! use taceva_core::random::{Draws, SplitMix64, mix};
@@ -36,7 +36,7 @@ pub use sequence::SplitMix64;
 /// ```
 pub const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
 
-/// The finaliser of SplitMix64: a one-to-one map of words in which each bit of the result depends on each bit of `state`. It maps 0 to 0.
+/// Finaliser of SplitMix64: a one-to-one map of words in which each bit of the result depends on each bit of `state`. 0 maps to 0.
 ///
 /// ```
 /// use taceva_core::random::finalise;
@@ -51,7 +51,7 @@ pub const fn finalise(state: u64) -> u64 {
     mixed ^ (mixed >> 31)
 }
 
-/// The first word that SplitMix64 gives from the state `word`.
+/// First word of SplitMix64 after the state `word`.
 ///
 /// ```
 /// use taceva_core::random::mix;
@@ -63,7 +63,7 @@ pub const fn mix(word: u64) -> u64 {
     finalise(word.wrapping_add(STEP))
 }
 
-/// Number u with 0 ≤ u < 1 from 64 random bits: a multiple of 2⁻⁵³, all equally likely.
+/// Number u with 0 ≤ u < 1 from 64 random bits: a multiple of 2⁻⁵³, all multiples equally likely.
 ///
 /// ```
 /// use taceva_core::random::unit;
@@ -77,7 +77,7 @@ pub const fn unit(bits: u64) -> f64 {
     (bits >> 11) as f64 * UNIT_STEP
 }
 
-/// Number with 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits. A result of 1 becomes the largest number below it.
+/// Number with 0 < u < 1 from 64 random bits: an odd multiple of 2⁻⁵⁴, rounded to 53 bits. A result of 1 becomes the next lower number.
 ///
 /// ```
 /// use taceva_core::random::open_unit;
@@ -97,8 +97,8 @@ pub const fn open_unit(bits: u64) -> f64 {
 
 /// Whole number below `bound` from 64 random bits, by one multiplication; 0 if `bound` is 0.
 ///
-/// Probabilities differ from 1 / `bound` by at most 2⁻⁶⁴: use it for a draw by counter, which cannot be repeated, and
-/// [`SplitMix64::below`] where all numbers must be equally likely.
+/// Probabilities differ from 1 / `bound` by at most 2⁻⁶⁴. Use this function for a draw by counter, which cannot be repeated. Use
+/// [`SplitMix64::below`] if all numbers must be equally likely.
 ///
 /// ```
 /// use taceva_core::random::scaled;
@@ -112,7 +112,7 @@ pub const fn scaled(bits: u64, bound: u64) -> u64 {
     ((bits as u128 * bound as u128) >> 64) as u64
 }
 
-/// 2⁻⁵³.
+/// Spacing of the numbers of `unit`, 2⁻⁵³.
 const UNIT_STEP: f64 = 1.0 / 9_007_199_254_740_992.0;
 
 #[cfg(test)]

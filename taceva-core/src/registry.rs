@@ -1,4 +1,4 @@
-//! Drivers by name.
+//! Registries: drivers by name.
 
 mod builtin;
 #[cfg(feature = "inventory")]
@@ -28,7 +28,7 @@ use crate::driver::Device;
 use crate::id::DriverKey;
 use crate::suggestion::nearest;
 
-/// Drivers of one kind, sorted by key. Callers pass it on; it is never global.
+/// Drivers of one kind, sorted by key. Callers pass the registry on; no global registry exists.
 ///
 /// ```
 /// use taceva_core::{Registry, Sensor};
@@ -51,7 +51,7 @@ impl<D: Device + ?Sized> Registry<D> {
     /// Adds a driver.
     ///
     /// # Errors
-    /// [`RegistryError`] if its key is taken, or it describes a device of another kind; the registry stays as it was.
+    /// [`RegistryError`] if the key is taken, or the driver describes a device of another kind. The registry is then unchanged.
     pub fn add(&mut self, factory: Box<dyn Factory<D>>) -> Result<(), RegistryError> {
         let descriptor = factory.descriptor();
         if descriptor.kind() != D::KIND {
@@ -77,7 +77,7 @@ impl<D: Device + ?Sized> Registry<D> {
     /// The driver called `key`.
     ///
     /// # Errors
-    /// [`RegistryError::Unknown`], with the nearest key and every known one.
+    /// [`RegistryError::Unknown`] with the nearest key and all known keys.
     pub fn get(&self, key: &str) -> Result<&dyn Factory<D>, RegistryError> {
         self.factories
             .get(key)
@@ -90,12 +90,12 @@ impl<D: Device + ?Sized> Registry<D> {
             })
     }
 
-    /// The keys, in order.
+    /// Keys in order.
     pub fn keys(&self) -> impl Iterator<Item = &DriverKey> {
         self.factories.keys()
     }
 
-    /// The drivers, in the order of their keys.
+    /// Drivers in the order of their keys.
     pub fn iter(&self) -> impl Iterator<Item = &dyn Factory<D>> {
         self.factories.values().map(AsRef::as_ref)
     }

@@ -1,4 +1,4 @@
-//! One aligned observation. A live rig and a recording push the same samples.
+//! One sample: readings taken together. A live rig and a recording push the same samples.
 
 mod with;
 
@@ -13,7 +13,7 @@ use crate::signals::Signals;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
-/// One observation. Absent values are `None`, never a placeholder number.
+/// One sample. Absent values are `None`, never a placeholder number.
 ///
 /// ```
 /// use taceva_core::{Readings, Sample};
@@ -28,47 +28,47 @@ use crate::wrench::Wrench;
 pub struct Sample {
     /// Name within the recording.
     pub id: String,
-    /// The sensor model.
+    /// Sensor model.
     pub sensor_id: Option<String>,
-    /// The unit of that model.
+    /// Individual unit of the sensor model.
     pub unit_id: Option<String>,
-    /// The lighting scene or the like.
+    /// Lighting scene, or another condition of the recording.
     pub scene_id: Option<String>,
-    /// Contact point, which repeats share; the cluster of every interval.
+    /// Contact point, shared by its repeats. Confidence intervals cluster samples by this point.
     pub point_id: Option<String>,
-    /// The depth level within the point.
+    /// Depth level within the contact point.
     pub depth_step: Option<u32>,
-    /// The number of the repeat.
+    /// Number of the repeat.
     pub repeat: Option<u32>,
-    /// Load or unload.
+    /// Branch of the press: load or unload.
     pub phase: Option<Phase>,
-    /// Limit of the gel that kept the tip from its target. Labels and picture then belong to the place that was reached.
+    /// Limit of the gel that kept the tip from its target. Labels and picture then belong to the place that the tip reached.
     pub limited_by: Option<Limit>,
-    /// Standard uncertainty, in mm, of the height from which its depth `Pz` counts. `None` if that height is not fitted.
+    /// Standard uncertainty of the zero height of the depth `Pz`, mm. `None` if the zero height is not fitted.
     pub zero_u_mm: Option<f64>,
     /// Time of the observation.
     pub stamp: Option<Stamp>,
-    /// The relief of the grating that is touched.
+    /// Relief of the touched grating.
     pub kind: Option<GratingKind>,
-    /// The spacing of that grating.
+    /// Spacing of the touched grating.
     pub spacing: Option<Nanometre>,
-    /// The spacing that a model predicts.
+    /// Spacing that a model predicts.
     pub predicted_spacing: Option<Nanometre>,
-    /// The mean luma of the full-size picture, (299 R + 587 G + 114 B) / 1000, in steps of an 8-bit camera: 0 to 255.
+    /// Mean luma of the full-size picture, (299 R + 587 G + 114 B) / 1000, on the 8-bit scale from 0 to 255.
     pub intensity: Option<f64>,
-    /// The SHA-256 of the picture's bytes, `sha256:` and 64 hexadecimal digits: shows that pictures are equal without decoding them.
+    /// SHA-256 of the picture's bytes, `sha256:` and 64 hexadecimal digits. Equal digests show equal pictures without decoding.
     pub frame_digest: Option<String>,
-    /// The picture, decoded.
+    /// Decoded picture.
     pub frame: Option<Frame>,
-    /// The numbers of its taxels.
+    /// Numbers of the sensor's taxels.
     pub signals: Option<Signals>,
-    /// The readings of the reference instruments, one value per channel of the stream.
+    /// Readings of the reference instruments, one value per channel of the stream.
     pub truth: Readings,
-    /// The predictions of a model, one value per channel of the stream.
+    /// Predictions of a model, one value per channel of the stream.
     pub prediction: Option<Readings>,
 }
 
-/// One value per channel of the stream, in the order of its [`Channels`]; absent ones are `None`.
+/// One value per channel of the stream, in the order of its [`Channels`]. Absent values are `None`.
 ///
 /// ```
 /// use taceva_core::Readings;
@@ -81,19 +81,19 @@ pub struct Readings {
 }
 
 impl Readings {
-    /// The given values, absent ones as `None`.
+    /// Readings with the given values. Absent values are `None`.
     pub fn new(values: Vec<Option<f64>>) -> Readings {
         Readings { values }
     }
 
-    /// A value for each channel.
+    /// Readings with a value for each channel.
     pub fn from_values(values: impl IntoIterator<Item = f64>) -> Readings {
         Readings {
             values: values.into_iter().map(Some).collect(),
         }
     }
 
-    /// The channels of a contact as the robot and the force transducer measured them; other channels are absent.
+    /// Channels of a contact as measured by the robot and the force transducer. Other channels are absent.
     ///
     /// ```
     /// use taceva_core::{Channel, Channels, Newton, Readings, Wrench};
@@ -125,7 +125,7 @@ impl Readings {
         }
     }
 
-    /// The value of the channel at `position`.
+    /// The value of the channel at `position`; `None` for a missing value.
     pub fn get(&self, position: usize) -> Option<f64> {
         self.values.get(position).copied().flatten()
     }

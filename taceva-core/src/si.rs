@@ -1,4 +1,4 @@
-//! Conversion to SI units and back: poses and speeds cross the plugin boundary in them.
+//! Conversion to and from SI units, in which poses and speeds cross the plugin interface.
 
 use crate::driver::{Speed, SpeedError};
 use crate::geometry::{Point, Pose, Rotation, nearest};
@@ -6,7 +6,7 @@ use crate::quantity::{Degree, Millimetre};
 
 /// Millimetres in a metre.
 const PER_METRE: f64 = 1e3;
-/// Greatest deviation of a unit quaternion's length from 1: the accuracy of single precision.
+/// Greatest deviation of a quaternion's norm from 1: the accuracy of single precision.
 const LENGTH_TOLERANCE: f64 = 1e-6;
 
 /// A pose in metres and as a unit quaternion. A plain value, which gets no further fields.
@@ -19,9 +19,9 @@ const LENGTH_TOLERANCE: f64 = 1e-6;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SiPose {
-    /// x, y and z.
+    /// Coordinates x, y and z, m.
     pub position_m: [f64; 3],
-    /// Real part first, then x, y and z.
+    /// Unit quaternion: real part first, then x, y and z.
     pub quaternion: [f64; 4],
 }
 
@@ -43,9 +43,9 @@ impl From<Pose> for SiPose {
 }
 
 impl SiPose {
-    /// Pose on its grid ([`Pose::on_grid`]); `None` if a number is not finite or the length of the quaternion is not 1.
+    /// Pose on the grid of [`Pose::on_grid`]; `None` if a number is not finite or the norm of the quaternion is not 1.
     ///
-    /// A pose on the grid is returned unchanged for these rotations: above −180° and up to 180° about x and z, less than 90° about y.
+    /// A pose on the grid returns unchanged for rotations above −180° and up to 180° about x and z, and less than 90° about y.
     ///
     /// ```
     /// use taceva_core::{Degree, Millimetre, Pose, SiPose};
@@ -100,7 +100,7 @@ impl Speed {
     /// Speed from m/s, rounded to whole nm/s.
     ///
     /// # Errors
-    /// As [`try_new`](Speed::try_new).
+    /// The errors of [`try_new`](Speed::try_new).
     pub fn from_metres_per_second(metres: f64) -> Result<Speed, SpeedError> {
         Speed::try_new(nearest(metres * PER_METRE, 1e6))
     }

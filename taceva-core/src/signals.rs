@@ -8,9 +8,9 @@ use std::fmt;
 
 use crate::unit::Unit;
 
-/// Grid of places (taxels) of a tactile sensor without a camera, with the numbers per place and their unit.
+/// Grid of taxels of a tactile sensor without a camera, with the numbers per taxel and their unit.
 ///
-/// A sensor without a grid has one row of places.
+/// A sensor without a grid has one row of taxels.
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Unit};
@@ -24,24 +24,24 @@ use crate::unit::Unit;
 #[cfg_attr(feature = "serde", serde(deny_unknown_fields))]
 #[non_exhaustive]
 pub struct SignalInfo {
-    /// Rows of places.
+    /// Rows of taxels.
     pub rows: u32,
-    /// Places per row.
+    /// Taxels per row.
     pub columns: u32,
-    /// Numbers per place.
+    /// Numbers per taxel.
     pub channels: u32,
-    /// The unit of every number.
+    /// Unit of every number.
     pub unit: Unit,
 }
 
 impl SignalInfo {
-    /// Most numbers per sample.
+    /// Greatest number of numbers per sample.
     pub const LEN_MAX: u32 = 16_384;
 
-    /// A grid of `rows` × `columns` places, each of `channels` numbers in `unit`.
+    /// A grid of `rows` × `columns` taxels, each with `channels` numbers in `unit`.
     ///
     /// # Errors
-    /// [`SignalError`] if a side is 0, or a sample would have more than [`LEN_MAX`](SignalInfo::LEN_MAX) numbers.
+    /// [`SignalError`] if a dimension is 0, or a sample would have more than [`LEN_MAX`](SignalInfo::LEN_MAX) numbers.
     pub const fn new(
         rows: u32,
         columns: u32,
@@ -70,7 +70,7 @@ impl SignalInfo {
         }
     }
 
-    /// Numbers per sample; 0 if this is not [valid](SignalInfo::is_valid).
+    /// Numbers per sample; 0 for an invalid grid, see [`is_valid`](SignalInfo::is_valid).
     pub const fn len(&self) -> usize {
         match self.is_valid() {
             true => self.rows as usize * self.columns as usize * self.channels as usize,
@@ -96,12 +96,12 @@ impl fmt::Display for SignalInfo {
     }
 }
 
-/// Numbers of all places (taxels) at one instant; all are finite.
+/// Numbers of all taxels at one instant, all finite.
 ///
 /// # Shapes
-/// `[rows, columns, channels]`, contiguous and row-major; all numbers of a place are adjacent.
+/// `[rows, columns, channels]`, contiguous and row-major. The numbers of one taxel are adjacent.
 /// # Units
-/// Unit of its [`SignalInfo`].
+/// The unit of the [`SignalInfo`].
 ///
 /// ```
 /// use taceva_core::{SignalInfo, Signals, Unit};
@@ -119,12 +119,12 @@ pub struct Signals {
 }
 
 impl Signals {
-    /// Signals of `values`, place first.
+    /// Signals with `values`, taxel by taxel.
     ///
     /// # Shapes
     /// `values`: rows × columns × channels.
     /// # Errors
-    /// [`SignalError`] if there are more or fewer numbers, or one is not finite.
+    /// [`SignalError`] if the count of numbers is wrong, or a number is not finite.
     pub fn new(info: SignalInfo, values: Vec<f32>) -> Result<Signals, SignalError> {
         if !info.is_valid() {
             return Err(SignalError::Grid { info });
@@ -144,17 +144,17 @@ impl Signals {
         }
     }
 
-    /// The grid and the unit.
+    /// Grid and unit.
     pub fn info(&self) -> SignalInfo {
         self.info
     }
 
-    /// The numbers, place first.
+    /// All numbers, taxel by taxel.
     pub fn values(&self) -> &[f32] {
         &self.values
     }
 
-    /// The numbers, without a copy.
+    /// All numbers, without a copy.
     pub fn into_values(self) -> Vec<f32> {
         self.values
     }

@@ -1,4 +1,4 @@
-//! Skipped work with typed reasons, as data and never as a log line.
+//! Reasons for skipped work, as typed data instead of log lines.
 
 use std::fmt;
 
@@ -21,7 +21,7 @@ pub struct Skipped {
 }
 
 impl Skipped {
-    /// Skip of `what` for `reason`.
+    /// Skips `what` for `reason`.
     pub fn new(what: impl Into<String>, reason: SkipReason) -> Skipped {
         Skipped {
             what: what.into(),
@@ -45,15 +45,15 @@ pub enum SkipReason {
     ChannelAbsent(String),
     /// A required fact about the sensor is not declared.
     FactAbsent(&'static str),
-    /// The gel is opaque, so the camera sees nothing outside it.
+    /// The gel is opaque, so ambient light cannot reach the camera.
     GelIsOpaque,
-    /// No requested result reads it.
+    /// No requested result reads the item.
     NothingReadsIt,
     /// The samples cannot be divided into training and test parts, for the reason in the text.
     NoSplit(String),
-    /// The user did not request it.
+    /// The user did not request the item.
     NotWanted,
-    /// The caller gave a finished result.
+    /// The caller supplied a finished result.
     AlreadyThere,
 }
 

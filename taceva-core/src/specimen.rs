@@ -5,8 +5,8 @@ use std::fmt;
 use crate::grating::GratingKind;
 use crate::nanometre::Nanometre;
 
-/// Object that the robot carries. Its displayed text is the name under which a [`Changer`](crate::Changer) holds it, and stays stable. It
-/// gets no further variant in a compatible version: the specimen decides every label and the identity of a press, so readers must handle
+/// Object that the robot presses into the gel. Its displayed text is its name in a [`Changer`](crate::Changer) and never changes. This type
+/// gets no further variant in a compatible version. The specimen decides every label and the identity of a press, so readers must handle
 /// each kind.
 ///
 /// ```

@@ -1,11 +1,11 @@
-//! Times of an observation: taken and received.
+//! Time stamps of an observation: time of measurement and time of receipt.
 
 use std::fmt;
 use std::time::Duration;
 
 use crate::precision::whole_count;
 
-/// Clock from which a time was read.
+/// Clock of a time stamp.
 ///
 /// ```
 /// use taceva_core::Clock;
@@ -16,9 +16,9 @@ use crate::precision::whole_count;
 #[cfg_attr(feature = "serde", serde(rename_all = "kebab-case"))]
 #[non_exhaustive]
 pub enum Clock {
-    /// Seconds since 1970; may jump.
+    /// Seconds since 1970. The clock may jump.
     Unix,
-    /// Seconds since an arbitrary start; never jumps.
+    /// Seconds since an arbitrary start. The clock never jumps.
     Monotonic,
     /// The recording does not name its clock.
     #[default]
@@ -35,7 +35,7 @@ impl fmt::Display for Clock {
     }
 }
 
-/// The time of a sample, in seconds of the recording's [`Clock`]. A plain value, which gets no further fields.
+/// Time of a sample, in seconds of the recording's [`Clock`]. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::Stamp;
@@ -44,9 +44,9 @@ impl fmt::Display for Clock {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stamp {
-    /// Time at which the observation was valid: the middle of the exposure, if that is known.
+    /// Time of the measurement, s; for a picture the middle of the exposure, if known.
     pub valid_s: f64,
-    /// Time of receipt; the difference is the latency.
+    /// Time of receipt, s; `None` if unknown. The difference from `valid_s` is the latency.
     pub received_s: Option<f64>,
 }
 
@@ -54,7 +54,7 @@ pub struct Stamp {
 const NANOSECONDS: f64 = 1e9;
 
 impl Stamp {
-    /// Stamp from times in nanoseconds, as they cross the plugin boundary.
+    /// Stamp from times of the plugin interface, to the nanosecond.
     ///
     /// ```
     /// use std::time::Duration;
@@ -70,17 +70,17 @@ impl Stamp {
         }
     }
 
-    /// Stamp of an observation that is received at the time at which it is taken.
+    /// Stamp of an observation that is received at the moment of its measurement.
     pub fn at(now: Duration) -> Stamp {
         Stamp::new(now, Some(now))
     }
 
-    /// Time at which the observation was valid, to the nanosecond. Times before the clock's start become zero.
+    /// Time of the measurement, to the nanosecond. Times before the clock's start become zero.
     pub fn valid(&self) -> Duration {
         nanoseconds(self.valid_s)
     }
 
-    /// Time of receipt, to the nanosecond.
+    /// Time of receipt, to the nanosecond; `None` if unknown.
     pub fn received(&self) -> Option<Duration> {
         self.received_s.map(nanoseconds)
     }

@@ -1,9 +1,9 @@
-//! Flow of samples: sources push them into sinks.
+//! Streams of samples, which sources push into sinks.
 
 use crate::field::{Field, FieldSet};
 use crate::sample::Sample;
 
-/// Error of a sink that cannot take a sample.
+/// Error of a sink that cannot accept a sample.
 ///
 /// ```
 /// use taceva_core::SinkError;
@@ -12,7 +12,7 @@ use crate::sample::Sample;
 /// ```
 pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
 
-/// Receives samples from a live rig or from a recording; both look the same.
+/// Receives samples from a live rig or from a recording through the same interface.
 ///
 /// ```
 /// use taceva_core::{FieldSet, Sample, SampleSink, SinkError};
@@ -37,13 +37,13 @@ pub type SinkError = Box<dyn std::error::Error + Send + Sync>;
 /// # Ok::<(), SinkError>(())
 /// ```
 pub trait SampleSink {
-    /// Fields of a sample that it reads; a source need not fill the rest.
+    /// Fields that the sink reads. A source may leave other fields empty.
     fn fields(&self) -> FieldSet;
 
-    /// Takes one sample.
+    /// Accepts one sample.
     ///
     /// # Errors
-    /// The sink's own error; the source stops and returns it.
+    /// An error of the sink. The source stops and returns this error.
     fn accept(&mut self, sample: &Sample) -> Result<(), SinkError>;
 }
 
@@ -56,7 +56,7 @@ impl<S: SampleSink + ?Sized> SampleSink for &mut S {
     }
 }
 
-/// Two sinks fed by one stream: record and evaluate in one pass. A plain pair: it gets no further fields.
+/// Two sinks that receive one stream, to record and evaluate in one pass. A plain pair, which gets no further fields.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};
@@ -79,9 +79,9 @@ impl<S: SampleSink + ?Sized> SampleSink for &mut S {
 /// ```
 #[derive(Debug)]
 pub struct Tee<A, B> {
-    /// Fed first.
+    /// Sink that receives each sample first.
     pub first: A,
-    /// Fed second, if the first took the sample.
+    /// Sink that receives the samples accepted by `first`.
     pub second: B,
 }
 
@@ -95,7 +95,7 @@ impl<A: SampleSink, B: SampleSink> SampleSink for Tee<A, B> {
     }
 }
 
-/// A sink that hides fields from an inner sink, so that the source does not fill them.
+/// A sink that hides fields from an inner sink, so that the source leaves these fields empty.
 ///
 /// ```
 /// # use taceva_core::{FieldSet, SampleSink, SinkError};
@@ -121,7 +121,7 @@ pub struct Select<S> {
 }
 
 impl<S: SampleSink> Select<S> {
-    /// `inner`, without the fields outside `kept`.
+    /// The sink `inner`, with only the fields in `kept`.
     pub fn new(inner: S, kept: FieldSet) -> Select<S> {
         Select { inner, kept }
     }

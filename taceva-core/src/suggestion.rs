@@ -1,8 +1,8 @@
-//! Suggestions for misspelt words: the nearest known word, by one distance for all messages.
+//! Suggestions for misspelt words: the nearest known word, by one edit distance for all messages.
 
-/// The candidate with the fewest edits from `wrong`, if these are at most a third of its letters; the first of equals.
+/// Candidate with the fewest edits from `wrong`, the first in case of a tie. `None` if more than a third of the letters need an edit.
 ///
-/// An edit inserts, removes or replaces a letter, or swaps two neighbours (optimal string alignment). Case does not count.
+/// An edit inserts, removes or replaces a letter, or swaps two neighbours (optimal string alignment). Upper and lower case are equal.
 ///
 /// ```
 /// assert_eq!(taceva_core::nearest("depht", ["depth", "width"]), Some("depth"));
@@ -39,7 +39,7 @@ pub fn suggestion(wrong: &str, accepted: &[&str]) -> String {
     }
 }
 
-/// Longest word that is compared, letters. A longer one is not a typing mistake, and the run time grows with the square.
+/// Longest word for the comparison, letters. A longer word is no typing mistake, and the run time grows with the square of the length.
 const LONGEST: usize = 256;
 
 fn edits(first: &[char], second: &[char]) -> usize {

@@ -1,4 +1,4 @@
-//! Traceability of labels: the instrument that measured them, and its calibration certificate.
+//! Traceability of labels: the measuring instrument and its calibration certificate.
 
 mod certificate;
 mod coverage;
@@ -16,7 +16,7 @@ pub use instrument::Instrument;
 
 use crate::date::Date;
 
-/// Traceability of one instrument's labels.
+/// Instrument of some labels, with its driver, serial number and certificate.
 ///
 /// ```
 /// use taceva_core::{Amount, Certificate, Coverage, Instrument, Traceability};
@@ -34,10 +34,10 @@ use crate::date::Date;
 pub struct Traceability {
     /// Instrument that measured the labels.
     pub instrument: Instrument,
-    /// Driver that read the instrument: `ati/netft`; `None` of an import.
+    /// Driver that read the instrument: `ati/netft`; `None` for imported labels.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub driver: Option<String>,
-    /// Serial number that the driver read; `None` if it reads none.
+    /// Serial number that the driver read; `None` if the driver reads none.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub serial: Option<String>,
     /// Calibration certificate; `None` if the labels are not traceable.
@@ -46,7 +46,7 @@ pub struct Traceability {
 }
 
 impl Traceability {
-    /// An instrument without driver and certificate.
+    /// Instrument without driver and certificate.
     pub fn new(instrument: Instrument) -> Traceability {
         Traceability {
             instrument,
@@ -56,7 +56,7 @@ impl Traceability {
         }
     }
 
-    /// The same instrument, read by `driver`, which reads this serial number.
+    /// The same instrument, read by `driver`, with the serial number that the driver read.
     #[must_use]
     pub fn with_driver(self, driver: impl Into<String>, serial: Option<String>) -> Traceability {
         Traceability {
@@ -69,7 +69,7 @@ impl Traceability {
     /// The same instrument with a certificate.
     ///
     /// # Errors
-    /// [`CertificateError`] as of [`Certificate::check`].
+    /// The errors of [`Certificate::check`].
     pub fn with_certificate(
         self,
         certificate: Certificate,
@@ -81,8 +81,8 @@ impl Traceability {
         })
     }
 
-    /// Instruments of labels of two origins, each once. If the labels of one origin alone have a certificate of an instrument, an entry
-    /// without one stands for the others.
+    /// Instruments of labels from two origins, each once. If only the labels of one origin have a certificate of an instrument, an entry
+    /// without a certificate represents the other labels.
     ///
     /// ```
     /// use taceva_core::{Certificate, Coverage, Instrument, Traceability};
@@ -114,15 +114,15 @@ impl Traceability {
         all
     }
 
-    /// The certificate, and the serial number of the instrument, if these contradict each other.
+    /// Certificate and serial number of the instrument, if their serial numbers differ.
     pub fn other_serial(&self) -> Option<(&Certificate, &str)> {
         let certificate = self.certificate.as_ref()?;
         let read = self.serial.as_deref()?;
         (read != certificate.serial).then_some((certificate, read))
     }
 
-    /// The certificate, and its last day, if it had expired on `day`, the last one of the labels. A certificate that one of `all` had
-    /// replaced by then holds for earlier labels, so it counts as valid.
+    /// Certificate and its last day, if the certificate had expired before `day`, the last day of the labels. `None` if `all` has a
+    /// certificate of the instrument that is valid on `day`: the expired certificate then applies to earlier labels.
     pub fn expired_on(&self, day: Date, all: &[Traceability]) -> Option<(&Certificate, Date)> {
         let last_day = |of: &Traceability| of.certificate.as_ref()?.valid_until;
         let until = last_day(self).filter(|until| *until < day)?;

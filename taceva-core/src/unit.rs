@@ -8,7 +8,7 @@ pub use source::{SourceUnit, UnitError};
 
 use std::fmt;
 
-/// The unit in which TacEva keeps and reports a channel.
+/// Unit in which TacEva stores and reports a channel.
 ///
 /// ```
 /// use taceva_core::Unit;
@@ -18,64 +18,64 @@ use std::fmt;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub enum Unit {
-    /// mm, of positions and indentation depths.
+    /// Millimetres, mm, for positions and indentation depths.
     #[cfg_attr(feature = "serde", serde(rename = "mm"))]
     Millimetre,
-    /// N, of forces.
+    /// Newtons, N, for forces.
     #[cfg_attr(feature = "serde", serde(rename = "N"))]
     Newton,
-    /// N·mm, of torques.
+    /// Newton millimetres, N·mm, for torques.
     #[cfg_attr(feature = "serde", serde(rename = "N·mm"))]
     NewtonMillimetre,
-    /// Degrees, of angles.
+    /// Degrees, for angles.
     #[cfg_attr(feature = "serde", serde(rename = "deg"))]
     Degree,
-    /// Radians, of angles in tables that are scored as they are. Labels of datasets are converted to degrees.
+    /// Radians, for angles in tables that are scored without conversion. Labels of datasets are converted to degrees.
     #[cfg_attr(feature = "serde", serde(rename = "rad"))]
     Radian,
     /// Seconds.
     #[cfg_attr(feature = "serde", serde(rename = "s"))]
     Second,
-    /// Hz, of rates.
+    /// Hertz, Hz, for rates.
     #[cfg_attr(feature = "serde", serde(rename = "Hz"))]
     Hertz,
-    /// lx, of illuminance.
+    /// Lux, lx, for illuminance.
     #[cfg_attr(feature = "serde", serde(rename = "lx"))]
     Lux,
     /// Pixels of the sensor's own picture.
     #[cfg_attr(feature = "serde", serde(rename = "px"))]
     Pixel,
-    /// mm/N, of compliances: how far the gel yields per newton.
+    /// Compliance, mm/N: indentation per force.
     #[cfg_attr(feature = "serde", serde(rename = "mm/N"))]
     MillimetrePerNewton,
-    /// mm², of areas.
+    /// Square millimetres, mm², for areas.
     #[cfg_attr(feature = "serde", serde(rename = "mm²"))]
     SquareMillimetre,
-    /// mm/h, of positions that drift.
+    /// Drift of a position, mm/h.
     #[cfg_attr(feature = "serde", serde(rename = "mm/h"))]
     MillimetrePerHour,
-    /// N/h, of forces that drift.
+    /// Drift of a force, N/h.
     #[cfg_attr(feature = "serde", serde(rename = "N/h"))]
     NewtonPerHour,
-    /// µT, of magnetic flux densities.
+    /// Microteslas, µT, for magnetic flux densities.
     #[cfg_attr(feature = "serde", serde(rename = "uT"))]
     Microtesla,
     /// Steps of an analogue-to-digital converter.
     #[cfg_attr(feature = "serde", serde(rename = "count"))]
     Count,
-    /// V, of voltages.
+    /// Volts, V, for voltages.
     #[cfg_attr(feature = "serde", serde(rename = "V"))]
     Volt,
-    /// kPa, of pressures.
+    /// Kilopascals, kPa, for pressures.
     #[cfg_attr(feature = "serde", serde(rename = "kPa"))]
     Kilopascal,
-    /// °C, of temperatures.
+    /// Degrees Celsius, °C, for temperatures.
     #[cfg_attr(feature = "serde", serde(rename = "degC"))]
     DegreeCelsius,
-    /// Ω, of resistances.
+    /// Ohms, Ω, for resistances.
     #[cfg_attr(feature = "serde", serde(rename = "ohm"))]
     Ohm,
-    /// pF, of capacitances.
+    /// Picofarads, pF, for capacitances.
     #[cfg_attr(feature = "serde", serde(rename = "pF"))]
     Picofarad,
     /// No unit: a ratio or a normalised value.
@@ -136,7 +136,7 @@ impl Unit {
         }
     }
 
-    /// The unit written as `symbol`, exactly.
+    /// Unit with exactly this `symbol`; `None` for an unknown symbol.
     pub fn from_symbol(symbol: &str) -> Option<Unit> {
         Unit::ALL.into_iter().find(|unit| unit.symbol() == symbol)
     }

@@ -1,9 +1,9 @@
-//! Force and torque on the gel.
+//! Forces and torques on the gel.
 
 use crate::geometry::nearest;
 use crate::quantity::{Newton, NewtonMillimetre};
 
-/// Force and torque on the gel, in the sensor's frame; a compressing force has a positive z. A plain value, which gets no further fields.
+/// Force and torque on the gel, in the sensor's frame. A compressing force has a positive z. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench};
@@ -19,7 +19,7 @@ pub struct Wrench {
 }
 
 impl Wrench {
-    /// The nearest wrench with torques that are whole multiples of 10⁻⁶ N·mm, as on [`Pose::on_grid`](crate::Pose::on_grid); forces stay
+    /// Nearest wrench whose torques are whole multiples of 10⁻⁶ N·mm, as on [`Pose::on_grid`](crate::Pose::on_grid). Forces are
     /// unchanged.
     #[must_use]
     pub fn on_grid(self) -> Wrench {

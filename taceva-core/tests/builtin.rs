@@ -1,4 +1,4 @@
-//! Drivers that are linked in are found without a list written by hand.
+//! The registry finds linked-in drivers without a manual list.
 
 use taceva_core::{
     Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey,

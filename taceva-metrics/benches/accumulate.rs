@@ -1,4 +1,4 @@
-//! Time per pair of exact sums compared with a loop that rounds, and of whole evaluations with clusters.
+//! Time per pair of exact sums, compared with a rounding loop, and time of whole evaluations with clusters.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -86,7 +86,7 @@ fn exact(bencher: Bencher<'_, '_>, streams: Streams, gate: Option<f64>) {
     });
 }
 
-/// Six channels, every stream; items are rows times channels.
+/// Benchmark of six channels with every stream. Items are rows times channels.
 #[divan::bench(args = [0, 40, 4000])]
 fn six_channels_by_location(bencher: Bencher<'_, '_>, locations: usize) {
     let channels = Channels::new(Channel::SIX).expect("six channels");
@@ -119,7 +119,7 @@ fn six_channels_by_location(bencher: Bencher<'_, '_>, locations: usize) {
     });
 }
 
-/// The scores of six channels with their intervals: all metrics, 32 clusters.
+/// Benchmark of the scores of six channels with intervals: all metrics, 32 clusters.
 #[divan::bench]
 fn finish_six_channels(bencher: Bencher<'_, '_>) {
     let channels = Channels::new(Channel::SIX).expect("six channels");

@@ -1,4 +1,4 @@
-//! Coverage of 95 % intervals in simulated presses: the share that contain the score of infinitely many samples.
+//! Coverage of 95 % intervals in simulated presses: the share of intervals that contain the score of infinitely many samples.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
@@ -11,7 +11,7 @@ use std::thread;
 use simulation::{CORRELATION, Coverage, Design, Each, METRICS, Method, coverage, expected};
 use taceva_metrics::BootstrapEnds;
 
-/// Locations and presses at each, from few to many.
+/// Numbers of locations and of presses at each location.
 const DESIGNS: [(u32, u32); 16] = [
     (5, 4),
     (6, 4),
@@ -30,7 +30,7 @@ const DESIGNS: [(u32, u32); 16] = [
     (46, 4),
     (400, 4),
 ];
-/// Designs for which the other interval methods are run too.
+/// Designs for the comparison with the other interval methods.
 const COMPARED: [(u32, u32); 3] = [(12, 20), (46, 1), (400, 4)];
 const RUNS: u32 = 1500;
 const METHODS: [Method; 4] = [

@@ -1,4 +1,4 @@
-//! Coverage of the 95 % interval of every metric in simulated studies, by the score of a study of 20,000 contact points.
+//! Coverage of the 95 % interval of every metric in simulated studies. Expected scores come from a study of 20,000 contact points.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
@@ -13,27 +13,27 @@ use taceva_core::{
 };
 use taceva_metrics::{Evaluation, Evaluator, Interval, MetricPlan, SensorFacts, catalogue};
 
-/// Contact points of the studies.
+/// Numbers of contact points of the studies.
 const POINTS: [u32; 2] = [20, 46];
-/// Contact points of the study that states the expected scores.
+/// Number of contact points of the study with the expected scores.
 const POINTS_OF_TRUTH: u32 = 20_000;
 const RUNS: u32 = 1000;
 const RADIUS_MM: f64 = 9.0;
 const DEPTHS: u32 = 4;
 const REPEATS: u32 = 2;
-/// Untouched frames of each study.
+/// Number of frames without contact in each study.
 const IDLE: u32 = 60;
-/// Metrics of untouched frames.
+/// Metrics of frames without contact.
 const IDLE_METRICS: [&str; 2] = ["noise_equivalent_force", "zero_error"];
-/// Places of the light presses of each study, pressed once each.
+/// Number of places for light presses in each study, with one press each.
 const LIGHT: u32 = 30;
 /// Metric of light presses.
 const LIGHT_METRIC: &str = "detection_limit";
-/// Metric whose value falls with the number of contact points by its definition, so that no study of many states its expected score.
+/// Metric whose value decreases with the number of contact points by definition. A larger study cannot give its expected score.
 const FALLING: &str = "tolerance_interval";
-/// Studies whose mean is the expected score of light presses.
+/// Number of studies whose mean is the expected score of light presses.
 const LIGHT_STUDIES: u32 = 4000;
-/// Channels that the table shows.
+/// Channels in the table.
 const LABELS: [&str; 4] = ["Fz", "Pz", "Pxy", "line"];
 
 fn main() {
@@ -65,7 +65,7 @@ fn main() {
 /// Metric, label and variant of a score.
 type Name = String;
 
-/// Number of intervals, and of those that held the expected score.
+/// Number of intervals, and of intervals that contain the expected score.
 #[derive(Clone, Copy, Debug, Default)]
 struct Coverage {
     intervals: u32,
@@ -130,7 +130,7 @@ fn coverage(
 
 /// Value and ends of the interval of every score of a study, by name.
 ///
-/// Untouched frames and light presses form separate recordings, because together with presses they would count as more contact points.
+/// Frames without contact and light presses form separate recordings, because in one recording they would count as more contact points.
 fn evaluated(points: u32, seed: u64) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
     let mut study = Study::new(points, seed);
     let mut presses = evaluator();
@@ -156,7 +156,7 @@ fn of_light(study: &mut Study) -> BTreeMap<Name, (f64, Option<[f64; 2]>)> {
     found
 }
 
-/// Mean scores of light presses over many studies of the same size. A limit from few places is higher by its definition, because their line
+/// Mean scores of light presses over many studies of the same size. The limit increases for few places by definition, because their line
 /// is less certain.
 fn light_means() -> BTreeMap<Name, f64> {
     let mut means = BTreeMap::<Name, f64>::new();
@@ -211,7 +211,7 @@ fn evaluator() -> Evaluator {
     Evaluator::new(&plan)
 }
 
-/// Study of one sensor: presses at random places, each with its own compliance, hysteresis, mean error and spread.
+/// Simulated study of one sensor: presses at random places, each with its own compliance, hysteresis, mean error and spread.
 struct Study {
     points: u32,
     random: SplitMix64,
@@ -231,7 +231,7 @@ impl Study {
         low + (high - low) * self.random.unit()
     }
 
-    /// A normal number, mean 0 and variance 1 (Box and Muller 1958).
+    /// Normal number with mean 0 and variance 1 (Box and Muller 1958).
     fn gaussian(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.random.unit()).ln()).sqrt();
         radius * (std::f64::consts::TAU * self.random.unit()).cos()
@@ -261,7 +261,7 @@ impl Study {
         }
     }
 
-    /// Light presses at places of their own.
+    /// Adds light presses, each at a place of its own.
     fn light(&mut self, sink: &mut Evaluator) {
         for place in 0..LIGHT {
             let force_n = self.between(0.02, 0.2);
@@ -277,7 +277,7 @@ impl Study {
         }
     }
 
-    /// Every press at one place, in the usual light and in a brighter one, and gratings.
+    /// Adds every press at one place, in normal and in brighter light, and presses on gratings.
     fn place(&mut self, point: u32, sink: &mut Evaluator) {
         let radius = RADIUS_MM * self.random.unit().sqrt();
         let turn = self.between(0.0, std::f64::consts::TAU);

@@ -1,4 +1,4 @@
-//! Scores another program's predictions: samples go in one by one, a table comes out.
+//! Scores predictions of another program: adds samples one by one and prints a table.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 

@@ -2,9 +2,9 @@
 //!
 //! usage: kernel_times COLUMNS CHANNELS [REPEATS]
 //!
-//! COLUMNS: little-endian binary64, first the references and then the estimates of each channel in turn, all of one length. Times are in
+//! COLUMNS: little-endian binary64, first the references and then the estimates of each channel in turn, all of equal length. Times are in
 //! nanoseconds per pair: best and median of the thread's processor time, then of the wall clock. Each round runs every kernel once, so all
-//! run under the same load. The last kernel runs half of the channels on a second thread: only its wall clock is meaningful.
+//! kernels run under the same load. The last kernel runs half of the channels on a second thread, so only its wall-clock time is meaningful.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 
@@ -87,7 +87,7 @@ fn main() -> Result<(), Error> {
     Ok(())
 }
 
-/// Best and median time, ns per pair, to four places.
+/// Best and median time, ns per pair, with four decimals.
 fn best_and_median(mut seconds: Vec<f64>, pairs: usize) -> [String; 2] {
     seconds.sort_by(f64::total_cmp);
     let pairs = pairs as f64;
@@ -100,7 +100,7 @@ fn thread_seconds() -> f64 {
     time.tv_sec as f64 + time.tv_nsec as f64 * 1e-9
 }
 
-/// The columns of each channel.
+/// Reads the columns of each channel.
 fn read(file: &str, channels: usize) -> Result<Vec<Paired<Vec<f64>>>, Error> {
     let bytes = std::fs::read(file)?;
     let rows = bytes.len() / 16 / channels.max(1);

@@ -1,8 +1,8 @@
-//! Kernels of summation for comparison with the exact one in time and accuracy, and cases on which they differ; behind the feature `bench`.
+//! Summation kernels for comparison with the exact kernel in time and accuracy, and test inputs on which they differ. Requires the feature `bench`.
 //!
-//! Every [`Kernel`] computes MAE, R² and sMAPE of two columns under one signature. A caller can time it, count its correct [`digits`], and
-//! check that the result survives [`shuffled`] rows. No code here reads a clock. The lower bound of all run times is that of
-//! [`stream_sum`], which reads both columns and hardly computes anything.
+//! Every [`Kernel`] computes MAE, R² and sMAPE of two columns under one signature. A caller can measure the run time, count correct
+//! [`digits`], and check that the result survives [`shuffled`] rows. No code in this module reads a clock. The run time of
+//! [`stream_sum`], which only reads both columns, is the lower bound of all run times.
 //!
 //! ```
 //! use taceva_metrics::bench::{Kernel, digits, nasty_inputs, shuffled};

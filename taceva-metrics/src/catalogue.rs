@@ -1,4 +1,4 @@
-//! Catalogue of every metric: the only source of names, units, directions, definitions and texts.
+//! Catalogue of all metrics, with names, units, directions, definitions and texts.
 
 mod agreement;
 mod bias;
@@ -74,10 +74,10 @@ pub static GROUPS: [(&str, &[&Metric]); 2] = [
     ("all", &ALL),
 ];
 
-/// Replaced names of metrics, each with its new name.
+/// Former names of metrics, each with the present name.
 const RENAMED: [(&str, &str); 1] = [("minimum_detectable_force", "noise_equivalent_force")];
 
-/// Names of other programs in lower case, each with the metric that is nearest in meaning.
+/// Names in other programs, in lower case, each with the metric of most similar meaning.
 const SYNONYMS: [(&str, &str); 9] = [
     ("mse", "rmse"),
     ("r^2", "r2"),
@@ -90,12 +90,12 @@ const SYNONYMS: [(&str, &str); 9] = [
     ("l1", "mae"),
 ];
 
-/// The metric called `id`.
+/// The metric called `id`; `None` for an unknown name.
 pub fn find(id: &str) -> Option<&'static Metric> {
     ALL.into_iter().find(|metric| metric.id == id)
 }
 
-/// Metrics called by `names` of metrics or groups, each once and in the order of reports.
+/// Selects metrics by `names` of metrics or groups, each metric once, in the order of reports.
 ///
 /// ```
 /// use taceva_metrics::catalogue;
@@ -107,7 +107,7 @@ pub fn find(id: &str) -> Option<&'static Metric> {
 /// ```
 ///
 /// # Errors
-/// [`UnknownMetric`], with the nearest name.
+/// [`UnknownMetric`] with the nearest name.
 pub fn select<'a>(
     names: impl IntoIterator<Item = &'a str>,
 ) -> Result<Vec<&'static Metric>, UnknownMetric> {
@@ -139,7 +139,7 @@ pub fn select<'a>(
     Ok(kept.collect())
 }
 
-/// Every name that [`select`] knows.
+/// All names that [`select`] accepts.
 pub fn names() -> impl Iterator<Item = &'static str> {
     let groups = GROUPS.into_iter().map(|(group, _)| group);
     ALL.into_iter().map(|metric| metric.id).chain(groups)

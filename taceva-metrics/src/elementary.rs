@@ -1,4 +1,4 @@
-//! Exponential and logarithm with the same bytes on every machine.
+//! Exponential and logarithm with the same bits on every machine.
 //!
 //! ```
 //! use taceva_metrics::elementary::{exponential, logarithm};

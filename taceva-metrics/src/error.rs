@@ -1,4 +1,4 @@
-//! Errors between metrics and their callers.
+//! Errors of evaluations.
 
 use std::error::Error;
 use std::fmt;
@@ -24,44 +24,44 @@ pub enum MetricError {
         /// Rows of the reference.
         reference: usize,
     },
-    /// Columns of different length in one batch.
+    /// Columns of different lengths in one batch.
     Rows {
-        /// Column of another length: a channel, or the contact points.
+        /// Column with a deviating length: a channel, or the contact points.
         what: String,
         /// Rows of the first channel.
         expected: usize,
-        /// Rows that were found.
+        /// Rows found.
         found: usize,
     },
-    /// A matrix whose number of columns is not the number of channels.
+    /// A matrix whose number of columns differs from the number of channels.
     Columns {
         /// Name of the matrix: truth or prediction.
         what: &'static str,
         /// Number of channels.
         expected: usize,
-        /// Columns that were found.
+        /// Columns found.
         found: usize,
     },
     /// A missing value in a column that needs one in every row.
     Absent {
-        /// The row, from 0.
+        /// Index of the row, from 0.
         row: usize,
     },
-    /// A batch or a state of other channels.
+    /// A batch or a state with other channels.
     Channels {
         /// Evaluated channels, with their units.
         expected: String,
         /// Channels of the batch or state.
         found: String,
     },
-    /// A state of a schema that the plan does not read.
+    /// A state with a schema that the plan does not use.
     Schema {
-        /// The schemas that are read.
+        /// Accepted schemas.
         expected: String,
-        /// The schema of the state.
+        /// Schema of the state.
         found: String,
     },
-    /// A state made with another parameter.
+    /// A state computed with another parameter.
     Parameter {
         /// Name of the parameter.
         name: &'static str,
@@ -70,18 +70,18 @@ pub enum MetricError {
         /// Value of the state.
         found: String,
     },
-    /// A setting outside the values that definitions allow.
+    /// A setting outside its allowed range.
     Setting {
         /// Name of the setting.
         name: &'static str,
         /// Accepted values, in words.
         expected: String,
-        /// Value that was given.
+        /// Value found.
         found: String,
     },
     /// A state that does not match its schema.
     Malformed {
-        /// The schema.
+        /// Schema of the state.
         schema: &'static str,
         /// Fault of the state.
         what: String,

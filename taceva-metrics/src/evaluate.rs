@@ -1,4 +1,4 @@
-//! From samples to scores: the plan of an evaluation, its accumulators, their states, and the finished scores.
+//! Evaluation of samples: plans, accumulators, states and finished scores.
 
 pub(crate) mod accumulator;
 #[cfg(feature = "ndarray")]

@@ -1,4 +1,4 @@
-//! Sums and quotients without rounding, so that every score is a function of the set of samples alone.
+//! Sums and quotients without intermediate rounding, so that every score depends only on the set of samples.
 
 mod block_sums;
 mod bounds;

@@ -1,8 +1,8 @@
-//! Families of metrics, one folder or file each: their sums of samples, and their formulas.
+//! Families of metrics, each with the sums and the formulas of its metrics.
 //!
-//! [`Family`](crate::evaluate::family::Family) is the trait of every family. [`channelwise`] is shared by families with the same sums for
-//! each channel, and [`cells`] by those that compare presses of one contact point and depth. [`row_columns`] gathers some rows of several
-//! columns.
+//! [`Family`](crate::evaluate::family::Family) is the trait of every family. [`channelwise`] serves families with the same sums for
+//! each channel, and [`cells`] serves families that compare presses of one contact point and depth. [`row_columns`] gathers selected rows of
+//! several columns.
 
 pub(crate) mod accuracy;
 pub(crate) mod bias_level;

@@ -1,4 +1,4 @@
-//! Points in the plane and in space: hulls decided without rounding, clouds brought into one frame.
+//! Points in the plane and in space: exact convex hulls, and registration of clouds.
 
 mod growing_hull;
 mod hull;

@@ -1,4 +1,4 @@
-//! Predictions and truths, named by role: swapped arguments would pass every check of shapes.
+//! Predictions and truths with named roles, because no check of shapes detects swapped arguments.
 
 use taceva_core::Batch;
 
@@ -7,7 +7,7 @@ use crate::error::MetricError;
 /// Greatest magnitude of a sample's value: sums, differences and means of two such values stay finite.
 pub const GREATEST: f64 = taceva_core::MAGNITUDE_MAX;
 
-/// ε of sMAPE, the binary64 nearest to 10⁻⁸, in the unit of the channel: it makes 0/0 a 0.
+/// ε of sMAPE, the binary64 nearest to 10⁻⁸, in the unit of the channel. With ε the term of two zeros is 0.
 pub const EPSILON: f64 = 1e-8;
 
 /// An estimate and its reference: two values, or two columns. A plain pair, which gets no further fields.
@@ -21,12 +21,12 @@ pub const EPSILON: f64 = 1e-8;
 pub struct Paired<T> {
     /// ŷ: the prediction of the model.
     pub estimate: T,
-    /// y: the truth, as the reference instrument measured it.
+    /// y: the truth measured by the reference instrument.
     pub reference: T,
 }
 
 impl Paired<f64> {
-    /// Prediction and truth of one channel at a row of `batch`, both by position; `None` if either is absent.
+    /// Prediction and truth of the channel at index `channel` in row `row` of `batch`; `None` if either is absent.
     pub(crate) fn at(batch: &Batch, channel: usize, row: usize) -> Option<Paired<f64>> {
         Some(Paired {
             estimate: batch.prediction(channel).get(row)?,
@@ -47,7 +47,7 @@ impl Paired<f64> {
         self.residual().abs() / scale
     }
 
-    /// True if both magnitudes are at most [`GREATEST`]; other pairs are counted and skipped.
+    /// True if both magnitudes are at most [`GREATEST`]. Other pairs are counted as invalid and skipped.
     #[inline]
     pub fn is_valid(self) -> bool {
         is_valid(self.estimate) && is_valid(self.reference)
@@ -55,7 +55,7 @@ impl Paired<f64> {
 }
 
 impl Paired<Vec<f64>> {
-    /// The columns, borrowed.
+    /// Borrows both columns.
     pub fn as_slices(&self) -> Paired<&[f64]> {
         Paired {
             estimate: &self.estimate,
@@ -68,7 +68,7 @@ impl<'a> Paired<&'a [f64]> {
     /// Two columns of one length.
     ///
     /// # Errors
-    /// [`MetricError::Lengths`] if they differ.
+    /// [`MetricError::Lengths`] if the lengths differ.
     pub fn try_columns(
         estimate: &'a [f64],
         reference: &'a [f64],

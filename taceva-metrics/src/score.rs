@@ -1,4 +1,4 @@
-//! One number of a report, with everything needed to trust and repeat it.
+//! Scores: values of a report with the data to trust and repeat them.
 
 mod bootstrap_ends;
 pub(crate) mod curve;
@@ -31,10 +31,10 @@ use crate::score::range::Range;
 use crate::score::value::Value;
 use crate::score::verdict_standing::Standing;
 
-/// Nominal coverage of intervals: the share that should contain the truth.
+/// Nominal coverage of intervals: the share of intervals that contain the truth.
 pub(crate) const COVERAGE: f64 = 0.95;
 
-/// A metric of a channel, or of the two channels of a plane.
+/// Score of a metric on a channel, or on the two channels of a plane.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator, Unit};
@@ -52,45 +52,45 @@ pub struct Score {
     pub value: Value,
     /// The unit of value and interval.
     pub unit: Unit,
-    /// Number of samples; of two channels the smaller one.
+    /// Number of samples; for two channels the smaller number.
     pub n: u64,
-    /// Samples skipped for an unusable value; of two channels the larger number.
+    /// Number of samples skipped for an unusable value; for two channels the larger number.
     pub n_invalid: u64,
-    /// 95 % interval of the value over new clusters (contact points).
+    /// 95 % confidence interval of the value, over other choices of clusters (contact points).
     pub interval: Interval,
-    /// Computed definition: `mae/1`.
+    /// Name and version of the definition: `mae/1`.
     pub definition: &'static str,
     /// The constants of the definition.
     pub parameters: Vec<Parameter>,
-    /// Further counts: samples outside the footprint, bins that have a value.
+    /// Further counts: samples outside the footprint, bins with a value.
     pub counts: Vec<Count>,
     /// Warnings for the reader.
     pub flags: Vec<Flag>,
     /// Standing of the score in verdicts.
     pub standing: Standing,
-    /// Share of its predictions beyond the bounds of the model, for the worst channel. `None` if it uses no predictions or no bounds are
-    /// known.
+    /// Share of predictions beyond the bounds of the model, for the worst channel. `None` if the score uses no predictions or the bounds are
+    /// unknown.
     pub bounded_share: Option<f64>,
-    /// Channels of the score, unless it belongs to a single channel.
+    /// Source channels; empty for a score of a single channel.
     pub of: Vec<String>,
-    /// Further values of the same metric: other readings of its definition, maps and curves.
+    /// Further values of the same metric: other variants of its definition, maps and curves.
     pub variants: Vec<Variant>,
 }
 
 impl Score {
-    /// The variant called `name`: `slope`, `map`.
+    /// The variant called `name`: `slope`, `map`; `None` if the score lacks the variant.
     pub fn variant(&self, name: &str) -> Option<&Variant> {
         self.variants.iter().find(|variant| variant.name == name)
     }
 
-    /// The count called `name`.
+    /// Value of the count called `name`; `None` if the score lacks the count.
     pub fn count(&self, name: &str) -> Option<u64> {
         let found = self.counts.iter().find(|count| count.name == name);
         found.map(|count| count.value)
     }
 }
 
-/// Another value of the same metric and channel, under its own name.
+/// Another value of the same metric and channel, with a name of its own.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -104,7 +104,7 @@ impl Score {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Variant {
-    /// Name, as a field of its metric: `slope`, `within`, `map`.
+    /// Name within the metric: `slope`, `within`, `map`.
     pub name: Cow<'static, str>,
     /// The value, in `unit`.
     pub value: Value,
@@ -112,12 +112,12 @@ pub struct Variant {
     pub unit: Unit,
     /// Range of possible values.
     pub range: Range,
-    /// 95 % interval of the value over new clusters (contact points); `None` if undefined for its kind, as for maps.
+    /// 95 % confidence interval, over other choices of clusters (contact points); `None` if the kind of value has no interval, such as a map.
     pub interval: Option<Interval>,
 }
 
 impl Variant {
-    /// A map, a curve or another value without an interval.
+    /// Variant without an interval, such as a map or a curve.
     pub(crate) fn plain(name: &'static str, unit: Unit, value: Value) -> Variant {
         Variant {
             name: Cow::Borrowed(name),
@@ -129,7 +129,7 @@ impl Variant {
     }
 }
 
-/// A number of samples, bins or the like: a plain named value, which gets no further fields.
+/// Named number of samples, bins or other items. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::Count;
@@ -139,11 +139,11 @@ impl Variant {
 pub struct Count {
     /// Name of the count: `outside`, `bins_used`.
     pub name: &'static str,
-    /// Number counted.
+    /// Number of items.
     pub value: u64,
 }
 
-/// A constant of a definition: a plain named value, which gets no further fields.
+/// Named constant of a definition. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::{EPSILON, Parameter};

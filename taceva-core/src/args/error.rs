@@ -1,9 +1,9 @@
-//! Errors of arguments.
+//! Errors in arguments of a driver.
 
 use crate::printable::shown;
 use std::fmt;
 
-/// An argument that the driver rejects. Every text is as the user wrote it.
+/// An argument that the driver rejects. Every text is quoted unchanged from the user.
 ///
 /// ```
 /// use taceva_core::{ArgError, ArgSpec, Args};
@@ -17,12 +17,12 @@ use std::fmt;
 pub enum ArgError {
     /// A part without `=`.
     Syntax {
-        /// The part.
+        /// Part without `=`.
         text: String,
     },
     /// A key that the driver does not declare.
     Unknown {
-        /// The key.
+        /// Undeclared key.
         key: String,
         /// Most similar declared key, if any.
         nearest: Option<String>,
@@ -31,12 +31,12 @@ pub enum ArgError {
     },
     /// A key that is given more than once.
     Twice {
-        /// The key.
+        /// Repeated key.
         key: String,
     },
     /// A required key that is not given.
     Missing {
-        /// The key.
+        /// Missing key.
         key: String,
         /// Accepted values, in words.
         expected: String,
@@ -45,9 +45,9 @@ pub enum ArgError {
     },
     /// A value that the key does not take.
     Value {
-        /// The key.
+        /// Key of the argument.
         key: String,
-        /// The value.
+        /// Rejected value.
         value: String,
         /// Accepted values, in words.
         expected: String,

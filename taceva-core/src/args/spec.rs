@@ -21,15 +21,15 @@ use crate::unit::SourceUnit;
 pub struct ArgSpec {
     /// Key of the argument.
     pub key: String,
-    /// Type and range of its value.
+    /// Type and range of the value.
     pub kind: ArgKind,
-    /// Unit of its number, such as `ms` or `mm/h`; may follow the number.
+    /// Unit of a number, such as `ms` or `mm/h`; `None` without a unit. Users may write the unit after the number.
     pub unit: Option<String>,
     /// Presence: required, optional or with a default.
     pub presence: Presence,
     /// Help text, printed after a colon.
     pub help: String,
-    /// True if it can change a fact of the unopened device, such as the size of its frames.
+    /// True if the argument can change a fact of the unopened device, such as the size of its frames.
     pub changes_facts: bool,
 }
 
@@ -77,7 +77,7 @@ impl ArgSpec {
         ArgSpec::new(key, ArgKind::Flag)
     }
 
-    /// The same argument with the unit of its number; a value may then be written with or without it.
+    /// The same argument with a unit. Values may then be written with or without this unit.
     #[must_use]
     pub fn unit(mut self, symbol: &str) -> ArgSpec {
         self.unit = Some(symbol.to_owned());
@@ -115,7 +115,7 @@ impl ArgSpec {
     /// Parses `text` as a value.
     ///
     /// # Errors
-    /// [`ArgError::Value`] if it is of another type or outside the range.
+    /// [`ArgError::Value`] if the text is of another type or outside the range.
     pub fn parse(&self, text: &str) -> Result<ArgValue, ArgError> {
         let value = match &self.kind {
             ArgKind::Text | ArgKind::Path | ArgKind::Choice { .. } => {
@@ -140,7 +140,7 @@ impl ArgSpec {
             })
     }
 
-    /// Strips the unit after the number of `text`, if there is one.
+    /// Strips an optional unit after the number of `text`.
     fn bare<'a>(&self, text: &'a str) -> &'a str {
         self.unit
             .as_deref()
@@ -165,7 +165,7 @@ impl ArgSpec {
         }
     }
 
-    /// Accepted values, in words that follow "expected".
+    /// Accepted values, as words for the end of a message: "expected …".
     pub fn expected(&self) -> String {
         let mut words = match &self.kind {
             ArgKind::Text => "a text".to_owned(),
@@ -190,7 +190,7 @@ impl ArgSpec {
         words
     }
 
-    /// Fault of the declaration itself, or `None`.
+    /// Contradiction in the declaration itself, or `None`.
     pub fn fault(&self) -> Option<String> {
         let key_is_plain = self
             .key

@@ -1,8 +1,8 @@
-//! The value of an argument.
+//! Values of arguments.
 
 use std::fmt;
 
-/// A value that was checked against its declaration.
+/// Value of an argument, checked against its declaration.
 ///
 /// ```
 /// use taceva_core::ArgValue;
@@ -16,14 +16,14 @@ pub enum ArgValue {
     Text(String),
     /// A whole number.
     Whole(i64),
-    /// A finite number, in the unit it was declared with.
+    /// A finite number, in the declared unit.
     Number(f64),
     /// On or off.
     Flag(bool),
 }
 
 impl ArgValue {
-    /// The text, if it is one.
+    /// The text; `None` for a number or a flag.
     pub fn as_text(&self) -> Option<&str> {
         match self {
             ArgValue::Text(text) => Some(text),
@@ -31,7 +31,7 @@ impl ArgValue {
         }
     }
 
-    /// The number, if it is one, whole or not.
+    /// The number, whole or not; `None` for a text or a flag.
     pub fn as_number(&self) -> Option<f64> {
         match self {
             ArgValue::Whole(value) => Some(*value as f64),

@@ -81,7 +81,7 @@ impl BatchBuilder {
         self.batch.rows
     }
 
-    /// The samples collected so far, as a batch; the builder keeps them.
+    /// The samples collected so far, as a batch. The builder keeps these samples.
     ///
     /// ```
     /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Sample};
@@ -118,7 +118,7 @@ fn empty(channels: Channels, fields: FieldSet) -> Batch {
     }
 }
 
-/// The text of `field` in `sample`, if it has one.
+/// The text of `field` in `sample`; `None` if the sample has none.
 fn text(sample: &Sample, field: Field) -> Option<&str> {
     match field {
         Field::Scene => sample.scene_id.as_deref(),
@@ -130,7 +130,7 @@ fn text(sample: &Sample, field: Field) -> Option<&str> {
     }
 }
 
-/// The number of `field` in `sample`, if it has one.
+/// The number of `field` in `sample`; `None` if the sample has none.
 fn number(sample: &Sample, field: Field) -> Option<f64> {
     match field {
         Field::DepthStep => sample.depth_step.map(f64::from),

@@ -1,8 +1,8 @@
-//! Numbers, one per row.
+//! Column of numbers, one per row.
 
 use std::ops::Range;
 
-/// The values of one channel, with a mask of the samples that have none.
+/// The values of one channel, with a mask that marks the samples with a value.
 ///
 /// ```
 /// use taceva_core::Column;
@@ -38,7 +38,7 @@ impl Column {
         }
     }
 
-    /// Adds a row with a value, or without one.
+    /// Adds a row; `None` is a missing value.
     pub fn push(&mut self, value: Option<f64>) {
         if value.is_none() && self.present.is_none() {
             self.present = Some(vec![true; self.values.len()]);
@@ -49,26 +49,26 @@ impl Column {
         self.values.push(value.unwrap_or(0.0));
     }
 
-    /// The value at `row`, if there is one.
+    /// The value at `row`; `None` for a missing value.
     pub fn get(&self, row: usize) -> Option<f64> {
         let present = self.present.as_ref().is_none_or(|present| present[row]);
         present.then(|| self.values[row])
     }
 
-    /// All values in one slice; a value whose [`present`](Column::present) is `false` has no meaning.
+    /// All values in one slice. A value is meaningless if its [`present`](Column::present) is `false`.
     pub fn values(&self) -> &[f64] {
         &self.values
     }
 
-    /// Presence of a value by row; `None` if all rows have one.
+    /// Mask of the rows with a value; `None` if all rows have a value.
     pub fn present(&self) -> Option<&[bool]> {
         self.present.as_deref()
     }
 
-    /// The rows of `range` as a column of their own.
+    /// Copies the rows of `range` into a new column.
     ///
     /// # Panics
-    /// If the range reaches beyond the last row.
+    /// If the range extends beyond the last row.
     pub fn slice(&self, range: Range<usize>) -> Column {
         let present = self
             .present
@@ -110,7 +110,7 @@ impl Column {
     }
 }
 
-/// Every value present; the vector is moved, not copied.
+/// A column in which every row has a value. The vector is moved without a copy.
 ///
 /// ```
 /// use taceva_core::Column;

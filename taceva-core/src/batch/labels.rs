@@ -1,9 +1,9 @@
-//! Names, one per row.
+//! Column of names, one per row.
 
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// One name per row, each distinct name kept once; a row may have none.
+/// One optional name per row. Each distinct name is stored once.
 ///
 /// ```
 /// use taceva_core::Labels;
@@ -17,7 +17,7 @@ pub struct Labels {
     index: Vec<u32>,
 }
 
-/// The distinct names; labels of the same rows in another order share them.
+/// Distinct names, shared with labels of the same rows in another order.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Known {
     names: Vec<String>,
@@ -122,7 +122,7 @@ impl Labels {
         &self.index
     }
 
-    /// Labels in the order of the row indices `rows`, each row once. The order of the names stays.
+    /// Labels in the order of the row indices `rows`, each row once. The list of names is unchanged.
     ///
     /// ```
     /// use taceva_core::Labels;
@@ -145,7 +145,7 @@ impl Labels {
         !self.index.contains(&Labels::ABSENT)
     }
 
-    /// The name of `row`, if it has one.
+    /// The name of `row`; `None` for a row without a name.
     pub fn get(&self, row: usize) -> Option<&str> {
         let index = self.index[row];
         (index != Labels::ABSENT).then(|| self.names()[index as usize].as_str())

@@ -1,4 +1,4 @@
-//! Names of channels, held in place so that a channel is copied like a number.
+//! Names of channels, stored inline so that a channel is `Copy`.
 
 use std::fmt;
 
@@ -12,7 +12,7 @@ pub(super) const NAME_MAX: usize = 32;
 pub(super) struct ChannelName([u8; NAME_MAX]);
 
 impl ChannelName {
-    /// The name `text`; the caller has checked its length and its characters.
+    /// The name `text`. The caller must check length and characters.
     pub(super) const fn new(text: &str) -> ChannelName {
         let text = text.as_bytes();
         let mut name = [0; NAME_MAX];

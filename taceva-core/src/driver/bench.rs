@@ -1,11 +1,11 @@
-//! Simulated bench without its devices: a virtual clock, and the exchange of specimens.
+//! Interface of a simulated bench: its virtual clock, and the exchange of specimens.
 
 use std::time::Duration;
 
 use super::DriverError;
 use crate::specimen::Specimen;
 
-/// Simulated bench, as the code of a run uses it. A [`Rig`](crate::Rig) holds it under the name with which its devices were opened.
+/// Simulated bench that several devices share. A [`Rig`](crate::Rig) stores the bench under the name with which its devices were opened.
 ///
 /// ```
 /// use std::sync::{Arc, Mutex};
@@ -46,34 +46,34 @@ use crate::specimen::Specimen;
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait SimulatedBench: Send + Sync {
-    /// Time of its clock, which stamps every reading of its devices.
+    /// Time of the bench's clock, which stamps every reading of its devices.
     fn now(&self) -> Duration;
 
     /// Advances the clock of the bench by `rest`.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Disconnected` if the bench is gone.
+    /// [`DriverError`] of kind `Disconnected` if the bench no longer exists.
     fn rest(&self, rest: Duration) -> Result<(), DriverError>;
 
     /// Mounts another specimen on the robot.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `InvalidArgument` for a specimen that it does not have, or while the tip is in the gel.
+    /// [`DriverError`] of kind `InvalidArgument` for a specimen that the bench lacks, or while the tip is in the gel.
     fn mount(&self, specimen: Specimen) -> Result<(), DriverError>;
 
     /// Sets the number `name` of the press that begins now. Every random number of a press is a function of this number and the place. A
-    /// resumed run therefore has the same random errors as an uninterrupted one.
+    /// resumed run therefore has the same random errors as an uninterrupted run.
     ///
     /// # Errors
-    /// As [`rest`](SimulatedBench::rest).
+    /// The errors of [`rest`](SimulatedBench::rest).
     fn name_press(&self, name: u64) -> Result<(), DriverError>;
 
-    /// Delays the next tare in the air until `at` on the bench's clock, unless it is later already.
+    /// Delays the next tare in the air until the time `at` on the bench's clock. A time in the past causes no delay.
     ///
     /// # Errors
-    /// As [`rest`](SimulatedBench::rest).
+    /// The errors of [`rest`](SimulatedBench::rest).
     fn schedule(&self, at: Duration) -> Result<(), DriverError>;
 
-    /// Provenance of the simulation: version, parameters and seed; `None` until a sensor is opened in it.
+    /// Provenance of the simulation: version, parameters and seed; `None` until a sensor of the bench is opened.
     fn provenance(&self) -> Option<String>;
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::{Deadline, DriverError, Interrupt};
 
-/// Brings one of its items into place: specimens under the robot (a tool changer, a carousel) or units of a sensor (a revolver, a slide).
+/// Moves one of its items into place: specimens under the robot (a tool changer, a carousel) or units of a sensor (a revolver, a slide).
 ///
 /// Items have names. A specimen's name is its displayed text ([`Specimen`](crate::Specimen)), such as `sphere of radius 4 mm` or `line grating of
 /// 1.5 mm`. A unit's name is its name in the scene file. A [`Lighting`](super::Lighting) names its scenes in the same way.
@@ -44,20 +44,20 @@ use super::{Deadline, DriverError, Interrupt};
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Changer: Send {
-    /// Names of its items, each once.
+    /// Names of the changer's items, each once.
     fn holds(&self) -> &[String];
 
-    /// Brings the item `name` into place, waits until the changer is at rest, and returns the name of the item in place. That name comes
-    /// from the changer's own signals if it has any, else it is `name`. For an item already in place, the changer need not move.
+    /// Moves the item `name` into place, waits until the changer is at rest, and returns the name of the item in place. The returned name is
+    /// the one that the changer's sensors report, or else `name`. For an item already in place, the changer need not move.
     ///
     /// After an error the item in place is unknown, and the changer is at rest or stops by itself.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `InvalidArgument` for a name that is not in [`holds`](Changer::holds), `Timeout` if the item did not arrive
+    /// [`DriverError`] of kind `InvalidArgument` for a name that is not in [`holds`](Changer::holds), `Timeout` if the item is not in place
     /// in time, `Interrupted`, or the kind of the failure.
     fn bring(&mut self, name: &str, deadline: Deadline) -> Result<String, DriverError>;
 
-    /// Handle that interrupts a pending call and stops the changer, from any thread; `None` if its calls never block.
+    /// Handle that interrupts a pending call and stops the changer, from any thread; `None` if calls of this changer never block.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }

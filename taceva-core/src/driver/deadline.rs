@@ -1,4 +1,4 @@
-//! Deadlines as a remaining time, because this crate reads no clock.
+//! Deadlines as remaining time, because this crate reads no clock.
 
 use std::fmt;
 use std::time::Duration;
@@ -19,7 +19,7 @@ pub struct Deadline {
 }
 
 impl Deadline {
-    /// A deadline that has passed: a device answers at once, or with a timeout.
+    /// A deadline that has passed: the device returns at once, with a result or with a timeout.
     pub const PASSED: Deadline = Deadline::after(Duration::ZERO);
 
     /// A deadline `remaining` from now.
@@ -37,7 +37,7 @@ impl Deadline {
         self.remaining.is_zero()
     }
 
-    /// Deadline after `spent` has passed; never negative.
+    /// Remaining time minus `spent`, at least 0.
     #[must_use]
     pub const fn less(self, spent: Duration) -> Deadline {
         Deadline::after(self.remaining.saturating_sub(spent))

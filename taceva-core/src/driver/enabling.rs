@@ -1,13 +1,13 @@
-//! A switch that a person holds while a robot may move.
+//! Enabling switch that a person holds while a robot may move.
 
 use super::DriverError;
 
-/// Enabling switch. The robot may move while it is held, and is halted on release.
+/// Enabling switch. The robot may move while a person holds the switch, and halts on release.
 ///
-/// The switch is no safety function: its state passes through an operating system and a program. The switch of the robot's own safety circuit stays
-/// in charge.
+/// The switch is no safety function: its state passes through an operating system and a program. The switch of the robot's own safety
+/// circuit remains necessary.
 ///
-/// A caller polls it at least as often as a release must be noticed, and treats an error as a release.
+/// A caller polls the switch at least as often as a release must be noticed, and treats an error as a release.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -32,10 +32,10 @@ use super::DriverError;
 /// assert!(!may_move(&Button::default()));
 /// ```
 pub trait EnablingSwitch: Send + Sync {
-    /// True if the switch is held now, without a break since the last call. A release is reported once, even a short one. Never blocks. Before the
-    /// first received state, the switch counts as released.
+    /// True if the switch has been held without a break since the last call. Reports a release once, even a short one. Never blocks. Before
+    /// the first received state, the switch counts as released.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Disconnected` once it is gone, or of another kind if its state can no longer be known.
+    /// [`DriverError`] of kind `Disconnected` once the switch is gone, or of another kind if its state is unknown.
     fn is_held(&self) -> Result<bool, DriverError>;
 }

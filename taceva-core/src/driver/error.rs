@@ -27,7 +27,7 @@ pub struct DriverError {
 }
 
 impl DriverError {
-    /// An error of `driver` while it was `doing`, words that follow "cannot": `capture a frame`.
+    /// Error of `driver` during the operation `doing`, in words that follow "cannot": `capture a frame`.
     pub fn new(
         kind: ErrorKind,
         driver: &DriverKey,
@@ -61,7 +61,7 @@ impl DriverError {
         self.kind
     }
 
-    /// The fault for which the device stopped by itself, if it named one.
+    /// Fault for which the device stopped by itself; `None` if the device reported none.
     pub fn fault(&self) -> Option<Fault> {
         self.fault
     }

@@ -1,4 +1,4 @@
-//! Motion that ends by itself unless it is renewed.
+//! Robot motion that stops unless the host renews its command.
 
 use std::time::Duration;
 
@@ -8,7 +8,7 @@ use crate::stamp::Stamp;
 
 /// Ability of a robot to stop if its host stops sending. Each command is valid for a short time and is repeated many times a second.
 ///
-/// Meant for motions towards a surface. A robot without it completes its motion even if the commanding program has ended.
+/// Meant for motions towards a surface. Other robots complete a motion even if the commanding program has ended.
 ///
 /// ```
 /// use std::time::Duration;
@@ -29,10 +29,10 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait ExpiringMotion {
-    /// Moves as [`move_to`](super::Robot::move_to) does, and begins to brake at most [`EXPIRES`] after the last message of its host.
+    /// Moves as [`move_to`](super::Robot::move_to) does, and begins to brake at most [`EXPIRES`] after the last message of the host.
     ///
     /// # Errors
-    /// As [`move_to`](super::Robot::move_to).
+    /// The errors of [`move_to`](super::Robot::move_to).
     fn move_expiring(
         &mut self,
         target: Pose,

@@ -1,10 +1,10 @@
-//! Faults of a robot after which nothing moves until a person has looked.
+//! Faults of a robot, which a person must inspect before the robot moves again.
 
 use std::fmt;
 
-/// Fault for which a device stopped by itself, as the device reports it.
+/// Fault for which a device stopped by itself, as reported by the device.
 ///
-/// A run then leaves the tip in place, without retracting it, and does not clear the fault. A person acknowledges it at the device.
+/// After a fault, a run leaves the tip in place and does not clear the fault. A person acknowledges the fault at the device.
 ///
 /// ```
 /// use taceva_core::Fault;
@@ -33,7 +33,7 @@ impl Fault {
         Fault::Servo,
     ];
 
-    /// The words in messages.
+    /// Words for the fault in messages.
     pub const fn name(self) -> &'static str {
         match self {
             Fault::EmergencyStop => "emergency stop",

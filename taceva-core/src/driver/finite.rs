@@ -1,4 +1,4 @@
-//! Rejects NaN and infinity in values sent to a device or received from it.
+//! Rejects NaN and infinity in values sent to a device or received from a device.
 
 use std::fmt;
 
@@ -8,7 +8,7 @@ use crate::wrench::Wrench;
 /// Rejects a pose with a coordinate that is not finite.
 ///
 /// # Errors
-/// [`NotFinite`], naming the coordinate.
+/// [`NotFinite`] with the name of the coordinate.
 pub fn check_pose(pose: &Pose) -> Result<(), NotFinite> {
     let Pose { position, rotation } = pose;
     check(&[
@@ -24,7 +24,7 @@ pub fn check_pose(pose: &Pose) -> Result<(), NotFinite> {
 /// Rejects a wrench with a component that is not finite.
 ///
 /// # Errors
-/// [`NotFinite`], naming the component.
+/// [`NotFinite`] with the name of the component.
 pub fn check_wrench(wrench: &Wrench) -> Result<(), NotFinite> {
     let Wrench { force, torque } = wrench;
     check(&[

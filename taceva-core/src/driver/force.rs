@@ -10,7 +10,7 @@ use crate::quantity::Newton;
 use crate::stamp::Stamp;
 use crate::wrench::Wrench;
 
-/// A transducer that measures force, and perhaps torque.
+/// A transducer that measures force and may measure torque.
 ///
 /// ```
 /// use std::time::Duration;
@@ -48,36 +48,36 @@ use crate::wrench::Wrench;
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait ForceTransducer: Send {
-    /// Components that it measures; the others are 0 in every reading and have no meaning.
+    /// Components that the transducer measures. The other components are 0 in every reading and have no meaning.
     fn axes(&self) -> Axes;
 
     /// Starts the readings. Does nothing if the transducer needs no start.
     ///
     /// # Errors
-    /// As [`Sensor::start`](super::Sensor::start).
+    /// The errors of [`Sensor::start`](super::Sensor::start).
     fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let _ = deadline;
         Ok(())
     }
 
-    /// Waits for the next reading: the wrench on the gel and its time.
+    /// Waits for the next reading: the wrench on the gel and the time of the reading.
     ///
     /// # Errors
     /// [`DriverError`] of kind
-    /// - `Timeout` if no reading came within `deadline`,
-    /// - `OutOfRange` if a component is beyond what the transducer can measure, so that its value would be clipped,
-    /// - `DeviceFault` if it reports a fault or a number that is not finite,
-    /// - `Disconnected` or `EndOfStream` if nothing will come any more.
+    /// - `Timeout` if no reading arrived within `deadline`,
+    /// - `OutOfRange` if a component is beyond the range of the transducer, so that its value would be clipped,
+    /// - `DeviceFault` if the transducer reports a fault or a number that is not finite,
+    /// - `Disconnected` or `EndOfStream` if no further reading can arrive.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError>;
 
-    /// Sequence number of the last reading, if the device numbers its readings. A frozen link or device repeats it, even under a new stamp. The
-    /// numbers may restart, so compare them for equality only.
+    /// Sequence number of the last reading; `None` if the device does not number readings. A frozen link or device repeats the number, even
+    /// under a new stamp. The numbers may restart, so compare them for equality only.
     fn sequence(&self) -> Option<u64> {
         None
     }
 
-    /// Number of readings that were lost on their way to this host since the transducer was opened; `None` if the driver does not count
-    /// them. A reading that a newer one overtook before it was read is not lost.
+    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. A reading
+    /// replaced by a newer one before the caller read it is not lost.
     fn lost(&self) -> Option<u64> {
         None
     }
@@ -85,40 +85,38 @@ pub trait ForceTransducer: Send {
     /// Stops the readings; may be called in every state.
     ///
     /// # Errors
-    /// [`DriverError`] if the device does not confirm.
+    /// [`DriverError`] if the device does not confirm the stop.
     fn stop(&mut self) -> Result<(), DriverError> {
         Ok(())
     }
 
-    /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread. Without a handle, a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }
 
-    /// Step between two neighbouring readings of a force, as the device reports it; `None` if it does not, or not yet.
+    /// Step between two neighbouring force readings, as reported by the device; `None` if the device has not reported a step.
     fn resolution(&self) -> Option<Newton> {
         None
     }
 
-    /// Settings of the transducer as read from it, by name, such as `serial` with `FT12345`; a recording keeps them. Empty if none is
-    /// known.
+    /// Settings read from the transducer, by name, such as `serial` with `FT12345`. A recording stores them. Empty if no setting is known.
     fn settings(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
 
-    /// Remarks for the operator on readings that are valid: a filter that delays them, a threshold that was exceeded. Each states its
-    /// remedy.
+    /// Warnings for the operator about valid readings: a filter that delays readings, a threshold that was exceeded. Each states a remedy.
     fn warnings(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Tare of the transducer, if it has one.
+    /// Tare of the transducer; `None` if unsupported.
     fn tare(&mut self) -> Option<&mut dyn Tare> {
         None
     }
 }
 
-/// The ability of a transducer to take the present load as zero.
+/// Ability of a transducer to take the present load as zero.
 ///
 /// ```
 /// # use std::time::Duration;
@@ -158,9 +156,9 @@ pub trait ForceTransducer: Send {
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Tare {
-    /// Makes the present load the zero of all later readings, and returns once that holds.
+    /// Makes the present load the zero of all later readings, and returns once the new zero is in effect.
     ///
-    /// Only out of contact: a tare while the gel is pressed shifts every later force.
+    /// Call only out of contact: a tare while the gel is pressed shifts every later force.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Timeout`, or `OutOfRange` if the load is too great to be taken as zero.

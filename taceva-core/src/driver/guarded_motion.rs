@@ -1,4 +1,4 @@
-//! Motion that the robot itself ends at a force.
+//! Robot motion that ends at a force limit.
 
 use super::{Deadline, DriverError, Speed};
 use crate::geometry::Pose;
@@ -42,10 +42,10 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait GuardedMotion {
-    /// Moves as [`move_to`](super::Robot::move_to) does, and stops by itself once `guard` is reached.
+    /// Moves as [`move_to`](super::Robot::move_to) does, and stops once the force reaches `guard`.
     ///
     /// # Errors
-    /// As [`move_to`](super::Robot::move_to); also `InvalidArgument` for a guard that is not above 0 N.
+    /// The errors of [`move_to`](super::Robot::move_to); also `InvalidArgument` for a guard that is not above 0 N.
     fn move_guarded(
         &mut self,
         target: Pose,
@@ -64,7 +64,7 @@ pub trait GuardedMotion {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Guard {
-    /// The magnitude of the force at which the robot stops.
+    /// Magnitude of the force at which the robot stops.
     pub force: Newton,
 }
 
@@ -85,14 +85,14 @@ impl Guard {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum GuardedStop {
-    /// At the target, without reaching the guard.
+    /// The tip rests at the target; the force did not reach the guard.
     Arrived {
         /// Time at which the tip came to rest.
         stamp: Stamp,
     },
-    /// At the guard.
+    /// The force reached the guard.
     Guarded {
-        /// Pose at rest, beyond the place where the guard was reached.
+        /// Pose at rest, beyond the pose at which the force reached the guard.
         pose: Pose,
         /// Time at which the tip came to rest.
         stamp: Stamp,

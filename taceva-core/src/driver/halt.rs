@@ -1,11 +1,11 @@
-//! Stopping a robot from another thread.
+//! Halting a robot from another thread.
 
 use super::DriverError;
 
 /// Stops its robot from any thread, in every state, during any other call.
 ///
-/// The handle may outlive the robot: once the robot is dropped, the halt succeeds without effect. It is advisory: software is not a safety
-/// function, the emergency stop of the site is.
+/// The handle may outlive the robot: once the robot is dropped, the halt succeeds without effect. The halt is no safety function: only the
+/// emergency stop of the site is.
 ///
 /// ```
 /// use std::sync::atomic::{AtomicBool, Ordering};
@@ -29,9 +29,9 @@ use super::DriverError;
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Halt: Send + Sync {
-    /// Stops the motion within 50 ms and latches, see [`Robot`](super::Robot); never waits for another call to finish.
+    /// Stops the motion within 50 ms and latches, see [`Robot`](super::Robot). Never waits for the end of another call.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `Disconnected` if the stop could not be sent; the halt is still latched on this side.
+    /// [`DriverError`] of kind `Disconnected` if the robot did not receive the stop. The halt is still latched on the host.
     fn halt(&self) -> Result<(), DriverError>;
 }

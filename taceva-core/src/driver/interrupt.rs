@@ -1,6 +1,6 @@
-//! Ending a call from another thread.
+//! Interrupting a call from another thread.
 
-/// Ends the pending call of its device, from any thread.
+/// Interrupts the pending call of a device, from any thread.
 ///
 /// A waiting call returns [`ErrorKind::Interrupted`](crate::ErrorKind::Interrupted) within 50 ms and leaves the device usable. Without a
 /// pending call nothing happens. The handle may outlive the device.
@@ -24,6 +24,6 @@
 /// assert!(receiver.recv().is_ok());
 /// ```
 pub trait Interrupt: Send + Sync {
-    /// Ends the pending call, without waiting for its return.
+    /// Interrupts the pending call, without waiting for the call to return.
     fn interrupt(&self);
 }

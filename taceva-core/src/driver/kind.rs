@@ -15,7 +15,7 @@ use super::{Changer, ForceTransducer, Lighting, Robot, Sensor};
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum DriverKind {
-    /// Gives pictures of a gel.
+    /// Captures pictures of a gel.
     Sensor,
     /// Moves the indenter.
     Robot,
@@ -23,7 +23,7 @@ pub enum DriverKind {
     Force,
     /// Sets the light around the sensor.
     Lighting,
-    /// Brings specimens or units of a sensor into place.
+    /// Moves specimens or units of a sensor into place.
     Changer,
 }
 
@@ -55,7 +55,7 @@ impl fmt::Display for DriverKind {
     }
 }
 
-/// A device trait as a type, such as `dyn Sensor`: registries and factories are generic over it.
+/// A device trait as a type, such as `dyn Sensor`. Registries and factories are generic over this type.
 ///
 /// ```
 /// use taceva_core::{Device, DriverKind, Robot};

@@ -2,9 +2,9 @@
 
 use super::{Deadline, DriverError};
 
-/// External light on a sensor, set by named scenes.
+/// External light on a sensor, with named scenes.
 ///
-/// The light inside a sensor belongs to the sensor and is set by its arguments.
+/// The light inside a sensor belongs to the sensor. Arguments of the sensor set this light.
 ///
 /// ```
 /// use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Lighting};
@@ -36,7 +36,7 @@ use super::{Deadline, DriverError};
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Lighting: Send {
-    /// Names of the scenes, in the order of a sweep; the first is the scene of the calibration.
+    /// Names of the scenes, in the order of a sweep. The first scene is that of the calibration.
     fn scenes(&self) -> &[String];
 
     /// Sets the scene called `scene` and returns once the light is steady.

@@ -7,17 +7,17 @@ use super::{Deadline, DriverError, ExpiringMotion, GuardedMotion, Halt, RobotWat
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// A robot that carries the indenter.
+/// A robot that moves the indenter.
 ///
 /// # Units
 /// Poses in mm and degrees in the sensor's frame; z points into the gel.
 ///
 /// # The physical contract
-/// - Opening moves nothing; the robot holds its position.
-/// - [`move_to`](Robot::move_to) moves the tip along a straight line and blocks until it rests there. No other call moves it.
-/// - [`halt`](Robot::halt) stops the motion and latches: every later move is refused with `Interrupted` until
+/// - Opening moves nothing: the robot keeps its position.
+/// - [`move_to`](Robot::move_to) moves the tip along a straight line and blocks until the tip rests. No other call moves the tip.
+/// - [`halt`](Robot::halt) stops the motion and latches: the robot refuses every later move with `Interrupted` until
 ///   [`clear_halt`](Robot::clear_halt). A halt between two moves is therefore never lost.
-/// - After an error the robot stands still. `pose`, `halt` and `clear_halt` are safe to call then.
+/// - After an error the robot is at rest. `pose`, `halt` and `clear_halt` are then safe to call.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -74,23 +74,23 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Robot: Send {
-    /// Pose of the tip, and its time.
+    /// Pose of the tip, and the time of the pose.
     ///
     /// # Errors
     /// [`DriverError`] of kind `Timeout`, `Disconnected`, or `DeviceFault` for a coordinate that is not finite.
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError>;
 
-    /// Moves the tip to `target` along a straight line, blocks until it rests there, and returns the time of arrival.
+    /// Moves the tip to `target` along a straight line, blocks until the tip rests there, and returns the time of arrival.
     ///
-    /// If `deadline` passes first, the motion is stopped before the error is returned.
+    /// If `deadline` passes first, the robot stops before the call returns the error.
     ///
     /// # Errors
     /// [`DriverError`] of kind
     /// - `InvalidArgument` for a coordinate that is not finite,
-    /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; nothing moves,
-    /// - `Timeout` if it did not arrive within `deadline`,
-    /// - `Interrupted` if it was halted, before or during the motion,
-    /// - `DeviceFault` if it reports a fault, with its [`Fault`](super::Fault) if it is one of those.
+    /// - `OutOfRange` for a target outside the workspace or a speed above the greatest; the robot does not move,
+    /// - `Timeout` if the tip did not arrive within `deadline`,
+    /// - `Interrupted` if the robot was halted, before or during the motion,
+    /// - `DeviceFault` if the robot reports a fault. The error includes the [`Fault`](super::Fault) if its kind is known.
     fn move_to(
         &mut self,
         target: Pose,
@@ -98,52 +98,52 @@ pub trait Robot: Send {
         deadline: Deadline,
     ) -> Result<Stamp, DriverError>;
 
-    /// A handle that stops this robot from any thread, while any other call is under way.
+    /// Handle that stops this robot from any thread, during any other call.
     fn halt_handle(&self) -> Arc<dyn Halt>;
 
-    /// Handle that watches this robot from any thread while it moves; `None` without a second connection for it.
+    /// Handle that reads the pose of this robot from any thread during a motion; `None` if the robot allows no second connection.
     fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
         None
     }
 
-    /// True if the device reports that it is emulated, so that nothing recorded with it was measured.
+    /// True if the device reports that it is emulated. Recordings with an emulated robot are not measurements.
     fn is_emulated(&self) -> bool {
         false
     }
 
-    /// Settings of the robot as read from it, by name, such as `firmware` with `2.7.0`; a recording keeps them. Empty if none is known.
+    /// Settings read from the robot, by name, such as `firmware` with `2.7.0`. A recording stores them. Empty if no setting is known.
     fn settings(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
 
-    /// Remarks for the operator on a robot that works: a slower speed than asked for, limits that are unknown. Each states its remedy.
+    /// Warnings for the operator about a working robot: a speed below the requested one, unknown limits. Each states a remedy.
     fn warnings(&self) -> Vec<String> {
         Vec::new()
     }
 
-    /// Stops the robot. Legal in every state and idempotent.
+    /// Stops the robot. Allowed in every state and idempotent.
     ///
     /// # Errors
-    /// As [`Halt::halt`].
+    /// The errors of [`Halt::halt`].
     fn halt(&mut self) -> Result<(), DriverError> {
         self.halt_handle().halt()
     }
 
-    /// Ends a halt, so that moves are accepted again; without one it does nothing. Nothing moves.
+    /// Clears a halt, so that the robot accepts moves again. Does nothing without a halt. Moves nothing.
     ///
-    /// Ends only the halt of [`halt`](Robot::halt). A [`Fault`](super::Fault) of the device is never cleared: a person looks, and
-    /// acknowledges it at the device.
+    /// Clears only a halt by [`halt`](Robot::halt), never a [`Fault`](super::Fault) of the device: a person must inspect and acknowledge a
+    /// fault at the device.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `DeviceFault` if the device itself still reports a fault that a person must acknowledge.
+    /// [`DriverError`] of kind `DeviceFault` if the device still reports a fault that a person must acknowledge.
     fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError>;
 
-    /// Motion that the robot itself ends at a force; `None` if unsupported.
+    /// Motion that the robot ends at a force limit; `None` if unsupported.
     fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
         None
     }
 
-    /// Motion that the robot itself ends when its host stops sending; `None` if unsupported.
+    /// Motion that the robot ends if its host stops sending; `None` if unsupported.
     fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
         None
     }

@@ -1,12 +1,12 @@
-//! Watching a robot from another thread.
+//! Reading the pose of a robot from another thread.
 
 use super::{Deadline, DriverError};
 use crate::geometry::Pose;
 use crate::stamp::Stamp;
 
-/// Reports the pose of its robot during a motion: from any thread, over a separate connection.
+/// Reads the pose of a robot during a motion, from any thread, over a separate connection.
 ///
-/// The handle may outlive the robot; it then returns `Disconnected`.
+/// The handle may outlive the robot. The calls then return `Disconnected`.
 ///
 /// ```
 /// use taceva_core::{Deadline, DriverError, Pose, RobotWatch};
@@ -17,12 +17,12 @@ use crate::stamp::Stamp;
 /// }
 /// ```
 pub trait RobotWatch: Send + Sync {
-    /// The present pose of the tip, and its time; never waits for a motion.
+    /// Present pose of the tip, and the time of the pose. Never waits for the end of a motion.
     ///
     /// # Units
-    /// As [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
+    /// Like [`Robot::pose`](super::Robot::pose): mm and degrees in the sensor's frame.
     /// # Errors
-    /// [`DriverError`] of kind `Timeout` if no pose came within `deadline`, `Disconnected`, or `DeviceFault`, with its
+    /// [`DriverError`] of kind `Timeout` if no pose arrived within `deadline`, `Disconnected`, or `DeviceFault`, with its
     /// [`Fault`](super::Fault) if the robot names one.
     fn pose(&self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError>;
 }

@@ -1,4 +1,4 @@
-//! Checks of a device's declared rate and of its time stamps.
+//! Checks of a device's declared rate and time stamps.
 
 use std::fmt;
 use std::time::{Duration, Instant};
@@ -6,19 +6,19 @@ use std::time::{Duration, Instant};
 use crate::quantity::Hertz;
 use crate::stamp::Stamp;
 
-/// Periods of the declared rate after which a sample is late.
+/// Late limit, in periods of the declared rate.
 const LATE_PERIODS: f64 = 10.0;
-/// Least delay of a late sample, in s: links and busy machines give many samples at once, and a driver keeps the newest.
+/// Least late limit, s. Links and busy machines deliver many samples at once, and a driver keeps the newest.
 const LATE_LEAST_S: f64 = 0.05;
-/// Late samples in a row that are an error of the device.
+/// Number of consecutive late samples that is an error of the device.
 const LATE_MAX: u32 = 10;
-/// Maximum jump of stamps, in s.
+/// Greatest accepted jump of stamps, s.
 const JUMP_S: f64 = 60.0;
 
-/// Delays and stamps of the samples of one device.
+/// Checks the delays and stamps of the samples of one device.
 ///
-/// A sample is late if the calls for it took more than ten periods of the declared rate, and more than 50 ms. Ten late samples in a row are an
-/// error, and so is a stamp that jumps by a minute. A sample from a queue may be old.
+/// A sample is late if the calls for this sample took more than ten periods of the declared rate and more than 50 ms. Ten consecutive late samples
+/// are an error, and so is a stamp that jumps by more than a minute. A sample from a queue may be old.
 ///
 /// ```
 /// use std::time::{Duration, Instant};
@@ -33,7 +33,7 @@ const JUMP_S: f64 = 60.0;
 /// ```
 #[derive(Clone, Debug)]
 pub struct SampleTiming {
-    /// False for a device whose time is not that of its host.
+    /// False for a device whose clock is not that of its host.
     is_checked: bool,
     rate: Option<Hertz>,
     /// Duration of the calls since the last sample.
@@ -45,15 +45,15 @@ pub struct SampleTiming {
 /// The last accepted sample.
 #[derive(Clone, Copy, Debug)]
 struct Last {
-    /// Arrival of the first sample.
+    /// Time of arrival of the first sample.
     begun: Instant,
     stamp_s: f64,
-    /// Greatest difference between a stamp and the time since `begun`, in s.
+    /// Greatest difference between a stamp and the time since `begun`, s.
     ahead_s: f64,
 }
 
 impl SampleTiming {
-    /// Timing of a device with this declared rate, if it declares one.
+    /// Timing of a device with the declared `rate`; `None` if the device declares no rate.
     pub fn of(rate: Option<Hertz>) -> SampleTiming {
         SampleTiming {
             is_checked: true,
@@ -64,7 +64,7 @@ impl SampleTiming {
         }
     }
 
-    /// Timing of a simulated device or a recording, whose time is not that of its host: nothing is checked.
+    /// Timing without checks, for a simulated device or a recording, whose clock is not that of the host.
     pub fn unchecked() -> SampleTiming {
         SampleTiming {
             is_checked: false,
@@ -72,7 +72,7 @@ impl SampleTiming {
         }
     }
 
-    /// Adds the duration of a call for a sample, also of a call that failed.
+    /// Adds the duration of one call for a sample, successful or not.
     pub fn wait(&mut self, took: Duration) {
         self.waited = self.waited.saturating_add(took);
     }
@@ -80,7 +80,7 @@ impl SampleTiming {
     /// Checks a sample that arrived at `now`.
     ///
     /// # Errors
-    /// [`TimingError`] for the tenth late sample in a row or for a stamp that jumps.
+    /// [`TimingError`] for the tenth consecutive late sample or for a stamp that jumps.
     pub fn sample(&mut self, now: Instant, stamp: Stamp) -> Result<(), TimingError> {
         let took = std::mem::take(&mut self.waited);
         if !self.is_checked {
@@ -136,7 +136,7 @@ impl SampleTiming {
     }
 }
 
-/// A device that misses its declared rate, or whose stamps jump.
+/// A device whose samples are late, or whose stamps jump.
 ///
 /// ```
 /// use taceva_core::TimingError;
@@ -146,20 +146,20 @@ impl SampleTiming {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TimingError {
-    /// Successive samples that each took longer than ten periods of the declared rate, and than 50 ms.
+    /// Consecutive samples that each took more than ten periods of the declared rate and more than 50 ms.
     Late {
-        /// Number of these samples.
+        /// Number of consecutive late samples.
         samples: u32,
-        /// Ten periods or 50 ms, the longer, in s.
+        /// Ten periods or 50 ms, the longer, s.
         limit_s: f64,
-        /// Duration of the calls for the last sample, in s.
+        /// Duration of the calls for the last sample, s.
         took_s: f64,
         /// Declared rate.
         rate: Hertz,
     },
     /// A stamp far ahead of the host's clock, or far before the last stamp.
     Jump {
-        /// Size of the jump, in s; below 0 if it goes back.
+        /// Size of the jump, s; negative for a jump back in time.
         jump_s: f64,
     },
 }
@@ -197,7 +197,7 @@ mod tests {
         SampleTiming::of(Some(Hertz(100.0)))
     }
 
-    /// Samples that each take `took`, and whose stamps are apart by it.
+    /// Adds `count` samples that each take `took`, with stamps `took` apart.
     fn taken(timing: &mut SampleTiming, count: u32, took: Duration) -> Result<(), TimingError> {
         let begun = Instant::now();
         (1..=count).try_for_each(|number| {

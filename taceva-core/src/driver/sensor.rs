@@ -7,7 +7,7 @@ use super::{Deadline, DriverError, Interrupt, Lighting};
 use crate::frame::{FrameInfo, FrameMut};
 use crate::stamp::Stamp;
 
-/// A sensor that gives pictures.
+/// A sensor that captures pictures of its gel.
 ///
 /// ```
 /// use std::time::Duration;
@@ -34,38 +34,38 @@ use crate::stamp::Stamp;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Sensor: Send {
-    /// Size and format of every frame, from opening to dropping.
+    /// Size and format of every frame. Both are constant while the sensor is open.
     fn frame_info(&self) -> FrameInfo;
 
     /// Starts the frames. Does nothing if the sensor needs no start.
     ///
     /// # Errors
-    /// [`DriverError`] if the device does not answer within `deadline`, is in use elsewhere, or is gone.
+    /// [`DriverError`] if the device does not answer within `deadline`, is in use by another program, or is disconnected.
     fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let _ = deadline;
         Ok(())
     }
 
-    /// Waits for the next frame, writes it into the caller's buffer and returns its time.
+    /// Waits for the next frame, writes its pixels into the caller's buffer and returns its time stamp.
     ///
-    /// Frames come in the order of their stamps; one may be missing if the caller was too slow, and none comes twice.
-    /// On an error the buffer holds no frame.
+    /// Frames arrive in the order of their stamps, each at most once. A frame may be missing if the caller was too slow.
+    /// After an error the buffer has no valid frame.
     ///
     /// # Errors
     /// [`DriverError`] of kind
     /// - `InvalidArgument` if the size or format of `into` is not [`frame_info`](Sensor::frame_info), or the sensor must be started first,
-    /// - `Timeout` if no frame came within `deadline`,
+    /// - `Timeout` if no frame arrived within `deadline`,
     /// - `Protocol` for an incomplete frame; the next call may succeed,
-    /// - `Disconnected` or `EndOfStream` if none will come any more.
+    /// - `Disconnected` or `EndOfStream` if no further frame can arrive.
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
-    /// Sequence number of the last frame, if the device or its link counts frames; it starts anywhere. A gap between two numbers means that
-    /// frames were not read in time.
+    /// Sequence number of the last frame; `None` if neither device nor link counts frames. The first number is arbitrary. A gap between two
+    /// numbers means that frames were not read in time.
     fn sequence(&self) -> Option<u64> {
         None
     }
 
-    /// PNG or JPEG file from which the last frame was decoded, if the device sends files. A recording may store it unchanged.
+    /// PNG or JPEG file from which the last frame was decoded; `None` if the device sends no files. A recording may store the file unchanged.
     fn sent(&self) -> Option<&[u8]> {
         None
     }
@@ -73,23 +73,22 @@ pub trait Sensor: Send {
     /// Stops the frames; may be called in every state.
     ///
     /// # Errors
-    /// [`DriverError`] if the device does not confirm.
+    /// [`DriverError`] if the device does not confirm the stop.
     fn stop(&mut self) -> Result<(), DriverError> {
         Ok(())
     }
 
-    /// Handle that interrupts a pending call from another thread; without one a call lasts until its deadline.
+    /// Handle that interrupts a pending call from another thread. Without a handle, a call lasts until its deadline.
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         None
     }
 
-    /// Settings of the camera as read back from it, by name, such as `exposure_ms` with `15.7`; a recording keeps them. Empty if none is
-    /// known.
+    /// Settings read from the camera, by name, such as `exposure_ms` with `15.7`. A recording stores them. Empty if no setting is known.
     fn settings(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
 
-    /// Light around this sensor, if it can be set.
+    /// Settable light around this sensor; `None` if the sensor has none.
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {
         None
     }

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The speed of a tip along its path: above 0 and finite.
+/// Speed of a tip along its path: above 0 and finite.
 ///
 /// # Units
 /// mm/s.

@@ -1,4 +1,4 @@
-//! The size of a frame, and how its pixels are stored.
+//! Size and pixel format of a frame.
 
 use std::fmt;
 
@@ -40,7 +40,7 @@ impl PixelFormat {
         }
     }
 
-    /// The largest number a pixel can hold: 255 or 65535.
+    /// Greatest sample value: 255 or 65535.
     pub const fn full_scale(self) -> u16 {
         match self.bytes_per_sample() {
             1 => 255,
@@ -48,7 +48,7 @@ impl PixelFormat {
         }
     }
 
-    /// The same with samples of 8 bits.
+    /// The same colours with 8-bit samples.
     ///
     /// ```
     /// use taceva_core::PixelFormat;
@@ -91,7 +91,7 @@ pub struct FrameInfo {
 }
 
 impl FrameInfo {
-    /// Bytes of a whole frame, without padding; `None` beyond the address space.
+    /// Size of a whole frame in bytes, without padding; `None` if the size exceeds the address space.
     pub fn byte_len(&self) -> Option<usize> {
         let pixels = usize::try_from(self.width)
             .ok()?

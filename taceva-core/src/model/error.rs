@@ -1,4 +1,4 @@
-//! Error of fitting or using a model.
+//! Errors of fitting or using a model.
 
 use std::error::Error;
 use std::fmt;
@@ -20,7 +20,7 @@ pub struct ModelError {
 }
 
 impl ModelError {
-    /// An error of `kind` with a message that names the operation and its subject.
+    /// Error of `kind` with a message that names the operation and its subject.
     pub fn new(kind: ErrorKind, message: impl Into<String>) -> ModelError {
         ModelError {
             kind,

@@ -1,4 +1,4 @@
-//! The features of samples: the numbers that a model takes.
+//! Features of samples: the numeric input of a model.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -15,11 +15,11 @@ use crate::error::ErrorKind;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct FeatureShape {
-    /// Rows; 1 for a flat list.
+    /// Number of rows; 1 for a flat list.
     pub height: usize,
-    /// Columns; the length of a flat list.
+    /// Number of columns; the length of a flat list.
     pub width: usize,
-    /// Numbers per place: 1 for gray and for a flat list, 3 for RGB.
+    /// Numbers per pixel: 1 for gray and for a flat list, 3 for RGB.
     pub depth: usize,
 }
 
@@ -44,7 +44,7 @@ impl FeatureShape {
     }
 }
 
-/// Features of some samples, sample by sample. Copies and consecutive selections share the memory.
+/// Features of a set of samples, sample by sample. Copies and consecutive selections share the memory.
 ///
 /// # Shapes
 /// `[samples, height, width, depth]`, contiguous.
@@ -59,7 +59,7 @@ impl FeatureShape {
 pub struct Features {
     shape: FeatureShape,
     memory: Arc<Vec<f32>>,
-    /// Range of the values within the memory.
+    /// Range of these values within the shared memory.
     place: Range<usize>,
 }
 
@@ -70,10 +70,10 @@ impl PartialEq for Features {
 }
 
 impl Features {
-    /// Features of `shape`; the number of samples follows from the number of values.
+    /// Features of `shape`. The number of samples follows from the number of values.
     ///
     /// # Errors
-    /// [`ModelError`] if the number of values is not a multiple of the width of a sample.
+    /// [`ModelError`] if the number of values is not a multiple of the numbers per sample.
     pub fn new(shape: FeatureShape, values: Vec<f32>) -> Result<Features, ModelError> {
         let whole = match shape.len() {
             0 => values.is_empty(),
@@ -122,7 +122,7 @@ impl Features {
         &self.values()[position * length..(position + 1) * length]
     }
 
-    /// Samples at `positions`, in that order. Nothing is copied if all positions are consecutive.
+    /// Samples at `positions`, in that order. Consecutive positions need no copy.
     ///
     /// # Panics
     /// If a position is out of range.
@@ -147,7 +147,7 @@ impl Features {
         Features::of(self.shape, values.collect())
     }
 
-    /// Concatenates these samples and those of `other`. Nothing is copied if both are adjacent in the same memory.
+    /// Concatenates these samples and the samples of `other`. Ranges adjacent in the same memory need no copy.
     ///
     /// ```
     /// use taceva_core::{FeatureShape, Features};

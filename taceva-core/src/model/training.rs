@@ -3,7 +3,7 @@
 use super::Features;
 use crate::channel::Channels;
 
-/// Values to predict, sample by sample.
+/// True values for a fit, sample by sample.
 ///
 /// # Shapes
 /// `values`: `[samples, channels]`.
@@ -20,7 +20,7 @@ use crate::channel::Channels;
 pub struct Targets<'a> {
     /// Channel of each column.
     pub channels: &'a Channels,
-    /// Every value is finite.
+    /// Finite values, one row per sample.
     pub values: &'a [f64],
 }
 
@@ -31,7 +31,7 @@ impl<'a> Targets<'a> {
     }
 }
 
-/// Samples to learn from, or to choose settings by.
+/// Samples for a fit or for the choice of settings.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, FeatureShape, Features, Targets, TrainingSet};
@@ -47,9 +47,9 @@ impl<'a> Targets<'a> {
 pub struct TrainingSet<'a> {
     /// The features of each sample.
     pub features: &'a Features,
-    /// Targets of each sample.
+    /// Target values of each sample.
     pub targets: Targets<'a>,
-    /// Group of each sample, one number per sample, for settings chosen by leaving one group out.
+    /// Group of each sample, for settings chosen by leaving out one group at a time; `None` without groups.
     pub groups: Option<&'a [u32]>,
 }
 

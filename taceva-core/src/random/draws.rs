@@ -2,9 +2,9 @@
 
 use super::{STEP, finalise, mix, scaled, unit};
 
-/// The random numbers of one key, each looked up by its counter.
+/// Random numbers of one key, each computed from its counter.
 ///
-/// Number `n` equals number n + 1 of [`SplitMix64`](super::SplitMix64) with the key as its seed. Each is computed without the earlier ones.
+/// Number `n` equals number n + 1 of [`SplitMix64`](super::SplitMix64) with the key as seed, and needs no earlier number.
 ///
 /// ```
 /// use taceva_core::random::Draws;
@@ -19,7 +19,7 @@ pub struct Draws {
 }
 
 impl Draws {
-    /// The numbers of `key`, a seed or the result of [`mix`].
+    /// Random numbers of `key`, a seed or a result of [`mix`].
     #[inline]
     #[must_use]
     pub const fn new(key: u64) -> Draws {
@@ -33,7 +33,7 @@ impl Draws {
         Draws::new(finalise(self.bits(purpose) ^ STEP))
     }
 
-    /// 64 random bits.
+    /// 64 random bits of `counter`.
     #[inline]
     #[must_use]
     pub const fn bits(self, counter: u64) -> u64 {

@@ -17,7 +17,7 @@ pub fn fnv_1a(bytes: &[u8]) -> u64 {
     fnv_1a_after(FNV_OFFSET, bytes)
 }
 
-/// FNV-1a hash of `bytes` appended to those with the hash `hash`.
+/// FNV-1a hash of `bytes` appended to a text with the hash `hash`.
 ///
 /// ```
 /// use taceva_core::random::{fnv_1a, fnv_1a_after};

@@ -1,8 +1,8 @@
-//! Random numbers one after another.
+//! Random numbers in sequence.
 
 use super::{STEP, mix, unit};
 
-/// The generator SplitMix64: one seed, one sequence, on every machine. Its state is a counter.
+/// Generator SplitMix64: each seed gives one sequence, the same on every machine. The state is a counter.
 ///
 /// ```
 /// use taceva_core::random::SplitMix64;
@@ -25,7 +25,7 @@ impl SplitMix64 {
         SplitMix64 { state: seed }
     }
 
-    /// The next 64 bits.
+    /// Next 64 random bits.
     #[inline]
     pub const fn next_u64(&mut self) -> u64 {
         let word = mix(self.state);
@@ -39,7 +39,7 @@ impl SplitMix64 {
         unit(self.next_u64())
     }
 
-    /// A number below `bound`, all equally likely: words that would bias the result are discarded.
+    /// Number below `bound`, all equally likely: words that would bias the result are discarded.
     ///
     /// # Panics
     /// If `bound` is zero.

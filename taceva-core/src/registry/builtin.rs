@@ -1,10 +1,10 @@
-//! Drivers that are linked into the program.
+//! Drivers linked into the program.
 
 use super::{DescriptorError, Factory};
 
-/// A linked-in driver: the function that makes its factory.
+/// A linked-in driver: the function that creates its factory.
 ///
-/// With the feature `inventory`, `submit_builtin!` puts it on the list of the program, which `Registry::builtin` reads.
+/// With the feature `inventory`, `submit_builtin!` adds the driver to the list of the program, which `Registry::builtin` reads.
 ///
 /// ```
 /// use taceva_core::{
@@ -38,7 +38,7 @@ pub struct Builtin<D: ?Sized + 'static> {
 }
 
 impl<D: ?Sized + 'static> Builtin<D> {
-    /// A driver with the factory of `make`.
+    /// Driver whose factory `make` creates.
     pub const fn new(make: fn() -> Result<Box<dyn Factory<D>>, DescriptorError>) -> Builtin<D> {
         Builtin { make }
     }
@@ -46,7 +46,7 @@ impl<D: ?Sized + 'static> Builtin<D> {
     /// Factory of the driver.
     ///
     /// # Errors
-    /// [`DescriptorError`] if the driver contradicts itself.
+    /// [`DescriptorError`] if the description of the driver contradicts itself.
     pub fn factory(&self) -> Result<Box<dyn Factory<D>>, DescriptorError> {
         (self.make)()
     }

@@ -1,4 +1,4 @@
-//! List of the drivers that are linked into the program.
+//! List of the drivers linked into the program.
 
 use super::{Builtin, Registry, RegistryError};
 use crate::driver::{Changer, Device, ForceTransducer, Lighting, Robot, Sensor};
@@ -15,10 +15,10 @@ where
 {
     /// The linked-in drivers of this kind, sorted by key.
     ///
-    /// A crate that is named in `Cargo.toml` and nowhere in the code is not linked, so its drivers are missing. `use the_crate as _;` links it.
+    /// A crate that only `Cargo.toml` names is not linked, so its drivers are missing. `use the_crate as _;` links the crate.
     ///
     /// # Errors
-    /// [`RegistryError`] if two have one key, or one contradicts itself.
+    /// [`RegistryError`] if two drivers have one key, or the description of a driver contradicts itself.
     pub fn builtin() -> Result<Registry<D>, RegistryError> {
         let mut registry = Registry::empty();
         for builtin in inventory::iter::<Builtin<D>> {
@@ -28,7 +28,7 @@ where
     }
 }
 
-/// Adds a linked-in driver: the device trait, then a `fn` that makes its factory.
+/// Adds a linked-in driver. The arguments are the device trait and a function that creates the factory.
 ///
 /// `submit_builtin!(dyn Sensor, || Ok(Box::new(Replay::new()?)));`
 #[macro_export]

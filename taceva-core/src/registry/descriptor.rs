@@ -1,4 +1,4 @@
-//! A driver described before it is opened.
+//! Description of a driver before its device is opened.
 
 mod source;
 
@@ -12,7 +12,7 @@ use crate::args::{ArgError, ArgSpec, Args};
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
-/// The description of a driver before it is checked.
+/// Unchecked description of a driver.
 ///
 /// ```
 /// use taceva_core::{ArgSpec, ArgValue, DescriptorSpec, DriverKey, DriverSource, Facts, SensorFacts};
@@ -26,20 +26,20 @@ use crate::id::DriverKey;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DescriptorSpec {
-    /// The name by which the driver is chosen.
+    /// Key by which users select the driver.
     pub key: DriverKey,
-    /// The name that people call the device.
+    /// Usual name of the device.
     pub title: String,
-    /// Source of its readings: real, simulated or recorded.
+    /// Source of the device's readings: real, simulated or recorded.
     pub source: DriverSource,
     /// Facts about the device.
     pub facts: Facts,
-    /// The arguments that it takes when it is opened.
+    /// Arguments of the driver when its device is opened.
     pub arguments: Vec<ArgSpec>,
 }
 
 impl DescriptorSpec {
-    /// A description of a driver that takes no arguments.
+    /// Description of a driver without arguments.
     pub fn new(
         key: DriverKey,
         title: impl Into<String>,
@@ -65,7 +65,7 @@ impl DescriptorSpec {
     /// Checks the description for impossible or contradictory entries.
     ///
     /// # Errors
-    /// [`DescriptorError`], naming the first contradiction.
+    /// [`DescriptorError`] for the first contradiction.
     pub fn check(self) -> Result<Descriptor, DescriptorError> {
         let fault = self.arguments_fault().or_else(|| match &self.facts {
             Facts::Sensor(facts) => sensor_fault(facts),
@@ -205,7 +205,7 @@ fn not_negative(named: &[(&str, Option<f64>)]) -> Option<String> {
     })
 }
 
-/// Everything about a driver that is known before it is opened; planning reads this and opens nothing.
+/// Checked description of a driver before its device is opened. Planning reads this description and opens nothing.
 ///
 /// ```
 /// use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Facts, RobotFacts};
@@ -221,12 +221,12 @@ pub struct Descriptor {
 }
 
 impl Descriptor {
-    /// The name by which the driver is chosen.
+    /// Key by which users select the driver.
     pub fn key(&self) -> &DriverKey {
         &self.spec.key
     }
 
-    /// The name that people call the device.
+    /// Usual name of the device.
     pub fn title(&self) -> &str {
         &self.spec.title
     }
@@ -236,7 +236,7 @@ impl Descriptor {
         self.spec.facts.kind()
     }
 
-    /// Source of its readings: real, simulated or recorded.
+    /// Source of the device's readings: real, simulated or recorded.
     pub fn source(&self) -> DriverSource {
         self.spec.source
     }
@@ -246,7 +246,7 @@ impl Descriptor {
         &self.spec.facts
     }
 
-    /// The facts of a sensor, if it is one.
+    /// Facts of a sensor; `None` for another kind of device.
     pub fn sensor(&self) -> Option<&SensorFacts> {
         match self.facts() {
             Facts::Sensor(facts) => Some(facts),
@@ -254,7 +254,7 @@ impl Descriptor {
         }
     }
 
-    /// The facts of a robot, if it is one.
+    /// Facts of a robot; `None` for another kind of device.
     pub fn robot(&self) -> Option<&RobotFacts> {
         match self.facts() {
             Facts::Robot(facts) => Some(facts),
@@ -262,7 +262,7 @@ impl Descriptor {
         }
     }
 
-    /// The facts of a force transducer, if it is one.
+    /// Facts of a force transducer; `None` for another kind of device.
     pub fn force(&self) -> Option<&ForceFacts> {
         match self.facts() {
             Facts::Force(facts) => Some(facts),
@@ -270,7 +270,7 @@ impl Descriptor {
         }
     }
 
-    /// The facts of a changer, if it is one.
+    /// Facts of a changer; `None` for another kind of device.
     pub fn changer(&self) -> Option<&ChangerFacts> {
         match self.facts() {
             Facts::Changer(facts) => Some(facts),
@@ -278,26 +278,26 @@ impl Descriptor {
         }
     }
 
-    /// The arguments that it takes when it is opened.
+    /// Arguments of the driver when its device is opened.
     pub fn arguments(&self) -> &[ArgSpec] {
         &self.spec.arguments
     }
 
-    /// The arguments written as `text`, checked.
+    /// Parses and checks arguments written as `text`.
     ///
     /// # Errors
-    /// As [`Args::parse`].
+    /// The errors of [`Args::parse`].
     pub fn args(&self, text: &str) -> Result<Args, ArgError> {
         Args::parse(self.arguments(), text)
     }
 
-    /// The description, to be changed and checked again.
+    /// Copy of the description that can be changed and checked again.
     pub fn to_spec(&self) -> DescriptorSpec {
         self.spec.clone()
     }
 }
 
-/// A description that contradicts itself: a mistake of the driver.
+/// A description that contradicts itself. This is a bug in the driver.
 ///
 /// ```
 /// use taceva_core::{DescriptorSpec, DriverKey, DriverSource, Facts, LightingFacts};

@@ -16,7 +16,7 @@ pub use robot::RobotFacts;
 pub use sensor::SensorFacts;
 pub use workspace::Workspace;
 
-/// Facts of a device, by its kind. A fact of `None` is unknown, and no value is assumed for it.
+/// Facts of a device, by kind. `None` means that a fact is unknown; readers assume no value instead.
 ///
 /// ```
 /// use taceva_core::{DriverKind, Facts, RobotFacts};

@@ -1,4 +1,4 @@
-//! A device that is connected but not opened.
+//! Devices that are connected but not opened.
 
 use std::fmt;
 
@@ -14,18 +14,18 @@ use crate::id::DriverKey;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Found {
-    /// The driver that would open it.
+    /// Driver that can open the device.
     pub driver: DriverKey,
     /// Name that the device reports, with control characters escaped.
     pub title: String,
-    /// The arguments that choose it among several of its kind: `serial=D20042`.
+    /// Arguments that select the device among several of its kind: `serial=D20042`.
     pub arguments: String,
     /// Access to the device.
     pub access: Access,
 }
 
 impl Found {
-    /// A device that `driver` could open now, without arguments to distinguish it from others.
+    /// Device that `driver` can open now, without arguments that select it among others.
     pub fn new(driver: DriverKey, title: impl Into<String>) -> Found {
         Found {
             driver,
@@ -35,7 +35,7 @@ impl Found {
         }
     }
 
-    /// The same device with the arguments that choose it.
+    /// The same device with the arguments that select it.
     #[must_use]
     pub fn with_arguments(self, arguments: impl Into<String>) -> Found {
         Found {
@@ -63,12 +63,12 @@ impl Found {
 pub enum Access {
     /// The device can be opened.
     Ready,
-    /// This user may not open it.
+    /// This user may not open the device.
     Denied {
-        /// Action that would give access.
+        /// Action that would grant access.
         remedy: String,
     },
-    /// Another program holds the device.
+    /// Another program has the device open.
     Busy,
 }
 

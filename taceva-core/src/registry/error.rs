@@ -7,7 +7,7 @@ use super::DescriptorError;
 use crate::driver::DriverKind;
 use crate::id::DriverKey;
 
-/// A driver that a registry rejects or does not have.
+/// Driver that a registry rejects or lacks.
 ///
 /// ```
 /// use taceva_core::{Registry, RegistryError, Robot};
@@ -18,36 +18,36 @@ use crate::id::DriverKey;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum RegistryError {
-    /// No driver is registered under that name.
+    /// The registry has no driver with this name.
     Unknown {
         /// Kind of driver that was requested.
         kind: DriverKind,
-        /// The name as the user wrote it.
+        /// Name as written by the user.
         key: String,
         /// Most similar known name, if any.
         nearest: Option<String>,
         /// Every known name.
         known: Vec<DriverKey>,
     },
-    /// Two drivers of one name.
+    /// Two drivers with one name.
     Twice {
-        /// The name.
+        /// Common name of the drivers.
         key: DriverKey,
         /// Title of the driver that was registered.
         first: String,
         /// Title of the driver that was rejected.
         second: String,
     },
-    /// A driver of another kind than the registry.
+    /// A driver whose kind differs from that of the registry.
     Kind {
-        /// The driver.
+        /// Name of the driver.
         key: DriverKey,
         /// Kind of the registry.
         expected: DriverKind,
         /// Kind of the driver.
         found: DriverKind,
     },
-    /// A built-in driver that contradicts itself.
+    /// A built-in driver whose description contradicts itself.
     Descriptor(DescriptorError),
 }
 

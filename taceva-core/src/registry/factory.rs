@@ -36,10 +36,10 @@ use crate::driver::DriverError;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub trait Factory<D: ?Sized>: Send + Sync {
-    /// Description of the unopened device, for any arguments.
+    /// Description of the unopened device, valid for any arguments.
     fn descriptor(&self) -> &Descriptor;
 
-    /// Description of the unopened device with these arguments, such as the size of the frames that they set.
+    /// Description of the unopened device with these arguments, which may set facts such as the size of the frames.
     ///
     /// # Errors
     /// [`DescriptorError`] if the arguments contradict each other or the device.
@@ -50,13 +50,13 @@ pub trait Factory<D: ?Sized>: Send + Sync {
 
     /// Opens the device. Nothing moves, and no light changes unless an argument sets it.
     ///
-    /// `args` are declared by [`descriptor`](Factory::descriptor); devices of one `rig` may share resources.
+    /// The [`descriptor`](Factory::descriptor) declares `args`. Devices of one `rig` may share resources.
     ///
     /// # Errors
     /// [`DriverError`] of kind `NotFound`, `PermissionDenied`, `Busy`, `InvalidArgument`, `Protocol`, `Timeout` or `Unsupported`.
     fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<D>, DriverError>;
 
-    /// The devices that are connected now, without opening any. A driver that cannot search returns none.
+    /// Devices that are connected now. The search opens no device. A driver that cannot search returns none.
     ///
     /// # Errors
     /// [`DriverError`] if the search fails.
@@ -64,8 +64,8 @@ pub trait Factory<D: ?Sized>: Send + Sync {
         Ok(Vec::new())
     }
 
-    /// Digest of its library, `sha256:` and 64 hexadecimal digits; `None` if it is linked into the program. Results of one build are not
-    /// used for another.
+    /// Digest of the driver's library, `sha256:` and 64 hexadecimal digits; `None` if the driver is linked into the program. Caches never use
+    /// results of another build.
     ///
     /// # Errors
     /// [`DriverError`] if the library cannot be read.

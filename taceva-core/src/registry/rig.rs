@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use crate::driver::{DriverError, SimulatedBench};
 
-/// The devices that are opened together, and the connection, bus or simulated bench that several of them share.
+/// Devices that are opened together, with their shared connections, buses and simulated benches.
 ///
 /// ```
 /// use std::sync::{Arc, Mutex};
@@ -30,14 +30,14 @@ impl Rig {
         Rig::default()
     }
 
-    /// Returns the shared object `name`. `make` creates it at the first request.
+    /// Returns the shared object called `name`. The first request creates the object by `make`.
     ///
-    /// The name contains everything that distinguishes two objects of one kind: `tcp 192.168.1.10:502`.
+    /// The name must identify the resource completely: `tcp 192.168.1.10:502`.
     ///
     /// # Errors
-    /// The error of `make`; nothing is stored then.
+    /// The error of `make`. The rig then stores nothing.
     /// # Panics
-    /// If an object of another type has that name: the code of two drivers uses one name.
+    /// If an object of another type has this name, because two drivers use one name.
     pub fn share<T: Any + Send + Sync>(
         &mut self,
         name: &str,
@@ -57,14 +57,14 @@ impl Rig {
         }
     }
 
-    /// Registers a simulated bench and replaces one of the same name.
+    /// Registers a simulated bench. A bench with the same name is replaced.
     ///
-    /// The name is the drivers' key before its last `/`, a space, and their argument `rig`: `sim bench`.
+    /// The name consists of the drivers' key before its last `/`, a space, and their argument `rig`: `sim bench`.
     pub fn offer_bench(&mut self, name: &str, bench: Arc<dyn SimulatedBench>) {
         self.benches.insert(name.to_owned(), bench);
     }
 
-    /// The simulated bench called `name`, if a device of it was opened.
+    /// Simulated bench called `name`; `None` unless one of its devices was opened.
     pub fn bench(&self, name: &str) -> Option<Arc<dyn SimulatedBench>> {
         self.benches.get(name).map(Arc::clone)
     }

@@ -1,4 +1,4 @@
-//! Setters for single fields of a sample, so that callers still compile when a field is added.
+//! Setters for single fields of a sample. Callers still compile when a field is added.
 
 use super::{Readings, Sample};
 use crate::frame::Frame;
@@ -25,7 +25,7 @@ impl Sample {
         self
     }
 
-    /// The same sample with the unit of that model.
+    /// The same sample with the individual unit of the sensor model.
     #[must_use]
     pub fn with_unit_id(mut self, unit_id: impl Into<Option<String>>) -> Sample {
         self.unit_id = unit_id.into();
@@ -74,14 +74,14 @@ impl Sample {
         self
     }
 
-    /// The same sample with the standard uncertainty of the height from which its depth counts, in mm.
+    /// The same sample with the standard uncertainty of the zero height of its depth, mm.
     #[must_use]
     pub fn with_zero_u_mm(mut self, zero_u_mm: impl Into<Option<f64>>) -> Sample {
         self.zero_u_mm = zero_u_mm.into();
         self
     }
 
-    /// The same sample with its time.
+    /// The same sample with a time stamp.
     #[must_use]
     pub fn with_stamp(mut self, stamp: impl Into<Option<Stamp>>) -> Sample {
         self.stamp = stamp.into();

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::SignalInfo;
 
-/// Rejection of numbers as signals of a sensor.
+/// Rejection of numbers as signals of a taxel sensor.
 ///
 /// ```
 /// use taceva_core::{SignalError, SignalInfo, Unit};
@@ -13,7 +13,7 @@ use super::SignalInfo;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// A grid without a number, or with more than [`LEN_MAX`](SignalInfo::LEN_MAX).
+    /// A grid without numbers, or with more than [`LEN_MAX`](SignalInfo::LEN_MAX) of them.
     Grid {
         /// The grid.
         info: SignalInfo,
@@ -27,7 +27,7 @@ pub enum SignalError {
     },
     /// A number that is not finite.
     NotFinite {
-        /// Index of the number, from 0, place first.
+        /// Index of the number, from 0, taxel by taxel.
         position: usize,
         /// The number as text.
         found: String,

@@ -12,10 +12,10 @@ use crate::printable::shown;
 use crate::suggestion::suggestion;
 use crate::unit::{Amount, Unit};
 
-/// Coefficients that a correlation can have, for messages.
+/// Accepted coefficients of a correlation, for messages.
 pub(super) const COEFFICIENT: &str = "a number from -1 to 1, or \"unknown\"";
 
-/// Accepted coverage factors. 12.7 is that of one degree of freedom at 95 %, so a greater one is a missing decimal point.
+/// Accepted coverage factors. 12.7 belongs to one degree of freedom at 95 %, so a much greater factor lacks its decimal point.
 const COVERAGE_FACTORS: RangeInclusive<f64> = 1.0..=20.0;
 
 /// Calibration certificate of an instrument, by channel.
@@ -43,31 +43,31 @@ const COVERAGE_FACTORS: RangeInclusive<f64> = 1.0..=20.0;
 pub struct Certificate {
     /// Number of the certificate.
     pub number: String,
-    /// Laboratory that issued it.
+    /// Laboratory that issued the certificate.
     pub laboratory: String,
-    /// Accreditation of the laboratory: `DAkkS D-K-15063-01-00`.
+    /// Accreditation of the laboratory: `DAkkS D-K-15063-01-00`; `None` if not stated.
     pub accreditation: Option<String>,
     /// Day of issue.
     pub issued: Date,
-    /// Last day of validity.
+    /// Last day of validity; `None` if not stated.
     pub valid_until: Option<Date>,
     /// Serial number of the instrument.
     pub serial: String,
     /// Coverage of all expanded uncertainties.
     pub coverage: Coverage,
-    /// Expanded uncertainty by channel, equal at all readings: `U`.
+    /// Expanded uncertainty by channel, constant over all readings: `U`.
     pub expanded: BTreeMap<String, Amount>,
-    /// Expanded uncertainty by channel, as a share of the reading: `U_relative`.
+    /// Expanded uncertainty by channel, relative to the reading: `U_relative`.
     pub relative: BTreeMap<String, f64>,
     /// Least and greatest calibrated value by channel.
     pub range: BTreeMap<String, [Amount; 2]>,
-    /// Correlations of uncertainties; those of other pairs are 0.
+    /// Correlations of uncertainties. Pairs without an entry have the correlation 0.
     pub correlation: Vec<StatedCorrelation>,
-    /// Temperature of the calibration, as stated: `23 ± 2 C`.
+    /// Temperature of the calibration, as the certificate states it: `23 ± 2 C`.
     pub temperature: Option<String>,
     /// Name of the certificate's file.
     pub file: Option<String>,
-    /// SHA-256 of that file, as 64 hexadecimal digits.
+    /// SHA-256 of the certificate's file, as 64 hexadecimal digits.
     pub sha256: Option<String>,
 }
 
@@ -82,12 +82,12 @@ pub struct Certificate {
 pub struct StatedCorrelation {
     /// The two channels.
     pub between: [String; 2],
-    /// Coefficient from -1 to 1; `None` if the certificate leaves it unknown.
+    /// Coefficient from −1 to 1; `None` if the certificate states none.
     pub coefficient: Option<f64>,
 }
 
 impl Certificate {
-    /// A certificate without uncertainties and ranges yet.
+    /// Certificate without uncertainties and ranges.
     pub fn new(
         number: impl Into<String>,
         laboratory: impl Into<String>,
@@ -113,16 +113,16 @@ impl Certificate {
         }
     }
 
-    /// True if `value` lies in the range of `channel`, or the certificate states none. The value is in the channel's stored unit.
+    /// True if `value` is in the range of `channel`, or the certificate states no range. The value is in the channel's stored unit.
     pub fn covers(&self, channel: &str, value: f64) -> bool {
         let range = self.range.get(channel);
         range.is_none_or(|[least, most]| (least.value..=most.value).contains(&value))
     }
 
-    /// Checks that the certificate can be one of `instrument`.
+    /// Checks the certificate for contradictions, as one of `instrument`.
     ///
     /// # Errors
-    /// [`CertificateError`], which names the key, the value and what is expected.
+    /// [`CertificateError`] with the key, the value found and the values expected.
     pub fn check(&self, instrument: Instrument) -> Result<(), CertificateError> {
         self.check_texts()?;
         self.check_coverage()?;
@@ -167,7 +167,7 @@ impl Certificate {
         Ok(())
     }
 
-    /// Refuses a channel whose stated uncertainties are all 0.
+    /// Rejects a channel whose stated uncertainties are all 0.
     fn check_zeros(&self) -> Result<(), CertificateError> {
         for channel in self.expanded.keys().chain(self.relative.keys()) {
             let amount = self.expanded.get(channel).map(|amount| amount.value);

@@ -2,7 +2,7 @@
 
 /// Meaning of an expanded uncertainty: its coverage factor, or its coverage probability.
 ///
-/// This type gets no further variant: a certificate states one of these.
+/// This type gets no further variant: a certificate states one of the two.
 ///
 /// ```
 /// use taceva_core::Coverage;
@@ -16,7 +16,7 @@ pub enum Coverage {
     Probability {
         /// Probability, in 0..1.
         p: f64,
-        /// Degrees of freedom; `None` if they are infinitely many.
+        /// Degrees of freedom; `None` for infinity.
         dof: Option<f64>,
     },
 }

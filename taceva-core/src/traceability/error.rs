@@ -1,4 +1,4 @@
-//! Faults of a certificate as it was stated.
+//! Errors in the text of a certificate.
 
 use std::fmt;
 
@@ -18,25 +18,25 @@ use crate::suggestion::nearest;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CertificateError {
-    /// A key whose value is not accepted.
+    /// A key with a rejected value.
     Value {
         /// Key: `U.Fz`.
         key: String,
         /// Value as found.
         found: String,
-        /// Values that are accepted.
+        /// Accepted values.
         expected: String,
     },
-    /// A key that no certificate has.
+    /// A key that certificates do not have.
     UnknownKey {
         /// Key as written.
         key: String,
         /// Keys of a certificate.
         known: Vec<&'static str>,
     },
-    /// All required keys that are missing.
+    /// All missing required keys.
     MissingKeys(Vec<&'static str>),
-    /// `U` without `k` and without `p`.
+    /// `U` with neither `k` nor `p`.
     NoCoverage,
     /// Both `k` and `p`, or `k` and `dof`.
     TwoCoverages,
@@ -45,7 +45,7 @@ pub enum CertificateError {
 }
 
 impl CertificateError {
-    /// Key of the table at whose line the error is; `None` if it is of the whole table.
+    /// Key of the table entry at fault; `None` if the error concerns the whole table.
     ///
     /// ```
     /// use taceva_core::CertificateError;
@@ -62,7 +62,7 @@ impl CertificateError {
         }
     }
 
-    /// The error of a value that is not accepted.
+    /// Error for a rejected value.
     pub(super) fn value(
         key: impl Into<String>,
         found: impl Into<String>,

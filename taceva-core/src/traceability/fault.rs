@@ -1,4 +1,4 @@
-//! Contradictions of a certificate with the instrument or with the days of the labels.
+//! Contradictions between a certificate and its instrument, or between a certificate and the days of the labels.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -8,7 +8,7 @@ use super::instrument::Instrument;
 use crate::date::Date;
 use crate::printable::shown;
 
-/// Contradiction of an instrument's certificate with the instrument, or with the days of its labels.
+/// Contradiction between a certificate and its instrument, or between a certificate and the days of the labels.
 ///
 /// ```
 /// use taceva_core::{Certificate, Coverage, Instrument, Traceability};
@@ -29,11 +29,11 @@ pub struct CertificateFault {
     pub instrument: Instrument,
     /// Number of the certificate.
     pub number: String,
-    /// Values that contradict each other.
+    /// Contradicting values.
     pub contradiction: CertificateContradiction,
 }
 
-/// Values of a certificate and of its instrument or labels that contradict each other.
+/// Contradicting values of a certificate and of its instrument or labels.
 ///
 /// ```
 /// use taceva_core::CertificateContradiction;
@@ -71,7 +71,7 @@ pub enum CertificateContradiction {
 }
 
 impl CertificateFault {
-    /// True if the certificate is of another instrument, so that it says nothing about the labels.
+    /// True if the certificate belongs to another instrument and so does not apply to the labels.
     pub fn is_error(&self) -> bool {
         matches!(
             self.contradiction,
@@ -104,8 +104,8 @@ impl fmt::Display for CertificateFault {
 }
 
 impl Traceability {
-    /// Contradictions of the certificate, the serial number first. `days` are the days of the labels, if they are known. A certificate
-    /// of `all` that covers a day replaces this one on that day.
+    /// Contradictions of the certificate, the serial number first. `days` are the days of the labels, if known. Another certificate in `all`
+    /// that covers a day replaces this one on that day.
     pub fn faults(
         &self,
         days: Option<&RangeInclusive<Date>>,
@@ -140,8 +140,8 @@ impl Traceability {
             .collect()
     }
 
-    /// Day of issue of the certificate, if it is after `day`, the first one of the labels. A certificate of `all` that was issued by then
-    /// holds for the earlier labels.
+    /// Day of issue of the certificate, if the issue is after `day`, the first day of the labels. `None` if an older certificate of `all`
+    /// covers the earlier labels.
     pub fn issued_after(&self, day: Date, all: &[Traceability]) -> Option<Date> {
         let issued = |of: &Traceability| of.certificate.as_ref().map(|of| of.issued);
         let own = issued(self).filter(|own| *own > day)?;

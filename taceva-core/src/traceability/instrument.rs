@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::unit::Unit;
 
-/// An instrument of a rig whose readings become labels, or the sensor itself.
+/// An instrument whose readings become labels, or the sensor itself.
 ///
 /// ```
 /// use taceva_core::{Instrument, Unit};
@@ -17,11 +17,11 @@ use crate::unit::Unit;
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 #[non_exhaustive]
 pub enum Instrument {
-    /// Force transducer: forces and torques.
+    /// Force transducer, for forces and torques.
     Force,
-    /// Robot: positions and angles.
+    /// Robot, for positions and angles.
     Robot,
-    /// Tactile sensor: all of these.
+    /// Tactile sensor, for forces, torques, positions and angles.
     Sensor,
 }
 
@@ -46,7 +46,7 @@ impl Instrument {
     /// Every instrument.
     pub const ALL: [Instrument; 3] = [Instrument::Force, Instrument::Robot, Instrument::Sensor];
 
-    /// Name of its table in files.
+    /// Name of the instrument's table in files.
     pub const fn name(self) -> &'static str {
         match self {
             Instrument::Force => "force",
@@ -64,13 +64,13 @@ impl Instrument {
         }
     }
 
-    /// Channels that its certificate can state, with their units.
+    /// Channels that a certificate of the instrument can state, with their units.
     pub fn channels(self) -> impl Iterator<Item = (&'static str, Unit)> {
         let channels = CHANNELS.into_iter();
         channels.filter(move |(_, unit)| self.measures(*unit))
     }
 
-    /// Unit of such a channel; `None` of every other one.
+    /// Unit of `channel` in a certificate; `None` if a certificate of this instrument cannot state the channel.
     pub fn unit_of(self, channel: &str) -> Option<Unit> {
         let mut channels = self.channels();
         channels.find_map(|(known, unit)| (known == channel).then_some(unit))

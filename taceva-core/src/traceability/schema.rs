@@ -1,4 +1,4 @@
-//! Forms of a certificate in files: dates and amounts as texts.
+//! Text forms of a certificate's dates and amounts in files.
 
 mod entries;
 
@@ -62,7 +62,7 @@ pub(super) struct WrittenTraceability {
     certificate: Option<Certificate>,
 }
 
-/// Two channels and their coefficient.
+/// Names of two channels and their correlation coefficient.
 #[derive(serde::Serialize, serde::Deserialize)]
 struct WrittenCorrelation(String, String, Coefficient);
 

@@ -22,7 +22,7 @@ fn amount(text: &str) -> Amount {
     text.parse().expect("an amount")
 }
 
-/// The message about a certificate of a force transducer with one change.
+/// Error message for a certificate of a force transducer after `change`.
 fn refused(change: impl FnOnce(&mut Certificate)) -> String {
     let mut certificate = certificate();
     change(&mut certificate);

@@ -1,4 +1,4 @@
-//! An amount as people write it: a number with its unit.
+//! Amounts in text: a number with its unit.
 
 use std::fmt;
 use std::str::FromStr;
@@ -18,7 +18,7 @@ use super::{SourceUnit, Unit, UnitError};
 pub struct Amount {
     /// Finite number in `unit`.
     pub value: f64,
-    /// Unit in which TacEva keeps the quantity.
+    /// Unit in which TacEva stores the quantity.
     pub unit: Unit,
 }
 
@@ -52,7 +52,7 @@ impl FromStr for Amount {
     }
 }
 
-/// A text that is no amount, by what is expected in its place.
+/// Reason why a text is not an amount.
 ///
 /// ```
 /// use taceva_core::Amount;
@@ -62,13 +62,13 @@ impl FromStr for Amount {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum AmountError {
-    /// The text has no blank between a number and a unit.
+    /// The text has no blank between number and unit.
     Form,
     /// The unit is unknown.
     Unit(UnitError),
-    /// The part before the unit is no number.
+    /// The part before the unit is not a number.
     Number,
-    /// The number is infinite or not a number.
+    /// The number is infinite or NaN.
     NotFinite,
 }
 

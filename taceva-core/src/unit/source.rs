@@ -1,10 +1,10 @@
-//! A unit of incoming labels, and its conversion to the stored unit.
+//! Units of incoming labels, and their conversion to the stored unit.
 
 use std::fmt;
 
 use super::Unit;
 
-/// A unit of incoming labels, and its conversion to the stored unit.
+/// Unit of incoming labels, with the conversion to the stored unit.
 ///
 /// # Units
 /// [`convert`](SourceUnit::convert) rounds once, so `m → mm` multiplies and `um → mm` divides.
@@ -127,10 +127,10 @@ const SOURCE_UNITS: &[(&str, Unit, Scale)] = &[
 ];
 
 impl SourceUnit {
-    /// The unit written as `symbol`; case matters, because `mN` is not `MN`.
+    /// Parses the unit `symbol`. Case matters, because `mN` is not `MN`.
     ///
     /// # Errors
-    /// [`UnitError`], listing the accepted symbols.
+    /// [`UnitError`] with the accepted symbols.
     pub fn parse(symbol: &str) -> Result<SourceUnit, UnitError> {
         SOURCE_UNITS
             .iter()
@@ -160,8 +160,8 @@ impl SourceUnit {
         self.unit
     }
 
-    /// Shift of the decimal point in the conversion to the stored unit, places; `None` if the factor is not a power of ten. Shifting the point
-    /// of a text before parsing rounds once; parsing and then converting rounds twice.
+    /// Shift of the decimal point in the conversion to the stored unit, in places; `None` if the factor is not a power of ten. Shifting the
+    /// point of a text before parsing rounds once; converting the parsed number rounds a second time.
     pub fn decimal_shift(&self) -> Option<i32> {
         let find = |factor: f64| {
             let powers: [(f64, i32); 7] = [

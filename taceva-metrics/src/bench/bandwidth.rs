@@ -1,11 +1,11 @@
-//! Time to read the columns: the memory bandwidth, which no kernel can exceed.
+//! Reads both columns at memory bandwidth, which limits every kernel.
 
 use taceva_core::Isa;
 
 use crate::exact::{Job, Machine, Vector};
 use crate::pair::Paired;
 
-/// Independent sums per column, so that no addition waits for the previous one.
+/// Independent sums per column, so that an addition need not wait for the previous addition.
 const IN_FLIGHT: usize = 4;
 
 /// Rounded sum of all values of both columns, with eight vector sums in flight on the widest available vectors. Its run time is the lower

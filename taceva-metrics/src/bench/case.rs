@@ -1,4 +1,4 @@
-//! Test inputs as cases: few numbers from which every machine makes bit-identical columns.
+//! Test inputs as cases: a few numbers from which every machine computes bit-identical columns.
 
 use super::numbers::Numbers;
 use crate::pair::Paired;
@@ -33,16 +33,16 @@ pub struct Case {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Kind {
-    /// y uniform between two values, ŷ near it: typical laboratory data.
+    /// y uniform between two values, ŷ near y: typical laboratory data.
     Lab {
         /// The least y.
         low: f64,
         /// The greatest y.
         high: f64,
-        /// About the standard deviation of ŷ − y.
+        /// Approximate standard deviation of ŷ − y.
         noise: f64,
     },
-    /// As `Lab`, but far from zero, where the textbook formula of SST cancels.
+    /// Like `Lab`, but far from zero, where the textbook formula of SST cancels.
     Offset {
         /// Distance from zero.
         offset: f64,
@@ -50,55 +50,55 @@ pub enum Kind {
         low: f64,
         /// Greatest y before the offset is added.
         high: f64,
-        /// About the standard deviation of ŷ − y.
+        /// Approximate standard deviation of ŷ − y.
         noise: f64,
     },
-    /// y and ŷ of any exponent between two.
+    /// y and ŷ with exponents between two limits.
     Wide {
         /// The least exponent.
         low: i32,
         /// The greatest exponent.
         high: i32,
     },
-    /// y of any exponent, ŷ near it.
+    /// y with exponents between two limits, ŷ near y.
     WideNear {
         /// The least exponent.
         low: i32,
         /// The greatest exponent.
         high: i32,
-        /// About the standard deviation of ŷ / y.
+        /// Approximate standard deviation of ŷ / y.
         noise: f64,
     },
-    /// Every second y is the negative of the one before: the sum of y is zero, exactly.
+    /// Every second y is the negative of the previous y, so the sum of y is exactly zero.
     Cancelling {
         /// The least exponent.
         low: i32,
         /// The greatest exponent.
         high: i32,
-        /// About the standard deviation of ŷ − y.
+        /// Approximate standard deviation of ŷ − y.
         noise: f64,
     },
-    /// y and ŷ below the least normal number.
+    /// y and ŷ below the smallest normal number.
     Denormal,
-    /// Constant y, ŷ near it.
+    /// Constant y, ŷ near y.
     Constant {
-        /// The value.
+        /// Value of y.
         value: f64,
-        /// About the standard deviation of ŷ.
+        /// Approximate standard deviation of ŷ.
         noise: f64,
     },
-    /// Constant y, and ŷ equal to it.
+    /// Constant y, and ŷ equal to y.
     Met {
-        /// The value.
+        /// Value of y and ŷ.
         value: f64,
     },
-    /// As `Lab`, rounded to binary32.
+    /// Like `Lab`, rounded to binary32.
     Single {
         /// The least y.
         low: f64,
         /// The greatest y.
         high: f64,
-        /// About the standard deviation of ŷ − y.
+        /// Approximate standard deviation of ŷ − y.
         noise: f64,
     },
     /// y in whole thousandths.
@@ -107,10 +107,10 @@ pub enum Kind {
         low: i32,
         /// The greatest y in thousandths.
         high: i32,
-        /// About the standard deviation of ŷ − y.
+        /// Approximate standard deviation of ŷ − y.
         noise: f64,
     },
-    /// y uniform between two values, errors with any exponent between two.
+    /// y uniform between two values, errors with exponents between two limits.
     SmallErrors {
         /// The least y.
         low: f64,
@@ -132,18 +132,18 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Order {
-    /// As they were made.
+    /// Order of generation.
     AsMade,
-    /// The last first.
+    /// Reversed order of generation.
     Reversed,
-    /// By y, then ŷ, the least first.
+    /// Ascending by y, then by ŷ.
     Sorted,
-    /// Shuffled from a seed.
+    /// Shuffled, with this seed.
     Shuffled(u64),
 }
 
 impl Case {
-    /// The columns.
+    /// Columns of the case.
     pub fn columns(&self) -> Paired<Vec<f64>> {
         let mut random = Numbers::new(self.seed);
         let mut rows: Vec<(f64, f64)> = Vec::with_capacity(self.rows);
@@ -168,7 +168,7 @@ impl Case {
 }
 
 impl Kind {
-    /// y and ŷ of a row; `before` is the y of the row before.
+    /// y and ŷ of one row; `before` is the y of the previous row.
     fn draw(self, row: usize, before: Option<f64>, random: &mut Numbers) -> (f64, f64) {
         match self {
             Kind::Lab { low, high, noise } => {
@@ -230,7 +230,7 @@ fn to_single(value: f64) -> f64 {
     f64::from(value as f32)
 }
 
-/// Inputs that common summation algorithms get wrong, by name; the first one is harmless.
+/// Cases that common summation algorithms compute wrongly, by name. The first case is harmless.
 pub fn nasty_inputs() -> impl Iterator<Item = (&'static str, Case)> {
     let case = |kind, rows, order| Case {
         kind,

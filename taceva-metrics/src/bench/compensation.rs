@@ -1,4 +1,4 @@
-//! Running sums with rounding, some of them compensated.
+//! Rounded running sums, some with compensation.
 
 /// A running sum.
 pub(super) trait RunningSum: Copy + Default {
@@ -23,7 +23,7 @@ impl RunningSum for Plain {
     }
 }
 
-/// Rounds to binary32, as models on a graphics card do.
+/// Rounds to binary32 at every addition, as models on a graphics card do.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Single(f32);
 
@@ -87,7 +87,7 @@ impl RunningSum for Neumaier {
     }
 }
 
-/// The sum of `term` over all rows, recursively in halves; up to 128 rows in order, as numpy does.
+/// Sum of `term` over all rows by recursive halving. Up to 128 rows are summed in order, as in numpy.
 pub(super) fn pairwise<T: Copy>(rows: &[T], term: &impl Fn(T) -> f64) -> f64 {
     if rows.len() <= 128 {
         return rows.iter().fold(0.0, |sum, &row| sum + term(row));

@@ -1,12 +1,12 @@
 //! Number of correct decimal digits of a result.
 
-/// Result of [`digits`] for a value that is correct to the last bit.
+/// Result of [`digits`] for a value with all bits correct.
 pub const ALL_DIGITS: f64 = 17.3;
 
-/// The number of decimal digits in which `value` agrees with `truth`: −log₁₀(|value − truth| / |truth|).
+/// Number of decimal digits in which `value` agrees with `truth`: −log₁₀(|value − truth| / |truth|).
 ///
-/// The result is between 0 (no correct digit) and [`ALL_DIGITS`]. For a truth of zero, the magnitude of `value` replaces the ratio. This is
-/// the log relative error of NIST's Statistical Reference Datasets (McCullough 1998).
+/// The result is between 0 (no correct digit) and [`ALL_DIGITS`]. If `truth` is zero, the magnitude of `value` replaces the ratio. This number
+/// is the log relative error of NIST's Statistical Reference Datasets (McCullough 1998).
 ///
 /// ```
 /// use taceva_metrics::bench::{ALL_DIGITS, digits};

@@ -15,7 +15,7 @@ use crate::pair::Paired;
 
 /// An algorithm for MAE, R² and sMAPE of two columns.
 ///
-/// All but [`Exact`](Kernel::Exact) round at every step, as a library with the same sums would.
+/// All kernels but [`Exact`](Kernel::Exact) round at every step, like common libraries.
 ///
 /// ```
 /// use taceva_metrics::bench::Kernel;
@@ -26,11 +26,11 @@ use crate::pair::Paired;
 pub enum Kernel {
     /// One pass in binary64, SST by the textbook formula: Σy² − (Σy)² / n.
     Naive,
-    /// The same with the sums in binary32.
+    /// One pass as in `Naive`, with sums in binary32.
     Single,
-    /// The mean of y first, then Σ(y − ȳ)².
+    /// Two passes: the mean of y first, then Σ(y − ȳ)².
     TwoPass,
-    /// Two passes with sums of halves, as numpy does.
+    /// Two passes with sums by recursive halving, as in numpy.
     Pairwise,
     /// One pass with Kahan's sums.
     Kahan,
@@ -38,12 +38,12 @@ pub enum Kernel {
     Neumaier,
     /// One pass, SST by Welford's update.
     Welford,
-    /// This crate's sums, on the vectors of an instruction set.
+    /// Exact sums of this crate, with the vectors of an instruction set.
     Exact(Isa),
 }
 
 impl Kernel {
-    /// Kernels that this machine can run, the exact ones last and of these the widest vectors first.
+    /// Kernels that this machine can run. Exact kernels are last, widest vectors first.
     pub fn available() -> Vec<Kernel> {
         let rounding = [
             Kernel::Naive,
@@ -58,7 +58,7 @@ impl Kernel {
         rounding.into_iter().chain(exact).collect()
     }
 
-    /// A name for tables: `two-pass`, `exact avx2`.
+    /// Name in tables: `two-pass`, `exact avx2`.
     pub fn name(self) -> String {
         match self {
             Kernel::Naive => "naive f64".to_owned(),
@@ -72,15 +72,15 @@ impl Kernel {
         }
     }
 
-    /// True if sums are rounded only at the end.
+    /// True if the kernel rounds sums only at the end.
     pub fn is_exact(self) -> bool {
         matches!(self, Kernel::Exact(_))
     }
 
-    /// All three scores.
+    /// Computes MAE, R² and sMAPE.
     ///
     /// # Shapes
-    /// `pairs.estimate`, `pairs.reference`: one length.
+    /// `pairs.estimate`, `pairs.reference`: equal length.
     pub fn run(self, pairs: Paired<&[f64]>) -> Scores {
         match self {
             Kernel::Naive => one_pass::<Plain>(pairs),
@@ -94,7 +94,7 @@ impl Kernel {
         }
     }
 
-    /// The mean absolute error alone.
+    /// Computes only the mean absolute error.
     pub fn run_mae(self, pairs: Paired<&[f64]>) -> Option<f64> {
         match self {
             Kernel::Naive | Kernel::TwoPass | Kernel::Welford => mean_error::<Plain>(pairs),
@@ -112,13 +112,13 @@ impl Kernel {
         }
     }
 
-    /// True if the order of rows cannot change a bit of the result. Known from the algorithm: equal results of some orders would prove
-    /// nothing.
+    /// True if the order of rows cannot change a bit of the result. This is a property of the algorithm: equal results for some orders would
+    /// prove nothing.
     pub fn is_order_free(self) -> bool {
         self.is_exact()
     }
 
-    /// True scores of the definitions, from integer sums in separate code, so that no kernel is measured against itself.
+    /// Reference scores from integer sums in separate code, so that no kernel is compared with itself.
     pub fn truth(pairs: Paired<&[f64]>) -> Scores {
         reference::scores(pairs)
     }
@@ -139,7 +139,7 @@ fn spec(streams: Streams) -> PairSpec {
     }
 }
 
-/// Sums of `pairs` on `isa`, or on another set if it is missing; the choice changes the time and not the result.
+/// Exact sums of `pairs` on `isa`, or on another set if `isa` is missing. The choice affects the run time but not the result.
 fn exact(isa: Isa, streams: Streams, pairs: Paired<&[f64]>) -> PairSums {
     let machine = Machine::with(isa).unwrap_or_else(Machine::detect);
     let mut sums = PairSums::with_machine(spec(streams), machine);

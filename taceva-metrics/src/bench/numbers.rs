@@ -1,4 +1,4 @@
-//! The numbers that cases are made of, as the golden vectors define them.
+//! Random numbers of cases, as the golden vectors define them.
 
 use taceva_core::random::SplitMix64;
 
@@ -27,7 +27,7 @@ impl Numbers {
         }
     }
 
-    /// Number from 0 to below 1, a multiple of 2⁻⁵³.
+    /// Number u with 0 ≤ u < 1, a multiple of 2⁻⁵³.
     pub(super) fn unit(&mut self) -> f64 {
         self.0.unit()
     }
@@ -46,7 +46,7 @@ impl Numbers {
         f64::from_bits((word & 1 << 63) | field << 52 | (word & ((1 << 52) - 1)))
     }
 
-    /// Any denormal number.
+    /// Denormal number with random bits.
     pub(super) fn denormal(&mut self) -> f64 {
         let fraction = self.0.next_u64() & ((1 << 52) - 1);
         f64::from_bits(fraction | (self.0.next_u64() & 1 << 63))

@@ -4,7 +4,7 @@ use taceva_core::random::SplitMix64;
 
 use crate::pair::Paired;
 
-/// The rows of `columns` in another order, the same for the same `seed`.
+/// Shuffles the rows of `columns`. Equal seeds give equal orders.
 pub fn shuffled(columns: &Paired<Vec<f64>>, seed: u64) -> Paired<Vec<f64>> {
     let mut rows: Vec<(f64, f64)> = columns
         .as_slices()

@@ -1,17 +1,17 @@
-//! True scores in integers, in code independent of the measured sums.
+//! Reference scores by integer arithmetic, in code independent of the measured sums.
 //!
-//! Residuals and terms of sMAPE are those of the definitions, rounded once each. They are whole multiples of the least denormal number, so their sums
-//! and squares are whole numbers too, and nothing is rounded before the end.
+//! Residuals and terms of sMAPE follow the definitions, rounded once each. They are whole multiples of the least denormal number, so their sums
+//! and squares are whole numbers too. Rounding happens only at the end.
 
 use std::cmp::Ordering;
 
 use super::scores::Scores;
 use crate::pair::Paired;
 
-/// Every value is a multiple of 2 to this power.
+/// Exponent of the common unit: every value is a multiple of 2 to this power.
 const LEAST: i32 = -1074;
 
-/// The true scores of `pairs`.
+/// Reference scores of `pairs`.
 pub(super) fn scores(pairs: Paired<&[f64]>) -> Scores {
     let (mut absolute, mut squared) = (Whole::default(), Whole::default());
     let (mut truth, mut truth_squared) = (Whole::default(), Whole::default());
@@ -37,7 +37,7 @@ pub(super) fn scores(pairs: Paired<&[f64]>) -> Scores {
     }
 }
 
-/// A whole number with a sign: digits of 32 bits, the lowest first, the highest not zero.
+/// Signed whole number in digits of 32 bits, lowest digit first, without leading zeros.
 #[derive(Clone, Debug, Default)]
 struct Whole {
     is_negative: bool,
@@ -223,7 +223,7 @@ fn added(left: &[u32], right: &[u32]) -> Vec<u32> {
     sum
 }
 
-/// `left` minus `right`, which is at most `left`.
+/// `left` minus `right`; `right` must not exceed `left`.
 fn taken(left: &[u32], right: &[u32]) -> Vec<u32> {
     let mut borrowed = 0_i64;
     left.iter()

@@ -1,6 +1,6 @@
-//! Scores that a kernel computed.
+//! Scores from one kernel.
 
-/// Scores that a kernel computed; `None` if the result was no finite number. A plain value, which gets no further fields.
+/// Scores from one kernel; `None` for a result that is not finite. A plain value, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::{Paired, bench::Kernel};

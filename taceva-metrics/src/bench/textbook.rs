@@ -1,4 +1,4 @@
-//! Scores as libraries compute them: rounded at every step.
+//! Scores by the formulas of common libraries, rounded at every step.
 
 use super::compensation::{RunningSum, pairwise};
 use super::scores::Scores;

@@ -14,7 +14,7 @@ use crate::score::value::{Finished, UndefinedReason};
 use crate::score::{Interval, Parameter};
 use crate::stats::{NormalSample, chance};
 
-/// Name of the slope, and of the probability that chance alone gives it.
+/// Name of the slope and of its p value.
 const SLOPE: &str = "slope";
 const SLOPE_P: &str = "slope_p";
 
@@ -73,7 +73,11 @@ fn agreement(errors: &Errors<'_>, unit: Unit) -> Numbers {
         .with(SLOPE_P, Unit::One, Range::Any, chance)
 }
 
+<<<<<<< HEAD
 /// Replaces the intervals of independent errors by exact ones, and finds the chance of a slope of clusters.
+=======
+/// Replaces the intervals of one channel by intervals from variance components, and computes the p value of a slope of clusters.
+>>>>>>> c1
 fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     let none = Interval::Undefined(UndefinedReason::NoInterval);
     if !whole.are_independent {
@@ -96,7 +100,7 @@ fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     found.value = Some(of(widths, sample.freedom));
 }
 
-/// Probability that chance alone gives a slope as far from 0, by the jackknife of its clusters.
+/// p value of a slope, by the jackknife over clusters.
 fn chance_of(slope: Finished, interval: Option<Interval>) -> Finished {
     let slope = slope?;
     match interval {

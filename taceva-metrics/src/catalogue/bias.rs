@@ -1,4 +1,4 @@
-//! Mean error with its sign.
+//! Mean signed error.
 
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
 use crate::exact::streams::{Stream, Streams};

@@ -1,10 +1,10 @@
-//! Good direction of a metric or of a variant, by its name.
+//! Direction of good values of a metric or variant, by name.
 
 use super::find;
 use crate::score::direction::Better;
 
 impl Better {
-    /// The direction of the metric or variant called `name`: `mae`, `hysteresis.ratio`; `None` for a name that is not in the catalogue.
+    /// Direction of the metric or variant called `name`: `mae`, `hysteresis.ratio`; `None` for a name outside the catalogue.
     ///
     /// ```
     /// use taceva_metrics::Better;
@@ -17,7 +17,7 @@ impl Better {
         find(id).map(|metric| metric.better_of(variant))
     }
 
-    /// Name of a metric or variant with its sign; a name outside the catalogue is returned unchanged.
+    /// Name of a metric or variant with the sign of its direction. A name outside the catalogue is returned unchanged.
     #[must_use]
     pub fn named(name: &str) -> String {
         Better::of(name).map_or_else(|| name.to_owned(), |better| better.beside(name))

@@ -1,4 +1,4 @@
-//! Plans, evaluators and evaluations of every metric of the catalogue.
+//! Constructors of plans, evaluators and evaluations that use the whole catalogue.
 
 use taceva_core::{Channel, ChannelError, Channels, FieldSet, Skipped};
 
@@ -7,17 +7,17 @@ use crate::evaluate::metric::Metric;
 use crate::evaluate::{Evaluation, Evaluator, MetricPlan};
 
 impl MetricPlan {
-    /// Keeps the metrics of `wanted` that these channels and fields allow, in the order of reports.
+    /// Plan with the metrics of `wanted` that these channels and fields allow, in the order of reports.
     pub fn new(wanted: &[&'static Metric], channels: Channels, available: FieldSet) -> MetricPlan {
         MetricPlan::of(&ALL, wanted, channels, available)
     }
 }
 
 impl Evaluator {
-    /// An evaluator of every metric that truth and prediction of `channels` and contact points allow.
+    /// Evaluator of every metric that needs only truth and prediction of `channels`, and contact points.
     ///
     /// # Errors
-    /// [`ChannelError::Twice`] if a channel comes twice.
+    /// [`ChannelError::Twice`] if a channel occurs twice.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -36,10 +36,10 @@ impl Evaluator {
 }
 
 impl Evaluation {
-    /// The scores of `parts` as one evaluation, in the order of reports; `skipped` lists metrics that no part contains.
+    /// Combines the scores of `parts` into one evaluation, in the order of reports. `skipped` lists metrics that no part contains.
     ///
-    /// For metrics computed on different samples: sums are not merged. The skill of a channel, from any part, sets the standing of its
-    /// scores.
+    /// Use this function for metrics computed on different samples: sums are not merged. The skill of a channel, from any part, sets the standing of
+    /// the channel's scores.
     pub fn joined(
         parts: impl IntoIterator<Item = Evaluation>,
         skipped: Vec<Skipped>,

@@ -27,7 +27,7 @@ pub(crate) static MAE_EUCLID: Metric = Metric {
     ..Metric::of(&PLANE)
 };
 
-/// RN(Se / n), e the distance of each sample.
+/// RN(Se / n), with e the distance of each sample.
 fn mae_euclid(sums: &PlaneSums) -> Finished {
     if sums.n() == 0 {
         return Err(UndefinedReason::Empty);

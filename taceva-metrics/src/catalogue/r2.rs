@@ -32,7 +32,7 @@ pub(crate) static R2: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// RN(1 − n Sdd / (n Syy − Sy²)): the textbook formula is safe because nothing rounds before the end.
+/// RN(1 − n Sdd / (n Syy − Sy²)). The textbook formula is safe here because only the result is rounded.
 fn r2(sums: &PairSums) -> Finished {
     if sums.n() < R2.needs.least_samples {
         return Err(UndefinedReason::TooFew {

@@ -1,4 +1,4 @@
-//! Scatter of the predictions of one press.
+//! Scatter of predictions among repeats of one press.
 
 use taceva_core::Unit;
 
@@ -11,8 +11,8 @@ use crate::score::direction::Better;
 use crate::score::range::Range;
 use crate::score::theme::Theme;
 
-/// The factor between repeatability standard deviation and repeatability limit: f √2 with f = 1.96, rounded to one decimal as
-/// ISO 5725-6 (4.1.4) does.
+/// Ratio of the repeatability limit to the repeatability standard deviation: f √2 with f = 1.96, rounded to one decimal as in
+/// ISO 5725-6 (4.1.4).
 const LIMIT_FACTOR: f64 = 2.8;
 
 pub(crate) static REPEATABILITY: Metric = Metric {

@@ -1,4 +1,4 @@
-//! Compliance of the gel. A softer gel yields more, which is not a merit by itself, so the score only describes.
+//! Compliance of the gel. A more compliant gel is not necessarily better, so the score has no good direction.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 

@@ -1,4 +1,4 @@
-//! Skill: improvement over a constant.
+//! Skill: improvement over a constant prediction.
 
 use crate::evaluate::family::{Details, Output};
 use crate::evaluate::metric::{Formula, Metric, ScoreUnit};
@@ -45,12 +45,12 @@ pub(crate) static SKILL: Metric = Metric {
     ..Metric::of(&PAIRS)
 };
 
-/// Sums that skill reads.
+/// Streams that skill needs.
 const STREAMS: Streams = Streams::of(&[Stream::Squared, Stream::Truth, Stream::TruthSquared]);
 
-/// RN(1 − Σ Sdd / Σ Scc) over the axes, Scc = Syy − 2 c Sy + n c² about the constant c, or Syy − Sy² / n about the mean of truth.
+/// RN(1 − Σ Sdd / Σ Scc) over the axes, with Scc = Syy − 2 c Sy + n c² for a given constant c, or Syy − Sy² / n for the mean of truth.
 ///
-/// Each axis counts its own pairs. If both axes have all pairs, Sdd and Scc are sums of squared distances in the plane.
+/// Each axis has its own number of pairs. If both axes have all pairs, Sdd and Scc are sums of squared distances in the plane.
 fn skill(axes: &[Axis<'_>]) -> Finished {
     let mut total = Parts {
         scale: Dyadic::from(1),
@@ -68,13 +68,13 @@ fn skill(axes: &[Axis<'_>]) -> Finished {
     Ok((&total.spread - &total.unexplained).over(&total.spread))
 }
 
-/// Constant that a channel is compared with, as a number: the given one, or the mean of truth.
+/// Reference constant of a channel: the given constant, or the mean of truth.
 fn constant(axis: Axis<'_>) -> Option<f64> {
     let mean = || (axis.sums.n() > 0).then(|| axis.sums.mean(Stream::Truth));
     axis.constant.or_else(mean)
 }
 
-/// Constant of one channel, flagged if it is the mean of truth.
+/// Reference constant of one channel, with a flag if the constant is the mean of truth.
 fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     let is_mean = axes.iter().any(|axis| axis.constant.is_none());
     let variants = match axes[..] {
@@ -89,7 +89,7 @@ fn details(axes: &[Axis<'_>], output: &Output) -> Details {
     }
 }
 
-/// Squared errors of the model and of the constant, both times `scale`.
+/// Squared errors of the model and of the constant, both multiplied by `scale`.
 struct Parts {
     scale: Dyadic,
     unexplained: Dyadic,
@@ -123,7 +123,7 @@ impl Parts {
         }
     }
 
-    /// Sum of both, on a common scale.
+    /// Sum of two parts, on a common scale.
     fn and(&self, other: &Parts) -> Parts {
         let joined =
             |own: &Dyadic, others: &Dyadic| &(own * &other.scale) + &(others * &self.scale);

@@ -42,7 +42,7 @@ fn smape(sums: &PairSums) -> Finished {
     Ok(sums.mean(Stream::Symmetric))
 }
 
-/// The ε of the denominator.
+/// Parameter ε of the denominator.
 pub(super) fn epsilon(_: Unit) -> Vec<Parameter> {
     vec![Parameter {
         name: "eps",

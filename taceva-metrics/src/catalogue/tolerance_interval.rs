@@ -1,4 +1,4 @@
-//! Interval that holds nearly all errors.
+//! Tolerance interval of errors.
 
 use taceva_core::Unit;
 
@@ -11,7 +11,7 @@ use crate::score::range::Range;
 use crate::score::theme::Theme;
 use crate::stats::NormalSample;
 
-/// Share of all errors that the interval holds, and the confidence with which it does.
+/// Share of all errors in the interval, and confidence of the interval.
 const SHARE: f64 = 0.95;
 const CONFIDENCE: f64 = 0.95;
 

@@ -89,7 +89,7 @@ fn uniformity(sums: &SurfaceSums, settings: &Settings) -> Numbers {
         )
 }
 
-/// The debiased uniformity and its interval, if the samples of each contact point are known.
+/// Debiased uniformity and its interval; empty if the samples of contact points are unknown.
 fn of_clusters(clusters: &[&SurfaceSums], settings: &Settings) -> Intervals {
     let cells = clusters.iter().map(|sums| {
         let cells = sums.cells.iter();
@@ -120,7 +120,7 @@ fn on_surface(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
     Ok(())
 }
 
-/// RN(|μ| / (|μ| + σ)), one rational of two binary64 numbers.
+/// RN(|μ| / (|μ| + σ)), rounded once from two binary64 numbers.
 fn ratio(mean: f64, deviation: f64) -> Finished {
     if !deviation.is_finite() {
         return Err(UndefinedReason::Overflow);

@@ -7,7 +7,7 @@ use taceva_core::shown;
 
 use super::names;
 
-/// A name of no metric and no group.
+/// A name that no metric and no group has.
 ///
 /// ```
 /// use taceva_metrics::catalogue;
@@ -17,9 +17,9 @@ use super::names;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UnknownMetric {
-    /// The name as given.
+    /// Name as given.
     pub name: String,
-    /// Nearest known name, if one is similar.
+    /// Nearest known name; `None` if no name is similar.
     pub nearest: Option<&'static str>,
 }
 

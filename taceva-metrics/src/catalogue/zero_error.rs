@@ -1,4 +1,4 @@
-//! Predicted force without contact.
+//! Mean predicted force without contact.
 
 use taceva_core::Unit;
 

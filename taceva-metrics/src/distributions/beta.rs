@@ -7,7 +7,7 @@ use super::gamma::least;
 use super::tails::Tails;
 use crate::elementary::exponential;
 
-/// A point between 0 and 1 by its distances from both.
+/// A point x between 0 and 1, as the pair x and 1 − x.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Share {
     pub(super) part: f64,
@@ -52,7 +52,7 @@ pub(super) fn beta_tails(a: f64, b: f64, share: Share) -> Tails {
     }
 }
 
-/// The continued fraction of I over xᵃ (1 − x)ᵇ / B(a, b), by Lentz's method.
+/// Continued fraction of I divided by xᵃ (1 − x)ᵇ / B(a, b), by Lentz's method.
 ///
 /// The only difference of nearly equal numbers is a − (a + b) x, computed from the smaller of x and 1 − x.
 ///

@@ -1,4 +1,4 @@
-//! The chi-square distribution, of the squares of independent normal numbers.
+//! Chi-square distribution: sums of squares of independent normal numbers.
 
 use taceva_core::random::{Draws, open_unit};
 
@@ -21,7 +21,7 @@ pub fn below(x: f64, freedom: f64) -> f64 {
     }
 }
 
-/// P(χ² > x); a small result keeps its digits.
+/// P(χ² > x). A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::chi_square;
@@ -35,7 +35,7 @@ pub fn above(x: f64, freedom: f64) -> f64 {
     }
 }
 
-/// The x with `share` of the distribution below it.
+/// Quantile: x with P(χ² ≤ x) = `share`.
 ///
 /// ```
 /// use taceva_metrics::distributions::chi_square;
@@ -51,7 +51,7 @@ pub fn quantile(share: f64, freedom: f64) -> f64 {
     }
 }
 
-/// Random number of this distribution, a function of `draws` and `counter` alone.
+/// Random number with this distribution, a function of `draws` and `counter` alone.
 ///
 /// ```
 /// use taceva_metrics::distributions::chi_square;

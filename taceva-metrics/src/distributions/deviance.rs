@@ -1,10 +1,10 @@
-//! Factors of densities that keep their digits for any number of degrees of freedom.
+//! Factors of densities, accurate for any number of degrees of freedom.
 
 use crate::elementary::logarithm;
 
 /// ln Γ(a + 1) − (a + ½) ln a + a − ½ ln 2π, a > 0: the error of Stirling's formula.
 pub(super) fn stirling_error(a: f64) -> f64 {
-    /// From here on the next term of the series is below 2⁻⁵³ of the first.
+    /// Threshold from which the next term of the series is below 2⁻⁵³ of the first.
     const SERIES: f64 = 16.0;
     const TERMS: [f64; 7] = [
         1.0 / 12.0,
@@ -33,7 +33,7 @@ pub(super) fn stirling_error(a: f64) -> f64 {
     raised + series / a
 }
 
-/// a ln(a / x) + x − a for positive a and x, without loss of digits where they are near.
+/// a ln(a / x) + x − a for positive a and x, without cancellation for a near x.
 pub(super) fn deviance(a: f64, x: f64) -> f64 {
     let off = (x - a) / a;
     a * if off.abs() < 0.3 {
@@ -56,7 +56,7 @@ fn odd_powers(z: f64) -> f64 {
     sum
 }
 
-/// e^w − 1 − w, without loss of digits near 0.
+/// e^w − 1 − w, without cancellation near 0.
 pub(super) fn exponential_excess(w: f64) -> f64 {
     if w.abs() > 0.5 {
         return crate::elementary::exponential(w) - 1.0 - w;

@@ -1,4 +1,4 @@
-//! The F distribution, of the ratio of two independent estimates of one variance.
+//! F distribution: ratio of two independent estimates of one variance.
 
 use super::beta::{Share, beta_tails};
 use super::tails::{Tails, positive_quantile};
@@ -28,7 +28,7 @@ pub fn below(ratio: f64, above: f64, below: f64) -> f64 {
     }
 }
 
-/// P(F > ratio); a small result keeps its digits.
+/// P(F > ratio). A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::f_ratio;
@@ -42,7 +42,7 @@ pub fn above(ratio: f64, above: f64, below: f64) -> f64 {
     }
 }
 
-/// The ratio with `share` of the distribution below it.
+/// Quantile: the ratio with P(F ≤ ratio) = `share`.
 ///
 /// ```
 /// use taceva_metrics::distributions::f_ratio;

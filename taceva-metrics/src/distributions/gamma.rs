@@ -62,7 +62,7 @@ fn fraction(a: f64, x: f64) -> f64 {
     result
 }
 
-/// `value`, or `least` where it vanishes.
+/// `value`, or `least` if `value` is nearly zero.
 pub(super) fn least(value: f64, least: f64) -> f64 {
     if value.abs() < least { least } else { value }
 }

@@ -7,11 +7,11 @@ use super::tails::{Tails, least_where};
 use super::{normal, student_t};
 use crate::elementary::exponential;
 
-/// Both tails at `t`, by the trapezoidal rule for ∫ Φ(t s − δ) f(s) ds over the logarithm of s = √(χ² / ν).
+/// Tail probabilities at `t`, by the trapezoidal rule for ∫ Φ(t s − δ) f(s) ds over the logarithm of s = √(χ² / ν).
 ///
-/// The integrand is analytic and falls off at both ends, so the rule gains digits as fast as it gains points.
+/// The integrand is analytic and decays at both ends, so the number of digits grows in proportion to the number of points.
 fn tails(t: f64, freedom: f64, noncentrality: f64) -> Tails {
-    /// Exponent of the density beyond which nothing is left of a tail of 10⁻²⁷.
+    /// Exponent beyond which the density contributes nothing to a tail of 10⁻²⁷.
     const GONE: f64 = 100.0;
     let half = freedom / 2.0;
     // 2 (ν/2)^(ν/2) e^(−ν/2) / Γ(ν/2), the density of ln s at s = 1.
@@ -59,7 +59,7 @@ pub fn below(t: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// P(T′ > t); a small result keeps its digits.
+/// P(T′ > t). A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::{noncentral_t, student_t};
@@ -74,7 +74,7 @@ pub fn above(t: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// The t with `share` of the distribution below it.
+/// Quantile: t with P(T′ ≤ t) = `share`.
 ///
 /// ```
 /// use taceva_metrics::distributions::{noncentral_t, normal};
@@ -101,7 +101,7 @@ pub fn quantile(share: f64, freedom: f64, noncentrality: f64) -> f64 {
     }
 }
 
-/// The noncentrality at which `share` of the distribution is below `t`.
+/// Noncentrality for which P(T′ ≤ `t`) = `share`.
 ///
 /// ```
 /// use taceva_metrics::distributions::noncentral_t;
@@ -125,9 +125,9 @@ pub fn noncentrality(share: f64, t: f64, freedom: f64) -> f64 {
     }
 }
 
-/// Smallest difference that is detected, in estimated standard deviations of `freedom` degrees of freedom.
+/// Smallest detectable difference, in estimated standard deviations with `freedom` degrees of freedom.
 ///
-/// A threshold that zero exceeds with probability `alarm` misses this difference with probability `miss`.
+/// Zero exceeds the threshold with probability `alarm`, and this difference stays below the threshold with probability `miss`.
 ///
 /// ```
 /// use taceva_metrics::distributions::noncentral_t;

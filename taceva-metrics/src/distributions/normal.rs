@@ -1,4 +1,4 @@
-//! The normal distribution with mean 0 and variance 1.
+//! Normal distribution with mean 0 and variance 1.
 
 use std::f64::consts::TAU;
 
@@ -17,7 +17,7 @@ pub fn below(z: f64) -> f64 {
     above(-z)
 }
 
-/// P(Z > z); a small result keeps its digits.
+/// P(Z > z). A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;
@@ -44,7 +44,7 @@ pub fn density(z: f64) -> f64 {
     exponential(-z * z / 2.0) / TAU.sqrt()
 }
 
-/// The z with `share` of the distribution below it; infinite at 0 and 1, NaN outside.
+/// Quantile: z with P(Z ≤ z) = `share`; infinite for 0 and 1, NaN outside 0..1.
 ///
 /// ```
 /// use taceva_metrics::distributions::normal;
@@ -76,7 +76,7 @@ pub fn quantile(share: f64) -> f64 {
     z.copysign(off)
 }
 
-/// Quotient of two polynomials, from the constant upwards; that of the divisor is 1.
+/// Quotient of two polynomials, constant term first. The constant term of the divisor is 1.
 struct Quotient {
     above: [f64; 8],
     below: [f64; 7],

@@ -1,6 +1,6 @@
-//! Integrals of smooth functions by Gauss and Legendre's rule of ten points in each panel.
+//! Integrals of smooth functions by the ten-point Gauss–Legendre rule in each panel.
 
-/// Distances of the points from the middle of a panel, and their weights, in halves of the panel.
+/// Distances of the points from the middle of a panel, and their weights, as fractions of half a panel.
 const POINTS: [[f64; 2]; 5] = [
     [0.148_874_338_981_631_22, 0.295_524_224_714_752_87],
     [0.433_395_394_129_247_2, 0.269_266_719_309_996_35],
@@ -9,14 +9,14 @@ const POINTS: [[f64; 2]; 5] = [
     [0.973_906_528_517_171_7, 0.066_671_344_308_688_14],
 ];
 
-/// Point of an integral, with its weight.
+/// Quadrature point with its weight.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub(super) at: f64,
     pub(super) weight: f64,
 }
 
-/// Points of an integral over `from`..`to`, in panels no wider than `width`.
+/// Quadrature points over `from`..`to`, in panels no wider than `width`.
 pub(super) fn nodes(from: f64, to: f64, width: f64) -> Vec<Node> {
     let panels = ((to - from) / width).ceil().max(1.0);
     let half = (to - from) / panels / 2.0;

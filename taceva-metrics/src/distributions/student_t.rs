@@ -1,4 +1,4 @@
-//! Student's t distribution, for any positive number of degrees of freedom, also an infinite one.
+//! Student's t distribution, for positive degrees of freedom, infinity included.
 
 use super::beta::{Share, beta_tails};
 use super::normal;
@@ -30,7 +30,7 @@ pub fn below(t: f64, freedom: f64) -> f64 {
     above(-t, freedom)
 }
 
-/// P(T > t); a small result keeps its digits.
+/// P(T > t). A small result has full relative accuracy.
 ///
 /// ```
 /// use taceva_metrics::distributions::student_t;
@@ -49,7 +49,7 @@ pub fn above(t: f64, freedom: f64) -> f64 {
     }
 }
 
-/// The t with `share` of the distribution below it.
+/// Quantile: t with P(T ≤ t) = `share`.
 ///
 /// ```
 /// use taceva_metrics::distributions::student_t;

@@ -1,6 +1,6 @@
-//! Probabilities of both tails, and the point that divides them.
+//! Tail probabilities, and the search for quantiles.
 
-/// Probabilities at most and above a point. The smaller one keeps its digits.
+/// Probabilities below and above a point. The smaller probability has full relative accuracy.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tails {
     pub(super) below: f64,
@@ -30,7 +30,7 @@ impl Tails {
     }
 }
 
-/// The positive point with the probabilities `wanted`, to the last bit that `tails` resolves; 0 and infinity at the ends.
+/// Positive point with the tail probabilities `wanted`, to the last bit that `tails` resolves. Returns 0 or infinity at the ends.
 pub(super) fn positive_quantile(wanted: Tails, tails: impl Fn(f64) -> Tails) -> f64 {
     let Tails { below, above } = wanted;
     if below.is_nan() || below < 0.0 || above < 0.0 {
@@ -49,7 +49,7 @@ pub(super) fn positive_quantile(wanted: Tails, tails: impl Fn(f64) -> Tails) -> 
     })
 }
 
-/// The least positive number where `is_reached`, which stays true from there on.
+/// Least positive number for which `is_reached` is true. `is_reached` must be monotonic.
 pub(super) fn least_where(is_reached: impl Fn(f64) -> bool) -> f64 {
     let mut high = 1.0_f64;
     while !is_reached(high) {

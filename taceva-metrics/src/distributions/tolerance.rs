@@ -1,4 +1,4 @@
-//! Factors of tolerance limits, which hold a share of a normal distribution with a confidence.
+//! Factors of tolerance limits, which contain a share of a normal distribution with a given confidence.
 //!
 //! ```
 //! use taceva_metrics::distributions::tolerance::two_sided_factor;
@@ -20,7 +20,7 @@ fn is_valid(n: f64, freedom: f64, share: f64, confidence: f64) -> bool {
     is_positive(n) && is_positive(freedom) && is_share(share) && is_share(confidence)
 }
 
-/// Factor k of a one-sided limit: mean + k s has `share` of a normal distribution below it, with `confidence`.
+/// Factor k of a one-sided limit: `share` of a normal distribution is below mean + k s, with `confidence`.
 ///
 /// The mean has the variance σ²/`n`, and s has `freedom` degrees of freedom: n − 1 for independent values. `None` for an argument out of
 /// range.
@@ -39,10 +39,10 @@ pub fn one_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
     })
 }
 
-/// Factor k of a two-sided interval: mean ± k s holds `share` of a normal distribution, with `confidence`.
+/// Factor k of a two-sided interval: mean ± k s contains `share` of a normal distribution, with `confidence`.
 ///
-/// Exact by the integral over the error of the mean. Howe's approximation is only its first guess. Arguments are those of
-/// [`one_sided_factor`].
+/// The factor is exact: the integral runs over the error of the mean, and Howe's approximation is only the first guess. The arguments are
+/// those of [`one_sided_factor`].
 ///
 /// ```
 /// use taceva_metrics::distributions::tolerance::two_sided_factor;
@@ -53,7 +53,7 @@ pub fn one_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
 /// ```
 #[must_use]
 pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Option<f64> {
-    /// Greatest error of the mean in standard deviations of the mean, and width of a panel.
+    /// Greatest error of the mean, in standard deviations of the mean, and width of a panel.
     const FAR: f64 = 9.0;
     const WIDTH: f64 = 0.75;
     if !is_valid(n, freedom, share, confidence) {
@@ -77,7 +77,7 @@ pub fn two_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
     root(off, howe.min(1e100))
 }
 
-/// Zero of an increasing function, from a guess above 0, by regula falsi in its Illinois form. `None` if it stays below 0.
+/// Zero of an increasing function by the Illinois method, from a guess above 0. `None` if the function stays below 0.
 ///
 /// # Reference
 /// Dowell and Jarratt, BIT 11 (1971).
@@ -133,7 +133,7 @@ fn root(function: impl Fn(f64) -> f64, guess: f64) -> Option<f64> {
     None
 }
 
-/// The r for which a normal number is within `off` ± r with probability `share`.
+/// Half-width r for which a normal number is within `off` ± r with probability `share`.
 fn half_width(off: f64, share: f64) -> f64 {
     let missed = |r: f64| normal::above(r - off) + normal::above(r + off);
     let density = |r: f64| normal::density(r - off) + normal::density(r + off);

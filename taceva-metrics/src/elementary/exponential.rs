@@ -1,12 +1,12 @@
-//! e^x by + − × ÷ only: a platform's own exponential would not give the same bytes on every machine.
+//! e^x by + − × ÷ alone, because the exponential functions of platforms differ in their last bits.
 
-/// ln 2 in two parts. The first has so few digits that its integer multiples are exact.
+/// ln 2 in two parts. The first part has few digits, so its integer multiples are exact.
 pub(super) const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// e^x, to a few roundings; 0 or infinity beyond the range of binary64.
+/// e^x, with an error of a few roundings; 0 or infinity beyond the range of binary64.
 #[must_use]
 pub fn exponential(x: f64) -> f64 {
-    /// e^710 is above the greatest number, e^−750 below half of the least.
+    /// Limits of x: e^710 exceeds the greatest number, and e^−750 is below half the least number.
     const BEYOND: [f64; 2] = [-750.0, 710.0];
     if x.is_nan() {
         return x;
@@ -36,7 +36,7 @@ fn scaled(sum: f64, twos: f64) -> f64 {
     result
 }
 
-/// 2^exponent for a whole exponent of at most 512 to either side.
+/// 2^exponent for a whole exponent from −512 to 512.
 fn power_of_two(exponent: f64) -> f64 {
     let base = if exponent < 0.0 { 0.5 } else { 2.0 };
     let (mut result, mut factor, mut left) = (1.0, base, exponent.abs());

@@ -1,11 +1,11 @@
-//! ln x by + − × ÷ only: a platform's own logarithm would not give the same bytes on every machine.
+//! ln x by + − × ÷ alone, because the logarithms of platforms differ in their last bits.
 
 use super::exponential::LN_2;
 
-/// ln x, to a few roundings; minus infinity at 0, and NaN below.
+/// ln x, with an error of a few roundings; −∞ for 0, and NaN for negative x.
 #[must_use]
 pub fn logarithm(x: f64) -> f64 {
-    /// Factor that raises subnormal numbers to a full mantissa of 53 bits.
+    /// Factor that scales subnormal numbers into the normal range.
     const RAISED: f64 = 18_014_398_509_481_984.0;
     const RAISED_BY: f64 = 54.0;
     if x.is_nan() || x < 0.0 {
@@ -39,7 +39,7 @@ pub fn logarithm(x: f64) -> f64 {
     twos * LN_2[0] + (2.0 * slope * sum + twos * LN_2[1])
 }
 
-/// Part and exponent of a normal number: x = part × 2^exponent, part in 1..2.
+/// Mantissa and exponent of a normal number: x = part × 2^exponent, part in 1..2.
 fn parted(x: f64) -> (f64, f64) {
     const DIGITS: u64 = (1 << 52) - 1;
     const ONE: u64 = 1023 << 52;

@@ -1,4 +1,4 @@
-//! Accumulators take samples in and give scores out. Metrics of one family share an accumulator.
+//! Accumulators, which sum samples and compute scores. Metrics of one family share an accumulator.
 
 mod any_family;
 mod erased_sums;
@@ -21,10 +21,10 @@ use crate::stats::IntervalMethod;
 use crate::stats::clusters::{Clustering, Clusters};
 use crate::stats::row_groups::Grouped;
 
-/// Holds the sums of one family of metrics, separately by contact point.
+/// Sums of one family of metrics, separate for each contact point.
 ///
 /// # Laws
-/// Any order, split and merge of the same samples gives equal states and bit-identical scores. Merging an empty state changes nothing.
+/// Equal sets of samples give equal states and bit-identical scores, for any order, split and merge. Merging an empty state changes nothing.
 pub(crate) struct Accumulator {
     kind: &'static FamilyKind,
     family: Box<dyn AnyFamily>,
@@ -33,12 +33,12 @@ pub(crate) struct Accumulator {
     clusters: Clusters<ErasedSums>,
     interval_method: IntervalMethod,
     clustered_by: ClusteredBy,
-    /// Parameters of states: the periods of angles, and the centres about which they were unwrapped.
+    /// Parameters of states: the periods of angles, and the centres for unwrapping them.
     periods: BTreeMap<String, String>,
 }
 
 impl Accumulator {
-    /// The accumulators of `plan` without samples, one for all metrics of a family, in the order of the catalogue.
+    /// Empty accumulators of `plan`, one per family, in the order of the catalogue.
     pub(crate) fn of_plan(plan: &MetricPlan) -> Vec<Accumulator> {
         let mut accumulators: Vec<Accumulator> = Vec::new();
         let periods = plan.channels().iter().filter_map(|channel| {
@@ -71,7 +71,7 @@ impl Accumulator {
         accumulators
     }
 
-    /// True if it keeps sums for every contact point.
+    /// True if the accumulator keeps sums for each contact point.
     pub(crate) fn is_by_point(&self) -> bool {
         self.clustered_by == ClusteredBy::Point && !self.kind.is_whole
     }
@@ -140,7 +140,7 @@ impl Accumulator {
         }
     }
 
-    /// True if it reads states of `schema`.
+    /// True if the accumulator reads states of `schema`.
     pub(crate) fn reads(&self, schema: &str) -> bool {
         schema == self.kind.schema
     }

@@ -1,4 +1,4 @@
-//! Arrays of `ndarray` as input. A single column needs no conversion: a one-dimensional view iterates over its numbers.
+//! Arrays of `ndarray` as input. A single column needs no conversion, because a one-dimensional view is an iterator.
 
 use ndarray::ArrayView2;
 use taceva_core::Channel;
@@ -8,13 +8,13 @@ use crate::evaluate::number::Number;
 use crate::evaluate::rows::Rows;
 
 impl Rows {
-    /// These rows with matrices of truth and prediction, of `f32` or `f64`, with the columns `channels` in that order. Values are copied
+    /// Adds matrices of truth and prediction, of `f32` or `f64`, whose columns are `channels` in that order. Values are copied
     /// once.
     ///
     /// # Shapes
     /// `truth`, `prediction`: samples × channels.
     /// # Errors
-    /// [`MetricError::Columns`] if the number of columns of a matrix is not the number of channels.
+    /// [`MetricError::Columns`] if the number of columns of a matrix differs from the number of channels.
     ///
     /// ```
     /// use ndarray::array;

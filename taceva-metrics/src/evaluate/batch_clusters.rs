@@ -1,4 +1,4 @@
-//! Clusters of the rows of a batch, found once for all accumulators.
+//! Clusters of the rows of a batch, computed once for all accumulators.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -10,10 +10,10 @@ use crate::score::ClusteredBy;
 use crate::stats::NAMED_CLUSTERS;
 use crate::stats::row_groups::{Grouped, Groups};
 
-/// Fewest rows for which a batch is sorted; in smaller batches the order saves no time.
+/// Least number of rows for which sorting a batch saves time.
 const LEAST_ROWS: usize = 512;
 
-/// A batch sorted by contact point, or by cluster of points, so that families need not search for samples.
+/// A batch sorted by contact point, or by cluster of points, so that the rows of a cluster are adjacent.
 pub(crate) struct SideBySide {
     pub(crate) batch: Batch,
     groups: Groups,
@@ -21,7 +21,7 @@ pub(crate) struct SideBySide {
 }
 
 impl SideBySide {
-    /// Sorts the samples of `batch`; `None` if they are sorted already, too few, or without points.
+    /// Sorts the samples of `batch`; `None` if the samples are already sorted, too few, or without points.
     pub(crate) fn of(batch: &Batch, seed: u64) -> Option<SideBySide> {
         let points = batch.points().filter(|_| batch.rows() >= LEAST_ROWS)?;
         let grouped = Grouped::new(Cow::Borrowed(points), seed);
@@ -38,7 +38,7 @@ impl SideBySide {
         })
     }
 
-    /// Clusters of its rows; `seed` is the seed of the hash.
+    /// Clusters of the sorted rows; `seed` is the seed of the hash.
     pub(crate) fn clusters(&self, seed: u64) -> BatchClusters<'_> {
         let clusters = BatchClusters::new(&self.batch, seed);
         if let Some(points) = clusters.by(ClusteredBy::Point) {
@@ -58,7 +58,7 @@ pub(crate) struct BatchClusters<'a> {
 }
 
 impl<'a> BatchClusters<'a> {
-    /// Clusters of `batch`, found when first used; `seed` is the seed of the hash.
+    /// Clusters of `batch`, computed at first use; `seed` is the seed of the hash.
     pub(crate) fn new(batch: &'a Batch, seed: u64) -> BatchClusters<'a> {
         BatchClusters {
             batch,
@@ -69,7 +69,7 @@ impl<'a> BatchClusters<'a> {
         }
     }
 
-    /// The clusters of this kind, if the batch has them.
+    /// Clusters of this kind; `None` if the batch has none.
     pub(crate) fn by(&self, kind: ClusteredBy) -> Option<&Grouped<'a>> {
         let borrowed = |labels: Option<&'a Labels>| {
             labels.map(|labels| Grouped::new(Cow::Borrowed(labels), self.seed))
@@ -95,7 +95,7 @@ impl<'a> BatchClusters<'a> {
         }
     }
 
-    /// True if `labels` are the contact points of the batch itself.
+    /// True if `labels` are the contact points of the batch.
     pub(crate) fn are_points(&self, labels: &Labels) -> bool {
         let points = self.batch.points();
         points.is_some_and(|points| std::ptr::eq(points, labels))

@@ -1,4 +1,4 @@
-//! Finished scores: printed as a table, serialized as a report, or walked one by one.
+//! Finished scores, printed as a table, serialized as a report, or iterated.
 
 mod handles;
 #[cfg(feature = "serde")]
@@ -40,7 +40,7 @@ impl Evaluation {
         Evaluation { entries, skipped }
     }
 
-    /// The scores of `parts` as one evaluation, in the order of `catalogue`.
+    /// Combines the scores of `parts` into one evaluation, in the order of `catalogue`.
     pub(crate) fn in_order(
         catalogue: &[&Metric],
         parts: impl IntoIterator<Item = Evaluation>,
@@ -54,8 +54,8 @@ impl Evaluation {
         Evaluation::new(entries, skipped)
     }
 
-    /// The same scores with the share of each channel's predictions beyond the bounds of the model. Each score of predictions carries the
-    /// share of its worst channel.
+    /// The same scores with the share of each channel's predictions beyond the bounds of the model. A score of several channels gets the share
+    /// of its worst channel.
     #[must_use]
     pub fn with_bounded_shares(mut self, shares: &BTreeMap<String, f64>) -> Evaluation {
         for entry in &mut self.entries {
@@ -68,7 +68,7 @@ impl Evaluation {
         Evaluation::new(self.entries, self.skipped)
     }
 
-    /// The same scores for samples on which the model was fitted. They show no skill on other samples, so the skill stays unknown.
+    /// The same scores, marked as scores of samples on which the model was fitted. They show no skill on other samples, so the skill is unknown.
     #[must_use]
     pub fn of_seen_samples(mut self) -> Evaluation {
         for entry in &mut self.entries {
@@ -79,7 +79,7 @@ impl Evaluation {
         self
     }
 
-    /// The same scores for samples whose similar neighbours were in the training part; they take part in no verdict.
+    /// The same scores, marked as scores of samples with similar neighbours in the training part. Verdicts ignore these scores.
     #[must_use]
     pub fn of_neighbours_in_training(mut self) -> Evaluation {
         for entry in &mut self.entries {
@@ -96,7 +96,7 @@ impl Evaluation {
         entries.map(|entry| (entry.metric, entry.channel.as_str(), &entry.score))
     }
 
-    /// The score of one metric and channel or plane.
+    /// Score of `metric` on a channel or plane; `None` if the evaluation lacks the score.
     pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores();
         let found = scores.find(|(found, of, _)| found.id == metric && *of == channel);

@@ -1,4 +1,4 @@
-//! Samples in, scores out.
+//! Evaluators, which take samples and return scores.
 
 use std::fmt;
 
@@ -14,17 +14,17 @@ use crate::evaluate::plan::MetricPlan;
 use crate::evaluate::rows::Rows;
 use crate::evaluate::state::State;
 
-/// Rows that are buffered before they are summed, so that the columns stay in the L1 cache.
+/// Number of buffered rows before they are summed, so that the columns stay in the L1 cache.
 const BATCH_ROWS: usize = 1024;
-/// Pairs of one channel that are summed at once: two columns of 32 KiB. Measured for 1,024 to a million pairs: smaller blocks cost
+/// Number of pairs of one channel per summation: two columns of 32 KiB. Measured for 1,024 to a million pairs: smaller blocks cost
 /// allocations, larger blocks cost page faults.
 const PAIR_ROWS: usize = 4096;
-/// Least accumulators by contact point for which sorting a batch by point pays; fewer gather their rows faster.
+/// Least number of accumulators by contact point for which sorting a batch by point saves time.
 const LEAST_TO_SORT: usize = 3;
 
-/// Takes samples, one by one or in batches, and finishes a plan's scores.
+/// Accepts samples, one by one or in batches, and computes the scores of a plan.
 ///
-/// Threads and labs may each have an evaluator of the same plan. Merging them gives the scores of a single evaluator, bit for bit.
+/// Threads and labs may each use an evaluator of the same plan. Merging these evaluators gives the scores of a single evaluator, bit for bit.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -53,8 +53,8 @@ impl Evaluator {
         }
     }
 
-    /// This evaluator with every sample as its own cluster, as for [`MetricPlan::independent_samples`]. Earlier samples are dropped, so
-    /// call it before the first update.
+    /// This evaluator with every sample as its own cluster, as for [`MetricPlan::independent_samples`]. Call this method before the first
+    /// update, because it drops earlier samples.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -80,7 +80,7 @@ impl Evaluator {
     /// Adds the samples of `batch`.
     ///
     /// # Errors
-    /// [`MetricError::Channels`] if its channels differ from the plan's; nothing is added then.
+    /// [`MetricError::Channels`] if the batch has other channels than the plan. Nothing is added then.
     pub fn update(&mut self, batch: &Batch) -> Result<(), MetricError> {
         let moved = batch.unwrapped(self.plan.constants());
         let batch = moved.as_ref().unwrap_or(batch);
@@ -103,12 +103,12 @@ impl Evaluator {
     }
 
     /// Adds `truth` and `prediction` of one channel, one number per sample, in the unit of the channel. Both may be slices, vectors,
-    /// arrays, iterators or views of `f32` or `f64`. Other channels have no value in these samples. For several channels and contact points
+    /// arrays, iterators or views of `f32` or `f64`. These samples have no value in other channels. For several channels or contact points
     /// use [`Rows`].
     ///
     /// # Errors
     /// [`MetricError::Lengths`] if the lengths differ, [`MetricError::Channels`] if the plan lacks the channel. Nothing is added then,
-    /// unless an iterator ends before the length that it stated.
+    /// unless an iterator ends before its stated length.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -140,7 +140,7 @@ impl Evaluator {
     /// Adds samples given channel by channel.
     ///
     /// # Errors
-    /// As [`Rows::into_batch`]; nothing is added then.
+    /// The errors of [`Rows::into_batch`]. Nothing is added then.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator, Rows};
@@ -159,7 +159,7 @@ impl Evaluator {
     /// Merges another evaluator of the same plan.
     ///
     /// # Errors
-    /// [`MetricError`] if its plan was another.
+    /// [`MetricError`] if the other evaluator has another plan.
     pub fn merge(&mut self, other: Evaluator) -> Result<(), MetricError> {
         self.merge_states(&other.into_states()?)
     }
@@ -167,7 +167,7 @@ impl Evaluator {
     /// Merges states that were saved elsewhere.
     ///
     /// # Errors
-    /// [`MetricError`] if a state is malformed, or differs in schema, channels or parameters. States before it stay merged.
+    /// [`MetricError`] if a state is malformed, or differs in schema, channels or parameters. Earlier states in the list stay merged.
     pub fn merge_states(&mut self, states: &[State]) -> Result<(), MetricError> {
         for state in states {
             let mut accumulators = self.accumulators.iter_mut();
@@ -190,10 +190,10 @@ impl Evaluator {
         Ok(())
     }
 
-    /// States of all samples so far, which can be merged.
+    /// Mergeable states of all samples so far.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still buffered.
+    /// The errors of [`update`](Evaluator::update), for samples still buffered.
     pub fn states(&mut self) -> Result<Vec<State>, MetricError> {
         self.flush()?;
         let accumulators = self.accumulators.iter();
@@ -202,10 +202,10 @@ impl Evaluator {
             .collect())
     }
 
-    /// The scores of all samples so far; more may follow.
+    /// Scores of all samples so far. Further samples may follow.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still buffered.
+    /// The errors of [`update`](Evaluator::update), for samples still buffered.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Evaluator};
@@ -232,16 +232,16 @@ impl Evaluator {
         Ok(with_collected.scored())
     }
 
-    /// The scores.
+    /// Scores of all samples.
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update), for samples still buffered.
+    /// The errors of [`update`](Evaluator::update), for samples still buffered.
     pub fn finish(mut self) -> Result<Evaluation, MetricError> {
         self.flush()?;
         Ok(self.scored())
     }
 
-    /// Scores of the summed samples, without buffered ones.
+    /// Scores of the summed samples, without the buffered samples.
     fn scored(&self) -> Evaluation {
         let accumulators = self.accumulators.iter();
         let entries = accumulators.flat_map(|accumulator| accumulator.scores(self.plan.kept()));
@@ -268,7 +268,7 @@ impl Evaluator {
     }
 }
 
-/// Exact number of items of an iterator, if its size hint is exact.
+/// Number of items of an iterator; `None` if its size hint is not exact.
 fn certain(items: &impl Iterator) -> Option<usize> {
     let (least, most) = items.size_hint();
     most.filter(|most| *most == least)

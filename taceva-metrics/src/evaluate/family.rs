@@ -1,4 +1,4 @@
-//! Definition of a family of metrics; [`Accumulator`](crate::evaluate::accumulator::Accumulator) does the rest.
+//! Interface of a family of metrics for [`Accumulator`](crate::evaluate::accumulator::Accumulator).
 
 use std::borrow::Cow;
 use std::collections::BTreeMap;
@@ -18,24 +18,24 @@ use crate::score::{Count, Interval, Parameter, Variant};
 /// Description of a family as data: the schema of its states, and its constructor for a plan.
 #[derive(Debug)]
 pub(crate) struct FamilyKind {
-    /// The name and version of its states.
+    /// Name and version of the family's states.
     pub(crate) schema: &'static str,
-    /// True if one summary of all samples is kept, without clusters, because no score of the family has an interval.
+    /// True if the family keeps one summary of all samples, without clusters, because its scores have no intervals.
     pub(crate) is_whole: bool,
-    /// True if the plan chooses the clusters; else they are contact points.
+    /// True if the plan chooses the clusters; otherwise they are contact points.
     pub(crate) clusters_of_plan: bool,
-    /// True if its intervals do not follow the plan's method: they all come from [`Family::intervals`].
+    /// True if the intervals ignore the plan's method: all come from [`Family::intervals`].
     pub(crate) own_intervals: bool,
-    /// Fields that are read if samples carry them.
+    /// Optional fields, read if samples have them.
     pub(crate) optional: FieldSet,
-    /// Obstacle to a value of its metrics, other than missing needs.
+    /// Reason against a value of the family's metrics, other than missing needs.
     pub(crate) obstacle: fn(&MetricPlan) -> Option<SkipReason>,
-    /// The family for a plan that keeps one of its metrics.
+    /// Creates the family for a plan that contains one of its metrics.
     pub(crate) build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
 }
 
 impl FamilyKind {
-    /// Family whose clusters are contact points and which reads only the needs of its metrics.
+    /// Family with contact points as clusters and without optional fields.
     pub(crate) const fn new(
         schema: &'static str,
         build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,
@@ -60,7 +60,7 @@ pub(crate) trait Family: Send + 'static {
     /// Sums of one part: a channel, a plane, a kind of grating, or everything at once.
     type Sums: Merge + Clone + Send + 'static;
 
-    /// Parameters that must be equal in states that merge; none unless the family overrides it.
+    /// Parameters that must be equal in merged states; none by default.
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
@@ -68,11 +68,11 @@ pub(crate) trait Family: Send + 'static {
     fn empty(&self) -> Vec<Self::Sums>;
     /// Adds the ascending `rows` of `batch`; all rows for `None`.
     fn deposit(&mut self, sums: &mut [Self::Sums], batch: &Batch, rows: Option<&[u32]>);
-    /// Clusters of the rows of `batch`; the contact points unless the family overrides it.
+    /// Clusters of the rows of `batch`; by default the contact points.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         batch.points().map(Cow::Borrowed)
     }
-    /// Reason for a missing interval if samples are not clustered.
+    /// Reason for a missing interval without clusters.
     fn unclustered(&self) -> UndefinedReason {
         UndefinedReason::NoClusters
     }
@@ -83,30 +83,30 @@ pub(crate) trait Family: Send + 'static {
 
     /// Scores of `metric`, which belongs to this family.
     fn outputs(&self, metric: &Metric) -> Vec<Output>;
-    /// Samples of a part that `metric` counts; the weight of its clusters.
+    /// Number of samples of a part that `metric` uses: the weight of a cluster.
     fn count(&self, metric: &Metric, sums: &Self::Sums) -> u64;
-    /// Samples of a part that were skipped for an unusable value.
+    /// Number of samples of a part that were skipped for an unusable value.
     fn invalid(&self, sums: &Self::Sums) -> u64;
-    /// Numbers of `metric` for one part; an output of two parts is the mean of theirs.
+    /// Numbers of `metric` for one part. An output of two parts is the mean of their numbers.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers;
-    /// Numbers of `metric` for other choices of clusters; those without intervals may be missing.
+    /// Numbers of `metric` for another selection of clusters. Numbers without intervals may be missing.
     fn resampled(&self, metric: &Metric, output: &Output, sums: &Self::Sums) -> Numbers {
         self.numbers(metric, output, sums)
     }
-    /// Numbers of `metric` from the `sums` of all parts, if they are not the mean of the parts' numbers.
+    /// Joint numbers of `metric` from the `sums` of all parts; `None` to use the mean of the parts' numbers.
     fn joint(&self, _metric: &Metric, _output: &Output, _sums: &[Self::Sums]) -> Option<Numbers> {
         None
     }
-    /// Reason why `metric` does not apply to the output, if any.
+    /// Reason why `metric` does not apply to the output; `None` if it applies.
     fn inapplicable(&self, _metric: &Metric, _output: &Output) -> Option<InapplicableReason> {
         None
     }
-    /// Details of a score other than its numbers, from the sums of all its parts together.
+    /// Details of a score other than its numbers, from the sums of all its parts.
     fn details(&self, _metric: &Metric, _output: &Output, _parts: &[&Self::Sums]) -> Details {
         Details::default()
     }
     /// Intervals of the value and of the variants by name, if the family has a better method than the jackknife of the score. `clusters`
-    /// hold the sums of each part.
+    /// contains the sums of each part.
     fn intervals(
         &self,
         _metric: &Metric,
@@ -117,7 +117,7 @@ pub(crate) trait Family: Send + 'static {
     }
 }
 
-/// Visits the rows given to [`Family::deposit`], as positions in the batch.
+/// Calls `add` with each row index given to [`Family::deposit`].
 pub(crate) fn each_row(batch: &Batch, rows: Option<&[u32]>, mut add: impl FnMut(usize)) {
     match rows {
         Some(rows) => rows.iter().for_each(|&row| add(row as usize)),
@@ -125,16 +125,16 @@ pub(crate) fn each_row(batch: &Batch, rows: Option<&[u32]>, mut add: impl FnMut(
     }
 }
 
-/// One score of a metric: of a part, or the mean of two.
+/// One score of a metric: the score of a part, or the mean of two parts.
 #[derive(Clone, Debug)]
 pub(crate) struct Output {
     /// Name in reports.
     pub(crate) label: String,
-    /// The unit of its channels.
+    /// Unit of the channels.
     pub(crate) unit: Unit,
-    /// Channels of the output, unless it belongs to a single channel.
+    /// Channels of the output; empty for a single channel.
     pub(crate) of: Vec<String>,
-    /// Indices of the one or two parts from which it is computed.
+    /// Indices of the one or two source parts.
     pub(crate) parts: Vec<usize>,
 }
 
@@ -145,7 +145,7 @@ pub(crate) struct Numbers {
     pub(crate) variants: Vec<Number>,
 }
 
-/// A variant of a score that is one number.
+/// A scalar variant of a score.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Number {
     pub(crate) name: Cow<'static, str>,
@@ -155,7 +155,7 @@ pub(crate) struct Number {
 }
 
 impl Numbers {
-    /// A value without variants; a number that is not finite counts as overflow.
+    /// A value without variants. A number that is not finite becomes an overflow.
     pub(crate) fn of(value: Finished) -> Numbers {
         Numbers {
             value: value.and_then(finite),
@@ -163,7 +163,7 @@ impl Numbers {
         }
     }
 
-    /// The same numbers and a variant.
+    /// The same numbers with one more variant.
     pub(crate) fn with(
         mut self,
         name: impl Into<Cow<'static, str>>,
@@ -186,7 +186,7 @@ impl Numbers {
         found.map_or(Err(UndefinedReason::Empty), |variant| variant.value)
     }
 
-    /// RN of the exact mean of both, number by number; an error in either gives an error.
+    /// RN of the exact mean of both sides, number by number. An error on either side gives an error.
     pub(crate) fn mean(self, other: &Numbers) -> Numbers {
         let mean = |left: Finished, right: Finished| Ok(midpoint(left?, right?));
         let variants = self.variants.into_iter().map(|variant| Number {
@@ -208,7 +208,7 @@ fn finite(value: f64) -> Finished {
     }
 }
 
-/// RN((a + b) / 2). Halving is exact unless the sum is tiny, and then the sum is exact. If the sum overflows, the halves are exact.
+/// RN((a + b) / 2). Halving is exact unless the sum is tiny, and a tiny sum is exact. If the sum overflows, halving each number first is exact.
 pub(crate) fn midpoint(left: f64, right: f64) -> f64 {
     let sum = left + right;
     if sum.is_finite() {
@@ -227,7 +227,7 @@ pub(crate) struct Details {
     pub(crate) flags: Vec<Flag>,
 }
 
-/// Intervals of a value and of variants by name, and values of variants that depend on clusters.
+/// Intervals of a value and of its variants by name, and values of variants that depend on clusters.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Intervals {
     /// Interval of the value; `None` to use the jackknife of the score.
@@ -238,7 +238,7 @@ pub(crate) struct Intervals {
 }
 
 impl Intervals {
-    /// The interval of the variant called `name`, or of the value itself; the last one of a name counts.
+    /// Interval of the variant called `name`, or of the value for `None`. The last entry of a name applies.
     pub(crate) fn of(&self, name: Option<&str>) -> Option<Interval> {
         let Some(name) = name else {
             return self.value;
@@ -248,7 +248,7 @@ impl Intervals {
         found.map(|(_, interval)| *interval)
     }
 
-    /// The value that clusters give the variant called `name`.
+    /// Value of the variant called `name` computed from clusters.
     pub(crate) fn value_of(&self, name: &str) -> Option<Finished> {
         let mut values = self.values.iter();
         let found = values.find(|(known, _)| known == name);

@@ -1,4 +1,4 @@
-//! Description of a metric as data: names, unit, direction, needs, and the family whose sums its scores need.
+//! Descriptions of metrics as data: names, unit, direction, needs, and the family with the required sums.
 
 use std::any::Any;
 use std::fmt;
@@ -13,7 +13,7 @@ use crate::score::sensor_facts::Fact;
 use crate::score::theme::Theme;
 use crate::score::verdict_rule::VerdictRule;
 
-/// A measure of a sensor or of its predictions: one number per channel or plane, with its definition.
+/// Description of a metric: a number per channel or plane that characterises a sensor or its predictions.
 ///
 /// ```
 /// use taceva_metrics::{Better, catalogue};
@@ -24,23 +24,23 @@ use crate::score::verdict_rule::VerdictRule;
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Metric {
-    /// The name in commands, plans and reports.
+    /// Name in commands, plans and reports.
     pub id: &'static str,
-    /// The name in words.
+    /// Title in words.
     pub title: &'static str,
-    /// The symbol in papers, as LaTeX.
+    /// Symbol in papers, as LaTeX; `None` without a symbol.
     pub symbol: Option<&'static str>,
     /// Section of reports.
     pub theme: Theme,
     /// Direction of good values.
     pub better: Better,
-    /// Variants with another direction than the metric.
+    /// Variants with a direction of their own.
     pub variants: &'static [(&'static str, Better)],
     /// The unit of its values.
     pub unit: ScoreUnit,
-    /// Range of possible values, which also bounds intervals.
+    /// Range of possible values and interval ends.
     pub range: Range,
-    /// Definition with its version; a new version changes the meaning.
+    /// Name and version of the definition. Another version has another meaning.
     pub definition: &'static str,
     /// Source of the definition.
     pub reference: &'static str,
@@ -50,26 +50,26 @@ pub struct Metric {
     pub needs: Needs,
     /// Facts about the sensor that a value requires.
     pub facts: &'static [Fact],
-    /// Constants that are reported with a score.
+    /// Constants reported with a score.
     pub(crate) constants: fn(Unit) -> Vec<Parameter>,
-    /// True if predictions enter unclipped, beyond the bounds of the model too.
+    /// True if the metric uses unclipped predictions, even beyond the bounds of the model.
     pub(crate) reads_unbounded: bool,
-    /// True if it scores only forces.
+    /// True if the metric applies only to forces.
     pub(crate) forces_only: bool,
-    /// Variant that decides verdicts, if the value itself depends on noise or on the number of repeats.
+    /// Variant that decides verdicts; `None` if the value itself decides. Needed if the value depends on noise or on the number of repeats.
     pub decided_by: Option<&'static str>,
-    /// Rule for the standing of its scores in verdicts.
+    /// Rule for the standing of the metric's scores in verdicts.
     pub(crate) verdict: VerdictRule,
-    /// Value of the deciding variant under chance alone, which its interval must exclude.
+    /// Value of the deciding variant from chance alone. Verdicts require an interval that excludes this value.
     pub(crate) chance: Option<f64>,
-    /// Family whose sums the metric is computed from.
+    /// Family with the sums of the metric.
     pub(crate) family: &'static FamilyKind,
-    /// Formula, if its family has several metrics.
+    /// Formula; meaningful only in a family of several metrics.
     pub(crate) formula: Formula,
 }
 
 impl Metric {
-    /// Metric of `family` without a name: the defaults of every field.
+    /// Metric of `family` with a default in every field.
     pub(crate) const fn of(family: &'static FamilyKind) -> Metric {
         Metric {
             id: "",
@@ -96,22 +96,22 @@ impl Metric {
         }
     }
 
-    /// True if it uses predictions of channels.
+    /// True if the metric uses predictions of channels.
     pub fn reads_predictions(&self) -> bool {
         self.needs.fields.contains(Field::Prediction)
     }
 
-    /// True if it scores only forces, so that it needs no predicted positions.
+    /// True if the metric applies only to forces and so needs no predicted positions.
     pub fn is_of_forces(&self) -> bool {
         self.forces_only
     }
 
-    /// True if it reads predictions unclipped. Otherwise robustness would describe the bounds of the model.
+    /// True if the metric uses unclipped predictions. Clipped predictions would describe the bounds of the model instead of its robustness.
     pub fn reads_unbounded_predictions(&self) -> bool {
         self.reads_unbounded
     }
 
-    /// The direction of the variant called `variant`.
+    /// Direction of the variant called `variant`.
     pub fn better_of(&self, variant: &str) -> Better {
         let mut variants = self.variants.iter();
         let own = variants.find(|(name, _)| *name == variant);
@@ -119,7 +119,7 @@ impl Metric {
     }
 }
 
-/// Formula of a metric, of the type that its family defines.
+/// Formula of a metric, with a type that its family defines.
 #[derive(Clone, Copy)]
 pub(crate) struct Formula(pub(crate) &'static (dyn Any + Send + Sync));
 
@@ -136,7 +136,7 @@ impl fmt::Debug for Formula {
     }
 }
 
-/// The unit of a metric's values.
+/// Unit of a metric's values.
 ///
 /// ```
 /// use taceva_metrics::{ScoreUnit, Unit};
@@ -149,14 +149,14 @@ pub enum ScoreUnit {
     OfChannel,
     /// Unit of the channel per hour; mm and N only.
     PerHour,
-    /// Always this one.
+    /// The same unit for every channel.
     Fixed(Unit),
-    /// None: a ratio.
+    /// No unit: a ratio.
     One,
 }
 
 impl ScoreUnit {
-    /// The unit for a channel kept in `channel`.
+    /// Unit of a score for a channel in the unit `channel`.
     pub fn of(self, channel: Unit) -> Unit {
         match self {
             ScoreUnit::OfChannel => channel,

@@ -1,15 +1,15 @@
-//! Number types that a caller may pass.
+//! Number types of the input.
 
-/// A number of a row: `f64`, `f32`, a reference to one of them, or an `Option` of any, `None` where the sample has no value.
+/// A number of a row: `f64`, `f32`, a reference to one of them, or an `Option` with `None` for a missing value.
 ///
-/// Any iterator over such numbers is a column: a slice, a vector, an array, a view of `ndarray`. An `f32` is widened without loss.
+/// Any iterator over numbers of this trait is a column: a slice, a vector, an array, a view of `ndarray`. An `f32` is widened without loss.
 ///
 /// ```
 /// use taceva_metrics::Number;
 /// assert_eq!((0.5_f32.number(), (&0.5).number(), None::<f64>.number()), (Some(0.5), Some(0.5), None));
 /// ```
 pub trait Number: Copy {
-    /// The number in binary64; `None` if there is none.
+    /// The number in binary64; `None` for a missing value.
     ///
     /// ```
     /// use taceva_metrics::Number;
@@ -17,7 +17,7 @@ pub trait Number: Copy {
     /// ```
     fn number(self) -> Option<f64>;
 
-    /// `values` without a copy, if they are binary64 already.
+    /// Borrows `values` without a copy; `None` if they are not binary64.
     #[doc(hidden)]
     fn doubles(_values: &[Self]) -> Option<&[f64]> {
         None

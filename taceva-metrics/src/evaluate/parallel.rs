@@ -1,4 +1,4 @@
-//! Samples on all threads of a rayon pool.
+//! Parallel evaluation on a rayon pool.
 
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use taceva_core::Batch;
@@ -8,9 +8,9 @@ use crate::evaluate::evaluator::Evaluator;
 use crate::evaluate::plan::MetricPlan;
 
 impl Evaluator {
-    /// An evaluator of `batches`, which the threads of the current rayon pool share.
+    /// Evaluator with the samples of `batches`, summed by all threads of the current rayon pool.
     ///
-    /// Sums are exact, so the result is the same on any number of threads, bit for bit.
+    /// Sums are exact, so any number of threads gives the same result, bit for bit.
     ///
     /// ```
     /// use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
@@ -29,7 +29,7 @@ impl Evaluator {
     /// ```
     ///
     /// # Errors
-    /// As [`update`](Evaluator::update).
+    /// The errors of [`update`](Evaluator::update).
     pub fn of_batches(
         plan: &MetricPlan,
         batches: impl IntoParallelIterator<Item = Batch>,

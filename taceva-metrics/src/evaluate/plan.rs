@@ -1,4 +1,4 @@
-//! Plan of an evaluation: computed metrics, skipped metrics with reasons, and the fields to read.
+//! Plan of an evaluation: computed metrics, skipped metrics with reasons, and required fields.
 
 mod selection;
 
@@ -43,7 +43,7 @@ pub struct MetricPlan {
 }
 
 impl MetricPlan {
-    /// The same plan with other constants of definitions.
+    /// The same plan with other constants in the definitions.
     ///
     /// # Errors
     /// [`MetricError::Setting`] for a value outside the allowed range.
@@ -78,11 +78,11 @@ impl MetricPlan {
     }
 
     /// The same plan for independent samples: every sample is its own cluster in intervals of errors, R², skill, planes, linearity,
-    /// cross-talk, bias by level, tolerance, agreement and tolerance interval. Each of these intervals says `samples taken as independent`.
-    /// Metrics that need to know which samples belong together keep contact points.
+    /// cross-talk, bias by level, tolerance, agreement and tolerance interval. The method of these intervals says `samples taken as independent`.
+    /// Metrics that compare samples of one contact point still use contact points as clusters.
     ///
-    /// Presses at one location are not independent: such intervals would contain the truth too seldom (`docs/coverage.md`). A cluster is
-    /// named by its sample ([`Batch::with_samples`](taceva_core::Batch::with_samples)). In a batch without these names, samples that are
+    /// Presses at one location are not independent: with single samples as clusters, intervals would contain the truth too seldom
+    /// (`docs/coverage.md`). [`Batch::with_samples`](taceva_core::Batch::with_samples) names the clusters. In a batch without these names, samples that are
     /// equal in every channel share a cluster. More than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) clusters are assigned by hash to
     /// [`HASHED_CLUSTERS`](crate::HASHED_CLUSTERS). Scores therefore depend on the set of samples alone.
     ///
@@ -101,11 +101,11 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for samples of several recordings, each of which is a cluster. Intervals of errors, R², skill, planes, linearity,
+    /// The same plan for samples of several recordings, with each recording as a cluster. Intervals of errors, R², skill, planes, linearity,
     /// cross-talk, bias by level, tolerance, agreement and tolerance interval then show the variation between recordings. Their method is
     /// named `by recording`. Batches name the recording of each sample
-    /// ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without it these intervals are undefined. Metrics that need to
-    /// know which samples belong together keep contact points.
+    /// ([`Batch::with_recordings`](taceva_core::Batch::with_recordings)); without these names the intervals are undefined. Metrics that
+    /// compare samples of one contact point still use contact points as clusters.
     ///
     /// ```
     /// use taceva_metrics::{Batch, Channel, Channels, Column, Evaluator, FieldSet, Labels, MetricPlan, catalogue};
@@ -130,7 +130,7 @@ impl MetricPlan {
         }
     }
 
-    /// The same plan for samples in dependent groups, such as blocks of time or clips, each of which is a cluster. As
+    /// The same plan for samples in dependent groups, such as blocks of time or clips, with each group as a cluster. Works like
     /// [`by_recording`](MetricPlan::by_recording), with the group name of each sample in place of its recording, and the method `by group`.
     #[must_use]
     pub fn by_group(self) -> MetricPlan {
@@ -145,8 +145,8 @@ impl MetricPlan {
         self.clustered_by
     }
 
-    /// The same plan for a model with known best constant predictions: by channel the mean of the training labels, in the unit of the
-    /// channel. Skill is measured against them, and for other channels against the mean of the evaluated truth.
+    /// The same plan with the best constant predictions for the model: by channel the mean of the training labels, in the unit of the
+    /// channel. Skill compares the model with these constants, and in other channels with the mean of the evaluated truth.
     ///
     /// # Errors
     /// [`MetricError::Setting`] for an unusable constant.
@@ -186,7 +186,7 @@ impl MetricPlan {
         &self.wanted
     }
 
-    /// Fields that samples may carry.
+    /// Fields that samples may have.
     pub fn available(&self) -> FieldSet {
         self.available
     }
@@ -206,7 +206,7 @@ impl MetricPlan {
         &self.channels
     }
 
-    /// Fields that are read of a sample.
+    /// Required fields of a sample.
     pub fn fields(&self) -> FieldSet {
         self.fields
     }
@@ -231,17 +231,17 @@ impl MetricPlan {
         &self.settings
     }
 
-    /// Best constant predictions for the model, by channel, as far as known.
+    /// Known best constant predictions for the model, by channel.
     pub fn constants(&self) -> &BTreeMap<String, f64> {
         &self.constants
     }
 
-    /// The best constant prediction for the model in the channel called `channel`.
+    /// Best constant prediction for the model in the channel called `channel`; `None` if unknown.
     pub(crate) fn constant(&self, channel: &str) -> Option<f64> {
         self.constants.get(channel).copied()
     }
 
-    /// True if samples may carry `field`.
+    /// True if samples may have `field`.
     pub(crate) fn carries(&self, field: Field) -> bool {
         self.available.contains(field)
     }

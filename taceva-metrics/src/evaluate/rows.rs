@@ -1,4 +1,4 @@
-//! Truth and prediction, column by column.
+//! Samples as columns of truth and prediction.
 
 use taceva_core::{Batch, Channel, Channels, Column, Labels};
 
@@ -6,10 +6,10 @@ use crate::error::MetricError;
 use crate::evaluate::number::Number;
 use crate::evaluate::state::{describe, written};
 
-/// Some samples, given channel by channel: truth, prediction, and perhaps the contact point of each.
+/// Samples given channel by channel: truth, prediction, and optionally the contact point of each sample.
 ///
 /// # Shapes
-/// Every column and the locations have one length, the number of samples. It is checked when the rows are added.
+/// Every column and the contact points have the same length, the number of samples. Adding the rows checks these lengths.
 /// # Units
 /// Values are in the unit of their channel: mm for `Px Py Pz`, N for `Fx Fy Fz`.
 ///
@@ -42,7 +42,7 @@ impl Rows {
         Rows::default()
     }
 
-    /// These rows with `truth` and `prediction` of `channel`, one number per sample, in the unit of the channel. Values are copied once.
+    /// Adds `truth` and `prediction` of `channel`, one number per sample, in the unit of the channel. Values are copied once.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Rows};
@@ -63,7 +63,7 @@ impl Rows {
         self
     }
 
-    /// These rows with the contact point of each, by name: samples at one contact point are one cluster of the intervals.
+    /// Adds the name of each sample's contact point. Samples at one contact point form one cluster of the intervals.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Rows};
@@ -80,11 +80,11 @@ impl Rows {
         self
     }
 
-    /// The rows as a batch of `channels`; a channel without columns has no value in any row.
+    /// Converts the rows to a batch of `channels`. A channel without columns has no value in any row.
     ///
     /// # Errors
-    /// [`MetricError::Lengths`] if the lengths of a prediction and its truth differ. [`MetricError::Rows`] if a channel or the locations
-    /// differ in length from the first channel. [`MetricError::Channels`] for a channel outside `channels`, or one given twice.
+    /// [`MetricError::Lengths`] if a prediction and its truth differ in length. [`MetricError::Rows`] if a channel or the contact points
+    /// differ in length from the first channel. [`MetricError::Channels`] for a channel outside `channels`, or a repeated channel.
     ///
     /// ```
     /// use taceva_metrics::{Channel, Channels, Rows};

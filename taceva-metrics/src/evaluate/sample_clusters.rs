@@ -1,11 +1,11 @@
-//! Every sample without a name as its own cluster.
+//! Clusters of single samples without names.
 
 use taceva_core::{Batch, Column, Labels};
 
 use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
 
-/// Names the rows of `batch` by their values of every channel. Rows of equal values share a name, so that all results depend on the set of
-/// rows alone.
+/// Names the rows of `batch` by their values in all channels. Rows with equal values share a name, so that results depend only on the set of
+/// rows.
 pub(crate) fn rows_as_clusters(batch: &Batch) -> Labels {
     let channels = 0..batch.channels().len();
     let mut labels = Labels::default();

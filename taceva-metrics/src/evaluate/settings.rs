@@ -1,12 +1,12 @@
-//! Settings of the computation of scores.
+//! Adjustable constants of definitions.
 
 use taceva_core::{Nanometre, Newton};
 
 use crate::error::MetricError;
 
-/// Adjustable constants of definitions; the defaults are those of the paper or its project page.
+/// Adjustable constants of definitions. Defaults are the values of the paper or of its project page.
 ///
-/// Each constant is reported with its scores. States with different constants do not merge.
+/// Each score reports its constants. States with different constants do not merge.
 ///
 /// ```
 /// use taceva_metrics::Settings;
@@ -16,17 +16,17 @@ use crate::error::MetricError;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Settings {
-    /// Cells along each side of a map of the surface: 20, at most 1,000.
+    /// Cells along each side of a map of the surface; default 20, at most 1,000.
     pub bins: u32,
-    /// Samples that a bin needs to count: 1.
+    /// Least number of samples of a bin; default 1.
     pub n_min: u64,
-    /// Number subtracted from the bin count in the divisor of the variance: 0, as the bins are the whole population, or 1.
+    /// Number subtracted from the bin count in the divisor of the variance: 0 (default: the bins are the whole population) or 1.
     pub ddof: u32,
-    /// Least normal force of contact: 0.02 N.
+    /// Least normal force of contact; default 0.02 N.
     pub gate: Newton,
-    /// Number of bins in a rolling mean, odd: 5.
+    /// Number of bins in a rolling mean, odd; default 5.
     pub smoothing_window: u32,
-    /// Greatest error of a recognised spacing of a grating: 0.05 mm.
+    /// Greatest error of a recognised grating spacing; default 0.05 mm.
     pub resolution_tolerance: Nanometre,
 }
 
@@ -44,7 +44,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Most cells along each side of a map; a larger map would exceed its data.
+    /// Greatest number of cells along each side of a map. A larger map would exceed its data.
     pub const BINS_MAX: u32 = 1000;
 
     /// The same settings with another [`bins`](Settings::bins).

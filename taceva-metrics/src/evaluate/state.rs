@@ -1,4 +1,4 @@
-//! State of an accumulator, as data: written to a file, sent to another lab, merged there.
+//! States of accumulators as data, for files and for merging in another process.
 
 use std::collections::BTreeMap;
 
@@ -9,9 +9,9 @@ use crate::exact::record::Record;
 use crate::stats::clusters::Clusters;
 use crate::stats::row_groups::HASHED_CLUSTERS;
 
-/// The mergeable summary of some samples.
+/// Mergeable summary of a set of samples.
 ///
-/// States of the same samples are equal, for any order, split or merges.
+/// Equal sets of samples have equal states, for any order, split or merge.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};
@@ -32,27 +32,27 @@ pub struct State {
 }
 
 impl State {
-    /// Schema with its version: `taceva.pairs/1`.
+    /// Name and version of the schema: `taceva.pairs/1`.
     pub fn schema(&self) -> &str {
         &self.schema
     }
 
-    /// Parameters of its accumulator; only states with equal parameters merge.
+    /// Parameters of the accumulator. Only states with equal parameters merge.
     pub fn parameters(&self) -> &BTreeMap<String, String> {
         &self.parameters
     }
 
-    /// The channels of its samples with their units.
+    /// Channels of the samples, with their units.
     pub fn channels(&self) -> &[(String, Unit)] {
         &self.channels
     }
 
-    /// Sums by contact point: one record per channel or plane.
+    /// Sums by contact point, with one record per channel or plane.
     pub fn clusters(&self) -> &Clusters<Vec<Record>> {
         &self.clusters
     }
 
-    /// Rejects a state that differs from `own` in schema, channels or parameters, or is incomplete.
+    /// Rejects an incomplete state, or a state that differs from `own` in schema, channels or parameters.
     pub(crate) fn check(&self, own: &Shape) -> Result<(), MetricError> {
         if self.schema != own.schema {
             return Err(MetricError::Schema {
@@ -85,14 +85,14 @@ impl State {
     }
 }
 
-/// Schema, parameters and channels that a state needs to be merged.
+/// Schema, parameters and channels that a state must have to be merged.
 pub(crate) struct Shape {
     pub(crate) schema: &'static str,
     pub(crate) parameters: BTreeMap<String, String>,
     pub(crate) channels: Vec<(String, Unit)>,
 }
 
-/// Channels as a state writes them.
+/// Channels in the form of a state.
 pub(crate) fn written(channels: &Channels) -> Vec<(String, Unit)> {
     channels
         .iter()
@@ -100,7 +100,7 @@ pub(crate) fn written(channels: &Channels) -> Vec<(String, Unit)> {
         .collect()
 }
 
-/// Channels as a message names them: `Px [mm], Fz [N]`.
+/// Channels in the form of a message: `Px [mm], Fz [N]`.
 pub(crate) fn describe(channels: &[(String, Unit)]) -> String {
     let names: Vec<String> = channels
         .iter()

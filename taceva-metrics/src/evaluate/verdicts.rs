@@ -1,8 +1,8 @@
-//! Standing of scores in verdicts: the one rule that every output uses.
+//! Standing of scores in verdicts, the same rule for every output.
 //!
 //! A verdict is a claim: a bold face, a rank, a place on a radar, an answer of a comparison, a choice or an acceptance. A model that
-//! predicts the same for every input has perfect repeatability, linearity and robustness to light: such scores are numbers, but no
-//! evidence.
+//! predicts the same for every input has perfect repeatability, linearity and robustness to light. Its scores are valid numbers, but
+//! no evidence.
 
 use taceva_core::Field;
 
@@ -15,9 +15,9 @@ use crate::score::verdict_standing::Standing;
 use crate::score::{Interval, Score};
 
 impl Standing {
-    /// Standing of a score of `metric` made of `channels`, with the skill of each channel from `skill_of`.
+    /// Standing of a score of `metric` computed from `channels`. `skill_of` returns the skill of each channel.
     ///
-    /// Metrics of the truth alone always count; a score of several channels has the worst of their standings.
+    /// Metrics of the truth alone always count. A score of several channels gets the worst standing of these channels.
     pub fn of_channels<'a>(
         metric: &Metric,
         channels: impl IntoIterator<Item = &'a str>,
@@ -61,7 +61,7 @@ fn low_end(score: &Score) -> Option<f64> {
     }
 }
 
-/// The channels of a score called `channel`.
+/// Channels from which the score called `channel` is computed.
 pub(crate) fn channels(channel: &str, score: &Score) -> Vec<String> {
     match score.of.is_empty() {
         true => vec![channel.to_owned()],
@@ -101,7 +101,7 @@ fn of_score(
         .max(beside_chance(metric, score))
 }
 
-/// Standing of a spread: it counts if the interval of its deciding variant excludes the value of chance alone.
+/// Standing of a spread: a score counts if the interval of its deciding variant excludes the value of chance alone.
 fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     let (Some(chance), Some(name)) = (metric.chance, metric.decided_by) else {
         return Standing::Counts;
@@ -115,7 +115,7 @@ fn beside_chance(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// Standing of a share within a tolerance: it does not count if the constant of the skill reaches as much. Without a known constant, skill
+/// Standing of a share within a tolerance: a score does not count if the skill's constant reaches the same share. Without a known constant, skill
 /// alone decides.
 fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     match (metric.verdict, of_share(score)) {
@@ -125,7 +125,7 @@ fn beside_constant(metric: &Metric, score: &Score) -> Standing {
     }
 }
 
-/// Standing of a share of correct predictions: it shows skill if its interval is above the share of a constant prediction.
+/// Standing of a share of correct predictions: the score shows skill if its interval is above the share of a constant prediction.
 fn of_share(score: &Score) -> Standing {
     let of_constant = score
         .variant(OF_CONSTANT)

@@ -1,8 +1,8 @@
-//! Exact sums of the streams of pairs, computed block by block.
+//! Exact sums of the streams of pairs, block by block.
 //!
-//! Blocks are summed in whole units of grids that fit the latest pairs. The units stay integers over many blocks. They move to the
-//! superaccumulators only when the grids change, before they could overflow, and when a sum is read. A pair that does not fit is removed
-//! from its block and added alone. The choice of these pairs depends on earlier pairs, but the sums do not: every path is exact.
+//! A block is summed in whole units of grids that fit the latest pairs. The units remain integers over many blocks. They move to the
+//! superaccumulators when the grids change, before an overflow, and when a sum is read. A pair that does not fit the grids is removed
+//! from its block and added alone. The selection of these pairs depends on earlier pairs, but the sums do not: every path is exact.
 
 use super::bounds::{Grids, TERMS};
 use super::kernel::{BLOCK_ROWS, Block};
@@ -14,12 +14,12 @@ use crate::exact::merge::Merge;
 use crate::exact::streams::{Stream, Streams};
 use crate::pair::Paired;
 
-/// Least rows of a block; fewer are added one by one, which is faster.
+/// Least number of rows of a block. Adding fewer rows one by one is faster.
 const FEW_ROWS: usize = 4;
-/// Most rows between deposits: each adds less than 2⁴⁴ units, so their sum stays within an `i64`.
+/// Greatest number of rows between deposits. Each row adds less than 2⁴⁴ units, so the sum fits an `i64`.
 const MOST_ROWS: usize = 1 << 19;
 
-/// Exact sums of the wanted streams, with counts of their pairs.
+/// Exact sums of the requested streams, with counts of their pairs.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockSums {
     machine: Machine,
@@ -30,7 +30,7 @@ pub(crate) struct BlockSums {
     pending: Option<Pending>,
 }
 
-/// Counts of pairs.
+/// Counts of valid, invalid and gated pairs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Counts {
     /// Summed pairs.
@@ -41,7 +41,7 @@ pub(crate) struct Counts {
     pub(crate) gated: u64,
 }
 
-/// One sum per stream, and the sum of the sMAPE terms of pairs that reach the gate.
+/// Sum of each stream, and sum of the sMAPE terms of pairs whose truth reaches the gate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Sums {
     pub(crate) streams: [ExactSum; Stream::ALL.len()],
@@ -49,7 +49,7 @@ pub(crate) struct Sums {
 }
 
 impl BlockSums {
-    /// Empty sums. Without `gate`, no gated sum is computed.
+    /// Empty sums. Without `gate`, there is no gated sum.
     pub(crate) fn new(machine: Machine, streams: Streams, gate: Option<f64>) -> BlockSums {
         BlockSums {
             machine,
@@ -61,12 +61,12 @@ impl BlockSums {
         }
     }
 
-    /// Replaces counts and sums by saved ones of the same streams.
+    /// Replaces counts and sums by saved ones with the same streams.
     pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
         (self.counts, self.settled, self.pending) = (counts, sums, None);
     }
 
-    /// Adds pairs; those with an unusable value are counted and skipped.
+    /// Adds pairs. Pairs with an unusable value are counted and skipped.
     pub(crate) fn update(&mut self, pairs: Paired<&[f64]>) {
         if pairs.estimate.len() < FEW_ROWS {
             return pairs.iter().for_each(|pair| self.add_pair(pair));
@@ -80,7 +80,7 @@ impl BlockSums {
         }
     }
 
-    /// The sum of `stream`; zero if it is not wanted.
+    /// Sum of `stream`; zero for a stream that is not requested.
     pub(crate) fn sum(&self, stream: Stream) -> ExactSum {
         let mut sum = self.settled.streams[stream as usize].clone();
         if let Some(pending) = self
@@ -93,7 +93,7 @@ impl BlockSums {
         sum
     }
 
-    /// The sum of the terms of sMAPE of the pairs that reach the gate.
+    /// Sum of the sMAPE terms of pairs whose truth reaches the gate.
     pub(crate) fn gated_sum(&self) -> ExactSum {
         let mut sum = self.settled.gated.clone();
         if let Some(pending) = self.pending.as_ref().filter(|_| self.gate.is_some()) {
@@ -134,7 +134,7 @@ impl BlockSums {
         true
     }
 
-    /// Adds a block with pairs that do not fit: those pairs one by one, the others as a block.
+    /// Adds a block with strays, pairs that do not fit the grids: the strays one by one, the others as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, pairs: Paired<&[f64]>) {
@@ -206,7 +206,7 @@ impl Merge for BlockSums {
     }
 }
 
-/// Equality by value: the same sum may be pending in one and settled in the other.
+/// Equality by value: one side may have pending units that the other side has already moved.
 impl PartialEq for BlockSums {
     fn eq(&self, other: &BlockSums) -> bool {
         self.streams == other.streams

@@ -1,13 +1,13 @@
-//! Bounds on the pairs of a block within which its vector sums are exact.
+//! Bounds on the pairs of a block that keep its vector sums exact.
 
 use super::grid::{Grid, power_of_two};
 use super::vector::Vector;
 use crate::exact::streams::{Stream, Streams};
 use crate::pair::Paired;
 
-/// Greatest exponent of a grid: squares and their rounding errors stay far from over- and underflow.
+/// Greatest exponent of a grid, far from overflow of squares and from underflow of their rounding errors.
 const GREATEST_TOP: i32 = 400;
-/// The grid of the terms of sMAPE, which are at most 2 before rounding.
+/// Grid of the terms of sMAPE, which are at most 2 before rounding.
 pub(super) const TERMS: Grid = Grid { top: 1 };
 
 /// Grids that fit the magnitudes of some pairs.
@@ -19,7 +19,7 @@ pub(super) struct Grids {
     pub(super) truth: Grid,
 }
 
-/// Magnitudes from `least` to `greatest`, and zero.
+/// Range of magnitudes from `least` to `greatest`, and zero.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Range {
     pub(super) least: f64,
@@ -27,7 +27,7 @@ pub(super) struct Range {
 }
 
 impl Range {
-    /// Exponents from `top` down to `reach` below it.
+    /// Range of exponents from `top` − `reach` to `top`.
     pub(super) fn new(top: i32, reach: i32) -> Range {
         Range {
             least: power_of_two((top - reach).max(-1022)),
@@ -40,7 +40,7 @@ impl Range {
     }
 }
 
-/// A range in every lane.
+/// Range with the same bounds in every lane.
 pub(super) struct RangeInLanes<V> {
     below_least: V,
     greatest: V,
@@ -57,14 +57,14 @@ impl Range {
 }
 
 impl<V: Vector> RangeInLanes<V> {
-    /// True if all magnitudes are within the range. `greatest` is the greatest, `below_least` the predecessor of the least nonzero one.
+    /// True if all magnitudes are within the range. `greatest` is the greatest magnitude, `below_least` the predecessor of the least nonzero magnitude.
     #[inline(always)]
     pub(super) fn hold(self, below_least: V, greatest: V) -> bool {
         greatest.all_at_most(self.greatest) && self.below_least.all_at_most(below_least)
     }
 }
 
-/// Magnitudes of y − ŷ and y for which the sums of the wanted streams are exact.
+/// Bounds on y − ŷ and y that keep the sums of the requested streams exact.
 ///
 /// Within these bounds ŷ is at most the sum of two such magnitudes and needs no bounds of its own.
 #[derive(Clone, Copy, Debug)]
@@ -108,17 +108,17 @@ impl Bounds {
     }
 }
 
-/// The least exponent of a residual whose term of sMAPE is within reach on its grid.
+/// Least exponent of a residual whose sMAPE term fits the grid.
 ///
-/// The divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding. With m the greatest exponent of these three it is below 2^(m+3);
-/// ε is below 2⁻²⁶.
+/// The divisor (|y| + |ŷ|) / 2 + ε is below |y| + |d| + ε up to rounding. With m the greatest exponent of these three terms, the divisor is below
+/// 2^(m+3); ε is below 2⁻²⁶.
 fn least_residual_of_terms(residual: i32, truth: i32) -> i32 {
     let divisor = residual.max(truth).max(-27) + 3;
     TERMS.top - Grid::REACH + divisor
 }
 
 impl Grids {
-    /// Grids that exclude as few of `pairs` as possible.
+    /// Grids that fit as many of `pairs` as possible.
     pub(super) fn fitting(pairs: Paired<&[f64]>, streams: Streams) -> Grids {
         let residuals = pairs.iter().map(|pair| pair.residual());
         let values = Streams::of(&[Stream::Truth, Stream::TruthSquared]);
@@ -138,7 +138,7 @@ impl Grids {
     }
 }
 
-/// Top of the window of `reach` + 1 exponents that holds most values. With headroom in the window the top is one higher, so that a slightly
+/// Top of the window of `reach` + 1 exponents that contains most values. If the window has headroom, the top is one higher, so that a slightly
 /// greater value fits too.
 pub(super) fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
     let usable = -GREATEST_TOP..=GREATEST_TOP;
@@ -161,7 +161,7 @@ pub(super) fn best_top(values: impl Iterator<Item = f64>, reach: i32) -> i32 {
     (top + headroom.min(1)).min(GREATEST_TOP)
 }
 
-/// Exponent of the leading bit of a normal number; for other numbers, an exponent of no grid.
+/// Exponent of the leading bit of a normal number; for other numbers, an exponent outside all grids.
 fn exponent(value: f64) -> i32 {
     let field = (value.to_bits() >> 52) & 0x7ff;
     i32::try_from(field).expect("eleven bits") - 1023

@@ -1,16 +1,16 @@
-//! The serial form of an exact sum.
+//! Serial form of an exact sum.
 
 use std::fmt;
 
 use super::digits::DIGITS;
 
-/// Maximum number of digits of a sum that is read. The digits above it leave room for any number of merges.
+/// Greatest number of digits of a sum in a file. The digits above leave room for any number of merges.
 const READABLE_DIGITS: usize = DIGITS - 4;
 
-/// An exact sum as sign, magnitude and place: equal sums have equal forms.
+/// Exact sum as sign, magnitude and position. Equal sums have equal forms.
 ///
 /// # Units
-/// The value is `±Σ digits[i] × 2^(32 (first + i) − 2176)`. Neither end of `digits` is zero; the sum zero has none.
+/// The value is `±Σ digits[i] × 2^(32 (first + i) − 2176)`. Neither end of `digits` is zero; the sum zero has no digits.
 ///
 /// ```
 /// use taceva_metrics::{Canonical, ExactSum};
@@ -33,7 +33,7 @@ impl Canonical {
     /// The form with the given parts.
     ///
     /// # Errors
-    /// [`CanonicalError`] if they are not the canonical form of a number, or exceed the range of sums.
+    /// [`CanonicalError`] if the parts are not the canonical form of a number, or exceed the range of sums.
     pub fn try_new(
         negative: bool,
         first: usize,
@@ -56,17 +56,17 @@ impl Canonical {
         })
     }
 
-    /// True if the sum is below zero.
+    /// True for a negative sum.
     pub fn is_negative(&self) -> bool {
         self.negative
     }
 
-    /// Place of the lowest of [`digits`](Canonical::digits).
+    /// Position of the lowest of [`digits`](Canonical::digits).
     pub fn first(&self) -> usize {
         self.first
     }
 
-    /// The digits of the magnitude, the lowest first.
+    /// Digits of the magnitude, lowest first.
     pub fn digits(&self) -> &[u32] {
         &self.digits
     }
@@ -100,7 +100,7 @@ impl Canonical {
     }
 }
 
-/// Rejection of parts that are not the form of a sum.
+/// Reason why parts are not the form of a sum.
 ///
 /// ```
 /// use taceva_metrics::{Canonical, CanonicalError};
@@ -111,11 +111,11 @@ impl Canonical {
 pub enum CanonicalError {
     /// The lowest or the highest digit is zero.
     ZeroAtTheEnd,
-    /// No digit, but a sign or a place.
+    /// No digits, but a sign or a position.
     Zero,
-    /// Greater than any sum of binary64 products.
+    /// The number exceeds every sum of binary64 products.
     Beyond {
-        /// The digit after the highest.
+        /// Position after the highest digit.
         reach: usize,
     },
 }

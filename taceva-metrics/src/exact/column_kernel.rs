@@ -1,4 +1,4 @@
-//! Inner loops that sum a block of one column, or of the products of two, in units of their grids.
+//! Inner loops that sum a block of one column, or the products of two columns, in units of their grids.
 
 use super::bounds::Range;
 use super::grid::{Grid, GridSum, ProductSum, ProductUnits};
@@ -20,7 +20,7 @@ pub(super) struct OfColumn<'a> {
 struct ColumnVisit<V> {
     one: V,
     greatest: V,
-    /// Predecessor of the least nonzero magnitude.
+    /// Predecessor of the least nonzero magnitude so far.
     least: V,
     sum: GridSum<V>,
 }
@@ -55,7 +55,7 @@ impl Job for OfColumn<'_> {
     }
 }
 
-/// Sum of the products of two columns with values in range.
+/// Sum of the products of two columns whose values are in range.
 pub(super) struct OfProducts<'a> {
     pub(super) columns: [&'a [f64]; 2],
     pub(super) grids: [Grid; 2],

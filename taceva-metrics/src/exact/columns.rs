@@ -1,7 +1,7 @@
-//! Exact sums of columns of one length and of products of two of them, computed block by block.
+//! Exact sums of columns of equal length and of products of two columns, block by block.
 //!
-//! As in `block_sums.rs`, blocks are summed in whole units of grids that fit the latest values. A row that does not fit is added alone. The
-//! choice of these rows depends on earlier rows, but the sums do not.
+//! As in `block_sums.rs`, a block is summed in whole units of grids that fit the latest values. A row that does not fit is added alone. The
+//! selection of these rows depends on earlier rows, but the sums do not.
 
 use super::bounds::best_top;
 use super::column_kernel::{OfColumn, OfProducts, range_of};
@@ -12,20 +12,20 @@ use super::sum::ExactSum;
 use super::unit_sums::{deposit, deposit_products};
 use crate::pair::is_valid;
 
-/// Least rows of a block; fewer are added one by one, which is faster.
+/// Least number of rows of a block. Adding fewer rows one by one is faster.
 const FEW_ROWS: usize = 8;
-/// Most rows between deposits: each adds less than 2⁴⁴ units, so these and one block stay within an `i64`.
+/// Greatest number of rows between deposits. Each row adds less than 2⁴⁴ units, so the rows and one block fit an `i64`.
 const MOST_ROWS: usize = 1 << 18;
-/// New grids are chosen for a block in which more than one row in this many does not fit.
+/// Reciprocal of the share of stray rows in a block above which new grids are chosen.
 const ROWS_PER_STRAY: usize = 8;
 
 /// Sums of columns and of their products.
 pub(crate) trait ColumnSums {
-    /// One sum per column, and one per product.
+    /// Sums of the columns, then sums of the products.
     fn sums(&mut self) -> [&mut [ExactSum]; 2];
-    /// Records added rows; all their values are usable numbers.
+    /// Records added rows, whose values are all usable numbers.
     fn take(&mut self, columns: &[&[f64]]);
-    /// Records a row that is skipped for an unusable value.
+    /// Records a row that was skipped for an unusable value.
     fn leave_out(&mut self);
 }
 
@@ -33,9 +33,9 @@ pub(crate) trait ColumnSums {
 #[derive(Clone, Debug)]
 pub(crate) struct ColumnAdder {
     machine: Machine,
-    /// Pairs of columns that are multiplied.
+    /// Pairs of columns to multiply.
     products: Vec<[usize; 2]>,
-    /// Grids in use, one per column; none before the first block.
+    /// Current grids, one per column; empty before the first block.
     grids: Vec<Grid>,
     units: Units,
 }
@@ -49,7 +49,7 @@ struct Units {
 }
 
 impl ColumnAdder {
-    /// Makes an adder of columns and of `products`, each given by the positions of its two columns.
+    /// Creates an adder of columns and of `products`, each given by the indices of its two columns.
     pub(crate) fn new(products: Vec<[usize; 2]>) -> ColumnAdder {
         ColumnAdder::with_machine(products, Machine::detect())
     }
@@ -63,7 +63,7 @@ impl ColumnAdder {
         }
     }
 
-    /// Adds the rows of `columns`; rows with an unusable value are skipped.
+    /// Adds the rows of `columns`. Rows with an unusable value are skipped.
     pub(crate) fn add(&mut self, columns: &[&[f64]], into: &mut impl ColumnSums) {
         let rows = columns.first().map_or(0, |column| column.len());
         if rows < FEW_ROWS {
@@ -113,7 +113,7 @@ impl ColumnAdder {
         true
     }
 
-    /// Adds a block with rows that do not fit: those rows one by one, the others as a block.
+    /// Adds a block with strays, rows that do not fit the grids: the strays one by one, the others as a block.
     #[cold]
     #[inline(never)]
     fn add_strays_apart(&mut self, block: &[&[f64]], into: &mut impl ColumnSums) {
@@ -223,7 +223,7 @@ mod tests {
         ColumnAdder::with_machine(vec![[0, 0], [1, 0]], machine)
     }
 
-    /// Row by row, as sums are defined.
+    /// Adds the rows one by one, as sums are defined.
     fn one_by_one(rows: &[[f64; 2]]) -> Noted {
         let mut noted = Noted::default();
         for &[left, right] in rows {

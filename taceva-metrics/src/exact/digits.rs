@@ -1,8 +1,8 @@
-//! Digits of an exact sum: positions of digits, numbers and products, and the propagation of carries.
+//! Digits of an exact sum: digits of numbers and products, and the propagation of carries.
 
-/// Digits of the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
+/// Number of digits for the whole range: from below the square of the least denormal to above 2⁶⁴ squares of the greatest number.
 pub(super) const DIGITS: usize = 140;
-/// The weight of bit 0 of digit 0 is 2 to this power.
+/// Exponent of the weight of bit 0 of digit 0.
 pub(super) const UNIT_EXPONENT: i32 = -2176;
 
 /// A finite binary64 as `sign × mantissa × 2^(position − 1074)`.
@@ -27,7 +27,7 @@ impl Binary {
     }
 }
 
-/// The digits of `product × 2^(position mod 32)`; a product of two mantissas has at most 106 bits.
+/// Digits of `product × 2^(position mod 32)`. A product of two mantissas has at most 106 bits.
 #[inline]
 pub(super) fn split(product: u128, position: usize) -> [i64; 4] {
     let shift = position % 32;
@@ -47,7 +47,7 @@ pub(super) fn low_digit(value: u128) -> i64 {
     (value & 0xffff_ffff) as i64
 }
 
-/// All bits above the lowest 32, of a number below 2⁹⁵.
+/// All bits above the lowest 32, for a number below 2⁹⁵.
 #[inline]
 pub(super) fn high_digits(value: u128) -> i64 {
     #[expect(
@@ -65,7 +65,7 @@ pub(super) fn add_to(digits: &mut [i64], parts: &[i64]) {
     }
 }
 
-/// Brings every digit but the highest into −2³¹..2³¹; balanced, so that a small negative sum stays short.
+/// Brings every digit but the highest into −2³¹..2³¹. With balanced digits a small negative sum needs few digits.
 pub(super) fn carry(digits: &mut [i64]) {
     let Some((highest, others)) = digits.split_last_mut() else {
         return;

@@ -3,24 +3,24 @@
 use super::digits::Binary;
 use super::sum::ExactSum;
 
-/// Exponent of the unit, a power of two: the last place of numbers from 2⁻⁴⁴ on.
+/// Exponent of the unit: the last place of numbers from 2⁻⁴⁴ on.
 const UNIT: i32 = -96;
-/// Position of a mantissa whose last place is this unit, counted from the position of the least denormal.
+/// Position of a mantissa whose last place is the unit, counted from the position of the least denormal.
 const LEAST_POSITION: usize = 1074 - 96;
-/// Places from there on, so that numbers are below 2¹⁴.
+/// Number of positions from `LEAST_POSITION` on, which limits numbers to magnitudes below 2¹⁴.
 const POSITIONS: usize = 58;
 
-/// Whole units of 2⁻⁹⁶, until an [`ExactSum`] takes them.
+/// Sum in whole units of 2⁻⁹⁶, before the units move to an [`ExactSum`].
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct FixedSum {
     units: i128,
 }
 
 impl FixedSum {
-    /// Maximum additions before `settle_into`; 2¹⁶ values below 2¹¹⁰ units fit an `i128`.
+    /// Greatest number of additions before `settle_into`: 2¹⁶ values below 2¹¹⁰ units fit an `i128`.
     pub(crate) const MOST: usize = 1 << 16;
 
-    /// Adds `value`. Returns false and adds nothing if its magnitude is 2¹⁴ or more, or if its last place is below a unit.
+    /// Adds `value`. Returns false and adds nothing if the magnitude is 2¹⁴ or more, or if the last place is below a unit.
     #[inline]
     pub(crate) fn try_add(&mut self, value: f64) -> bool {
         let Binary {
@@ -52,7 +52,7 @@ impl FixedSum {
 mod tests {
     use super::*;
 
-    /// Sum of `values`; those outside the range of [`FixedSum`] are added one by one.
+    /// Sum of `values`. Values outside the range of [`FixedSum`] are added one by one.
     fn summed(values: &[f64]) -> (ExactSum, usize) {
         let (mut fixed, mut sum, mut strays) = (FixedSum::default(), ExactSum::default(), 0);
         for &value in values {

@@ -1,8 +1,8 @@
-//! Exact quotients, each rounded once where it leaves.
+//! Exact quotients, rounded only on conversion to binary64.
 
 use super::rational::Dyadic;
 
-/// A quotient of two exact numbers, the lower one above 0.
+/// Quotient of two exact numbers, with a positive denominator.
 ///
 /// ```
 /// use taceva_metrics::{Dyadic, Fraction};
@@ -17,7 +17,7 @@ pub struct Fraction {
 }
 
 impl Fraction {
-    /// `above` over `below`.
+    /// The fraction `above` / `below`.
     ///
     /// # Panics
     /// If `below` is 0.
@@ -34,7 +34,7 @@ impl Fraction {
         Fraction::of(Dyadic::from(0), 1)
     }
 
-    /// The exact sum.
+    /// Exact sum of both fractions.
     pub fn plus(&self, other: &Fraction) -> Fraction {
         Fraction {
             above: &(&self.above * &other.below) + &(&other.above * &self.below),
@@ -42,7 +42,7 @@ impl Fraction {
         }
     }
 
-    /// The exact difference.
+    /// Exact difference of both fractions.
     pub fn minus(&self, other: &Fraction) -> Fraction {
         Fraction {
             above: &(&self.above * &other.below) - &(&other.above * &self.below),
@@ -62,17 +62,17 @@ impl Fraction {
         }
     }
 
-    /// True below zero.
+    /// True for a negative fraction.
     pub fn is_negative(&self) -> bool {
         self.above.is_negative()
     }
 
-    /// True at zero.
+    /// True for zero.
     pub fn is_zero(&self) -> bool {
         self.above.is_zero()
     }
 
-    /// The fraction, or zero in the place of a negative one.
+    /// The fraction, or zero if the fraction is negative.
     pub fn at_least_zero(&self) -> Fraction {
         match self.is_negative() {
             true => Fraction::zero(),
@@ -80,12 +80,12 @@ impl Fraction {
         }
     }
 
-    /// The nearest binary64.
+    /// Nearest binary64.
     pub fn to_f64(&self) -> f64 {
         self.above.over(&self.below)
     }
 
-    /// √self, rounded once; 0 for a negative one.
+    /// √self, rounded once; 0 for a negative fraction.
     pub fn root(&self) -> f64 {
         self.above.root_over(&self.below)
     }

@@ -1,48 +1,48 @@
-//! Sums of vectors without rounding, for values in a known range of magnitudes.
+//! Vector sums without rounding, for values in a known range of magnitudes.
 //!
-//! A large first summand determines the rounding: 1.5 × 2ᵏ plus small values is a multiple of 2^(k−52), and two subtractions give the
-//! cut-off part exactly. A second such sum collects that part. Each sum stays within one binade, so its bit pattern, read as an integer,
-//! counts its units. After Demmel and Nguyen, "Parallel Reproducible Summation", 2015, who round the remainder; here it is kept.
+//! A large first summand determines the rounding: 1.5 × 2ᵏ plus small values is a multiple of 2^(k−52), and two subtractions return the
+//! cut-off part exactly. A second sum of the same kind collects this part. Each sum stays within one binade, so its bit pattern, read as an
+//! integer, counts its units. After Demmel and Nguyen, "Parallel Reproducible Summation", 2015, who round the remainder; this code keeps the remainder.
 
 use super::vector::Vector;
 
-/// Values added to a lane before its units must be read.
+/// Greatest number of values added to a lane before its units must be read.
 pub(super) const DEPTH: usize = 128;
-/// Exponent offset of the coarse sum, which keeps clear of its binade's ends: 2⁷ values below 2^(e+1), a factor of 2 for 1.5 × 2ᵏ, and 2 to
-/// spare.
+/// Exponent offset of the coarse sum, which leaves room at the ends of the binade: 2⁷ values below 2^(e+1), a factor of 2 for 1.5 × 2ᵏ, and 2
+/// in reserve.
 const COARSE: i32 = 10;
-/// Exponent offset of the fine sum. Cut-off parts are below 2^(e−42), and 2⁷ of them stay clear of the ends of this binade.
+/// Exponent offset of the fine sum. Cut-off parts are below 2^(e−42), and 2⁷ of them leave room at the ends of the binade.
 const FINE: i32 = -34;
-/// Bits of a mantissa after its leading one.
+/// Bits of a mantissa after the leading bit.
 const FRACTION: i32 = 52;
 
 /// Grid for sums of values below 2^(top + 1) in magnitude.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Grid {
-    /// The exponent of the greatest value.
+    /// Exponent of the greatest value.
     pub(super) top: i32,
 }
 
 impl Grid {
-    /// The grid of the products of values of this one and of another, rounded.
+    /// Grid of rounded products of values on this grid and on `other`.
     pub(super) fn of_products(self, other: Grid) -> Grid {
         Grid {
             top: self.top + other.top + 1,
         }
     }
 
-    /// Grid of the rounding errors of those products.
+    /// Grid of the rounding errors of the products on [`Grid::of_products`].
     pub(super) fn of_errors_of_products(self, other: Grid) -> Grid {
         Grid {
             top: self.top + other.top - FRACTION - 1,
         }
     }
 
-    /// Greatest distance of a value's exponent below the top at which its last place is still a unit of the fine sum.
+    /// Greatest distance of a value's exponent below the top for which the value's last place is a unit of the fine sum.
     pub(super) const REACH: i32 = -FINE;
-    /// The same for a value that is squared, or multiplied by such a value of another grid.
+    /// Greatest distance as in [`REACH`](Grid::REACH) for a value that is squared, or multiplied by a value of another grid.
     ///
-    /// A square's last place is at twice the exponent less 52, on a grid of twice the top plus 1: half the reach. Its rounding error ends
+    /// A square's last place is at twice the exponent less 52, on a grid of twice the top plus 1: half the reach. The rounding error of a square ends
     /// 104 below twice the exponent, on a grid of twice the top less 53: one more. For a product, both exponents and both tops add up.
     pub(super) const REACH_OF_SQUARES: i32 = (Grid::REACH - 1) / 2;
 
@@ -56,7 +56,7 @@ impl Grid {
     }
 }
 
-/// Two sums per lane; the second takes the part that the first cuts off.
+/// Coarse and fine sum in each lane. The fine sum collects the part that the coarse sum cuts off.
 #[derive(Clone, Copy)]
 pub(super) struct GridSum<V> {
     start: [V; 2],
@@ -77,7 +77,7 @@ impl<V: Vector> GridSum<V> {
         }
     }
 
-    /// Adds a value that is zero or has an exponent within the grid's reach below its top.
+    /// Adds a value that is zero, or whose exponent is at most `REACH` below the top of the grid.
     #[inline(always)]
     pub(super) fn add(&mut self, value: V, one: V) {
         let next = self.coarse.plus(value);
@@ -92,7 +92,7 @@ impl<V: Vector> GridSum<V> {
         self.coarse.all_at_most(self.start[0].plus(self.start[0]))
     }
 
-    /// Numbers of units of both sums, of the size that [`Grid::units`] gives.
+    /// Numbers of units of both sums; [`Grid::units`] returns the exponents of the units.
     #[inline(always)]
     pub(super) fn units(self) -> [i64; 2] {
         [
@@ -110,7 +110,7 @@ pub(super) struct ProductSum<V> {
 }
 
 impl<V: Vector> ProductSum<V> {
-    /// Empty sum of products of values on these two grids.
+    /// Empty sum of products of values on both grids.
     #[inline(always)]
     pub(super) fn new(proof: V::Proof, [left, right]: [Grid; 2]) -> ProductSum<V> {
         ProductSum {
@@ -119,7 +119,7 @@ impl<V: Vector> ProductSum<V> {
         }
     }
 
-    /// Adds the product of two values, each zero or within its grid's reach of squares.
+    /// Adds the product of two values. Each is zero, or its exponent is at most `REACH_OF_SQUARES` below the top of its grid.
     #[inline(always)]
     pub(super) fn add_product(&mut self, left: V, right: V, one: V) {
         let [rounded, lost] = left.product(right);
@@ -133,17 +133,17 @@ impl<V: Vector> ProductSum<V> {
         self.rounded.is_sound()
     }
 
-    /// The units of both sums.
+    /// Numbers of units of both sums.
     #[inline(always)]
     pub(super) fn units(self) -> ProductUnits {
         [self.rounded.units(), self.lost.units()]
     }
 }
 
-/// Units of the rounded products, and of their rounding errors.
+/// Numbers of units of the rounded products, and of their rounding errors.
 pub(super) type ProductUnits = [[i64; 2]; 2];
 
-/// 2^exponent, of a normal number.
+/// 2^exponent, for exponents of normal numbers.
 pub(super) fn power_of_two(exponent: i32) -> f64 {
     let field = u64::try_from(exponent + 1023).expect("the exponent of a normal number");
     f64::from_bits(field << FRACTION)
@@ -158,7 +158,7 @@ mod tests {
     use crate::exact::machine::Machine;
     use crate::exact::vector::Job;
 
-    /// All values in turn in every lane.
+    /// Adds all values in turn, in every lane.
     struct Add<'a> {
         grid: Grid,
         values: &'a [f64],

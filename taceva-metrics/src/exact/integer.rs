@@ -1,15 +1,15 @@
-//! Natural numbers of any size, with the few operations that scores need.
+//! Natural numbers of any size, with the operations that scores need.
 
 use std::cmp::Ordering;
 
-/// A natural number: 64-bit limbs, the lowest first, the highest not zero.
+/// Natural number in 64-bit limbs, lowest limb first, without leading zeros.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Natural {
     limbs: Vec<u64>,
 }
 
 impl Natural {
-    /// The number with the given limbs; zeros at the top are allowed.
+    /// Number with the given limbs. Leading zeros are removed.
     pub(super) fn from_limbs(mut limbs: Vec<u64>) -> Natural {
         while limbs.last() == Some(&0) {
             limbs.pop();
@@ -21,7 +21,7 @@ impl Natural {
         self.limbs.is_empty()
     }
 
-    /// Number of bits up to the highest that is set.
+    /// Number of bits up to the highest set bit.
     pub(super) fn bits(&self) -> usize {
         self.limbs.last().map_or(0, |top| {
             64 * self.limbs.len() - top.leading_zeros() as usize
@@ -41,7 +41,7 @@ impl Natural {
         Natural { limbs }
     }
 
-    /// `self − other`, which must not exceed `self`.
+    /// `self − other`; `other` must not exceed `self`.
     pub(super) fn minus(&self, other: &Natural) -> Natural {
         let mut limbs = self.limbs.clone();
         let borrow = subtract_multiple(&mut limbs, &other.limbs, 1);
@@ -78,7 +78,7 @@ impl Natural {
         Natural::from_limbs(limbs)
     }
 
-    /// `self` without its lowest `places` bits, and true if one of them was set.
+    /// `self` without the lowest `places` bits, and true if any of these bits was set.
     fn shifted_down(&self, places: usize) -> (Natural, bool) {
         let (whole, rest) = (places / 64, places % 64);
         let mut limbs: Vec<u64> = self.limbs.iter().skip(whole).copied().collect();
@@ -93,7 +93,7 @@ impl Natural {
         (Natural::from_limbs(limbs), lost)
     }
 
-    /// The integer part of `self / divisor`, and true if it is exact; bit by bit, for numbers of a few thousand bits.
+    /// Integer part of `self / divisor`, and true for an exact quotient. Computed bit by bit, for numbers of a few thousand bits.
     pub(super) fn divided_by(&self, divisor: &Natural) -> (Natural, bool) {
         let Some(most) = self.bits().checked_sub(divisor.bits()) else {
             return (Natural::default(), self.is_zero());
@@ -110,7 +110,7 @@ impl Natural {
         (Natural::from_limbs(limbs), rest.is_zero())
     }
 
-    /// The integer part of √self, digit by digit, and true if it is exact.
+    /// Integer part of √self, and true for an exact root. Computed digit by digit.
     pub(super) fn root(&self) -> (Natural, bool) {
         let mut root = Natural::default();
         for place in (0..self.bits().div_ceil(2)).rev() {
@@ -123,7 +123,7 @@ impl Natural {
         (root, is_square)
     }
 
-    /// At most 64 leading bits, true if a lower bit is set, and the power of two of the last bit.
+    /// At most 64 leading bits, true if a lower bit is set, and the exponent of the last returned bit.
     pub(super) fn leading_bits(&self) -> (u64, bool, i32) {
         let places = self.bits().saturating_sub(64);
         let (leading, lost) = self.shifted_down(places);
@@ -135,11 +135,11 @@ impl Natural {
         )
     }
 
-    /// The leading 63 or 64 bits of `self / divisor`, true if these are inexact, and the power of two of the last bit.
+    /// Leading 63 or 64 bits of `self / divisor`, true if they are inexact, and the exponent of the last returned bit.
     ///
-    /// Neither may be zero. This is one step of long division in base 2⁶⁴. The divisor's highest bit is shifted to the top of its limb and
-    /// the dividend to one limb more. The guess from the leading limbs is then at most two too high (Knuth, The Art of Computer Programming
-    /// 2, 4.3.1, theorem B).
+    /// Both numbers must be nonzero. One step of long division in base 2⁶⁴: the divisor is shifted until the top bit of its limb is set, and
+    /// the dividend to one limb more. The guess from the leading limbs then exceeds the quotient by at most two (Knuth, The Art of Computer
+    /// Programming 2, 4.3.1, theorem B).
     pub(super) fn leading_quotient(&self, divisor: &Natural) -> (u64, bool, i64) {
         let length = divisor.limbs.len();
         let raised = 64 * length - divisor.bits();
@@ -182,7 +182,7 @@ impl Ord for Natural {
     }
 }
 
-/// Adds `other` in place; returns true if there is a carry out of the top.
+/// Adds `other` in place. Returns true for a carry out of the top limb.
 fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     let mut carried = false;
     let padded = other.iter().copied().chain(std::iter::repeat(0));
@@ -194,7 +194,7 @@ fn add_to(limbs: &mut [u64], other: &[u64]) -> bool {
     carried
 }
 
-/// Subtracts `factor × other` in place; returns true if the top had to borrow.
+/// Subtracts `factor × other` in place. Returns true for a borrow from above the top limb.
 fn subtract_multiple(limbs: &mut [u64], other: &[u64], factor: u64) -> bool {
     let mut carried = 0;
     let padded = other.iter().copied().chain(std::iter::repeat(0));

@@ -1,8 +1,8 @@
-//! Inner loops that sum a block of pairs in units of its streams' grids.
+//! Inner loops that sum a block of pairs in units of the streams' grids.
 //!
-//! A block is visited twice: once for the sums of y − ŷ and once for the rest, so that the sums of one visit fit into the registers of any
-//! machine. The block stays in the L1 cache meanwhile. The first visit also checks that all pairs are within [`Bounds`]; if not, its sums
-//! are dropped.
+//! A block is visited twice: once for the sums of y − ŷ and once for the other sums, so that the sums of one visit fit the registers of any
+//! machine. Between the visits the block stays in the L1 cache. The first visit also checks that all pairs are within [`Bounds`]. If they are
+//! not, its sums are discarded.
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{DEPTH, GridSum, ProductSum, ProductUnits};
@@ -11,17 +11,17 @@ use super::vector::{Job, Vector};
 use crate::exact::streams::{Stream, Streams};
 use crate::pair::{EPSILON, Paired};
 
-/// Rows of the longest block.
+/// Greatest number of rows of a block.
 pub(super) const BLOCK_ROWS: usize = 512;
 
 /// A block of pairs with its streams, gate, grids and bounds.
 #[derive(Clone, Copy)]
 pub(super) struct Block<'a> {
     pub(super) pairs: Paired<&'a [f64]>,
-    /// Pairs of the next block, which are prefetched meanwhile.
+    /// Pairs of the next block, prefetched during the sums of this block.
     pub(super) next: Paired<&'a [f64]>,
     pub(super) streams: Streams,
-    /// The least |y| of a pair of the gated sum, if there is one.
+    /// Least |y| of a pair in the gated sum; `None` without a gated sum.
     pub(super) gate: Option<f64>,
     pub(super) grids: Grids,
     pub(super) bounds: Bounds,
@@ -45,7 +45,7 @@ impl ErrorUnits {
     }
 }
 
-/// Units of the sums of y, and of y and ŷ.
+/// Units of the sums of y, and of the sums of y and ŷ.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct ValueUnits {
     pub(super) truth: [i64; 2],
@@ -77,7 +77,7 @@ pub(super) fn add_products(units: &mut ProductUnits, [rounded, lost]: ProductUni
 }
 
 impl Block<'_> {
-    /// Rows of a block on `machine`: as many as the lanes can take.
+    /// Rows of a block on `machine`: as many as the lanes accept.
     pub(super) fn rows_on(machine: Machine) -> usize {
         /// Returns the vector width of a machine.
         struct Lanes;
@@ -106,7 +106,7 @@ impl Block<'_> {
         }
     }
 
-    /// Sums of the other streams, for a block whose pairs are within bounds.
+    /// Sums of the other streams, for a block with all pairs within bounds.
     pub(super) fn values(self, machine: Machine) -> ValueUnits {
         const Y: u8 = Streams::of(&[Stream::Truth]).bits();
         const S: u8 = Streams::of(&[Stream::TruthSquared]).bits();
@@ -134,7 +134,7 @@ pub(super) trait Visit<V> {
 /// Rows per cache line of one column.
 const LINE_ROWS: usize = 8;
 
-/// Passes all pairs to `visitor`, with the last vector padded by zeros, and prefetches the lines of `next`.
+/// Passes all pairs to `visitor`, with the last vector padded by zeros, and prefetches the cache lines of `next`.
 #[inline(always)]
 pub(super) fn visit_all<V: Vector>(
     proof: V::Proof,
@@ -167,7 +167,7 @@ pub(super) fn visit_all<V: Vector>(
     }
 }
 
-/// The first visit.
+/// First visit: sums of y − ŷ.
 struct Errors<'a, const STREAMS: u8>(Block<'a>);
 
 struct ErrorSums<V, const STREAMS: u8> {
@@ -239,7 +239,7 @@ impl<const STREAMS: u8> Job for Errors<'_, STREAMS> {
     }
 }
 
-/// The second visit.
+/// Second visit: the other sums.
 struct Values<'a, const STREAMS: u8, const GATED: bool>(Block<'a>);
 
 struct ValueSums<V, const STREAMS: u8, const GATED: bool> {

@@ -1,11 +1,11 @@
-//! Values in whole steps, so that rounding decides no comparison with a bound and no choice of a bin.
+//! Values in whole steps, so that rounding affects no comparison with a bound and no choice of a bin.
 
 use taceva_core::{Nanometre, Unit};
 
-/// `value` in whole millionths of its unit, ties to even; `None` for NaN or above 2⁵³ millionths.
+/// `value` in whole millionths of its unit, ties to even; `None` for NaN or for more than 2⁵³ millionths.
 #[inline]
 pub(crate) fn millionths(value: f64) -> Option<i64> {
-    /// 1.5 × 2⁵²: adding it rounds a number to an integer, which then stands in the bit pattern.
+    /// 1.5 × 2⁵²: adding this number rounds to an integer, which is then the low part of the bit pattern.
     const ONES: f64 = 6_755_399_441_055_744.0;
     const GREATEST: f64 = 1_125_899_906_842_624.0;
     let scaled = value * 1e6;
@@ -21,9 +21,9 @@ pub(crate) fn from_millionths(millionths: i64) -> f64 {
     Nanometre(millionths).to_millimetres()
 }
 
-/// The width of a level of a unit, in millionths of it: 0.1 mm and 0.1 N, 1 degree and 1 N mm.
+/// Width of a level, in millionths of the unit: 0.1 mm and 0.1 N, 1 degree and 1 N mm.
 ///
-/// Other units have none.
+/// `None` for other units.
 pub(crate) fn step(unit: Unit) -> Option<i64> {
     match unit {
         Unit::Millimetre | Unit::Newton => Some(100_000),

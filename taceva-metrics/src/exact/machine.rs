@@ -1,7 +1,7 @@
-//! Instruction sets for sums. All give the same bits and differ only in speed.
+//! Instruction sets for sums. All compute the same bits and differ only in speed.
 //!
-//! `taceva-network` has a similar file, which is not shared. Each instruction set is a type of this crate's `simd/`, whose construction
-//! proves that the processor has it, and whose operations are those of sums.
+//! `taceva-network` has a similar file of its own. Each instruction set is a type in `simd/`. A value of the type proves that the processor
+//! has the instructions, and the operations are those of sums.
 
 use taceva_core::Isa;
 
@@ -12,7 +12,7 @@ use super::simd::Portable;
 use super::simd::{Avx2, Avx512};
 use super::vector::Job;
 
-/// An instruction set that the machine has.
+/// Available instruction set.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Machine {
     #[cfg(target_arch = "x86_64")]
@@ -25,7 +25,7 @@ pub(crate) enum Machine {
 }
 
 impl Machine {
-    /// The machine with `isa`, if it has it.
+    /// Machine that uses `isa`; `None` if this processor lacks it.
     pub(crate) fn with(isa: Isa) -> Option<Machine> {
         match isa {
             #[cfg(target_arch = "x86_64")]
@@ -39,7 +39,7 @@ impl Machine {
         }
     }
 
-    /// The machine with the set of [`Isa::detect`].
+    /// Machine that uses the set of [`Isa::detect`].
     pub(crate) fn detect() -> Machine {
         Machine::with(Isa::detect()).unwrap_or(Machine::Portable(Portable))
     }

@@ -1,14 +1,14 @@
-//! Merging of separate summaries.
+//! Merging of summaries.
 
 use std::collections::BTreeMap;
 
 use crate::exact::sorted_map::SortedMap;
 
-/// A summary that merges exactly; merging the same summary twice counts it twice.
+/// Summary with an exact merge. Merging the same summary twice counts its samples twice.
 pub(crate) trait Merge {
     /// Adds `other`.
     fn merge(&mut self, other: &Self);
-    /// Adds `other` as often as `times`.
+    /// Adds `other` `times` times.
     fn merge_times(&mut self, other: &Self, times: u32) {
         (0..times).for_each(|_| self.merge(other));
     }
@@ -30,9 +30,9 @@ impl<T: Merge, const N: usize> Merge for [T; N] {
     }
 }
 
-/// Entries by name; of equal names the last one stays.
+/// Map from entries. The last entry of a name replaces earlier ones.
 ///
-/// Like `collect`, which would sort first with separate code for each kind of iterator: a tenth of the compile time.
+/// Unlike `collect`, the function has no separate sorting code for each type of iterator, which took a tenth of the compile time.
 pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeMap<String, T> {
     let mut cells = BTreeMap::new();
     for (key, entry) in entries {
@@ -41,7 +41,7 @@ pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeM
     cells
 }
 
-/// Merges sums by key. A key without sums stays absent, so equal sets have equal maps.
+/// Merges sums by key. A key without sums is omitted, so equal sets have equal maps.
 pub(crate) fn merge_cells<K: Ord + Clone, T: Merge + Clone>(
     ours: &mut SortedMap<K, T>,
     theirs: &SortedMap<K, T>,

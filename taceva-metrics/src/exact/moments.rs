@@ -1,4 +1,4 @@
-//! Count, sum and sum of squares: mean and spread without rounding before the end.
+//! Count, sum and sum of squares, for mean and spread with a single rounding.
 
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
@@ -20,19 +20,19 @@ pub struct Moments {
     pub n: u64,
     /// Sum of the values.
     pub sum: ExactSum,
-    /// Sum of their squares.
+    /// Sum of the squares of the values.
     pub squares: ExactSum,
 }
 
 impl Moments {
-    /// Adds `value`, which is finite.
+    /// Adds a finite `value`.
     pub fn add(&mut self, value: f64) {
         self.n += 1;
         self.sum.add(value);
         self.squares.add_product(value, value);
     }
 
-    /// Adds the values of another part.
+    /// Adds the values of `other`.
     pub fn merge(&mut self, other: &Moments) {
         self.n = self.n.saturating_add(other.n);
         self.sum.merge(&other.sum);
@@ -58,7 +58,7 @@ impl Moments {
         self.variance(ddof).map(f64::sqrt)
     }
 
-    /// RN(Σ (q − mean)²), the mean being the exact one; `None` for no value.
+    /// RN(Σ (q − mean)²) with the exact mean; `None` for no value.
     pub(crate) fn squared_deviations(&self) -> Option<f64> {
         (self.n > 0).then(|| self.scaled_spread().over(&Dyadic::from(self.n)))
     }
@@ -69,7 +69,7 @@ impl Moments {
         &(&Dyadic::from(self.n) * &self.squares.to_dyadic()) - &(&sum * &sum)
     }
 
-    /// Converts the moments to the record of a state: count, then sum and sum of squares.
+    /// Converts the moments to the record of a state: count, sum and sum of squares.
     pub(crate) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n],

@@ -1,18 +1,18 @@
-//! Finite numbers as keys.
+//! Finite numbers as keys of maps.
 
 use std::cmp::Ordering;
 
-/// A finite binary64 that can be sorted and looked up; both zeros are one key.
+/// A finite binary64 with a total order. Both zeros are one key.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ordered(f64);
 
 impl Ordered {
-    /// The key of `value`, which is finite.
+    /// Key of a finite `value`.
     pub(crate) fn new(value: f64) -> Ordered {
         Ordered(value + 0.0)
     }
 
-    /// The number.
+    /// Number of the key.
     pub(crate) fn value(self) -> f64 {
         self.0
     }
@@ -38,7 +38,7 @@ impl Ord for Ordered {
     }
 }
 
-/// Positions below `length` in the order of `compare`; the sort is stable.
+/// Indices below `length`, sorted by `compare`. The sort is stable.
 pub(crate) fn ranked(length: usize, compare: &dyn Fn(usize, usize) -> Ordering) -> Vec<usize> {
     let mut order: Vec<usize> = (0..length).collect();
     order.sort_by(|&left, &right| compare(left, right));

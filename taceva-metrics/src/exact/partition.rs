@@ -1,4 +1,4 @@
-//! Partition of a block into rows that fit its grids and strays.
+//! Partition of a block into rows that fit its grids, and strays.
 
 use std::ops::Range;
 
@@ -6,7 +6,7 @@ use super::bounds::Bounds;
 use super::kernel::BLOCK_ROWS;
 use crate::pair::Paired;
 
-/// Rows of a block, fitting ones before strays.
+/// Rows of a block, with the fitting rows before the strays.
 pub(super) struct Parts {
     estimate: [f64; BLOCK_ROWS],
     reference: [f64; BLOCK_ROWS],

@@ -1,4 +1,4 @@
-//! Numbers with a finite binary expansion, and quotients of two of them rounded once.
+//! Numbers with a finite binary expansion, and their quotients, rounded once.
 
 use std::ops::{Add, Mul, Neg, Sub};
 
@@ -8,7 +8,7 @@ use super::integer::Natural;
 use super::rounding::round;
 use super::sum::ExactSum;
 
-/// An integer times a power of two, exactly.
+/// Exact product of an integer and a power of two.
 ///
 /// Sums, differences and products are exact. [`over`](Dyadic::over) and [`root_over`](Dyadic::root_over) round once.
 ///
@@ -40,7 +40,7 @@ impl Dyadic {
         }
     }
 
-    /// A finite binary64, exactly.
+    /// Exact value of a finite binary64.
     ///
     /// # Panics
     /// If `value` is NaN or infinite.
@@ -48,22 +48,22 @@ impl Dyadic {
         std::iter::once(value).collect::<ExactSum>().to_dyadic()
     }
 
-    /// True below zero.
+    /// True for a negative number.
     pub fn is_negative(&self) -> bool {
         self.negative && !self.is_zero()
     }
 
-    /// True at zero.
+    /// True for zero.
     pub fn is_zero(&self) -> bool {
         self.magnitude.is_zero()
     }
 
-    /// The nearest binary64, ties to even.
+    /// Nearest binary64, ties to even.
     pub fn to_f64(&self) -> f64 {
         self.over(&Dyadic::from(1))
     }
 
-    /// The binary64 nearest to `self / divisor`, ties to even: one rounding, also among denormals.
+    /// Binary64 nearest to `self / divisor`, ties to even: a single rounding, even for denormal results.
     ///
     /// # Panics
     /// If `divisor` is zero.
@@ -83,9 +83,9 @@ impl Dyadic {
         )
     }
 
-    /// The binary64 nearest to √(self / divisor), rounded once, also if the quotient is beyond its range; 0 for a negative quotient.
+    /// Binary64 nearest to √(self / divisor), rounded once, even if the quotient is out of range; 0 for a negative quotient.
     ///
-    /// A root of about 70 bits is computed in integers: the integer part of √(a 2ᵏ / b) and a flag for its remainder suffice for rounding.
+    /// The code computes about 70 bits of the root in integers: the integer part of √(a 2ᵏ / b) and a flag for the remainder determine the rounding.
     ///
     /// # Panics
     /// If `divisor` is zero.
@@ -117,7 +117,7 @@ impl Dyadic {
         )
     }
 
-    /// The same value with its last place at `exponent`, which is not above its own.
+    /// The same value with its last place at `exponent`, which must not exceed the present one.
     fn magnitude_at(&self, exponent: i32) -> Natural {
         let places = usize::try_from(self.exponent - exponent).expect("the lower exponent of two");
         self.magnitude.shifted_up(places)

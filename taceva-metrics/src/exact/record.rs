@@ -1,4 +1,4 @@
-//! Counts and exact sums of a state.
+//! Records of a state: counts and exact sums.
 
 use std::collections::BTreeMap;
 
@@ -19,13 +19,13 @@ pub struct Record {
     pub counts: Vec<u64>,
     /// Sums, in the order of the schema.
     pub sums: Vec<ExactSum>,
-    /// Numbers that are stored unchanged, in the order of the schema; empty if the schema has none.
+    /// Unrounded numbers, in the order of the schema; empty if the schema has none.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "Vec::is_empty")
     )]
     pub values: Vec<f64>,
-    /// Records of places, scenes and the like by key; only records with samples.
+    /// Records of groups such as places and scenes, by key. Only groups with samples have a record.
     #[cfg_attr(
         feature = "serde",
         serde(default, skip_serializing_if = "BTreeMap::is_empty")
@@ -34,7 +34,7 @@ pub struct Record {
 }
 
 impl Record {
-    /// The counts and sums of a record with exactly `C` counts, `S` sums and nothing else.
+    /// Counts and sums of a record with exactly `C` counts, `S` sums and no other content.
     pub(crate) fn exactly<const C: usize, const S: usize>(
         &self,
     ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
@@ -44,7 +44,7 @@ impl Record {
         self.with_cells()
     }
 
-    /// The counts and sums of a record with `C` counts, `S` sums, and perhaps values and cells.
+    /// Counts and sums of a record with `C` counts and `S` sums. Values and cells are optional.
     pub(crate) fn with_cells<const C: usize, const S: usize>(
         &self,
     ) -> Result<(&[u64; C], &[ExactSum; S]), String> {
@@ -63,7 +63,7 @@ impl Record {
         }
     }
 
-    /// The cells by key, each read by `read`; keys that `parse` does not know are rejected.
+    /// Cells by key, each converted by `read`. Keys that `parse` does not accept are rejected.
     pub(crate) fn read_cells<K: Ord, T>(
         &self,
         parse: impl Fn(&str) -> Option<K>,

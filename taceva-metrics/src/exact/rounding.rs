@@ -1,9 +1,9 @@
-//! Rounding: the only code that rounds.
+//! Rounding to binary64; no other code rounds.
 
 /// The binary64 nearest to `±(mantissa + rest) × 2^exponent`, ties to even, with `0 ≤ rest < 1`. `inexact` is true if `rest` is not zero.
 ///
-/// An inexact mantissa must have at least 55 bits, or bits would be missing. Overflow gives an infinity; underflow keeps
-/// its sign.
+/// An inexact mantissa must have at least 55 bits, so that rounding has all bits. Overflow gives infinity; underflow keeps
+/// the sign.
 pub(super) fn round(negative: bool, mantissa: u64, inexact: bool, exponent: i32) -> f64 {
     let magnitude = round_magnitude(mantissa, inexact, exponent);
     if negative { -magnitude } else { magnitude }

@@ -1,4 +1,4 @@
-//! Vectors of each instruction set; the only files with `unsafe` code.
+//! Vectors of each instruction set, in the only files with `unsafe` code.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

@@ -1,11 +1,11 @@
-//! Single binary64 numbers as exact ones, for formulas that round only at their end.
+//! Conversion of binary64 numbers to exact numbers, for formulas with a single rounding at the end.
 
 use std::cmp::Ordering;
 
 use crate::exact::merge::Merge;
 use crate::exact::{Dyadic, ExactSum};
 
-/// `value`, which is finite, without rounding.
+/// Exact number of a finite `value`.
 pub(crate) fn exactly(value: f64) -> Dyadic {
     ExactSum::from_iter([value]).to_dyadic()
 }

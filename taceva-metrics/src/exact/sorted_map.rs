@@ -1,12 +1,12 @@
-//! Map in the order of its keys. It compiles to a small fraction of the code that a `BTreeMap` takes for each pair of types.
+//! Map sorted by key. For each pair of types it compiles to a small fraction of the code of a `BTreeMap`.
 
 use std::borrow::Borrow;
 use std::slice;
 
-/// Entries of the longest run; a longer one is split.
+/// Greatest number of entries of a run. A longer run is split.
 const RUN: usize = 128;
 
-/// Entries by key, in ascending runs of at most [`RUN`]; no run is empty.
+/// Entries by key, in ascending runs of 1 to [`RUN`] entries.
 #[derive(Clone, Debug)]
 pub(crate) struct SortedMap<K, V> {
     runs: Vec<Vec<(K, V)>>,
@@ -18,7 +18,7 @@ impl<K, V> Default for SortedMap<K, V> {
     }
 }
 
-/// Place of a key.
+/// Search result for a key.
 struct Place {
     run: usize,
     at: usize,
@@ -26,7 +26,7 @@ struct Place {
 }
 
 impl<K, V> SortedMap<K, V> {
-    /// The entries in ascending order.
+    /// Entries in ascending order.
     pub(crate) fn iter(&self) -> Iter<'_, K, V> {
         Iter {
             runs: self.runs.iter(),
@@ -34,7 +34,7 @@ impl<K, V> SortedMap<K, V> {
         }
     }
 
-    /// The values in the order of their keys.
+    /// Values in the order of their keys.
     pub(crate) fn values(&self) -> impl Iterator<Item = &V> {
         self.iter().map(|(_, value)| value)
     }
@@ -76,7 +76,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         Place { run, at, is_taken }
     }
 
-    /// The value of `key`.
+    /// Value of `key`; `None` if the map lacks the key.
     pub(crate) fn get<Q: Ord + ?Sized>(&self, key: &Q) -> Option<&V>
     where
         K: Borrow<Q>,
@@ -85,7 +85,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         is_taken.then(|| &self.runs[run][at].1)
     }
 
-    /// The value of `key`, to be changed.
+    /// Mutable value of `key`; `None` if the map lacks the key.
     pub(crate) fn get_mut<Q: Ord + ?Sized>(&mut self, key: &Q) -> Option<&mut V>
     where
         K: Borrow<Q>,
@@ -94,7 +94,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         is_taken.then(|| &mut self.runs[run][at].1)
     }
 
-    /// Adds an entry. Returns false and adds nothing if the key is taken.
+    /// Adds an entry. Returns false and adds nothing if the map has the key already.
     pub(crate) fn insert(&mut self, key: K, value: V) -> bool {
         let place = self.place(&key);
         if !place.is_taken {
@@ -103,7 +103,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         !place.is_taken
     }
 
-    /// The value of `key`; inserts the default if there is none.
+    /// Mutable value of `key`. Inserts the default if the map lacks the key.
     pub(crate) fn entry(&mut self, key: K) -> &mut V
     where
         V: Default,
@@ -119,7 +119,7 @@ impl<K: Ord, V> SortedMap<K, V> {
         &mut self.runs[run][at].1
     }
 
-    /// Inserts an entry at its place and returns its position.
+    /// Inserts an entry at `place` and returns its position.
     fn put(&mut self, place: &Place, key: K, value: V) -> [usize; 2] {
         let &Place { run, at, .. } = place;
         let entry = (key, value);
@@ -140,7 +140,7 @@ impl<K: Ord, V> SortedMap<K, V> {
     }
 }
 
-/// Equality by entries: the runs depend on the order of insertion.
+/// Equality by entries, because the runs depend on the order of insertion.
 impl<K: PartialEq, V: PartialEq> PartialEq for SortedMap<K, V> {
     fn eq(&self, other: &SortedMap<K, V>) -> bool {
         let mut others = other.iter();

@@ -1,9 +1,9 @@
-//! Streams: sums of pairs from which scores are computed.
+//! Streams: quantities of a pair whose sums determine scores.
 
 use std::fmt;
 use std::ops::BitOr;
 
-/// One quantity of a pair that is summed; d = RN(y − ŷ), y the truth, ŷ the prediction.
+/// One summed quantity of a pair, with d = RN(y − ŷ), y the truth and ŷ the prediction.
 ///
 /// ```
 /// use taceva_metrics::Stream;
@@ -15,13 +15,13 @@ use std::ops::BitOr;
 pub enum Stream {
     /// |d|.
     Absolute,
-    /// d.
+    /// d, the residual.
     Residual,
-    /// d², all of its bits.
+    /// d², exact.
     Squared,
-    /// y.
+    /// y, the truth.
     Truth,
-    /// y², all of its bits.
+    /// y², exact.
     TruthSquared,
     /// The term of sMAPE, t = RN(|d| / RN(RN(RN(|y| + |ŷ|) × 0.5) + ε)).
     Symmetric,
@@ -38,7 +38,7 @@ impl Stream {
         Stream::Symmetric,
     ];
 
-    /// The word used in states.
+    /// Name in states.
     pub const fn name(self) -> &'static str {
         match self {
             Stream::Absolute => "abs_d",
@@ -95,7 +95,7 @@ impl Streams {
         self.bits
     }
 
-    /// The streams in order.
+    /// Streams of the set, in the order of [`Stream::ALL`].
     pub fn iter(self) -> impl Iterator<Item = Stream> {
         Stream::ALL
             .into_iter()

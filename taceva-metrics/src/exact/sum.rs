@@ -1,4 +1,4 @@
-//! A sum of binary64 numbers, and of their products, that never rounds.
+//! Exact sums of binary64 numbers and of their products.
 
 use std::fmt;
 
@@ -8,25 +8,25 @@ use super::digits::{
 };
 use super::rational::Dyadic;
 
-/// Digits of the inline window; a sum of one quantity rarely spans more.
+/// Number of digits of the inline window. Sums of one quantity rarely need more.
 const WINDOW: usize = 8;
 
-/// Position of the bit of weight one.
+/// Position of the bit with weight one.
 const UNIT_POSITION: usize = 2176;
-/// Deposits between carries: each changes a digit by less than 2⁵³, so 1000 of them stay within an `i64`.
+/// Greatest number of deposits between carries. Each deposit changes a digit by less than 2⁵³, so 1000 of them fit an `i64`.
 const DEPOSITS: u32 = 1000;
-/// Position of the mantissa of the least denormal.
+/// Position of the mantissa of the least denormal number.
 const DENORMAL_POSITION: usize = UNIT_POSITION - 1074;
-/// Position of the square of the least denormal.
+/// Position of the square of the least denormal number.
 const DENORMAL_SQUARE_POSITION: usize = UNIT_POSITION - 2148;
 
 /// An exact sum of binary64 numbers and of products of two of them.
 ///
-/// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Sums of equal value are equal, whatever their
-/// history.
+/// Adding, merging and subtracting never round; [`to_f64`](ExactSum::to_f64) rounds once. Sums of equal value compare equal, however they
+/// were computed.
 ///
-/// A fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries, so a deposit touches a few neighbouring
-/// digits only. Eight digits are kept inline, around the values seen. The whole range is allocated only for sums that span more.
+/// The sum is a fixed-point number of 32-bit digits, each in an `i64` whose upper half collects carries, so a deposit changes only a few
+/// neighbouring digits. Eight digits around the summed values are stored inline. The full range is allocated only for sums that need more.
 ///
 /// ```
 /// use taceva_metrics::ExactSum;
@@ -41,9 +41,9 @@ pub struct ExactSum {
     window: [i64; WINDOW],
     /// Index of the digit `window[0]`.
     first: u32,
-    /// Deposits left before carries must be propagated; 0 in a new sum, which has no window yet.
+    /// Deposits left before the next propagation of carries; 0 in a new sum, which has no window yet.
     deposits_left: u32,
-    /// All digits, allocated once the window is too narrow.
+    /// All digits, allocated if the window is too narrow.
     full: Option<Box<[i64; DIGITS]>>,
 }
 
@@ -51,13 +51,13 @@ impl ExactSum {
     /// Adds `value`.
     ///
     /// # Panics
-    /// If it is NaN or infinite: the caller decides what such a value means.
+    /// If `value` is NaN or infinite. The caller must decide the meaning of these values.
     pub fn add(&mut self, value: f64) {
         assert!(value.is_finite(), "only finite numbers have a sum");
         self.deposit(value);
     }
 
-    /// Adds the product of `left` and `right`, all of its bits.
+    /// Adds the exact product of `left` and `right`.
     ///
     /// # Panics
     /// If either is NaN or infinite.
@@ -73,22 +73,22 @@ impl ExactSum {
         self.deposit_parts(position, split(product, position).map(|part| sign * part));
     }
 
-    /// Adds another sum.
+    /// Adds the sum `other`.
     pub fn merge(&mut self, other: &ExactSum) {
         other.for_each_digit(|index, digit| self.deposit_digits(index, [digit]));
     }
 
-    /// Subtracts another sum, exactly.
+    /// Subtracts the sum `other`, exactly.
     pub fn subtract(&mut self, other: &ExactSum) {
         other.for_each_digit(|index, digit| self.deposit_digits(index, [-digit]));
     }
 
-    /// The nearest binary64, ties to even; beyond its range an infinity, below it a zero with the sum's sign.
+    /// Nearest binary64, ties to even. Overflow gives infinity, underflow a zero with the sign of the sum.
     pub fn to_f64(&self) -> f64 {
         self.to_dyadic().to_f64()
     }
 
-    /// Canonical form, which all sums of equal value share.
+    /// Canonical form, equal for all sums of equal value.
     pub fn to_canonical(&self) -> Canonical {
         let mut digits = [0; DIGITS];
         let mut top = None;
@@ -108,7 +108,7 @@ impl ExactSum {
         Canonical::from_digits(negative, digits)
     }
 
-    /// The sum that `canonical` describes.
+    /// Sum with the form `canonical`.
     pub fn from_canonical(canonical: &Canonical) -> ExactSum {
         let mut sum = ExactSum::default();
         let sign = if canonical.is_negative() { -1 } else { 1 };
@@ -118,7 +118,7 @@ impl ExactSum {
         sum
     }
 
-    /// The sum itself, for products and quotients of sums.
+    /// Exact value, for products and quotients of sums.
     ///
     /// ```
     /// use taceva_metrics::{Dyadic, ExactSum};
@@ -129,7 +129,7 @@ impl ExactSum {
         Dyadic::from_canonical(&self.to_canonical())
     }
 
-    /// Adds a value known to be finite.
+    /// Adds a finite `value`.
     #[inline]
     pub(super) fn deposit(&mut self, value: f64) {
         let Binary {
@@ -143,7 +143,7 @@ impl ExactSum {
         self.deposit_parts(position, parts.map(|part| sign * part));
     }
 
-    /// Adds units × 2^unit, which must be at least the square of the least denormal.
+    /// Adds units × 2^unit; 2^unit must be at least the square of the least denormal number.
     pub(super) fn add_units(&mut self, units: i64, unit: i32) {
         let position = usize::try_from(unit - UNIT_EXPONENT).expect("a power of two in range");
         let sign = units.signum();
@@ -155,7 +155,7 @@ impl ExactSum {
         }
     }
 
-    /// Adds the square of a value known to be finite.
+    /// Adds the square of a finite `value`.
     #[inline]
     pub(super) fn deposit_square(&mut self, value: f64) {
         let Binary {
@@ -166,7 +166,7 @@ impl ExactSum {
         self.deposit_parts(position, split(square, position));
     }
 
-    /// Skips zeros, which are far below other values and would only widen the window.
+    /// Adds nonzero parts. Zeros would only widen the window.
     #[inline]
     fn deposit_parts<const PARTS: usize>(&mut self, position: usize, parts: [i64; PARTS]) {
         if parts != [0; PARTS] {
@@ -203,7 +203,7 @@ impl ExactSum {
         self.deposits_left -= 1;
     }
 
-    /// Propagates carries and moves the window to cover digits `low..high` too, or switches to the full range.
+    /// Propagates carries and moves the window to include digits `low..high`, or allocates the full range.
     fn make_room(&mut self, low: usize, high: usize) {
         let (digits, old_first) = self.carried_window();
         let (mut low, mut high) = (low, high);
@@ -246,7 +246,7 @@ impl ExactSum {
         (digits, self.first as usize)
     }
 
-    /// Visits the nonzero digits, from the lowest; each is in −2³¹..2³¹.
+    /// Calls `visit` with each nonzero digit, lowest first. Each digit is in −2³¹..2³¹.
     fn for_each_digit(&self, visit: impl FnMut(usize, i64)) {
         match &self.full {
             Some(full) => {

@@ -1,4 +1,4 @@
-//! Sums in whole units of grids, before they move to a superaccumulator.
+//! Sums in whole units of grids, before the units move to a superaccumulator.
 
 use super::bounds::{Bounds, Grids, TERMS};
 use super::grid::{Grid, ProductUnits};
@@ -6,7 +6,7 @@ use super::kernel::{ErrorUnits, ValueUnits};
 use super::sum::ExactSum;
 use crate::exact::streams::{Stream, Streams};
 
-/// Number of rows on the grids that allow one row off them, in addition to [`FREE_STRAYS`].
+/// Number of rows on the grids per tolerated stray, in addition to [`FREE_STRAYS`].
 const ROWS_PER_STRAY: usize = 16;
 
 const FREE_STRAYS: usize = 16;
@@ -20,7 +20,7 @@ pub(super) struct Pending {
     pub(super) values: ValueUnits,
     /// Rows whose units are pending.
     pub(super) rows: usize,
-    /// Rows that fitted since these grids were chosen; `strays` counts the others.
+    /// Rows on these grids since they were chosen; `strays` counts the other rows.
     pub(super) rows_on_grids: usize,
     pub(super) strays: usize,
 }
@@ -38,7 +38,7 @@ impl Pending {
         }
     }
 
-    /// Maximum number of rows off these grids before other grids are chosen.
+    /// Greatest number of strays before other grids are chosen.
     pub(super) fn free_strays(&self) -> usize {
         FREE_STRAYS + self.rows_on_grids / ROWS_PER_STRAY
     }

@@ -1,10 +1,10 @@
-//! Vector operations that the block kernel needs.
+//! Vector operations for the block kernels.
 
 /// A vector of binary64 numbers.
 ///
-/// Every operation rounds to nearest, ties to even, lane by lane, so the width changes no result.
+/// Every operation rounds each lane to nearest, ties to even, so the width of the vector does not affect results.
 pub(crate) trait Vector: Copy {
-    /// Proof that the machine has the instructions; required to create a vector.
+    /// Proof that the machine has the instructions, required to create a vector.
     type Proof: Copy;
     /// Number of lanes.
     const LANES: usize;
@@ -14,14 +14,14 @@ pub(crate) trait Vector: Copy {
     /// Loads one number per lane.
     ///
     /// # Panics
-    /// If `values` are not exactly [`LANES`](Vector::LANES) numbers.
+    /// If the number of `values` differs from [`LANES`](Vector::LANES).
     fn load(proof: Self::Proof, values: &[f64]) -> Self;
 
     /// RN(self + other).
     fn plus(self, other: Self) -> Self;
-    /// RN(self + other) by the less busy unit: the multiplier computes self + other × one.
+    /// RN(self + other) on the less busy unit: the multiplier computes self + other × one.
     ///
-    /// `one` is 1 in every lane. The compiler must not know this, or it would use an addition again.
+    /// `one` is 1 in every lane. The compiler must not see this value, because it would replace the product by an addition.
     fn plus_aside(self, other: Self, one: Self) -> Self;
     /// RN(self − other).
     fn minus(self, other: Self) -> Self;
@@ -31,27 +31,27 @@ pub(crate) trait Vector: Copy {
     fn over(self, other: Self) -> Self;
     /// |self|.
     fn magnitude(self) -> Self;
-    /// RN(self × other), and its rounding error, which is exact unless either over- or underflows.
+    /// RN(self × other) and its rounding error, which is exact without over- and underflow.
     fn product(self, other: Self) -> [Self; 2];
 
-    /// The greater of the two; `other` if one is NaN.
+    /// Lane-wise maximum; `other` if a number is NaN.
     fn greatest(self, other: Self) -> Self;
-    /// The lesser of the two; `other` if one is NaN.
+    /// Lane-wise minimum; `other` if a number is NaN.
     fn least(self, other: Self) -> Self;
-    /// Bit pattern less one: the next smaller number for a positive one, NaN for a zero.
+    /// Bit pattern minus one: the next smaller number for a positive number, NaN for a zero.
     fn predecessor(self) -> Self;
-    /// True if each lane is at most the same lane of `bound`; false if one is NaN.
+    /// True if each lane is at most the same lane of `bound`; false if a number is NaN.
     fn all_at_most(self, bound: Self) -> bool;
 
-    /// `value` in the lanes where `self` is at least `bound`, zero in the others.
+    /// `value` in the lanes with `self` of at least `bound`, zero in the others.
     fn keep_at_least(self, bound: Self, value: Self) -> Self;
-    /// Number of lanes in which `self` is at least `bound`.
+    /// Number of lanes with `self` of at least `bound`.
     fn count_at_least(self, bound: Self) -> u32;
 
-    /// Sum of the lanes' distances from `start` in units of its last place; all are in one binade.
+    /// Sum of the lanes' distances from `start`, in units of the last place of `start`. All numbers must be in one binade.
     fn units_above(self, start: Self) -> i64;
 
-    /// Prefetches `values`, if the machine has an instruction for it.
+    /// Prefetches `values`, if the machine has a prefetch instruction.
     fn prefetch(values: &[f64]);
     /// The rounded sum of the lanes.
     #[cfg_attr(
@@ -60,7 +60,7 @@ pub(crate) trait Vector: Copy {
     )]
     fn sum_of_lanes(self) -> f64;
 
-    /// Loads at most one number per lane, padded with zeros.
+    /// Loads at most one number per lane and pads with zeros.
     #[inline(always)]
     fn load_short(proof: Self::Proof, values: &[f64]) -> Self {
         let mut lanes = [0.0; 8];
@@ -69,10 +69,10 @@ pub(crate) trait Vector: Copy {
     }
 }
 
-/// Work written once for vectors of every width.
+/// Computation that is generic over the vector width.
 pub(crate) trait Job {
     /// Result of the work.
     type Output;
-    /// Does the work. Always inlined, so that it is compiled with the instructions of the vectors.
+    /// Runs the computation. Always inlined, so that it is compiled with the instructions of the vectors.
     fn run<V: Vector>(self, proof: V::Proof) -> Self::Output;
 }

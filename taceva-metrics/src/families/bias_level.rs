@@ -22,7 +22,7 @@ use crate::score::value::{Finished, InapplicableReason, UndefinedReason, Value};
 use crate::score::{Count, Parameter, Variant};
 use window::Window;
 
-/// Least samples of a level whose mean error counts for the score.
+/// Least number of samples of a level whose mean error enters the score.
 const LEAST_SAMPLES: u64 = 5;
 
 pub(crate) static BIAS_LEVEL: Metric = Metric {
@@ -77,7 +77,7 @@ pub(crate) struct Levels {
 pub(crate) struct LevelSums {
     n: u64,
     n_invalid: u64,
-    /// By ⌊truth / width⌋, the truth in millionths.
+    /// Errors by ⌊truth / width⌋, with truth and width in millionths.
     levels: SortedMap<i64, LevelErrors>,
 }
 
@@ -117,7 +117,7 @@ fn greatest_bias(sums: &LevelSums) -> Finished {
     })
 }
 
-/// The mean error at each level, placed at its middle.
+/// Mean error at the middle of each level.
 fn curve(sums: &LevelSums, unit: Unit, width: i64) -> Curve {
     let middle = |level: &i64| from_millionths(level * width + width / 2);
     Curve {

@@ -9,22 +9,22 @@ use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
 use crate::exact::sorted_map::SortedMap;
 
-/// Key of a cell of presses that belong together: a contact point, with a depth step if it matters.
+/// Key of a cell of comparable presses: a contact point, with a depth step if the metric separates depths.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct CellKey {
     point: Option<Arc<str>>,
     step: u32,
-    /// Number of the draw: a bootstrap replicate may contain a contact point several times. 0 elsewhere.
+    /// Number of the draw, because a bootstrap replicate may contain a contact point several times; otherwise 0.
     copy: u32,
 }
 
 impl CellKey {
-    /// The depth step.
+    /// Depth step of the cell.
     pub(crate) fn step(&self) -> u32 {
         self.step
     }
 
-    /// Text in a state: `3:point 7`, or empty without a location.
+    /// Key as text in a state: `3:point 7`, or empty without a contact point.
     fn to_text(&self) -> String {
         match &self.point {
             Some(point) => format!("{}:{point}", self.step),
@@ -46,10 +46,10 @@ impl CellKey {
     }
 }
 
-/// Summaries by cell. Copies share them, so each is computed once.
+/// Summaries by cell. Copies share the summaries, so each is computed once.
 ///
-/// Once a row lacks a location, all cells are merged into one permanently, because the presses cannot be grouped. The outcome depends on the
-/// set of rows alone.
+/// One row without a contact point merges all cells permanently, because the presses cannot be grouped. The result depends only on
+/// the set of rows.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Cells<V> {
     cells: SortedMap<CellKey, Arc<V>>,
@@ -72,7 +72,7 @@ pub(crate) struct BatchCells<'a, V> {
 }
 
 impl<V: Merge + Clone + Default> BatchCells<'_, V> {
-    /// The summary of the cell of `row`, to be added to.
+    /// Mutable summary of the cell of `row`.
     pub(crate) fn at(&mut self, row: usize, step: u32) -> &mut V {
         let point = self.labels.and_then(|labels| labels.get(row));
         self.cells.at(point, step)
@@ -80,12 +80,12 @@ impl<V: Merge + Clone + Default> BatchCells<'_, V> {
 }
 
 impl<V: Merge + Clone + Default> Cells<V> {
-    /// The cells for the rows of `batch`. A batch of rows without locations merges all cells into one, whichever of its rows count.
+    /// Cells for the rows of `batch`. A batch without contact points merges all cells, even if only some of its rows are used.
     pub(crate) fn of_batch<'a>(&'a mut self, batch: &'a Batch) -> BatchCells<'a, V> {
         self.of_labels(batch.points(), batch.rows())
     }
 
-    /// The cells for `rows` rows that are located by `labels`. Rows without labels merge all cells into one.
+    /// Cells for `rows` rows with contact points in `labels`. Rows without labels merge all cells.
     pub(crate) fn of_labels<'a>(
         &'a mut self,
         labels: Option<&'a Labels>,
@@ -100,12 +100,12 @@ impl<V: Merge + Clone + Default> Cells<V> {
         }
     }
 
-    /// True if every row so far named its location.
+    /// True if every row so far had a contact point.
     pub(crate) fn are_named(&self) -> bool {
         self.named
     }
 
-    /// The cells in order.
+    /// Cells in the order of their keys.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (&CellKey, &V)> {
         self.cells.iter().map(|(key, cell)| (key, cell.as_ref()))
     }
@@ -115,7 +115,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         self.cells.len()
     }
 
-    /// The summary of a cell, to be added to.
+    /// Mutable summary of a cell.
     fn at(&mut self, point: Option<&str>, step: u32) -> &mut V {
         let key = match point {
             Some(point) if self.named => CellKey {
@@ -163,13 +163,13 @@ impl<V: Merge + Clone + Default> Cells<V> {
         }
     }
 
-    /// The cells as records by key, for [`Record::cells`].
+    /// Cells as records by key, for [`Record::cells`].
     pub(crate) fn to_records(&self, to_record: impl Fn(&V) -> Record) -> BTreeMap<String, Record> {
         let cells = self.cells.iter();
         keyed(cells.map(|(key, cell)| (key.to_text(), to_record(cell))))
     }
 
-    /// Reads the cells of a record; their keys must have locations exactly if `named`.
+    /// Reads the cells of a record. Their keys must have contact points exactly if `named`.
     pub(crate) fn from_record(
         record: &Record,
         named: bool,
@@ -204,7 +204,7 @@ impl<V: Merge + Clone + Default> Merge for Cells<V> {
     }
 }
 
-/// Adds `other` as often as `times`.
+/// Adds `other` `times` times.
 pub(crate) fn add_times(count: &mut u64, other: u64, times: u32) {
     *count = count.saturating_add(other.saturating_mul(u64::from(times)));
 }

@@ -1,4 +1,4 @@
-//! Families that compute the same sums for each channel separately. Such a family only defines its sums.
+//! Interface of families with the same sums for each channel.
 
 use std::collections::BTreeMap;
 
@@ -18,15 +18,15 @@ pub(crate) trait Channelwise: Send + 'static {
     /// Sums of one channel; the default is empty.
     type Sums: Merge + Clone + Default + Send + 'static;
 
-    /// Parameters that must be equal in states that merge.
+    /// Parameters that must be equal in merged states.
     fn parameters(&self) -> BTreeMap<String, String> {
         BTreeMap::new()
     }
-    /// True if the family covers `channel`.
+    /// True if the family includes `channel`.
     fn takes(&self, _channel: &Channel) -> bool {
         true
     }
-    /// Adds `rows` of `batch`, all of them for `None`, to the sums of the channel at `position`.
+    /// Adds `rows` of `batch`, or all rows for `None`, to the sums of the channel at index `position`.
     fn deposit(
         &mut self,
         sums: &mut Self::Sums,
@@ -36,9 +36,9 @@ pub(crate) trait Channelwise: Send + 'static {
     );
     /// Converts sums to the record of a state.
     fn to_record(&self, sums: &Self::Sums) -> Record;
-    /// Reads the record of a state.
+    /// Reads the sums from the record of a state.
     fn read_record(&self, record: &Record) -> Result<Self::Sums, String>;
-    /// Number of samples used.
+    /// Number of used samples.
     fn count(&self, sums: &Self::Sums) -> u64;
     /// Number of samples skipped for an unusable value.
     fn invalid(&self, sums: &Self::Sums) -> u64;
@@ -57,7 +57,7 @@ pub(crate) trait Channelwise: Send + 'static {
     ) -> Option<Intervals> {
         None
     }
-    /// Reason why the metric does not apply, if any.
+    /// Reason why the metric does not apply to the output; `None` if it applies.
     fn inapplicable(&self, _output: &Output) -> Option<InapplicableReason> {
         None
     }
@@ -67,7 +67,7 @@ pub(crate) trait Channelwise: Send + 'static {
     }
 }
 
-/// Family of a [`Channelwise`] kind, for channels and for planes. The score of a plane is the mean over both axes.
+/// Family of a [`Channelwise`] kind, for channels and planes. The score of a plane is the mean over its axes.
 pub(crate) struct ByChannel<K> {
     kind: K,
     positions: Vec<usize>,
@@ -75,7 +75,7 @@ pub(crate) struct ByChannel<K> {
 }
 
 impl<K: Channelwise> ByChannel<K> {
-    /// Channels of `plan` that the kind covers.
+    /// Family with the channels of `plan` that the kind includes.
     pub(crate) fn new(kind: K, plan: &MetricPlan) -> ByChannel<K> {
         let channels = plan.channels().iter().enumerate();
         let positions: Vec<usize> = channels
@@ -161,7 +161,7 @@ impl<K: Channelwise> Family for ByChannel<K> {
     }
 }
 
-/// Calls `add` with the row and pair of every sample in `rows` that has both values.
+/// Calls `add` with the row and the pair of every sample of `rows` with both values.
 pub(crate) fn each_pair(
     batch: &Batch,
     position: usize,

@@ -1,11 +1,11 @@
-//! Variant from the spread of bins beyond chance, if the samples of each contact point are known.
+//! Variant for the excess spread of bins, if the contact points of the samples are known.
 
 use crate::evaluate::family::Intervals;
 use crate::score::Interval;
 use crate::score::value::UndefinedReason;
 use crate::stats::components::Excess;
 
-/// Value and ends of a variant.
+/// Value of a variant with its interval ends.
 pub(crate) struct WithEnds {
     pub(crate) value: f64,
     pub(crate) ends: [f64; 2],

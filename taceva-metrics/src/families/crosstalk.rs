@@ -48,9 +48,9 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
     ..FamilyKind::new("taceva.joint/2", |plan| erased(Crosstalk::for_plan(plan)))
 };
 
-/// All channels of a contact at once.
+/// Joint fit of all channels of a contact.
 pub(crate) struct Crosstalk {
-    /// Positions of those channels of the six that the plan has.
+    /// Indices of the six contact channels in the plan, as far as the plan has them.
     positions: Vec<usize>,
     names: Vec<String>,
     adder: ColumnAdder,

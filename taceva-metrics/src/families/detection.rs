@@ -1,4 +1,4 @@
-//! Detection limit of normal force, from light presses.
+//! Detection limit of the normal force, from light presses.
 
 mod limit;
 mod sums;
@@ -68,7 +68,7 @@ fn constants(_: Unit) -> Vec<Parameter> {
     vec![constant("gate", GATE_N), constant("light", LIGHT_N)]
 }
 
-/// Predictions of light presses over their true force.
+/// Predicted over true force of light presses.
 pub(crate) struct LightPresses;
 
 impl Channelwise for LightPresses {

@@ -1,4 +1,4 @@
-//! Family of limits that hold a share of all errors, from the errors of each cluster.
+//! Family of limits that contain a share of all errors, from the errors of each cluster.
 
 mod errors;
 mod intervals;
@@ -19,21 +19,21 @@ pub(crate) use errors::Errors;
 pub(crate) use intervals::{Whole, of_components};
 use sums::{ErrorSums, Totals};
 
-/// Least samples of a standard deviation.
+/// Least number of samples for a standard deviation.
 const LEAST_SAMPLES: u64 = 2;
 
-/// Needs of scores of the limits of errors.
+/// Needs of the scores of this family.
 pub(crate) const LIMIT_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_least_samples(LEAST_SAMPLES);
 
-/// Formula of a metric that is computed from the errors of clusters.
+/// Formula of a metric of this family.
 pub(crate) struct LimitFormula {
-    /// The numbers, in the unit of the channel.
+    /// Computation of the numbers, in the unit of the channel.
     pub(crate) finish: fn(&Errors<'_>, Unit) -> Numbers,
-    /// Factor of the standard deviation in the numbers, which other choices of clusters leave as it is.
+    /// Factor of the standard deviation in the numbers, which is kept for other choices of clusters.
     pub(crate) factor: fn(&NormalSample) -> Option<f64>,
-    /// Replaces intervals of the jackknife by better ones.
+    /// Replacement of jackknife intervals by more accurate ones.
     pub(crate) settle: fn(&mut Intervals, &Whole<'_>),
 }
 
@@ -56,7 +56,7 @@ pub(crate) struct ErrorLimits {
 }
 
 impl ErrorLimits {
-    /// The kind for the clusters of `plan`.
+    /// Sums for the clusters of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> ErrorLimits {
         ErrorLimits {
             clustered_by: plan.clustered_by(),
@@ -68,7 +68,7 @@ impl ErrorLimits {
         self.clustered_by == ClusteredBy::Sample
     }
 
-    /// Clusters of the rows of `batch`; `None` if they are unknown, or every sample is its own.
+    /// Clusters of the rows of `batch`; `None` if they are unknown, or if every sample is its own cluster.
     fn labels<'a>(&self, batch: &'a Batch) -> Option<&'a Labels> {
         match self.clustered_by {
             ClusteredBy::Point => batch.points(),

@@ -1,4 +1,4 @@
-//! Hysteresis: the share of the work of pressing that is not recovered.
+//! Hysteresis: share of the work of loading that unloading does not recover.
 
 mod branches;
 mod loops;

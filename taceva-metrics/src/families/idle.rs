@@ -1,4 +1,4 @@
-//! Family of scores from predictions without contact.
+//! Family of scores computed from predictions without contact.
 
 use taceva_core::{Batch, Channel, Field, FieldSet, Needs, Unit};
 
@@ -15,16 +15,16 @@ use crate::score::value::UndefinedReason;
 
 /// Least normal force of contact, N.
 pub(crate) const GATE_N: f64 = 0.02;
-/// Least samples without contact for a score of them.
+/// Least number of samples without contact for a score.
 pub(crate) const LEAST_SAMPLES: u64 = 10;
 
-/// Needs of scores of predictions without contact.
+/// Needs of the scores of this family.
 pub(crate) const IDLE_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction))
         .with_channels(&["Fz"])
         .with_least_samples(LEAST_SAMPLES);
 
-/// Formula of a metric that is computed from predictions without contact.
+/// Formula of a metric of this family.
 pub(crate) struct IdleFormula(pub(crate) fn(&Moments, Unit) -> Numbers);
 
 /// Family of predictions without contact.
@@ -46,7 +46,7 @@ pub(crate) struct IdleSums {
 }
 
 impl Idle {
-    /// The kind for `plan`, if it has a normal force.
+    /// Family for `plan`; `None` if the plan has no normal force.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Option<Idle> {
         let normal_force = plan.channels().position("Fz")?;
         Some(Idle {

@@ -1,4 +1,4 @@
-//! Gap between the surfaces of several units of one sensor.
+//! Gap between the surfaces of several units of one sensor model.
 
 mod gap;
 mod pairs;
@@ -18,7 +18,7 @@ use crate::score::{Count, Variant};
 use pairs::UnitGaps;
 use surfaces::SurfaceClouds;
 
-/// Channel with the height of the untouched surface, at first contact of the indenter.
+/// Channel with the height of the untouched surface, measured at the first contact of the indenter.
 const SURFACE_CHANNEL: &str = "surface_z";
 
 pub(crate) static INTER_SENSOR: Metric = Metric {

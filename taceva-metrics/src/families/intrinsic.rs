@@ -1,4 +1,4 @@
-//! Properties of the sensor as its recording shows them: frame rate and sensing area.
+//! Properties of the sensor derived from its recording: frame rate and sensing area.
 
 mod sums;
 pub(crate) mod times;
@@ -39,13 +39,13 @@ pub(crate) static INTRINSIC: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Fields that are read if samples carry them.
+/// Optional fields, read if samples have them.
 pub(crate) const OPTIONAL_FIELDS: FieldSet = FieldSet::EMPTY
     .with(Field::Truth)
     .with(Field::Stamp)
     .with(Field::FrameDigest);
 
-/// The scores, in the order of reports.
+/// Properties with their units, in the order of reports.
 const PROPERTIES: [(&str, Unit); 6] = [
     ("frame_rate", Unit::Hertz),
     ("jitter", Unit::Second),
@@ -74,16 +74,16 @@ pub(crate) struct Intrinsic {
 /// Criterion of contact.
 #[derive(Clone, Copy, Debug)]
 enum Contact {
-    /// Force of at least the threshold, in the channel at this position.
+    /// Normal force of at least the threshold, in the channel at this index.
     Force(usize),
-    /// Positive indentation, in the channel at this position.
+    /// Positive indentation, in the channel at this index.
     Depth(usize),
 }
 
 impl Contact {
-    /// True if the sample at `row` is in contact; `None` if it has no value.
+    /// True if the sample at `row` is in contact; `None` if the channel has no value.
     fn at(self, batch: &Batch, row: usize) -> Option<bool> {
-        /// The contact threshold, in N.
+        /// Contact threshold, N.
         const GATE_N: f64 = 0.02;
         match self {
             Contact::Force(position) => Some(batch.truth(position).get(row)?.abs() >= GATE_N),
@@ -105,7 +105,7 @@ impl Intrinsic {
         }
     }
 
-    /// Missing field of `plan`, if its samples show no property at all.
+    /// Missing field of `plan`, if its samples determine no property.
     pub(crate) fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
         let named = |name| plan.channels().position(name).is_some();
         let places = plan.carries(Field::Truth) && named("Px") && named("Py");
@@ -113,14 +113,14 @@ impl Intrinsic {
         (!any).then_some(SkipReason::FieldAbsent(Field::Stamp))
     }
 
-    /// True place of the sample at `row`, mm, if it is in contact.
+    /// True place of the sample at `row`, mm; `None` without contact.
     fn contact_mm(&self, batch: &Batch, row: usize) -> Option<[f64; 2]> {
         let [x, y] = self.place?;
         self.contact?.at(batch, row).filter(|contact| *contact)?;
         Some([batch.truth(x).get(row)?, batch.truth(y).get(row)?])
     }
 
-    /// Width times height.
+    /// Number of pixels: width times height.
     fn resolution(&self) -> Finished {
         let [width, height] = self
             .frame_size
@@ -150,7 +150,7 @@ impl Family for Intrinsic {
         sums.add_contacts(&places);
     }
 
-    /// All samples are one cluster, because an interval of time needs the sample before.
+    /// All samples form one cluster, because a time interval needs the previous sample.
     fn clusters<'a>(&self, _batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         None
     }

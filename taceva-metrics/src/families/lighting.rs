@@ -1,4 +1,4 @@
-//! Robustness to lighting: whether errors follow the light that reaches the camera.
+//! Robustness to lighting: change of errors with the light that reaches the camera.
 
 mod change;
 mod delta;
@@ -110,7 +110,7 @@ impl Family for Lighting {
         }
     }
 
-    /// Intervals of one channel, by the delta method. The mean of two channels is jackknifed itself, as their errors are correlated.
+    /// Intervals of one channel, by the delta method. The mean of two channels has its own jackknife, because their errors are correlated.
     fn intervals(
         &self,
         _metric: &Metric,

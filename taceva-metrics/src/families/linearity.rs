@@ -1,4 +1,4 @@
-//! Deviation of predictions from a straight line over the truth.
+//! Deviation of predictions from the straight line through predictions over truth.
 
 mod line;
 
@@ -46,7 +46,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
 /// Predictions over truth.
 #[derive(Default)]
 pub(crate) struct Lines {
-    /// Adders by position of the channel, as channels differ in magnitude.
+    /// Adders by index of the channel, because channels differ in magnitude.
     adders: Vec<ColumnAdder>,
     gathered: Gathered,
 }
@@ -100,7 +100,7 @@ impl Channelwise for Lines {
     }
 }
 
-/// Adds the numbers of the line, which have intervals, to `numbers`.
+/// Adds the scalar variants of the line, which have intervals, to `numbers`.
 fn with_line(numbers: Numbers, output: &Output, sums: &LineSums) -> Numbers {
     let line = Line::through(sums);
     numbers

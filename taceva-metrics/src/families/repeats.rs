@@ -1,4 +1,4 @@
-//! Family of scores from the repeats of each press.
+//! Family of scores computed from the repeats of each press.
 
 pub(crate) mod spread;
 
@@ -25,7 +25,7 @@ pub(crate) static REPEATS: FamilyKind = FamilyKind::new("taceva.repeats/1", |pla
     erased(ByChannel::new(Repeats, plan))
 });
 
-/// Needs of scores of repeats.
+/// Needs of the scores of this family.
 pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
     FieldSet::EMPTY
         .with(Field::Prediction)
@@ -35,13 +35,13 @@ pub(crate) const REPEAT_NEEDS: Needs = Needs::new(
 )
 .with_least_samples(2);
 
-/// Formula of a metric that is computed from the repeats of each press.
+/// Formula of a metric of this family.
 pub(crate) struct RepeatFormula {
-    /// The numbers, in the unit of the channel.
+    /// Computation of the numbers, in the unit of the channel.
     pub(crate) finish: fn(&SpreadSums, Unit) -> Numbers,
     /// True if the score includes the mean spread at each depth step.
     pub(crate) has_curve: bool,
-    /// True if the score is flagged for labels that hardly differ.
+    /// True if the score gets a flag for labels that hardly differ.
     pub(crate) needs_stimulus: bool,
 }
 
@@ -49,7 +49,7 @@ fn formula(metric: &Metric) -> Option<&'static RepeatFormula> {
     metric.formula.get()
 }
 
-/// Predictions by point and depth step.
+/// Predictions by contact point and depth step.
 struct Repeats;
 
 /// Sums of one channel.
@@ -58,12 +58,12 @@ pub(crate) struct RepeatSums {
     n: u64,
     n_invalid: u64,
     cells: Cells<Cell>,
-    /// Labels of the same repeats, if present. Their spread is the stimulus to distinguish.
+    /// Labels of the same repeats, if present. Their spread is the stimulus.
     truth: Moments,
 }
 
 impl RepeatSums {
-    /// True if the standard deviation of labels is below the pooled spread of repeats: then differences of predictions are noise.
+    /// True if the standard deviation of labels is below the pooled spread of repeats. Differences of predictions are then noise.
     fn is_low_stimulus(&self) -> bool {
         let stimulus = self.truth.deviation(1);
         let spread = SpreadSums::of(&self.cells).pooled().ok();
@@ -197,7 +197,7 @@ impl Channelwise for Repeats {
     }
 }
 
-/// The mean spread at each depth step; of two channels the mean of both.
+/// Mean spread at each depth step; for two channels the mean of both.
 fn depth_curve(parts: &[&RepeatSums]) -> Value {
     let mut steps: SortedMap<u32, (ExactSum, u64)> = SortedMap::default();
     for part in parts {

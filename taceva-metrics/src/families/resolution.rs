@@ -1,4 +1,4 @@
-//! Spatial resolution: classification of the spacing of a grating.
+//! Spatial resolution: recognition of the spacing of a grating.
 
 mod histogram;
 mod success_rate;
@@ -17,12 +17,12 @@ use crate::exact::merge::keyed;
 use crate::exact::record::Record;
 use histogram::Histogram;
 
-/// Family of histograms of errors of grating spacing.
+/// Family of histograms of spacing errors.
 pub(crate) static KIND: FamilyKind = FamilyKind::new("taceva.resolution/1", |plan| {
     erased(Resolution::for_plan(plan))
 });
 
-/// Histograms of the errors of spacing, of each kind of grating.
+/// Histograms of spacing errors, by kind of grating.
 pub(crate) struct Resolution {
     tolerance: Nanometre,
     by_point: bool,
@@ -90,7 +90,7 @@ impl Family for Resolution {
         });
     }
 
-    /// Clusters are boards, which are pressed many times: by their contact point, or else by their grating.
+    /// The clusters are boards, which are pressed many times. A board is identified by contact point, or else by grating.
     fn clusters<'a>(&self, batch: &'a Batch) -> Option<Cow<'a, Labels>> {
         if self.by_point {
             return batch.points().map(Cow::Borrowed);
@@ -138,7 +138,7 @@ impl Family for Resolution {
     }
 }
 
-/// Name of each row's board by its grating: `line:350000`. Rows without a board share the name `none`, which has no samples.
+/// Name of each row's board by its grating: `line:350000`. Rows without a grating share the name `none`.
 fn boards(batch: &Batch) -> Labels {
     let (kinds, spacings) = (batch.labels(Field::Kind), batch.numbers(Field::Spacing));
     let mut boards = Labels::default();

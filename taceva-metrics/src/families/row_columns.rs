@@ -1,17 +1,17 @@
-//! Gathers some rows of some columns.
+//! Gathers selected rows of columns.
 
 use std::ops::Range;
 
 use taceva_core::Column;
 
-/// Values of the last gathered rows; kept to reuse their memory.
+/// Values of the last gathered rows. The memory is reused.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Gathered {
     columns: Vec<Vec<f64>>,
 }
 
 impl Gathered {
-    /// Values of `columns` in the ascending `rows`, or in all rows for `None`. Rows in which a column has no value are skipped. Adjacent
+    /// Values of `columns` in the ascending `rows`, or in all rows for `None`. Rows with a missing value are skipped. Adjacent
     /// rows are borrowed from the columns without a copy.
     pub(crate) fn rows<'a>(
         &'a mut self,

@@ -1,4 +1,4 @@
-//! Spatial robustness: variation of errors with distance from the axis and with depth.
+//! Spatial robustness: variation of errors with distance from the sensor's axis and with depth.
 
 mod robustness;
 mod sums;
@@ -58,7 +58,7 @@ impl Spatial {
         })
     }
 
-    /// Mean absolute error at the centres of the bins.
+    /// Mean absolute error at the centre of each bin.
     fn curve(&self, bins: &SortedMap<u8, Moments>, extent: Nanometre) -> Value {
         let of = |bin: u8| {
             bins.get(&bin)
@@ -133,7 +133,7 @@ impl Family for Spatial {
         robustness::robustness(sums, &self.settings, output.unit)
     }
 
-    /// Interval of the excess, by the variance between contact points and within them.
+    /// Interval of the excess, from the variances between and within contact points.
     fn intervals(
         &self,
         _metric: &Metric,

@@ -1,4 +1,4 @@
-//! Compliance of the surface under normal force: sensitivity and its uniformity, from the same sums.
+//! Compliance of the surface under normal force, for sensitivity and uniformity.
 
 mod grid;
 pub(crate) mod sums;
@@ -30,15 +30,15 @@ use sums::{NORMAL_ONLY, Place, Press, SurfaceSums};
 pub(crate) static SURFACE: FamilyKind =
     FamilyKind::new("taceva.surface/1", |plan| erased(Surface::for_plan(plan)?));
 
-/// Formula of a metric that is computed from the compliance of the surface.
+/// Formula of a metric of this family.
 pub(crate) struct SurfaceFormula {
-    /// Channels of the score.
+    /// Source channels of the score.
     pub(crate) of: &'static [&'static str],
-    /// Number of samples that count.
+    /// Number of samples that the score uses.
     pub(crate) count: fn(&SurfaceSums) -> u64,
-    /// The numbers.
+    /// Computation of the numbers.
     pub(crate) finish: fn(&SurfaceSums, &Settings) -> Numbers,
-    /// Variants with values that depend on clusters, and their intervals.
+    /// Computation of the variants that depend on clusters, with their intervals.
     pub(crate) of_clusters: Option<fn(&[&SurfaceSums], &Settings) -> Intervals>,
     /// True if the score includes the mean of each cell.
     pub(crate) has_map: bool,
@@ -48,7 +48,7 @@ fn formula(metric: &Metric) -> Option<&'static SurfaceFormula> {
     metric.formula.get()
 }
 
-/// Sums of the compliance of the surface, by cell if there is a footprint.
+/// Sums of the surface compliance, by cell if a footprint is declared.
 pub(crate) struct Surface {
     settings: Settings,
     grid: Option<Grid>,
@@ -89,7 +89,7 @@ impl Surface {
         Some(grid.cell(x_mm, y_mm).map_or(Place::Outside, Place::Cell))
     }
 
-    /// True if the sample at `row` is known to have no shear: both forces are measured and below the gate.
+    /// True if the sample at `row` has no shear: both shear forces are measured and below the gate.
     fn without_shear(&self, batch: &Batch, row: usize) -> bool {
         let small = |axis: usize| {
             let force = batch.truth(axis).get(row);

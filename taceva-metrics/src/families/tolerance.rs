@@ -1,4 +1,4 @@
-//! Share of predictions within a tolerance.
+//! Share of predictions within a tolerance of the truth.
 
 use taceva_core::{Batch, Field, FieldSet, Needs, Unit};
 
@@ -21,7 +21,7 @@ use crate::score::{Parameter, Variant};
 
 /// Tolerances in thousandths of the unit's [`step`]: 0.01 to 2 mm or N, 0.1 to 20 degrees or N mm.
 const TOLERANCES: [i64; 8] = [100, 200, 500, 1000, 2000, 5000, 10_000, 20_000];
-/// Index of the tolerance of the score: half a step, 0.05 mm or N.
+/// Index of the score's tolerance: half a step, 0.05 mm or N.
 const HEADLINE: usize = 2;
 
 pub(crate) static TOLERANCE: Metric = Metric {
@@ -53,7 +53,7 @@ fn headline(unit: Unit) -> Vec<Parameter> {
     tolerance.into_iter().collect()
 }
 
-/// The tolerances of a unit in millionths of it, ascending.
+/// Tolerances of a unit in millionths, ascending; `None` for a unit without a step.
 fn tolerances(unit: Unit) -> Option<[i64; 8]> {
     let step = step(unit)?;
     Some(TOLERANCES.map(|thousandths| step / 1000 * thousandths))
@@ -67,7 +67,7 @@ pub(crate) static KIND: FamilyKind = FamilyKind {
     })
 };
 
-/// Magnitudes of errors.
+/// Magnitudes of errors by tolerance.
 pub(crate) struct Tolerances {
     /// Constant prediction of each channel, as for skill, in millionths of the unit; `None` if the training part is unknown.
     constants: Vec<Option<i64>>,
@@ -75,7 +75,7 @@ pub(crate) struct Tolerances {
 }
 
 impl Tolerances {
-    /// Tolerances for the channels and constants of `plan`.
+    /// Family with the channels and constants of `plan`.
     pub(crate) fn for_plan(plan: &MetricPlan) -> Tolerances {
         let channels = plan.channels().iter();
         let constants = channels.map(|channel| plan.constant(channel.name()).and_then(millionths));
@@ -85,7 +85,7 @@ impl Tolerances {
         }
     }
 
-    /// Share that the constants of the channels at `positions` reach, for a plane the mean of both; `None` if a constant is unknown.
+    /// Share that the constants of the channels at `positions` reach, for a plane the mean of both axes; `None` if a constant is unknown.
     fn of_constant(&self, positions: &[usize], parts: &[&ErrorCounts]) -> Option<f64> {
         let share = |(position, sums): (&usize, &&ErrorCounts)| {
             let of_constant = sums.of_constant.filter(|_| sums.n > 0)?;
@@ -101,7 +101,7 @@ impl Tolerances {
     }
 }
 
-/// Index of the least of `tolerances` that is at least `error`; the number of tolerances if there is none.
+/// Index of the least of `tolerances` that is at least `error`; the number of tolerances if no tolerance is.
 #[inline]
 fn class(error: i64, tolerances: &[i64; 8]) -> usize {
     // Bisection without branches, as the class of an error is unpredictable.
@@ -116,22 +116,22 @@ fn class(error: i64, tolerances: &[i64; 8]) -> usize {
 pub(crate) struct ErrorCounts {
     n: u64,
     n_invalid: u64,
-    /// Number of errors in each class: above the tolerance before, up to this one.
+    /// Number of errors in each class: above the previous tolerance, up to this one.
     classes: [u64; TOLERANCES.len()],
-    /// Counts of the channel's constant; `None` if it is unknown, or if samples have models with different constants.
+    /// Counts of the channel's constant; `None` if the constant is unknown, or if samples have models with different constants.
     of_constant: Option<OfConstant>,
 }
 
-/// Count of truths that a constant meets within the tolerance of the score.
+/// Number of truths within the score's tolerance of a constant.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct OfConstant {
-    /// In millionths of the unit.
+    /// Constant, in millionths of the unit.
     constant: i64,
     met: u64,
 }
 
 impl OfConstant {
-    /// The sum of both counts, if they have the same constant.
+    /// Sum of both counts; `None` for different constants.
     fn and(self, other: OfConstant) -> Option<OfConstant> {
         (self.constant == other.constant).then(|| OfConstant {
             met: self.met.saturating_add(other.met),
@@ -141,7 +141,7 @@ impl OfConstant {
 }
 
 impl ErrorCounts {
-    /// RN of the share of errors within the tolerance at `position`.
+    /// RN of the share of errors within the tolerance at index `position`.
     fn share(&self, position: usize) -> Finished {
         match (self.n, self.n_invalid) {
             (0, 0) => return Err(UndefinedReason::Empty),

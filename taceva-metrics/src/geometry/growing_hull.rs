@@ -1,26 +1,26 @@
-//! Convex hull of points that come in groups; interior points are skipped quickly.
+//! Convex hull of points that arrive in groups, with a fast test for interior points.
 
 use super::hull::Hull;
 use super::hull_core::Core;
 use super::orientation::Place;
 
-/// Least points for which a core saves time.
+/// Least number of points for which a core saves time.
 const LEAST_POINTS: u64 = 64;
 
-/// Hull with a core, in which most new points lie.
+/// Hull with a core that contains most new points.
 ///
-/// The core lies in the hull of some of the points, and so in the hull of all. It changes the points examined, never the hull.
+/// The core is inside the hull of some of the points, and so inside the hull of all. The core affects only which points are examined, not the hull.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GrowingHull {
     hull: Hull,
     core: Option<Core>,
     points: u64,
-    /// Number of points when the core was found.
+    /// Number of points when the core was computed.
     points_of_core: u64,
 }
 
 impl GrowingHull {
-    /// The hull of all points.
+    /// Hull of all points.
     pub(crate) fn hull(&self) -> &Hull {
         &self.hull
     }
@@ -60,7 +60,7 @@ impl From<Hull> for GrowingHull {
     }
 }
 
-/// Equality of the hulls: equal sets of points have equal hulls.
+/// Equality of hulls. Equal sets of points have equal hulls.
 impl PartialEq for GrowingHull {
     fn eq(&self, other: &GrowingHull) -> bool {
         self.hull == other.hull
@@ -71,7 +71,7 @@ impl PartialEq for GrowingHull {
 mod tests {
     use super::*;
 
-    /// Points about a slanted line, the later ones further from it.
+    /// Points near a slanted line, with increasing distance from it.
     fn points() -> Vec<Place> {
         let mut state = 7_u64;
         let mut next = || {

@@ -1,14 +1,14 @@
-//! Convex hulls that merge: the hull of two hulls is the hull of all their points.
+//! Mergeable convex hulls: the hull of two hulls is the hull of all their points.
 
 use std::cmp::Ordering;
 
 use super::orientation::{Place, doubled_area, turn};
 use crate::pair::is_valid;
 
-/// The corners of the convex hull of points in the plane.
+/// Corners of the convex hull of points in the plane.
 ///
-/// They run anticlockwise from the leftmost corner, the lowest of these first. No corner is on the line between two others, so equal sets
-/// of points have equal hulls. A hull is flat if all points are on one line: it then has at most two corners.
+/// The corners run anticlockwise from the leftmost corner, and from the lowest of several leftmost ones. No corner is on the line between two others,
+/// so equal sets of points have equal hulls. A hull is flat if all points are on one line: it then has at most two corners.
 ///
 /// # Laws
 /// Merging is associative, commutative and idempotent; the empty hull changes nothing.
@@ -18,7 +18,7 @@ pub(crate) struct Hull {
 }
 
 impl Hull {
-    /// The hull of `points`, whose coordinates are finite.
+    /// Hull of `points` with finite coordinates.
     pub(crate) fn of(points: impl IntoIterator<Item = Place>) -> Hull {
         // Zeros get one sign, so that equal sets have equal hulls.
         let plain = |[x, y]: Place| [x + 0.0, y + 0.0];
@@ -35,10 +35,10 @@ impl Hull {
         Hull { corners }
     }
 
-    /// Reads the corners x, y, x, y, … of a state.
+    /// Reads the corners of a state, x, y, x, y, ….
     ///
     /// # Errors
-    /// A message if they are not the ordered corners of a hull.
+    /// A message if the values are not the ordered corners of a hull.
     pub(crate) fn from_values(values: &[f64]) -> Result<Hull, String> {
         let corners: Vec<Place> = values
             .chunks_exact(2)
@@ -50,7 +50,7 @@ impl Hull {
         same.ok_or_else(|| "expected the corners of a convex hull, anticlockwise".to_owned())
     }
 
-    /// The corners in order.
+    /// Corners in order.
     pub(crate) fn corners(&self) -> &[Place] {
         &self.corners
     }
@@ -76,7 +76,7 @@ impl Hull {
         doubled_area(&self.corners).to_f64() * 0.5
     }
 
-    /// The least and greatest value along `axis`, 0 or 1; `None` for no point.
+    /// Least and greatest value along `axis`, 0 or 1; `None` without points.
     pub(crate) fn extent(&self, axis: usize) -> Option<[f64; 2]> {
         let along = || self.corners.iter().map(|corner| corner[axis]);
         let low = along().min_by(f64::total_cmp)?;
@@ -121,7 +121,7 @@ fn chain(points: impl Iterator<Item = Place>) -> Vec<Place> {
     chain
 }
 
-/// Order by x, then by y; both zeros are one number.
+/// Order by x, then by y. Both zeros are equal.
 fn compare(left: &Place, right: &Place) -> Ordering {
     let along = |axis: usize| (left[axis] + 0.0).total_cmp(&(right[axis] + 0.0));
     along(0).then_with(|| along(1))

@@ -1,4 +1,4 @@
-//! Core of a hull: a part with a fast test for points.
+//! Core of a hull: an interior region with a fast test for points.
 
 use std::cmp::Ordering;
 
@@ -6,29 +6,29 @@ use super::hull::Hull;
 use super::orientation::{Place, turn};
 use taceva_core::whole_size;
 
-/// Number of stretches of x. Fewer make the core smaller; more take longer to find and more cache.
+/// Number of stretches of x. Fewer stretches make the core smaller; more need more time and cache.
 const STRETCHES: u32 = 64;
 
-/// Overlap of neighbouring stretches, as a share of their width: rounding may assign a point to the next stretch.
+/// Overlap of neighbouring stretches, as a share of their width, because rounding may assign a point to the next stretch.
 const OVERLAP: f64 = 1.0 / 1024.0;
 
-/// Bound of the rounding of a height, as a share of the greatest height: far above the few roundings of each.
+/// Bound on the rounding error of a height, as a share of the greatest height.
 const MARGIN: f64 = 1.0 / 35_184_372_088_832.0;
 
-/// Lower and upper height of the core over each stretch of x. A multiple of x is subtracted from y, so that the hull is level.
+/// Lower and upper height of the core over each stretch of x. A multiple of x is subtracted from y, which levels the hull.
 #[derive(Clone, Debug)]
 pub(crate) struct Core {
     slope: f64,
     ends: [f64; 2],
     stretches_per_x: f64,
-    /// Points of a stretch with a height between these are inside; none if the first is above the second.
+    /// Lower and upper height of each stretch. Points between them are inside; a stretch whose lower height exceeds the upper contains no core.
     between: Vec<[f64; 2]>,
     /// Outline of the hull.
     chains: [Vec<Place>; 2],
 }
 
 impl Core {
-    /// Core of `hull`; `None` if the hull is flat, or so narrow, small or large that rounding could decide the test.
+    /// Core of `hull`; `None` if the hull is flat, or so narrow, small or large that rounding could affect the test.
     pub(crate) fn of(hull: &Hull) -> Option<Core> {
         let [lower, upper] = chains(hull.corners())?;
         let (&[first, left], &[last, right]) = (lower.first()?, lower.last()?);
@@ -67,7 +67,7 @@ impl Core {
         })
     }
 
-    /// True if the point at `place` is in the core. If false, it may still be in the hull.
+    /// True if the point at `place` is in the core. If false, the point may still be in the hull.
     #[inline]
     pub(crate) fn holds(&self, [x, y]: Place) -> bool {
         let [first, last] = self.ends;
@@ -82,7 +82,7 @@ impl Core {
 }
 
 impl Core {
-    /// True if the point at `place` is in the hull or on its edge. Compares it with the edges of the outline above and below it.
+    /// True if the point at `place` is in the hull or on its edge. The test compares the point with the edges above and below.
     pub(crate) fn outline_holds(&self, place: Place) -> bool {
         let [first, last] = self.ends;
         let along = |chain: &[Place]| {
@@ -116,7 +116,7 @@ fn chains(corners: &[Place]) -> Option<[Vec<Place>; 2]> {
     Some([corners[..=lower_end].to_vec(), upper])
 }
 
-/// Heights along a chain, queried from left to right.
+/// Heights along a chain, evaluated from left to right.
 struct Heights {
     corners: Vec<Place>,
     at: usize,

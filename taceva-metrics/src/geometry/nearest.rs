@@ -1,29 +1,29 @@
-//! Nearest of many points; of equally near points the first.
+//! Search for the nearest of many points, the first in case of a tie.
 
 use super::rigid::Point;
 
 use crate::exact::number_key::ranked;
 
-/// Points sorted for a nearest-point search that skips most of them.
+/// Points sorted for a nearest-point search that skips most points.
 #[derive(Clone, Debug)]
 pub(crate) struct NearestPoints {
-    /// Sorted by x, then by index.
+    /// Points with their indices, sorted by x, then by index.
     sorted: Vec<(Point, usize)>,
 }
 
-/// A point that was found.
+/// Nearest point of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Nearest {
     /// Index of the point.
     pub(crate) index: usize,
     /// Coordinates of the point.
     pub(crate) point: Point,
-    /// RN of its squared distance as the rounded sum of three rounded squares.
+    /// RN of the squared distance, as the rounded sum of three rounded squares.
     pub(crate) squared: f64,
 }
 
 impl NearestPoints {
-    /// Sorts the points. Their given order decides between equally near ones.
+    /// Sorts the points. Of equally near points, the search returns the first in the given order.
     pub(crate) fn new(points: impl IntoIterator<Item = Point>) -> NearestPoints {
         let points: Vec<Point> = points.into_iter().collect();
         let order = ranked(points.len(), &|left, right| {
@@ -35,7 +35,7 @@ impl NearestPoints {
         }
     }
 
-    /// The point nearest to `place`; `None` if there is no point.
+    /// Point nearest to `place`; `None` without points.
     pub(crate) fn nearest(&self, place: Point) -> Option<Nearest> {
         let middle = self
             .sorted
@@ -56,7 +56,7 @@ impl NearestPoints {
     }
 }
 
-/// Keeps the nearer of the best so far and `point`. Returns true if points further along x can still be as near.
+/// Replaces `best` if `point` is nearer. Returns true if points further along x can still be as near.
 fn closer(best: &mut Option<Nearest>, place: Point, point: Point, index: usize) -> bool {
     let [x, y, z]: Point = std::array::from_fn(|axis| point[axis] - place[axis]);
     let along = x * x;

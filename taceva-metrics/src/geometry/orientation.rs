@@ -1,16 +1,16 @@
-//! Side of a line on which a point is, decided without rounding.
+//! Exact test on which side of a line a point is.
 
 use std::cmp::Ordering;
 
 use crate::exact::ExactSum;
 
-/// A place in the plane; both coordinates finite.
+/// A point in the plane with finite coordinates.
 pub(crate) type Place = [f64; 2];
 
-/// The turn from `start` over `middle` to `end`: `Greater` to the left, `Less` to the right, `Equal` on one line.
+/// Turn from `start` over `middle` to `end`: `Greater` to the left, `Less` to the right, `Equal` on one line.
 ///
-/// The sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic settles nearly every case. The rest is decided by the six
-/// products of the expanded determinant, summed exactly.
+/// The result is the sign of (bx − ax)(cy − ay) − (by − ay)(cx − ax). Rounded arithmetic determines the sign in nearly every case. Otherwise the
+/// six products of the expanded determinant are summed exactly.
 ///
 /// # Reference
 /// Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates (1997), the bound A of
@@ -19,7 +19,7 @@ pub(crate) fn turn(start: Place, middle: Place, end: Place) -> Ordering {
     /// (3 + 16 ε) ε, ε = 2⁻⁵³.
     const BOUND: f64 = (3.0 + 16.0 * EPSILON) * EPSILON;
     const EPSILON: f64 = f64::EPSILON / 2.0;
-    /// Below this size a product may have lost bits by underflow, which the bound ignores.
+    /// Least product that cannot have lost bits by underflow, which the bound ignores.
     const LEAST: f64 = 1e-290;
     let left = (middle[0] - start[0]) * (end[1] - start[1]);
     let right = (middle[1] - start[1]) * (end[0] - start[0]);
@@ -41,7 +41,7 @@ fn exact_turn(start: Place, middle: Place, end: Place) -> Ordering {
     sign(&determinant)
 }
 
-/// Twice the signed area of the polygon through `corners`, exactly; positive anticlockwise.
+/// Exact doubled signed area of the polygon through `corners`; positive for anticlockwise order.
 pub(crate) fn doubled_area(corners: &[Place]) -> ExactSum {
     let mut area = ExactSum::default();
     let next = corners.iter().cycle().skip(1);

@@ -1,24 +1,24 @@
-//! Registration of two clouds without paired points: iterative closest point.
+//! Registration of two clouds without paired points, by the iterative closest point method.
 
 use super::nearest::NearestPoints;
 use super::rigid::{Motion, Point};
 
-/// Steps after which the registration ends, even without convergence.
+/// Greatest number of steps, even without convergence.
 const MOST_STEPS: u32 = 50;
 
-/// A motion, and the convergence of its search.
+/// A rigid motion, and the convergence of its search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Registration {
-    /// Motion of the moving cloud onto the other.
+    /// Motion from the moving cloud to the other.
     pub(crate) motion: Motion,
     /// True if the last two steps paired the same points, so that further steps change nothing.
     pub(crate) settled: bool,
 }
 
-/// Moves `from` onto `onto`, from their given positions. Each step pairs every point with the nearest one and fits the motion of the
-/// original cloud.
+/// Registers `from` to `onto`, starting from the given positions. Each step pairs every point with the nearest point of `onto` and fits the
+/// motion of the original cloud.
 ///
-/// `None` if a pairing does not determine the rotation.
+/// `None` if the pairs do not determine the rotation.
 ///
 /// # Reference
 /// Besl and McKay, A method for registration of 3-D shapes (1992).

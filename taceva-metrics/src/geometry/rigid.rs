@@ -1,11 +1,11 @@
-//! The rigid motion that brings one cloud of points closest to another.
+//! Rigid motion that minimises the distance between two clouds of paired points.
 
 use crate::exact::number_key::ranked;
 
-/// A place in space, mm.
+/// A point in space, mm.
 pub(crate) type Point = [f64; 3];
 
-/// A turn, then a shift.
+/// Rigid motion: a rotation, then a translation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Motion {
     rotation: [[f64; 3]; 3],
@@ -13,7 +13,7 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
-    /// The motion that changes nothing.
+    /// Identity motion.
     pub(crate) const NONE: Motion = Motion {
         rotation: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
         shift: [0.0; 3],
@@ -25,15 +25,15 @@ impl Motion {
         std::array::from_fn(|axis| turned[axis] + self.shift[axis])
     }
 
-    /// The motion of `from` that minimises the sum of squared distances to the points of `onto`, paired by index.
+    /// Motion of `from` that minimises the sum of squared distances to the points of `onto`, paired by index.
     ///
-    /// `None` if the points do not determine the rotation: fewer than three, or all on one line.
+    /// `None` if the points do not determine the rotation: fewer than three points, or all points on one line.
     ///
     /// # Shapes
-    /// `from`, `onto`: one length.
+    /// `from`, `onto`: equal length.
     /// # Reference
-    /// The problem is Kabsch's (1976); solved by the unit quaternion of Horn, Closed-form solution of absolute orientation
-    /// using unit quaternions (1987), which never mirrors.
+    /// The problem is Kabsch's (1976). The solution is the unit quaternion of Horn, Closed-form solution of absolute orientation
+    /// using unit quaternions (1987), which excludes reflections.
     pub(crate) fn between(from: &[Point], onto: &[Point]) -> Option<Motion> {
         let (from_centre, onto_centre) = (centre(from)?, centre(onto)?);
         let mut products = [[0.0; 3]; 3];
@@ -51,7 +51,7 @@ impl Motion {
     }
 }
 
-/// Horn's symmetric matrix, whose leading eigenvector is the quaternion of the turn; `products[a][b]` = Σ from_a onto_b.
+/// Horn's symmetric matrix, whose leading eigenvector is the quaternion of the rotation; `products[a][b]` = Σ from_a onto_b.
 fn quaternion_form(products: &[[f64; 3]; 3]) -> [[f64; 4]; 4] {
     let [[xx, xy, xz], [yx, yy, yz], [zx, zy, zz]] = *products;
     [
@@ -62,11 +62,11 @@ fn quaternion_form(products: &[[f64; 3]; 3]) -> [[f64; 4]; 4] {
     ]
 }
 
-/// The eigenvector of the greatest eigenvalue by Jacobi's rotations; `None` if the next eigenvalue is as great.
+/// Eigenvector of the greatest eigenvalue, by Jacobi rotations; `None` if the next eigenvalue is nearly as great.
 fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
-    /// Sweeps over all pairs; convergence is quadratic, so about six are enough.
+    /// Number of sweeps over all pairs. Convergence is quadratic, so about six sweeps are enough.
     const SWEEPS: usize = 20;
-    /// Least relative gap between the two greatest eigenvalues. Points on one line bring them within rounding of each other, and a smaller
+    /// Least relative gap between the two greatest eigenvalues. For points on one line their gap is only rounding, and a smaller
     /// gap determines no direction.
     const OPEN: f64 = 1e-12;
     let mut vectors = [[0.0; 4]; 4];
@@ -89,7 +89,7 @@ fn leading_vector(mut matrix: [[f64; 4]; 4]) -> Option<[f64; 4]> {
     determined.then(|| vectors.map(|row| row[first]))
 }
 
-/// One Jacobi rotation: makes the entry at (`low`, `high`) zero.
+/// Jacobi rotation that makes the entry at (`low`, `high`) zero.
 fn clear(matrix: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], low: usize, high: usize) {
     let entry = matrix[low][high];
     if entry.abs() <= f64::MIN_POSITIVE {
@@ -113,7 +113,7 @@ fn clear(matrix: &mut [[f64; 4]; 4], vectors: &mut [[f64; 4]; 4], low: usize, hi
     vectors.iter_mut().for_each(mix);
 }
 
-/// Rotation matrix of a quaternion, which is normalized.
+/// Rotation matrix of a quaternion, which is normalised first.
 fn rotation_of([w, x, y, z]: [f64; 4]) -> [[f64; 3]; 3] {
     let twice = 2.0 / (w * w + x * x + y * y + z * z);
     let product = |left: f64, right: f64| twice * left * right;
@@ -144,7 +144,7 @@ fn minus(left: Point, right: Point) -> Point {
     std::array::from_fn(|axis| left[axis] - right[axis])
 }
 
-/// The mean of the points, three at least.
+/// Mean of the points; `None` for fewer than three.
 fn centre(points: &[Point]) -> Option<Point> {
     let count = u32::try_from(points.len())
         .ok()

@@ -1,8 +1,8 @@
-//! Ends of an interval from bootstrap replicates.
+//! Computes interval ends from bootstrap replicates.
 
 use std::fmt;
 
-/// Ends of an interval from bootstrap replicates.
+/// Method that computes interval ends from bootstrap replicates.
 ///
 /// ```
 /// assert_eq!(taceva_metrics::BootstrapEnds::Percentile.to_string(), "percentile");
@@ -10,9 +10,9 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum BootstrapEnds {
-    /// The k-th and the (B + 1 − k)-th of B sorted replicates, k = ⌊(B + 1) / 40⌋; skewed for skewed scores.
+    /// The k-th and the (B + 1 − k)-th of B sorted replicates, with k = ⌊(B + 1) / 40⌋. Ends are asymmetric for skewed scores.
     Percentile,
-    /// The value ± t(G − 1) standard deviations of the replicates, on a scale without ends.
+    /// Value ± t(G − 1) standard deviations of the replicates, on an unbounded scale.
     Normal,
 }
 

@@ -1,13 +1,13 @@
-//! A quantity over the levels of another one.
+//! Curves: values over the levels of another quantity.
 
 use taceva_core::Unit;
 
-/// Numbers at ascending levels; a level without one is `None`, never a placeholder.
+/// Values at ascending levels. A missing value is `None`, never a placeholder.
 ///
 /// # Shapes
-/// `x`, `values`, `counts`: one length; `band` too, if there is one.
+/// `x`, `values` and `counts` have equal length, and so has `band` if present.
 /// # Units
-/// Levels in `x_unit`; values in the unit of the [`Variant`](crate::Variant) that holds the curve.
+/// Levels in `x_unit`; values in the unit of the [`Variant`](crate::Variant) with the curve.
 ///
 /// ```
 /// use taceva_metrics::{Band, Curve, Unit};
@@ -26,12 +26,12 @@ pub struct Curve {
     pub values: Vec<Option<f64>>,
     /// Number of samples of each value.
     pub counts: Vec<u64>,
-    /// Lower and upper curve around the values; the metric defines their meaning.
+    /// Lower and upper curve around the values, with a meaning that the metric defines; `None` without a band.
     pub band: Option<Band>,
 }
 
 impl Curve {
-    /// Curve through `values` at the levels `x`, without a band; the caller has checked their shapes.
+    /// Curve through `values` at the levels `x`, without a band. The caller must check the shapes.
     pub fn new(x: Vec<f64>, x_unit: Unit, values: Vec<Option<f64>>, counts: Vec<u64>) -> Curve {
         Curve {
             x,
@@ -52,7 +52,7 @@ impl Curve {
     }
 }
 
-/// Two curves around a third, a plain pair: it gets no further fields.
+/// Lower and upper curve around a third curve. A plain pair: it gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::Band;

@@ -1,9 +1,9 @@
 //! Digits of printed numbers.
 
-/// Digits of a printed number; the report has all of them.
+/// Number of significant digits in printed text; reports have all digits.
 const SIGNIFICANT_DIGITS: i32 = 4;
 
-/// `value` to four digits: plain if that is short, else with an exponent.
+/// `value` to four significant digits: decimal if that is short, else with an exponent.
 pub(crate) fn significant(value: f64) -> String {
     let scientific = format!("{value:.*e}", usize_of(SIGNIFICANT_DIGITS - 1));
     let exponent: i32 = scientific

@@ -17,12 +17,12 @@ pub enum Better {
     Higher,
     /// Values near zero are good.
     NearZero,
-    /// No direction: values only describe the sensor.
+    /// No direction: values describe the sensor without a preference.
     Described,
 }
 
 impl Better {
-    /// `name` in tables, followed by the sign of the direction: `mae ↓`, `r2 ↑`, `bias →0`. Descriptive values have no sign.
+    /// `name` with the sign of the direction, as in tables: `mae ↓`, `r2 ↑`, `bias →0`. A descriptive value has no sign.
     ///
     /// ```
     /// use taceva_metrics::Better;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// Circumstance that weakens a defined score.
+/// Circumstance that weakens the evidence of a score.
 ///
 /// ```
 /// use taceva_metrics::Flag;
@@ -11,17 +11,17 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Flag {
-    /// All samples are in one bin, so nothing can vary.
+    /// All samples are in one bin, so the score cannot vary.
     OneBin,
-    /// The stimulus hardly changed: the light by less than 5 % in some scene, or labels between presses less than predictions of one press.
+    /// The stimulus was too small: the light changed by less than 5 % in a scene, or labels differ less between presses than predictions of one press.
     LowStimulus,
-    /// In some scene the error is smaller than in the reference scene, which the score counts like a larger one.
+    /// The error of a scene is smaller than that of the reference scene. The score penalises this change like a larger error.
     ImprovedError,
-    /// The truths of some channels move together, so that their effects on a prediction cannot be separated.
+    /// The truths of some channels are collinear, so their effects on a prediction cannot be separated.
     CollinearTruths,
-    /// The training labels are unknown: skill is measured against the mean of the evaluated truth.
+    /// The training labels are unknown, so skill compares the model with the mean of the evaluated truth.
     MeanOfTruth,
-    /// Every cluster gives the same value: the interval has no width, which does not show that the value is certain.
+    /// All clusters give the same value, so the interval has no width. This does not show that the value is certain.
     EqualClusters,
 }
 

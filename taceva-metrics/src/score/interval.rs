@@ -1,10 +1,10 @@
-//! Confidence interval of a score: both ends, and the method.
+//! Confidence intervals of scores: both ends, and the method.
 
 use crate::score::bootstrap_ends::BootstrapEnds;
 use crate::score::scale::Scale;
 use crate::score::value::UndefinedReason;
 
-/// Clusters of an interval.
+/// Kind of clusters behind an interval.
 ///
 /// ```
 /// use taceva_metrics::{Channel, ClusteredBy, Evaluator, Interval};
@@ -21,16 +21,16 @@ pub enum ClusteredBy {
     /// Contact points.
     #[default]
     Point,
-    /// Single samples, which the caller declared independent.
+    /// Single samples, declared independent by the caller.
     Sample,
-    /// Whole recordings, if there are several.
+    /// Whole recordings of a set.
     Recording,
-    /// Groups of samples that depend on each other: blocks of time, clips, objects.
+    /// Groups of dependent samples: blocks of time, clips, objects.
     Group,
 }
 
 impl ClusteredBy {
-    /// Text after the name of a method.
+    /// Words after the name of a method.
     const fn words(self) -> &'static str {
         match self {
             ClusteredBy::Point => " by point_id",
@@ -55,13 +55,13 @@ impl ClusteredBy {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Interval {
-    /// By leaving out one cluster after the other.
+    /// Delete-one-cluster jackknife.
     Jackknife {
         /// Lower end.
         low: f64,
         /// Upper end.
         high: f64,
-        /// The root of the jackknife's variance, on the score's own scale.
+        /// Jackknife standard error, in the unit of the score.
         standard_error: f64,
         /// Degrees of freedom of Student's t for the ends.
         freedom: f64,
@@ -72,42 +72,42 @@ pub enum Interval {
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// By counting each cluster a random number of times.
+    /// Bootstrap: replicates with random weights of the clusters.
     Bootstrap {
         /// Lower end.
         low: f64,
         /// Upper end.
         high: f64,
-        /// The standard deviation of the replicates, on the score's own scale.
+        /// Standard deviation of the replicates, in the unit of the score.
         standard_error: f64,
-        /// Degrees of freedom: one less than there are clusters.
+        /// Degrees of freedom: number of clusters minus one.
         freedom: f64,
-        /// Scale on which the ends are symmetric about the value; percentiles need none.
+        /// Scale on which the ends are symmetric about the value; irrelevant for percentiles.
         scale: Scale,
         /// Method for the ends from the replicates.
         ends: BootstrapEnds,
         /// Number of clusters with samples.
         clusters: usize,
-        /// Replicates that were drawn.
+        /// Number of replicates.
         replicates: usize,
-        /// The seed they were drawn with.
+        /// Seed of the replicates.
         seed: u64,
-        /// Replicates without a value, which are skipped.
+        /// Number of replicates without a value, which are skipped.
         undefined: usize,
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// Delta method: from the jackknife variances of the components of the value, to first order.
+    /// Delta method: first-order variance from the jackknife variances of the value's components.
     Delta {
         /// Lower end.
         low: f64,
         /// Upper end.
         high: f64,
-        /// The root of the variance, on the score's own scale.
+        /// Standard error, in the unit of the score.
         standard_error: f64,
         /// Degrees of freedom of Student's t for the ends.
         freedom: f64,
-        /// Number of clusters with samples, of the part that has the fewest.
+        /// Number of clusters with samples, in the part with the fewest clusters.
         clusters: usize,
         /// Scale on which the ends are symmetric about the value.
         scale: Scale,
@@ -120,16 +120,16 @@ pub enum Interval {
         low: f64,
         /// Upper end.
         high: f64,
-        /// Half the width over t, on the score's own scale.
+        /// Half-width divided by t, in the unit of the score.
         standard_error: f64,
-        /// Degrees of freedom: one less than there are clusters, or those of the standard deviation of errors.
+        /// Degrees of freedom: number of clusters minus one, or those of the standard deviation of errors.
         freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,
         /// Kind of the clusters.
         by: ClusteredBy,
     },
-    /// As if all samples were independent: the narrowest possible interval of a share.
+    /// Wilson interval for independent samples: the narrowest possible interval of a share.
     Wilson {
         /// Lower end.
         low: f64,
@@ -141,7 +141,7 @@ pub enum Interval {
 }
 
 impl Interval {
-    /// The same interval with clusters of this kind.
+    /// The same interval with another kind of clusters.
     pub(crate) fn clustered_by(mut self, clusters: ClusteredBy) -> Interval {
         if let Interval::Jackknife { by, .. }
         | Interval::Bootstrap { by, .. }
@@ -153,7 +153,7 @@ impl Interval {
         self
     }
 
-    /// Both ends, if there is an interval.
+    /// Both ends; `None` without an interval.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match *self {
             Interval::Jackknife { low, high, .. }
@@ -165,8 +165,8 @@ impl Interval {
         }
     }
 
-    /// Standard error of the interval, in the unit of the score and on its own scale, whatever the scale of the ends. `None` if samples are
-    /// taken as independent.
+    /// Standard error in the unit of the score, for any scale of the ends. `None` if the interval treats samples as
+    /// independent.
     pub fn standard_error(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { standard_error, .. }
@@ -177,8 +177,8 @@ impl Interval {
         }
     }
 
-    /// Degrees of freedom of Student's t, on the scale of the ends: the number of independent normal values that give an equally certain
-    /// standard error. `None` if samples are taken as independent.
+    /// Degrees of freedom of Student's t, on the scale of the ends: the number of independent normal values whose standard error would be
+    /// equally certain. `None` if the interval treats samples as independent.
     pub fn freedom(&self) -> Option<f64> {
         match *self {
             Interval::Jackknife { freedom, .. }
@@ -189,7 +189,7 @@ impl Interval {
         }
     }
 
-    /// Scale on which its ends are symmetric about the value.
+    /// Scale on which the ends are symmetric about the value; `None` for an interval without such a scale.
     pub fn scale(&self) -> Option<Scale> {
         match *self {
             Interval::Jackknife { scale, .. }
@@ -200,7 +200,7 @@ impl Interval {
         }
     }
 
-    /// Number of clusters, if it was computed from clusters.
+    /// Number of clusters; `None` for an interval without clusters.
     pub fn clusters(&self) -> Option<usize> {
         match *self {
             Interval::Jackknife { clusters, .. }

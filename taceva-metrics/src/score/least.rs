@@ -1,8 +1,8 @@
-//! Least numbers for an interval, and of samples.
+//! Least numbers of clusters, replicates and samples.
 
-/// Least clusters for an interval.
+/// Least number of clusters for an interval.
 pub const LEAST_CLUSTERS: usize = 5;
-/// Least replicates, so that the ends of a 95 % interval are among them.
+/// Least number of bootstrap replicates for the ends of a 95 % interval.
 pub(crate) const LEAST_REPLICATES: usize = 39;
-/// Least samples of a bin or cell for the variant `n_min_5`; the paper's least is one.
+/// Least number of samples of a bin or cell for the variant `n_min_5`. The paper requires only one.
 pub(crate) const WELL_SAMPLED: u64 = 5;

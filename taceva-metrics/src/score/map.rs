@@ -1,11 +1,11 @@
-//! A quantity over the sensing surface.
+//! Maps: values over the sensing surface.
 
-/// Numbers in the cells of a grid; a cell without one is `None`, never a placeholder.
+/// Values in the cells of a grid. A missing value is `None`, never a placeholder.
 ///
 /// # Shapes
 /// `values[row][column]` and `counts[row][column]` are for `y_mm[row]..y_mm[row + 1]` and `x_mm[column]..x_mm[column + 1]`.
 /// # Units
-/// Edges in mm; values in the unit of the [`Variant`](crate::Variant) that holds the map.
+/// Edges in mm; values in the unit of the [`Variant`](crate::Variant) with the map.
 ///
 /// ```
 /// use taceva_metrics::Map;
@@ -15,9 +15,9 @@
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Map {
-    /// The edges of the columns, in mm, ascending.
+    /// Edges of the columns, mm, ascending.
     pub x_mm: Vec<f64>,
-    /// The edges of the rows, in mm, ascending.
+    /// Edges of the rows, mm, ascending.
     pub y_mm: Vec<f64>,
     /// The value of each cell.
     pub values: Vec<Vec<Option<f64>>>,
@@ -26,7 +26,7 @@ pub struct Map {
 }
 
 impl Map {
-    /// Map with these edges, values and counts; the caller has checked their shapes.
+    /// Map with these edges, values and counts. The caller must check the shapes.
     pub fn new(
         x_mm: Vec<f64>,
         y_mm: Vec<f64>,

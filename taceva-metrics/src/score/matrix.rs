@@ -1,11 +1,11 @@
-//! A quantity for each pair of names.
+//! Matrices: values for pairs of names.
 
-/// Numbers by name and name; a pair without one is `None`, never a placeholder.
+/// Values for pairs of names. A missing value is `None`, never a placeholder.
 ///
 /// # Shapes
 /// `values[row][column]` belongs to `rows[row]` and `columns[column]`.
 /// # Units
-/// Unit of the [`Variant`](crate::Variant) that holds the matrix.
+/// The unit of the [`Variant`](crate::Variant) with the matrix.
 ///
 /// ```
 /// use taceva_metrics::Matrix;
@@ -25,7 +25,7 @@ pub struct Matrix {
 }
 
 impl Matrix {
-    /// Matrix of `values` by the names of rows and columns; the caller has checked their shapes.
+    /// Matrix of `values` with the names of its rows and columns. The caller must check the shapes.
     pub fn new(rows: Vec<String>, columns: Vec<String>, values: Vec<Vec<Option<f64>>>) -> Matrix {
         Matrix {
             rows,

@@ -1,6 +1,6 @@
-//! Range of the values of a quantity.
+//! Ranges of quantities.
 
-/// Range of the values of a quantity, which bounds its intervals and determines their scale.
+/// Range of a quantity, which limits its intervals and determines their scale.
 ///
 /// ```
 /// use taceva_metrics::Range;
@@ -11,27 +11,27 @@
 pub enum Range {
     /// Any number: a mean error, a slope.
     Any,
-    /// Above 0: errors, areas, spreads. Infinitely many samples do not give 0.
+    /// Above 0: errors, areas, spreads. The limit for infinitely many samples is above 0.
     Positive,
-    /// Above 0, and the greatest of several numbers, so without an interval. One sample, level or pair of channels determines it, and
+    /// Above 0, and the maximum of several numbers, so without an interval. One sample, level or pair of channels determines a maximum, and
     /// resampling does not show its variation.
     Greatest,
-    /// From 0, and 0 possible even for infinitely many samples: a spread without its part by chance.
+    /// At least 0, with 0 possible even for infinitely many samples: a spread minus the part from chance.
     NotNegative,
     /// Below 1: R², the skill of a model.
     BelowOne,
-    /// Between 0 and 1, which infinitely many samples would not reach: a uniformity.
+    /// Between 0 and 1, both excluded even for infinitely many samples: a uniformity.
     Ratio,
-    /// From 0 to 1, both included: a uniformity without its part by chance.
+    /// From 0 to 1, both included: a uniformity without the part from chance.
     RatioWithEnds,
     /// Between 0 and 2: a symmetric relative error.
     BelowTwo,
-    /// Share of counted samples, from 0 to 1.
+    /// Share of samples, from 0 to 1.
     Share,
 }
 
 impl Range {
-    /// Least and greatest value; infinite without a bound.
+    /// Least and greatest value; infinite on an unbounded side.
     #[must_use]
     pub fn ends(self) -> [f64; 2] {
         match self {

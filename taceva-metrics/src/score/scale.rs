@@ -1,4 +1,4 @@
-//! The scale on which an interval is symmetric.
+//! Scales on which intervals are symmetric.
 
 use std::fmt;
 
@@ -11,20 +11,20 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Scale {
-    /// Scale of the quantity itself.
+    /// The scale of the score itself.
     Own,
     /// Logarithm of the distance from the single end of the range.
     Logarithm,
-    /// Logarithm of the ratio of the distances from both ends.
+    /// Logarithm of the ratio of the distances from both ends (log odds).
     Logit,
-    /// Scale of the quantity itself, cut at the ends of its range.
+    /// The scale of the score itself, with ends cut to the range.
     Cut,
-    /// Wilson's test of each share, with the effective number of samples of the clusters.
+    /// Wilson interval of a share, with the effective number of samples of the clusters.
     Wilson,
 }
 
 impl fmt::Display for Scale {
-    /// Text after the name of a method; empty for the quantity's own scale.
+    /// Writes the words after the name of a method; empty for the scale of the score itself.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Scale::Own => "",

@@ -1,8 +1,8 @@
-//! Facts about a sensor that are not in its samples.
+//! Facts about a sensor that samples do not contain.
 
 use taceva_core::{Footprint, Outline, SkipReason};
 
-/// Facts about a sensor that no sample carries; undeclared ones are `None`.
+/// Facts about a sensor that samples do not contain. Undeclared facts are `None`.
 ///
 /// ```
 /// use taceva_metrics::{Footprint, SensorFacts};
@@ -15,16 +15,16 @@ use taceva_core::{Footprint, Outline, SkipReason};
 pub struct SensorFacts {
     /// Sensing surface, and its greatest indentation.
     pub footprint: Option<Footprint>,
-    /// True if its gel blocks ambient light.
+    /// True if the gel blocks ambient light.
     pub opaque: Option<bool>,
-    /// The scene that other scenes are compared with.
+    /// Lighting scene with which other scenes are compared.
     pub reference_scene: String,
-    /// Width and height of its pictures in pixels.
+    /// Width and height of the sensor's pictures, pixels.
     pub frame_size: Option<[u32; 2]>,
 }
 
 impl SensorFacts {
-    /// The reference scene of protocols that name no other.
+    /// Default reference scene.
     pub const REFERENCE_SCENE: &'static str = "normal";
 
     /// The same facts with another [`footprint`](SensorFacts::footprint).
@@ -65,7 +65,7 @@ impl SensorFacts {
 }
 
 impl Default for SensorFacts {
-    /// Nothing declared; the reference scene is [`REFERENCE_SCENE`](SensorFacts::REFERENCE_SCENE).
+    /// Facts without any declaration. The reference scene is [`REFERENCE_SCENE`](SensorFacts::REFERENCE_SCENE).
     fn default() -> SensorFacts {
         SensorFacts {
             footprint: None,
@@ -93,12 +93,12 @@ pub enum Fact {
     DepthMax,
     /// Gel that is not declared opaque.
     NotOpaque,
-    /// Size of its pictures.
+    /// Size of the sensor's pictures.
     FrameSize,
 }
 
 impl Fact {
-    /// Reason why `facts` lack it, if they do.
+    /// Reason for skipping a metric if `facts` lack this fact.
     pub(crate) fn obstacle(self, facts: &SensorFacts) -> Option<SkipReason> {
         let footprint = facts.footprint.as_ref();
         let (there, name) = match self {
@@ -116,7 +116,7 @@ impl Fact {
     }
 }
 
-/// Text of a footprint in the parameters of states, in whole nanometres.
+/// Footprint as text in the parameters of states, in whole nanometres.
 pub(crate) fn written(footprint: &Footprint) -> String {
     let outline = match footprint.outline() {
         Outline::Disc { radius } => format!("disc {}", radius.0),

@@ -1,6 +1,6 @@
 //! Sections of reports.
 
-/// Section of a report with scores of one subject.
+/// Section of a report, with scores of one subject.
 ///
 /// ```
 /// use taceva_metrics::{Theme, catalogue};
@@ -33,7 +33,7 @@ impl Theme {
         Theme::Camera,
     ];
 
-    /// The name in anchors of pages.
+    /// Name in page anchors.
     pub const fn id(self) -> &'static str {
         match self {
             Theme::Accuracy => "accuracy",
@@ -44,7 +44,7 @@ impl Theme {
         }
     }
 
-    /// The heading.
+    /// Heading of the section.
     pub const fn title(self) -> &'static str {
         match self {
             Theme::Accuracy => "Accuracy",

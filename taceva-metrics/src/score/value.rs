@@ -9,8 +9,8 @@ use crate::score::digits::significant;
 use crate::score::map::Map;
 use crate::score::matrix::Matrix;
 
-/// A finished value. It prints to four digits, or to the decimals of a precision such as `{:.2}`; [`scalar`](Value::scalar) has all digits.
-/// A width such as `{:>24}` holds for numbers and words alike.
+/// A finished value. Prints four digits, or the decimals of a precision such as `{:.2}`; [`scalar`](Value::scalar) returns all digits.
+/// A width such as `{:>24}` applies to numbers and words alike.
 ///
 /// ```
 /// use taceva_metrics::{UndefinedReason, Value};
@@ -39,7 +39,7 @@ pub enum Value {
 }
 
 impl Value {
-    /// The number, if there is one.
+    /// The number; `None` for any other value.
     pub fn scalar(&self) -> Option<f64> {
         match self {
             Value::Scalar(value) => Some(*value),
@@ -62,7 +62,7 @@ impl fmt::Display for Value {
     }
 }
 
-/// Words in the width of a formatter. Its precision holds for numbers, while [`fmt::Formatter::pad`] would cut words by it.
+/// Writes words in the width of a formatter. The precision applies only to numbers, but [`fmt::Formatter::pad`] would cut words.
 fn pad(f: &mut fmt::Formatter<'_>, words: &str) -> fmt::Result {
     let room = f.width().unwrap_or(0).saturating_sub(words.chars().count());
     let before = match f.align() {
@@ -76,7 +76,7 @@ fn pad(f: &mut fmt::Formatter<'_>, words: &str) -> fmt::Result {
     (before..room).try_for_each(|_| f.write_char(fill))
 }
 
-/// A finite number, or the reason for a missing one.
+/// A finite number, or the reason why it is missing.
 pub(crate) type Finished = Result<f64, UndefinedReason>;
 
 impl From<Result<f64, UndefinedReason>> for Value {
@@ -88,7 +88,7 @@ impl From<Result<f64, UndefinedReason>> for Value {
     }
 }
 
-/// Reason why samples determine no value, or no interval.
+/// Reason why the samples determine no value or no interval.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator, UndefinedReason, Value};
@@ -105,48 +105,48 @@ pub enum UndefinedReason {
     Empty,
     /// There are fewer samples than the formula needs.
     TooFew {
-        /// Least number that is needed.
+        /// Least number of samples.
         least: u64,
     },
     /// All truths are equal, so there is no spread to explain.
     ConstantTruth {
-        /// True if every prediction equals it too.
+        /// True if every prediction equals the constant truth.
         perfect: bool,
     },
-    /// No truth is as large as the gate.
+    /// No truth reaches the gate.
     BelowGate,
     /// No sample is on the declared surface.
     OutsideFootprint,
-    /// No bin has the least number of samples.
+    /// No bin has enough samples.
     NoBin {
         /// Least number of samples of a bin.
         least: u64,
     },
     /// Fewer bins than the formula needs.
     TooFewBins {
-        /// Number found.
+        /// Number of bins found.
         have: u64,
-        /// Least number that is needed.
+        /// Least number of bins.
         least: u64,
     },
-    /// No bin or cell has two samples, so the part of chance is unknown.
+    /// No bin or cell has two samples, so the spread from chance is unknown.
     NoRepeats,
-    /// No press was made twice.
+    /// No press was repeated.
     NoRepeatedPress,
     /// Fewer repeated presses than the formula needs.
     TooFewCells {
-        /// Number found.
+        /// Number of presses found.
         have: u64,
-        /// Least number that is needed.
+        /// Least number of presses.
         least: u64,
     },
-    /// Repeats do not differ at all, so no ratio to them exists.
+    /// All repeats are equal, so no ratio to their spread exists.
     EqualRepeats,
-    /// All errors are equal, so there is no scatter to describe.
+    /// All errors are equal, so their scatter is 0.
     EqualErrors,
-    /// All means of a truth and its prediction are equal, so no slope over them exists.
+    /// All means of truth and prediction are equal, so no slope over them exists.
     EqualMeans,
-    /// All samples are of one cluster, so the scatter between clusters is unknown.
+    /// All samples belong to one cluster, so the scatter between clusters is unknown.
     OneCluster,
     /// No point has samples at two depths on both branches.
     ShortBranch,
@@ -158,26 +158,26 @@ pub enum UndefinedReason {
     NoIdleSamples,
     /// No press is light.
     NoLightPresses,
-    /// Light presses are worth fewer independent places than the formula needs.
+    /// Light presses correspond to fewer independent places than the formula needs.
     TooFewPlaces {
-        /// Number found.
+        /// Number of places.
         have: u64,
-        /// Least number that is needed.
+        /// Least number of places.
         least: u64,
     },
-    /// Predictions do not rise with the force of light presses.
+    /// Predictions do not increase with the force of light presses.
     NoRise,
-    /// The limit exceeds every force that it would rest on.
+    /// The limit exceeds the forces of all light presses.
     BeyondLightPresses,
-    /// The limit without one place is below the lightest press, so the limit has no interval.
+    /// Without one of the places the limit is below the lightest press, so the limit has no interval.
     AtLightestPress,
-    /// No sample is in contact and has a place.
+    /// No sample in contact has a place.
     NoContact,
-    /// Only one channel; a comparison needs two.
+    /// Only one channel; the comparison needs two.
     OneChannel,
-    /// Only one unit; a comparison needs two.
+    /// Only one unit; the comparison needs two.
     OneUnit,
-    /// Points on one line, or fewer than three: the rotation of a unit is undetermined.
+    /// Fewer than three points, or points on one line: the rotation of a unit is undetermined.
     OpenTurn,
     /// No sample has a time.
     NoTimes,
@@ -185,15 +185,15 @@ pub enum UndefinedReason {
     EqualTimes,
     /// No two successive frames have a digest.
     NoDigests,
-    /// Single pictures, taken more than a second apart, have no rate.
+    /// Pictures are more than a second apart, so they have no frame rate.
     NoStream,
     /// A fact about the sensor is not declared.
     NotDeclared(&'static str),
     /// No interval is defined for this score.
     NoInterval,
-    /// The score is the greatest of several numbers, and resampling does not show its variation.
+    /// The score is a maximum of several numbers, and resampling does not show its variation.
     Greatest,
-    /// The value is at the end of its range in every cluster, so its variation is unknown.
+    /// The value of every cluster is at the end of its range, so the variation is unknown.
     AtEnd,
     /// The mean is zero, so no ratio to it exists.
     ZeroMean,
@@ -207,23 +207,23 @@ pub enum UndefinedReason {
     ZeroBaseline,
     /// Neither light nor error changed.
     NoChange,
-    /// No value is known to a millionth of its unit: each is too large, or there is none.
+    /// No value can be given in millionths of its unit: all values are too large or missing.
     NoMillionths,
-    /// The value is beyond the range of a binary64.
+    /// The value exceeds the range of binary64.
     Overflow,
     /// Too few clusters for an interval.
     TooFewClusters {
-        /// Number found.
+        /// Number of clusters found.
         have: usize,
     },
-    /// Too few bootstrap replicates that have a value: fewer than 39, or than 95 % of those drawn.
+    /// Too few bootstrap replicates have a value: fewer than 39, or fewer than 95 % of all.
     TooFewReplicates {
         /// Number of replicates with a value.
         defined: usize,
         /// Number of replicates drawn.
         drawn: usize,
     },
-    /// Some sample names no contact point, so the clusters are unknown.
+    /// A sample has no contact point, so the clusters are unknown.
     NoClusters,
 }
 
@@ -335,11 +335,11 @@ impl fmt::Display for UndefinedReason {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum InapplicableReason {
-    /// No threshold of contact is defined for values of this unit.
+    /// No contact threshold is defined for this unit.
     NoGate(Unit),
-    /// No width of levels is defined for this unit.
+    /// No level width is defined for this unit.
     NoStep(Unit),
-    /// The samples carry no such channel.
+    /// The samples do not have this channel.
     ChannelAbsent(&'static str),
     /// The value is a map, a curve or a matrix instead of one number.
     NotOneNumber,

@@ -2,13 +2,13 @@
 
 use std::fmt;
 
-/// Greatest share of clipped predictions; above it a score describes the bounds rather than the model.
+/// Greatest share of clipped predictions. Above this share, a score describes the bounds instead of the model.
 const GREATEST_BOUNDED_SHARE: f64 = 0.05;
 
-/// Greatest skill from rounding alone: predictions equal to the constant up to their last bits reach 10⁻¹⁵.
+/// Greatest skill from rounding alone: predictions equal to the constant except for the last bits reach 10⁻¹⁵.
 const ROUNDING: f64 = 1e-9;
 
-/// Standing of a score in verdicts, with the reason for an exclusion. Of two standings, the greater is the worse.
+/// Standing of a score in verdicts, with the reason for an exclusion. A greater standing is worse.
 ///
 /// ```
 /// use taceva_metrics::Standing;
@@ -21,27 +21,27 @@ pub enum Standing {
     /// Included.
     #[default]
     Counts,
-    /// Included and marked: no evidence that the model is better than a constant.
+    /// Included with a mark: no evidence that the model is better than a constant prediction.
     SkillUnknown,
-    /// Excluded: more than 5 % of its predictions are beyond the bounds of the model.
+    /// Excluded: more than 5 % of the predictions are beyond the bounds of the model.
     Bounded,
-    /// Excluded: tested samples have similar neighbours in the training part.
+    /// Excluded: test samples have similar neighbours in the training part.
     Neighbours,
-    /// Excluded: the stimulus hardly changed, the light of some scene or the labels of repeated presses.
+    /// Excluded: the stimulus was too small, in the light of a scene or in the labels of repeated presses.
     LowStimulus,
     /// Excluded: the interval of the deciding variant contains the value of chance alone.
     NotAboveNoiseFloor,
-    /// Excluded: a share whose interval is not above the share of the skill's constant. The model may still have a smaller mean squared
+    /// Excluded: a share whose interval is not above the share of the skill's constant. The model may still have the smaller mean squared
     /// error.
     NotAboveConstant,
-    /// Excluded: above a constant, but without an interval that shows more than chance.
+    /// Excluded: better than a constant, but without an interval that shows more than chance.
     NoInterval,
     /// Excluded: the model is not shown to be better than a constant.
     NoSkill,
 }
 
 impl Standing {
-    /// Every standing, the best first.
+    /// Every standing, best first.
     pub const ALL: [Standing; 9] = [
         Standing::Counts,
         Standing::SkillUnknown,
@@ -59,7 +59,7 @@ impl Standing {
         matches!(self, Standing::Counts | Standing::SkillUnknown)
     }
 
-    /// Words in files and for programs; `None` for a score that counts. [`Standing::phrase`] returns the words for people.
+    /// Words for files and programs; `None` for a score that counts. [`Standing::phrase`] returns words for readers.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -80,7 +80,7 @@ impl Standing {
         }
     }
 
-    /// Words beside a value, for people; `None` for a score that counts.
+    /// Words for readers, printed beside a value; `None` for a score that counts.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -101,13 +101,13 @@ impl Standing {
         }
     }
 
-    /// Standing with these `words`.
+    /// Standing with these `words`; `None` for other text.
     pub fn from_words(words: &str) -> Option<Standing> {
         let mut said = Standing::ALL.into_iter();
         said.find(|standing| standing.words() == Some(words))
     }
 
-    /// Reason for the exclusion of a score, in a sentence; `None` if it takes part.
+    /// Reason for the exclusion of a score, as a sentence; `None` for an included score.
     pub fn reason(self) -> Option<&'static str> {
         match self {
             Standing::Counts | Standing::SkillUnknown => None,
@@ -136,7 +136,7 @@ impl Standing {
         }
     }
 
-    /// Step that may let verdicts use such a score, in a sentence; `None` if they use it. A cross-validation scores every point already.
+    /// Step that may include the score in verdicts, as a sentence; `None` for an included score. A cross-validation already scores every point.
     ///
     /// ```
     /// use taceva_metrics::Standing;
@@ -172,7 +172,7 @@ impl Standing {
         }
     }
 
-    /// Standing of a skill score whose 95 % interval begins at `low`.
+    /// Standing of a skill score whose 95 % interval starts at `low`.
     ///
     /// Without an interval there is no evidence for or against skill, and a verdict needs evidence.
     ///
@@ -190,7 +190,7 @@ impl Standing {
         }
     }
 
-    /// As [`of_skill`](Standing::of_skill), for a score with its `value`. A value of zero or less shows no skill, with or without an
+    /// Like [`of_skill`](Standing::of_skill), for a score with a `value`. A value of zero or less shows no skill, with or without an
     /// interval.
     ///
     /// ```
@@ -202,7 +202,7 @@ impl Standing {
         Standing::of_skill(low.or(value.filter(|value| *value <= ROUNDING)))
     }
 
-    /// Standing by the share of predictions that were, or would have been, clipped to the bounds of the model.
+    /// Standing by the share of predictions beyond the bounds of the model, clipped or not.
     pub(crate) fn of_bounded_share(share: f64) -> Standing {
         match share > GREATEST_BOUNDED_SHARE {
             true => Standing::Bounded,

@@ -1,4 +1,4 @@
-//! Poisson bootstrap: variation of a score between contact points.
+//! Poisson bootstrap: variation of a score over choices of contact points.
 
 use super::ends::{Ends, Estimated, Moved};
 use super::poisson::weight;
@@ -7,15 +7,15 @@ use crate::score::least::{LEAST_CLUSTERS, LEAST_REPLICATES};
 use crate::score::value::UndefinedReason;
 use crate::score::{BootstrapEnds, ClusteredBy, Interval, Scale};
 
-/// One in this many replicates may have no value.
+/// Reciprocal of the greatest share of replicates without a value.
 const UNDEFINED_IN: usize = 20;
 
-/// Interval from replicates in which every cluster counts a random number of times.
+/// Poisson bootstrap: intervals from replicates with random weights of the clusters.
 ///
-/// In replicate b the cluster c counts w = Poisson(1) times, drawn by inverting the 64-bit hash of (seed, c, b). The replicate's score is
-/// computed from Σ_c w_c × sums of c, exactly. The bootstrap needs no more state than the jackknife, and states still merge. The interval
-/// depends only on the set of samples, the seed and the number of replicates. Clusters are identified by name, or by bucket if locations
-/// are [hashed](crate::Clusters::Hashed): all locations of a bucket then share one weight.
+/// Cluster c has the weight w = Poisson(1) in replicate b, drawn by inverting the 64-bit hash of (seed, c, b). The score of the replicate
+/// is computed exactly from Σ_c w_c × sums of c. The bootstrap needs the same states as the jackknife, and states still merge. The interval
+/// depends only on the set of samples, the seed and the number of replicates. Clusters are identified by name, or by bucket if contact points
+/// are [hashed](crate::Clusters::Hashed). All contact points of a bucket share one weight.
 ///
 /// # Reference
 /// Hanley and MacGibbon, Creating non-parametric bootstrap samples using Poisson frequencies, Computer Methods and Programs in
@@ -29,11 +29,11 @@ const UNDEFINED_IN: usize = 20;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct PoissonBootstrap {
-    /// Number of replicates; fewer than 39 give no interval.
+    /// Number of replicates; at least 39 for an interval.
     pub replicates: u32,
-    /// The seed of the weights.
+    /// Seed of the weights.
     pub seed: u64,
-    /// Method for the ends from the replicates.
+    /// Method that computes the ends from the replicates.
     pub ends: BootstrapEnds,
 }
 
@@ -72,9 +72,9 @@ impl PoissonBootstrap {
 }
 
 impl PoissonBootstrap {
-    /// Interval of an estimate, the score of all clusters.
+    /// Interval of an estimate, which is the score of all clusters.
     ///
-    /// `clusters` are the keys of the clusters that have samples. `resampled` computes the score for the given weights of the clusters.
+    /// `clusters` are the keys of the clusters with samples. `resampled` computes the score for given weights of the clusters.
     pub(crate) fn interval(
         &self,
         estimated: &Estimated,
@@ -156,7 +156,7 @@ fn percentiles(replicates: &mut [f64]) -> [f64; 2] {
     ]
 }
 
-/// Standard deviation with ddof 1, summed in the given order.
+/// Sample standard deviation, summed in the given order.
 fn standard_deviation(values: &[f64]) -> f64 {
     let count = values.iter().fold(0.0, |count, _| count + 1.0);
     let mean = values.iter().sum::<f64>() / count;

@@ -1,4 +1,4 @@
-//! Comparison of two sensors on different samples, by their intervals.
+//! Comparison of two sensors on different samples, from their intervals.
 
 use super::difference::{Difference, DifferenceTest, Inverse, Tested};
 use super::error::ComparisonError;
@@ -8,18 +8,18 @@ use super::sides::Sides;
 use super::student::beyond;
 use crate::score::value::UndefinedReason;
 
-/// Least p value distinguished from 0: below it 1 − p is 1 in binary64.
+/// Least p value that differs from 0: below this value, 1 − p is 1 in binary64.
 pub(super) const LEAST_P: f64 = f64::EPSILON / 2.0;
 
-/// Difference of two scores of different samples: of two sensors, or of two sessions.
+/// Compares two scores of different samples: of two sensors, or of two sessions.
 ///
 /// The interval of the difference follows from the intervals of both scores, each on its own scale and with its own degrees of freedom.
-/// With l and u the distances of their ends below and above them, A − B is between (A − B) − √(l_A² + u_B²) and (A − B) + √(u_A² + l_B²). p
-/// is the level at which that interval ends at 0, so verdict, p and all three intervals rest on the same numbers. Its least value is
+/// With l and u the distances of an interval's ends below and above its score, A − B has the ends (A − B) − √(l_A² + u_B²) and (A − B) + √(u_A² + l_B²). p
+/// is the level at which an end of this interval is 0, so verdict, p value and interval agree. The least p value is
 /// 1.1e-16.
 ///
-/// If two sensors are equal, about 0.04 of pairs are still shown to differ, and more if few locations cause most of the error.
-/// `docs/coverage.md` has the simulation, with Welch's test for comparison.
+/// For two equal sensors, about 4 % of comparisons still show a difference, and more if few contact points cause most of the error.
+/// `docs/coverage.md` describes the simulation, with Welch's test for comparison.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -72,7 +72,7 @@ pub fn by_intervals(estimates: Sides<Estimate>) -> Result<Difference, Comparison
     Ok(tested.with(Inverse::Intervals(pair)))
 }
 
-/// Pair of estimates, whose difference has an interval at every level.
+/// Pair of estimates. Their difference has an interval at every level.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Pair {
     a: Estimate,
@@ -80,7 +80,7 @@ pub(super) struct Pair {
 }
 
 impl Pair {
-    /// Distances of the ends of the interval at 1 − `level` below and above A − B.
+    /// Distances from A − B down and up to the ends of the interval at confidence 1 − `level`.
     pub(super) fn distances(&self, level: f64) -> [f64; 2] {
         let [below_a, above_a] = self.a.distances(beyond(level, self.a.freedom()));
         let [below_b, above_b] = self.b.distances(beyond(level, self.b.freedom()));
@@ -90,9 +90,9 @@ impl Pair {
         ]
     }
 
-    /// Level at which the interval ends at `shift`: the two-sided p value of that difference.
+    /// Level at which an end of the interval is `shift`: the two-sided p value of this difference.
     pub(super) fn p(&self, shift: f64) -> f64 {
-        /// Bisections of the ratio of the enclosing levels, until it is below a rounding.
+        /// Bisection steps for the ratio of the enclosing levels, down to rounding.
         const HALVINGS: usize = 64;
         let apart = self.a.value() - self.b.value() - shift;
         let reaches = |level: f64| {

@@ -1,4 +1,4 @@
-//! Sums for the comparison of two models on the same samples: one exact sum per cluster.
+//! Exact sums by cluster, for the comparison of two models on the same samples.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use super::error::ComparisonError;
 use crate::exact::ExactSum;
 use crate::pair::Paired;
 
-/// Number of samples of one cluster, and their compared sum.
+/// Number of samples of one cluster, and the sum of their terms.
 ///
 /// ```
 /// use taceva_metrics::ClusterSum;
@@ -21,14 +21,14 @@ use crate::pair::Paired;
 pub struct ClusterSum {
     /// Number of samples.
     pub n: u64,
-    /// Σ|d| in the unit of the channel, or the number of hits.
+    /// Σ|d| in the unit of the channel, or the number of correct predictions.
     pub sum: ExactSum,
 }
 
-/// One exact sum per cluster, for any number of clusters.
+/// Exact sums by cluster, for any number of clusters.
 ///
-/// A cluster is exchangeable as a whole: a contact point, or a board of a grating test. Like every state it depends on the set of samples
-/// alone, and merges.
+/// A cluster is exchangeable as a whole: a contact point, or a board of a grating test. The sums depend only on the set of samples, and
+/// merge like a state.
 ///
 /// ```
 /// use taceva_metrics::ClusterSums;
@@ -50,7 +50,7 @@ impl ClusterSums {
     /// Adds one sample of `cluster`.
     ///
     /// # Errors
-    /// [`ComparisonError::Term`] if `term` is not finite; nothing is added then.
+    /// [`ComparisonError::Term`] if `term` is not finite. Nothing is added then.
     pub fn try_add(&mut self, cluster: &str, term: f64) -> Result<(), ComparisonError> {
         if !term.is_finite() {
             return Err(ComparisonError::Term {
@@ -66,10 +66,10 @@ impl ClusterSums {
 
     /// Adds |d| of each pair of the channel at `position`, by contact point.
     ///
-    /// Rows without a value are skipped; invalid pairs are counted in [`n_invalid`](ClusterSums::n_invalid).
+    /// Rows without a value are skipped. Invalid pairs are skipped and counted in [`n_invalid`](ClusterSums::n_invalid).
     ///
     /// # Errors
-    /// [`ComparisonError::NoClusters`] if the batch has no contact points; nothing is added then.
+    /// [`ComparisonError::NoClusters`] if the batch has no contact points. Nothing is added then.
     ///
     /// # Panics
     /// If the batch has no channel at `position`.
@@ -98,7 +98,7 @@ impl ClusterSums {
         Ok(())
     }
 
-    /// Merges other sums.
+    /// Adds the sums of `other`.
     pub fn merge(&mut self, other: &ClusterSums) {
         for (name, theirs) in &other.cells {
             let cell = self.cell(name);
@@ -108,12 +108,12 @@ impl ClusterSums {
         self.n_invalid = self.n_invalid.saturating_add(other.n_invalid);
     }
 
-    /// The clusters in the order of their names.
+    /// Clusters in the order of their names.
     pub fn iter(&self) -> impl Iterator<Item = (&str, &ClusterSum)> {
         self.cells.iter().map(|(name, cell)| (name.as_str(), cell))
     }
 
-    /// The sum of one cluster.
+    /// Sum of the cluster called `cluster`; `None` for an unknown cluster.
     pub fn get(&self, cluster: &str) -> Option<&ClusterSum> {
         self.cells.get(cluster)
     }
@@ -134,7 +134,7 @@ impl ClusterSums {
 }
 
 impl FromIterator<(String, ClusterSum)> for ClusterSums {
-    /// The clusters as they are; the sums of a name that occurs twice are merged.
+    /// Collects clusters. The sums of a repeated name are merged.
     fn from_iter<I: IntoIterator<Item = (String, ClusterSum)>>(clusters: I) -> ClusterSums {
         let mut sums = ClusterSums::default();
         for (name, theirs) in clusters {

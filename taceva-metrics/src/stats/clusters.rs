@@ -1,4 +1,4 @@
-//! Summaries of samples by contact point, so that intervals know which samples belong together.
+//! Summaries of samples by contact point, which intervals need because samples at one point are correlated.
 
 use std::collections::BTreeMap;
 
@@ -6,16 +6,16 @@ use super::row_groups::{Grouped, HASHED_CLUSTERS, bucket};
 use crate::exact::merge::Merge;
 use taceva_core::random::fnv_1a;
 
-/// Most locations that are clusters of their own.
+/// Greatest number of contact points that form clusters of their own.
 pub const NAMED_CLUSTERS: usize = 64;
 /// Name of the only cluster of an undivided summary.
 const WHOLE: &str = "all";
 
 /// One summary per cluster of samples.
 ///
-/// The kinds are stages in a fixed order, and the set of samples alone decides the stage. Locations are kept by name up to
-/// [`NAMED_CLUSTERS`], then by a hash of the name. Once a sample names no location, there are no clusters at all. It
-/// gets no further variant in a compatible version: states hold it, and another stage would be another state.
+/// The variants are stages in a fixed order, and the set of samples alone determines the stage. Contact points are stored by name up to
+/// [`NAMED_CLUSTERS`] of them, beyond that by a hash of the name. One sample without a contact point removes all clusters. This type
+/// gets no further variant in a compatible version: states contain the stage, and another stage would need another state.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Clusters, Evaluator, Rows};
@@ -29,11 +29,11 @@ const WHOLE: &str = "all";
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "snake_case"))]
 pub enum Clusters<T> {
-    /// One summary per location, by its name.
+    /// One summary per contact point, by name.
     Named(BTreeMap<String, T>),
-    /// [`HASHED_CLUSTERS`] summaries; a location's is `mix(seed ^ fnv_1a(name)) mod 32` with [`taceva_core::random::mix`].
+    /// [`HASHED_CLUSTERS`] summaries; the index of a contact point is `mix(seed ^ fnv_1a(name)) mod 32` with [`taceva_core::random::mix`].
     Hashed(Vec<T>),
-    /// One summary of everything: some sample named no location.
+    /// One summary of all samples, because a sample has no contact point.
     Pooled(T),
 }
 
@@ -44,7 +44,7 @@ impl<T> Default for Clusters<T> {
 }
 
 impl<T> Clusters<T> {
-    /// Summaries of the clusters in order, each with the hash or number of its name; `None` without clusters.
+    /// Summaries of the clusters in order, each with the hash or index of its name; `None` without clusters.
     pub(crate) fn cells(&self) -> Option<Vec<(u64, &T)>> {
         match self {
             Clusters::Named(cells) => {
@@ -60,7 +60,7 @@ impl<T> Clusters<T> {
         }
     }
 
-    /// The same clusters with other summaries.
+    /// Converts the summary of each cluster.
     pub(crate) fn try_map<U, E>(
         &self,
         mut convert: impl FnMut(&T) -> Result<U, E>,
@@ -85,7 +85,7 @@ impl<T> Clusters<T> {
     }
 }
 
-/// Recipe of clusters: an empty summary, and the seed of the hash.
+/// Constructor of clusters: an empty summary, and the seed of the hash.
 #[derive(Clone, Debug)]
 pub(crate) struct Clustering<T> {
     pub(crate) empty: T,
@@ -93,7 +93,7 @@ pub(crate) struct Clustering<T> {
 }
 
 impl<T: Merge + Clone> Clustering<T> {
-    /// Adds `rows` rows, clustered by `points`. `add` receives each cluster's summary with its rows, or with `None` for all.
+    /// Adds `rows` rows, clustered by `points`. `add` receives each cluster's summary with the cluster's rows, or `None` for all rows.
     pub(crate) fn deposit(
         &self,
         clusters: &mut Clusters<T>,
@@ -128,7 +128,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// Adds `rows` rows to one summary. Records that they are clustered, but not their clusters.
+    /// Adds `rows` rows to one summary. The summary records only that the rows have clusters.
     pub(crate) fn deposit_whole(
         &self,
         clusters: &mut Clusters<T>,
@@ -152,7 +152,7 @@ impl<T: Merge + Clone> Clustering<T> {
         }
     }
 
-    /// The same samples as one cluster, or without clusters if none were known.
+    /// All samples as one cluster, or without clusters if the clusters are unknown.
     pub(crate) fn whole(&self, clusters: &Clusters<T>) -> Clusters<T> {
         match clusters {
             Clusters::Named(cells) if cells.is_empty() => Clusters::default(),

@@ -1,4 +1,4 @@
-//! Spread of the means of bins beyond chance, for correlated samples of a cluster: its value, and a conservative interval.
+//! Excess spread: spread of bin means beyond chance, for samples that are correlated within a cluster, with a conservative interval.
 
 use std::collections::BTreeMap;
 
@@ -14,11 +14,11 @@ const TWO_SIDED: f64 = 1.959_963_984_540_054;
 const HALVED: f64 = TWO_SIDED;
 const QUARTERED: f64 = 2.241_402_727_604_947;
 const EIGHTH: f64 = 2.497_705_474_412_382;
-/// Assumed excess kurtosis: the absolute value of a Gaussian error has 0.87, and spreads that differ between places have more.
+/// Assumed excess kurtosis. The absolute value of a Gaussian error has 0.87, and differences of spread between places increase it.
 const KURTOSIS: f64 = 1.5;
-/// Least degrees of freedom of the noise for an excess. Paulson's approximation needs three, and tails need more.
+/// Least degrees of freedom of the noise for an excess. Paulson's approximation needs three, and tail probabilities need more.
 const LEAST_FREEDOM: f64 = 6.0;
-/// Steps of a bisection, each of which halves the range.
+/// Number of bisection steps.
 const STEPS: usize = 100;
 
 /// Samples of one cluster in one bin.
@@ -41,21 +41,21 @@ pub(crate) struct ClusteredBins {
     freedom: f64,
 }
 
-/// Standard deviation of the means of bins beyond chance.
+/// Excess spread: standard deviation of bin means beyond chance.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Excess {
     /// √max(0, variance of the means − noise).
     pub(crate) value: f64,
-    /// Both ends of its interval of 95 %.
+    /// Ends of the 95 % interval.
     pub(crate) ends: [f64; 2],
-    /// Distance of the variance of the means from chance, as a standard normal number.
+    /// Distance of the variance of the means from its value by chance, as a standard normal number.
     above: f64,
-    /// The mean of the means of the bins.
+    /// Mean of the bin means.
     pub(crate) mean: f64,
 }
 
 impl ClusteredBins {
-    /// Bins of `clusters` with at least `n_min` samples. Bins and clusters keep their order, so the sums are the same on every machine.
+    /// Bins of `clusters` with at least `n_min` samples. Bins and clusters keep their order, so sums are equal on every machine.
     pub(crate) fn of<'a, K: Ord + Copy + 'a>(
         clusters: impl IntoIterator<Item = impl IntoIterator<Item = (K, &'a Moments)>>,
         n_min: u64,
@@ -92,11 +92,11 @@ impl ClusteredBins {
         Ok(kept)
     }
 
-    /// The spread of the means beyond chance.
+    /// Spread of the bin means beyond chance.
     ///
-    /// Each mean has a variance from the variances between and within clusters of a bin, pooled over bins. Clusters in several bins move
-    /// their means together, which is not a spread. The rest of the variance is noise. The interval inverts the test of the ratio of both
-    /// variances by the F distribution in Paulson's approximation. The degrees of freedom are Satterthwaite's, because other bins would
+    /// The variance of each mean follows from the variances between and within clusters of a bin, pooled over bins. A cluster in several bins
+    /// shifts their means together, which is not a spread. The rest of the variance is noise. The interval inverts the test of the ratio of
+    /// both variances by the F distribution, in Paulson's approximation. The degrees of freedom are Satterthwaite's, because other bins would
     /// have other clusters.
     ///
     /// # Reference
@@ -256,7 +256,7 @@ impl ClusteredBins {
         })
     }
 
-    /// Mean covariance of the means of two bins, from clusters in both.
+    /// Mean covariance of two bin means, from clusters in both bins.
     fn shared(&self, totals: &[(f64, f64)], of_cluster: f64) -> f64 {
         let clusters = self.bins.iter().flatten().map(|part| part.cluster + 1);
         let clusters = clusters.max().unwrap_or_default();
@@ -301,13 +301,13 @@ impl ClusteredBins {
     }
 }
 
-/// Variance of the means of bins by chance.
+/// Variance of the bin means by chance.
 #[derive(Clone, Copy, Debug)]
 struct Noise {
     variance: f64,
     /// Number of bins.
     bins: f64,
-    /// Sum of the variances of their means; the next field is the sum of their squares, with a part for heavy tails.
+    /// Sum of the variances of the bin means. The next field is the sum of their squares, with a term for heavy tails.
     sum: f64,
     squares: f64,
     /// Degrees of freedom of the noise.
@@ -315,7 +315,7 @@ struct Noise {
 }
 
 impl Noise {
-    /// Degrees of freedom of the variance of the means if the true spread is `spread` times the noise, both as variances.
+    /// Degrees of freedom of the variance of the means for a true spread of `spread` times the noise, both as variances.
     fn bins_with(&self, spread: f64) -> f64 {
         let true_variance = spread * self.variance;
         let sum = self.sum + self.bins * true_variance;
@@ -327,7 +327,7 @@ impl Noise {
 }
 
 impl Excess {
-    /// Mean of several excesses, such as those of distance and depth. Without a true excess its interval begins above 0 in at most 5 % of
+    /// Mean of several excesses, such as those of distance and depth. Without a true excess, its interval starts above 0 in at most 5 % of
     /// cases.
     pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
         let first = all.first()?;

@@ -8,10 +8,10 @@ use super::holm::{LEVEL, Step, steps};
 use super::sides::Sides;
 use super::student::{beyond, upper};
 
-/// Score of A minus score of B.
+/// Difference A − B of two scores, with test and interval.
 ///
-/// Verdict, p value and interval follow from one decision. [`decide`] makes it for a family of differences at once; until then a difference is
-/// its own family.
+/// Verdict, p value and interval follow from one decision. [`decide`] decides a family of differences together. Before that call, each
+/// difference is a family of its own.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -27,16 +27,16 @@ pub struct Difference {
     pub value: f64,
     /// Both scores.
     pub scores: Sides<f64>,
-    /// Standard error of the difference between choices of clusters, and between trainings if their spread was given.
+    /// Standard error of the difference over choices of clusters, and over trainings if their spread is given.
     pub standard_error: f64,
-    /// Differences that the test at `1 − confidence` does not reject; it excludes 0 exactly if a difference is shown. An end is infinite if
-    /// too few clusters reject any difference on that side.
+    /// Differences that the test at `1 − confidence` does not reject. The interval excludes 0 exactly if a difference is shown. An end is infinite
+    /// if too few clusters reject any difference on that side.
     pub interval: [f64; 2],
-    /// Confidence of the interval: 0.95 for a single difference, more in a family.
+    /// Confidence of the interval: 0.95 for a single difference, greater in a family.
     pub confidence: f64,
-    /// Two-sided p value of this test alone: the probability of so large a difference without a true one.
+    /// Two-sided p value of this test alone: the probability of at least this difference between equal scores.
     pub p: f64,
-    /// The p value adjusted for the family by [`holm`](crate::holm).
+    /// p value adjusted for the family by [`holm`](crate::holm).
     pub adjusted_p: f64,
     /// True if a difference is shown: the adjusted p value is at most 0.05.
     pub is_shown: bool,
@@ -49,16 +49,16 @@ pub struct Difference {
 /// Data from which the confidence interval is computed at another level.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Inverse {
-    /// Intervals of both scores, at any level.
+    /// Intervals of both scores, for any level.
     Intervals(Pair),
-    /// Differences at which each pattern of signs begins to count, on either side.
+    /// Sorted differences at which a pattern of signs starts to count, from either side.
     Flips(Flips),
-    /// Student's distribution about the difference, for its standard error.
+    /// Student's distribution about the difference, with its standard error.
     Student { freedom: f64 },
 }
 
-/// Sorted from below and from above: the differences at which another pattern of signs gives as large a sum as the observed one. Patterns
-/// that always do are infinite.
+/// Differences at which another pattern of signs gives a sum as large as the observed one, sorted from below and from above. Patterns with
+/// such a sum at every difference are infinite.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,
@@ -68,7 +68,7 @@ pub(super) struct Flips {
 }
 
 impl Flips {
-    /// Range of the differences with a p value above `level`.
+    /// Interval of the differences with a p value above `level`.
     fn interval(&self, level: f64) -> [f64; 2] {
         // p(δ) is the share of patterns that count: of N patterns more than level × N must.
         let patterns = self.from_below.iter().fold(0.0, |count, _| count + 1.0);
@@ -82,11 +82,11 @@ impl Flips {
     }
 }
 
-/// Decides a family of differences, and gives each the interval of its own step. Without true differences, at most one family in twenty
-/// shows one.
+/// Decides a family of differences, and gives each difference the interval of its own step. Without true differences, at most one family in twenty
+/// shows a difference.
 ///
-/// By Holm's procedure the i-th smallest of m p values is decided at 0.05 / (m − i + 1). From the first that is not rejected, all are
-/// decided at the level of that one.
+/// Holm's procedure decides the i-th smallest of m p values at 0.05 / (m − i + 1). From the first accepted test on, all tests are
+/// decided at the level of that test.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals, decide};
@@ -126,30 +126,30 @@ pub fn decide(family: &mut [Difference]) {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum DifferenceTest {
-    /// On the same samples: exchanges the signs of the clusters' differences.
+    /// Sign-flip test on the same samples: inverts the signs of the clusters' differences.
     SignFlip {
-        /// Clusters that were paired.
+        /// Number of paired clusters.
         clusters: usize,
-        /// Patterns of signs that were tried.
+        /// Number of patterns of signs.
         flips: u32,
-        /// True if these are all patterns.
+        /// True if the patterns are complete.
         exhaustive: bool,
     },
-    /// On different samples: by the intervals of both.
+    /// Interval test on different samples, from the intervals of both scores.
     Intervals {
         /// Degrees of freedom of both intervals.
         freedom: Sides<f64>,
     },
-    /// On the same samples, with the variance between trainings of the models: Student's t.
+    /// Student's t test on the same samples, with the variance between trainings of the models.
     PairedTrainings {
-        /// Clusters that were paired.
+        /// Number of paired clusters.
         clusters: usize,
         /// Degrees of freedom of the difference.
         freedom: f64,
     },
 }
 
-/// A tested difference before it has an interval.
+/// A tested difference before its interval is computed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tested {
     pub(super) value: f64,
@@ -160,7 +160,7 @@ pub(super) struct Tested {
 }
 
 impl Tested {
-    /// The difference, as a family of its own.
+    /// Difference as a family of its own.
     pub(super) fn with(self, inverse: Inverse) -> Difference {
         let Tested { p, .. } = self;
         let step = Step {
@@ -211,13 +211,13 @@ impl Difference {
         };
     }
 
-    /// True if the scores are shown to be less than `margin` apart: the interval is within it.
+    /// True if the scores are shown to differ by less than `margin`: the whole interval is within the margin.
     ///
     /// # Units
     /// `margin` is in the unit of the scores.
     ///
     /// # Errors
-    /// [`ComparisonError::Margin`] if it is not above 0 and finite.
+    /// [`ComparisonError::Margin`] if `margin` is not above 0 and finite.
     pub fn is_within(&self, margin: f64) -> Result<bool, ComparisonError> {
         if !(margin > 0.0 && margin.is_finite()) {
             return Err(ComparisonError::Margin(margin));
@@ -225,13 +225,13 @@ impl Difference {
         Ok(self.interval.iter().all(|end| end.abs() < margin))
     }
 
-    /// p value of equivalence: the larger p value of two one-sided tests against a distance of at least `margin`.
+    /// p value of equivalence: the larger p value of the two one-sided tests against a difference of at least `margin`.
     ///
     /// # Units
     /// `margin` is in the unit of the scores.
     ///
     /// # Errors
-    /// [`ComparisonError::Margin`] if it is not above 0 and finite.
+    /// [`ComparisonError::Margin`] if `margin` is not above 0 and finite.
     ///
     /// # Reference
     /// Schuirmann, A comparison of the two one-sided tests procedure and the power approach, Journal of Pharmacokinetics and
@@ -257,7 +257,7 @@ impl Difference {
 }
 
 impl DifferenceTest {
-    /// Least p value that the test can have, whatever the values: few clusters have few patterns of signs.
+    /// Least possible p value of the test for any values. Few clusters have few patterns of signs.
     ///
     /// ```
     /// use taceva_metrics::DifferenceTest;

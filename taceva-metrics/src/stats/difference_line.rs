@@ -1,11 +1,11 @@
-//! Line through the differences of two methods against their means.
+//! Line through the differences of two methods over their means.
 
 use crate::count::as_f64;
 use crate::distributions::student_t;
 use crate::exact::merge::Merge;
 use crate::exact::{Dyadic, ExactSum, Moments};
 
-/// Exact sums of a line through differences d of pairs against their means m, beside the sums of d alone. Sums of parts merge, in any
+/// Exact sums for a line through the differences d of pairs over their means m, apart from the sums of d alone. Sums of parts merge in any
 /// order.
 ///
 /// ```
@@ -26,7 +26,7 @@ pub struct DifferenceLine {
     pub(crate) sums: [ExactSum; 3],
 }
 
-/// Change of the difference of two methods with the size of what is measured.
+/// Change of the difference of two methods with the magnitude of the measured quantity.
 ///
 /// ```
 /// use taceva_metrics::{DifferenceLine, Moments};
@@ -36,11 +36,11 @@ pub struct DifferenceLine {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
 pub struct Proportional {
-    /// Slope of the difference against the mean of both.
+    /// Slope of the difference over the mean of both methods.
     pub slope: f64,
-    /// Standard error of the slope, of independent pairs.
+    /// Standard error of the slope, for independent pairs.
     pub standard_error: f64,
-    /// Probability of such a slope by chance, of independent pairs.
+    /// p value of the slope, for independent pairs.
     pub p: f64,
 }
 
@@ -59,7 +59,7 @@ impl DifferenceLine {
         self.sums.merge(&other.sums);
     }
 
-    /// The line by least squares, with the sums of the same differences; `None` below three pairs, or if all means are equal.
+    /// Least-squares line, with the sums of the same differences; `None` for fewer than three pairs, or if all means are equal.
     #[must_use]
     pub fn proportional(&self, differences: &Moments) -> Option<Proportional> {
         let n = differences.n;
@@ -87,7 +87,7 @@ impl DifferenceLine {
     }
 }
 
-/// Probability that chance alone gives a slope as far from 0; without uncertainty, 1 for no slope and 0 for any other.
+/// p value of a slope. With a standard error of 0, 1 for a slope of 0 and 0 for any other slope.
 pub(crate) fn chance(slope: f64, standard_error: f64, freedom: f64) -> f64 {
     match standard_error > 0.0 {
         true => 2.0 * student_t::above(slope.abs() / standard_error, freedom),

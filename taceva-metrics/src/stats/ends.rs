@@ -1,4 +1,4 @@
-//! Ends of an interval, computed on a scale without ends and transformed back.
+//! Ends of an interval, computed on an unbounded scale and transformed back.
 
 use super::student::quantile;
 use crate::count::as_f64;
@@ -7,32 +7,32 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{COVERAGE, Scale};
 
-/// An estimate before it has an interval.
+/// An estimate before its interval is computed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Estimated {
     /// The value.
     pub(crate) value: f64,
     /// Range of possible values.
     pub(crate) range: Range,
-    /// Number of its samples.
+    /// Number of samples of the estimate.
     pub(crate) samples: u64,
 }
 
-/// Variation of an estimate between choices of clusters.
+/// Variation of an estimate over choices of clusters.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moved {
-    /// The standard error, on the quantity's own scale.
+    /// Standard error, in the unit of the quantity.
     pub(crate) standard_error: f64,
     /// Degrees of freedom of the standard error.
     pub(crate) freedom: f64,
-    /// Clusters with samples.
+    /// Number of clusters with samples.
     pub(crate) clusters: usize,
-    /// Standard error and its degrees of freedom on the scale without ends, if they were computed there.
+    /// Standard error and degrees of freedom on the unbounded scale, if computed there.
     pub(crate) carried: Option<[f64; 2]>,
 }
 
 impl Moved {
-    /// t × the standard error on the scale without ends: as computed there, or to first order. `slope` is the derivative of that scale at
+    /// t times the standard error on the unbounded scale, as computed there or to first order. `slope` is the derivative of that scale at
     /// the value.
     fn step(&self, slope: f64) -> f64 {
         let first_order = || [self.standard_error * slope, self.freedom];
@@ -40,7 +40,7 @@ impl Moved {
         quantile(COVERAGE, freedom) * error
     }
 
-    /// Degrees of freedom of ends on `scale`.
+    /// Degrees of freedom of the ends on `scale`.
     fn freedom_on(&self, scale: Scale) -> f64 {
         match (scale, self.carried) {
             (Scale::Logarithm | Scale::Logit, Some([_, freedom])) => freedom,
@@ -49,7 +49,7 @@ impl Moved {
     }
 }
 
-/// Both ends, and their scale.
+/// Both ends and their scale.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ends {
     pub(crate) low: f64,
@@ -59,20 +59,20 @@ pub(crate) struct Ends {
     pub(crate) freedom: f64,
 }
 
-/// Share of a distance below which its logarithm is replaced by its tangent.
+/// Ratio of distances below which the logarithm is replaced by its tangent.
 const TANGENT: f64 = 0.7;
 
 impl Estimated {
-    /// 95 % interval of an estimate with this variation.
+    /// 95 % interval of an estimate with the variation `moved`.
     ///
     /// With s the standard error and h = t(freedom) × s, the ends are value ± h for a range without bounds. For a bound at distance d, with
-    /// s and t those of the logarithm of d, they are d e^(±h). Between two bounds the same holds for the odds of the value. If s is known
-    /// only on the quantity's own scale, the logarithm of d has the standard error s / d to first order. For a quantity that may be at a
-    /// bound, value ± h is cut there. Shares use Wilson's interval with t for z and n* = p (1 − p) / s² samples for n, at most the actual
+    /// s and t those of the logarithm of d, the ends are d e^(±h) from the bound. Between two bounds the same formula applies to the odds of the value. If s is
+    /// known only in the unit of the quantity, the logarithm of d has the standard error s / d to first order. For a quantity that may equal a
+    /// bound, value ± h is cut at the bound. Shares use Wilson's interval with t for z and n* = p (1 − p) / s² samples for n, at most the actual
     /// number. If all shares are 0, or all are 1, n* is the number of clusters.
     ///
     /// # Errors
-    /// [`UndefinedReason::AtEnd`] if the value is at an end of its range, and stays there without any one cluster;
+    /// [`UndefinedReason::AtEnd`] if the value is at an end of its range, with and without any cluster;
     /// [`UndefinedReason::Overflow`] if an end is beyond the range of binary64.
     ///
     /// # Reference
@@ -126,11 +126,11 @@ impl Estimated {
         }
     }
 
-    /// Distance of `other`, the score without a cluster, from the value on the scale without ends: the logarithm of a distance or of odds.
-    /// `None` if the quantity has no such scale, or the value is at an end.
+    /// Distance of `other`, the score without a cluster, from the value on the unbounded scale: the logarithm of a distance or of odds.
+    /// `None` if the quantity has no unbounded scale, or the value is at an end.
     ///
-    /// Below [`TANGENT`] the logarithm of a distance is replaced by its tangent. If one cluster makes most of an error, the rest may be any
-    /// small number, which says nothing about the errors of other clusters.
+    /// Below [`TANGENT`] the logarithm of a distance is replaced by its tangent. If one cluster causes most of an error, the other clusters may
+    /// give any small number, which does not describe their errors.
     pub(crate) fn carry(&self, other: f64) -> Option<f64> {
         let [least, greatest] = self.range.ends();
         let below = || (other - least) / (self.value - least);
@@ -150,7 +150,7 @@ impl Estimated {
         Some(carried).filter(|carried| carried.is_finite())
     }
 
-    /// Ends, limited to the range and around the value, against rounding and cuts.
+    /// Ends limited to the range, and on both sides of the value in spite of rounding and cuts.
     pub(crate) fn within(&self, [low, high]: [f64; 2], scale: Scale, freedom: f64) -> Ends {
         let [least, greatest] = self.range.ends();
         Ends {
@@ -177,7 +177,7 @@ fn wilson(share: f64, samples: u64, moved: &Moved) -> [f64; 2] {
 mod tests {
     use super::*;
 
-    /// The ends about `value` for a half width of `half` on the quantity's own scale, from five clusters of ten samples.
+    /// Ends about `value` for the half-width `half` in the unit of the quantity, from five clusters with ten samples.
     fn ends(range: Range, value: f64, half: f64) -> Result<Ends, UndefinedReason> {
         let estimated = Estimated {
             value,

@@ -7,7 +7,7 @@ use super::sides::{Side, Sides};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
-/// Reason for a comparison without an answer.
+/// Reason why a comparison has no result.
 ///
 /// ```
 /// use taceva_metrics::{ComparisonError, Estimate};
@@ -21,39 +21,39 @@ pub enum ComparisonError {
     Undefined {
         /// Side without a value or an interval.
         side: Side,
-        /// Reason on that side.
+        /// Reason for the missing value or interval.
         reason: UndefinedReason,
     },
     /// The metric does not apply on one side.
     NotApplicable {
         /// Side to which the metric does not apply.
         side: Side,
-        /// Reason on that side.
+        /// Reason why the metric does not apply.
         reason: InapplicableReason,
     },
     /// The difference has no interval.
     NoInterval(UndefinedReason),
-    /// The two scores differ in definition, unit or constants.
+    /// The two scores have different definitions, units or constants.
     Meaning(Sides<String>),
-    /// A cluster that is on one side only, where both sides must be paired.
+    /// A cluster exists on one side only, but the comparison is paired.
     Unpaired {
-        /// Side that has the cluster.
+        /// Side with the cluster.
         side: Side,
         /// Name of the unpaired cluster.
         cluster: String,
     },
-    /// A cluster with different numbers of samples, where both sides must be paired.
+    /// A cluster has different numbers of samples on both sides, but the comparison is paired.
     Counts {
         /// Name of the cluster.
         cluster: String,
-        /// Number of its samples on each side.
+        /// Number of the cluster's samples on each side.
         samples: Sides<u64>,
     },
-    /// Some sample names no cluster.
+    /// A sample has no cluster.
     NoClusters,
-    /// Too few clusters to estimate the variation.
+    /// Too few clusters for an estimate of the variation.
     TooFewClusters {
-        /// Number of clusters.
+        /// Number of clusters found.
         have: usize,
     },
     /// A term that cannot be summed.
@@ -69,20 +69,20 @@ pub enum ComparisonError {
     StandardError(f64),
     /// Degrees of freedom that are not finite and at least 1.
     Freedom(f64),
-    /// An interval that does not hold its score.
+    /// An interval that does not contain its score.
     Ends {
         /// The score.
         value: f64,
         /// Lower and upper end.
         ends: [f64; 2],
     },
-    /// No cluster changes either score, so the variation is unknown.
+    /// The scores are equal for every choice of clusters, so the variation is unknown.
     NoSpread,
     /// A margin of equivalence that is not above 0 and finite.
     Margin(f64),
-    /// A p value outside of 0..=1.
+    /// A p value outside 0..=1.
     Probability {
-        /// Index in its family.
+        /// Index of the p value in its family.
         position: usize,
         /// The p value.
         value: f64,

@@ -1,4 +1,4 @@
-//! A score with its interval, at any level of confidence.
+//! A score with its interval at any level of confidence.
 
 mod over_trainings;
 
@@ -10,7 +10,7 @@ use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::{InapplicableReason, UndefinedReason, Value};
 use crate::score::{COVERAGE, Interval, Scale, Score};
 
-/// A score, its variation between choices of clusters, and the number of clusters behind it.
+/// A score, its variation over choices of clusters, and the number of clusters.
 ///
 /// ```
 /// use taceva_metrics::Estimate;
@@ -25,20 +25,20 @@ pub struct Estimate {
     shape: Shape,
 }
 
-/// Scale on which the ends of an interval move with its level, with the step per unit of t, downwards and upwards.
+/// Scale of an interval, with the step of each end per unit of t, downwards and upwards.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Shape {
     /// Scale of the score itself.
     Own([f64; 2]),
-    /// The logarithm of the distance from `end`.
+    /// Logarithm of the distance from `end`.
     Logarithm { end: f64, steps: [f64; 2] },
-    /// The logarithm of the odds of value / `width`.
+    /// Logarithm of the odds of value / `width`.
     Odds { width: f64, steps: [f64; 2] },
     /// Wilson's interval of a share of `samples` samples.
     Share { samples: f64 },
 }
 
-/// A stated 95 % interval, from which an [`Estimate`] is made without a [`Score`].
+/// Stated 95 % interval, for an [`Estimate`] without a [`Score`].
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Scale, StatedInterval};
@@ -49,20 +49,20 @@ enum Shape {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct StatedInterval {
-    /// The lower and the upper end, in the unit of the score.
+    /// Lower and upper end, in the unit of the score.
     pub ends: [f64; 2],
     /// Degrees of freedom of Student's t.
     pub freedom: f64,
     /// Number of clusters.
     pub clusters: usize,
-    /// Scale on which its ends are symmetric about the value.
+    /// Scale on which the ends are symmetric about the value.
     pub scale: Scale,
-    /// Standard error on the score's own scale; `None` for half the width over t.
+    /// Standard error, in the unit of the score; `None` for the half-width divided by t.
     pub standard_error: Option<f64>,
 }
 
 impl StatedInterval {
-    /// An interval on the score's own scale.
+    /// Interval on the scale of the score itself.
     pub const fn new(ends: [f64; 2], freedom: f64, clusters: usize) -> StatedInterval {
         StatedInterval {
             ends,
@@ -90,12 +90,12 @@ impl StatedInterval {
 }
 
 impl Estimate {
-    /// Estimate from a value and the standard error of `clusters` clusters. It is symmetric on its own scale, with one degree of freedom
-    /// less than there are clusters.
+    /// Estimate from a value and the standard error over `clusters` clusters, symmetric on the scale of the score. The degrees of freedom are
+    /// the number of clusters minus one.
     ///
     /// # Errors
-    /// [`ComparisonError::Score`] or [`ComparisonError::StandardError`] if one is not finite or the error is below 0,
-    /// [`ComparisonError::TooFewClusters`] if there are fewer than five.
+    /// [`ComparisonError::Score`] or [`ComparisonError::StandardError`] if a number is not finite or the standard error is negative,
+    /// [`ComparisonError::TooFewClusters`] for fewer than five clusters.
     pub fn try_new(
         value: f64,
         standard_error: f64,
@@ -121,7 +121,7 @@ impl Estimate {
     /// Estimate from a value and its stated 95 % interval.
     ///
     /// # Errors
-    /// As [`try_new`](Estimate::try_new). Also [`ComparisonError::Freedom`] if the degrees of freedom are not finite and at least 1, and
+    /// The errors of [`try_new`](Estimate::try_new). Also [`ComparisonError::Freedom`] if the degrees of freedom are not finite and at least 1, and
     /// [`ComparisonError::Ends`] if the interval does not contain the value.
     pub fn try_from_interval(
         value: f64,
@@ -161,11 +161,11 @@ impl Estimate {
         })
     }
 
-    /// Estimates from two scores of one meaning.
+    /// Estimates from two scores with the same definition, unit and constants.
     ///
     /// # Errors
     /// [`ComparisonError::Meaning`] if definition, unit or constants differ, [`ComparisonError::Undefined`] or
-    /// [`ComparisonError::NotApplicable`] if one has no value or no interval.
+    /// [`ComparisonError::NotApplicable`] if a score has no value or no interval.
     pub fn try_from_scores(scores: Sides<&Score>) -> Result<Sides<Estimate>, ComparisonError> {
         let (a, b) = (meaning(scores.a), meaning(scores.b));
         if a != b {
@@ -197,7 +197,7 @@ impl Estimate {
         }
     }
 
-    /// Ends of its 95 % interval.
+    /// Ends of the 95 % interval.
     ///
     /// ```
     /// use taceva_metrics::{Estimate, StatedInterval};
@@ -216,17 +216,17 @@ impl Estimate {
         self.value
     }
 
-    /// Standard error, on the score's own scale.
+    /// Standard error, in the unit of the score.
     pub(super) fn standard_error(&self) -> f64 {
         self.standard_error
     }
 
-    /// Degrees of freedom of its interval.
+    /// Degrees of freedom of the interval.
     pub fn freedom(&self) -> f64 {
         self.freedom
     }
 
-    /// Distances of the ends of its interval below and above it if Student's t is `t`.
+    /// Distances from the value down and up to the ends of the interval with Student's t equal to `t`.
     pub(super) fn distances(&self, t: f64) -> [f64; 2] {
         let value = self.value;
         match self.shape {
@@ -255,19 +255,19 @@ impl Estimate {
     }
 }
 
-/// Stated form of a computed interval.
+/// Converts a computed interval to a stated one.
 fn stated(interval: &Interval) -> Option<StatedInterval> {
     let (ends, freedom) = (interval.ends()?, interval.freedom()?);
     let stated = StatedInterval::new(ends, freedom, interval.clusters()?).on(interval.scale()?);
     Some(stated.with_standard_error(interval.standard_error()))
 }
 
-/// One degree of freedom less than there are clusters.
+/// Degrees of freedom: number of clusters minus one.
 fn freedom_of(clusters: usize) -> f64 {
     f64::from(u32::try_from(clusters.saturating_sub(1)).unwrap_or(u32::MAX))
 }
 
-/// Steps of an interval whose ends have equal ratios of the distance from 0 or from 1.
+/// Steps of an interval whose ends are symmetric in the logarithm of the distance from 0 or from 1.
 fn logarithmic(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     let about = |end: f64| {
         let distances = ends.map(|of| (of - end) / (value - end));
@@ -280,7 +280,7 @@ fn logarithmic(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     nearest([about(0.0), about(1.0)])
 }
 
-/// Steps of an interval whose ends have equal ratios of the odds of value / width, for a width of 1 or 2.
+/// Steps of an interval whose ends are symmetric in the logarithm of the odds of value / width, for a width of 1 or 2.
 fn odds(value: f64, ends: [f64; 2], t: f64) -> Option<Shape> {
     let within = |width: f64| {
         let odds = |of: f64| of / (width - of);
@@ -326,7 +326,7 @@ mod tests {
     use crate::score::range::Range;
     use crate::stats::ends::{Estimated, Moved};
 
-    /// Computes the interval of a value with this standard error, and the estimate read back from it.
+    /// Computes the interval of a value with this standard error, and an estimate from that interval.
     fn read_back(range: Range, value: f64, standard_error: f64) -> (Estimate, [f64; 2]) {
         let freedom = 7.5;
         let moved = Moved {

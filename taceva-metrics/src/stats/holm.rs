@@ -3,14 +3,14 @@
 use super::error::ComparisonError;
 use crate::exact::number_key::ranked;
 
-/// Level of a family of tests: the probability that chance alone shows a difference.
+/// Level of a family of tests: the probability of any difference shown by chance.
 pub(super) const LEVEL: f64 = 0.05;
 
-/// Adjusts the p values of a family of tests, in the order given. The probability of any false rejection among all of them is then that of
-/// a single test.
+/// Adjusts the p values of a family of tests and returns them in the given order. Thresholds for adjusted values limit the probability of
+/// any false rejection in the whole family.
 ///
-/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎). They rise with p, and equal p values stay
-/// equal.
+/// With p₍₁₎ ≤ … ≤ p₍ₘ₎ the adjusted values are max over i ≤ j of min(1, (m − i + 1) p₍ᵢ₎). They increase with p, and equal p values
+/// have equal adjusted values.
 ///
 /// ```
 /// let adjusted = taceva_metrics::holm(&[0.01, 0.04, 0.03])?;
@@ -33,19 +33,19 @@ pub fn holm(p_values: &[f64]) -> Result<Vec<f64>, ComparisonError> {
 pub(super) struct Step {
     /// Adjusted p value.
     pub(super) adjusted_p: f64,
-    /// True if the test is rejected. Verdict, p and interval follow this decision.
+    /// True if the test is rejected. Verdict, p value and interval follow this decision.
     pub(super) is_rejected: bool,
-    /// Level at which it is decided, and of its interval.
+    /// Level of the decision and of the interval.
     pub(super) level: f64,
 }
 
-/// Step of each test, in the order given; the family as a whole errs with probability `level`.
+/// Step of each test, in the given order. The whole family errs with probability `level`.
 ///
-/// The i-th smallest of m p values is decided at level / (m − i + 1). The first that is not rejected ends the procedure: all others take
-/// its level, at which their larger p values are not rejected either.
+/// The i-th smallest of m p values is decided at level / (m − i + 1). The first accepted test ends the procedure: all further tests get
+/// its level, at which they are accepted too because of their larger p values.
 ///
 /// # Errors
-/// As [`holm`].
+/// The errors of [`holm`].
 pub(super) fn steps(p_values: &[f64], level: f64) -> Result<Vec<Step>, ComparisonError> {
     let outside = |p: &f64| !(0.0..=1.0).contains(p);
     if let Some(position) = p_values.iter().position(outside) {

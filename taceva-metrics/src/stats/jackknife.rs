@@ -1,4 +1,4 @@
-//! Delete-one-cluster jackknife: variation of a score between contact points.
+//! Delete-one-cluster jackknife: variation of a score over choices of contact points.
 
 use super::ends::{Ends, Estimated, Moved};
 use crate::count::as_f64;
@@ -7,20 +7,20 @@ use crate::score::range::Range;
 use crate::score::value::UndefinedReason;
 use crate::score::{ClusteredBy, Interval};
 
-/// Least degrees of freedom of a variance of few clusters. If one cluster causes all of the variance, fewer would widen the interval
-/// several times without containing the truth more often.
+/// Least degrees of freedom of a variance from few clusters. If one cluster causes all of the variance, fewer would widen the interval
+/// several times without improving its coverage.
 const LEAST_FREEDOM: f64 = 3.0;
 
-/// The score with one cluster left out.
+/// Score with one cluster left out.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LeftOut {
-    /// Samples of the cluster, at least one.
+    /// Number of samples of the cluster, at least one.
     pub(crate) count: u64,
-    /// The score of all the others.
+    /// Score of all other clusters.
     pub(crate) value: Result<f64, UndefinedReason>,
 }
 
-/// Interval of an estimate from the scores without each one of the clusters.
+/// Interval of an estimate from the scores with one cluster left out each.
 pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interval {
     let counts = left_out.iter().map(|cluster| cluster.count);
     let estimated = Estimated {
@@ -54,10 +54,10 @@ pub(crate) fn interval(value: f64, range: Range, left_out: &[LeftOut]) -> Interv
     }
 }
 
-/// Standard error and degrees of freedom of the same jackknife on the scale without ends; `None` unless all scores are on that scale.
+/// Standard error and degrees of freedom of the same jackknife on the unbounded scale; `None` unless all scores have a value there.
 ///
-/// A score of few clusters is skewed on its own scale: a cluster with large errors raises it more by its presence than it lowers it by its
-/// absence. The standard error would then depend on the value of the score; on the scale without ends it does not (`docs/coverage.md`).
+/// A score of few clusters is skewed: a cluster with large errors raises the score more by its presence than it lowers the score by its
+/// absence. The standard error would then depend on the value of the score; on the unbounded scale the standard error does not (`docs/coverage.md`).
 fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
     let carry = |cluster: &LeftOut| {
         let value = estimated.carry(cluster.value.ok()?)?;
@@ -71,17 +71,17 @@ fn carried(estimated: &Estimated, left_out: &[LeftOut]) -> Option<[f64; 2]> {
     Some([moved.standard_error, moved.freedom])
 }
 
-/// Standard error of `value`, the score of all clusters, on its own scale.
+/// Standard error of `value`, the score of all clusters, in its unit.
 pub(crate) fn standard_error(value: f64, left_out: &[LeftOut]) -> Result<f64, UndefinedReason> {
     moved(value, left_out).map(|moved| moved.standard_error)
 }
 
-/// The standard error of `value`, the score of all clusters, and its degrees of freedom.
+/// Standard error of `value`, the score of all clusters, and its degrees of freedom.
 ///
 /// With n samples, m_j of them in cluster j, h_j = n / m_j and θ_(−j) the score without cluster j: the pseudo-values are
 /// h_j θ − (h_j − 1) θ_(−j), and the variance is the mean of z_j², z_j² = (pseudo_j − mean)² / (h_j − 1).
 ///
-/// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² it has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.
+/// A variance from few clusters is itself uncertain. With κ = mean(z⁴) / mean(z²)² the variance has 2 g / (κ − (g − 3)/(g − 1)) degrees of freedom.
 /// These are g − 1 for the κ = 3 of normal pseudo-values, never more, and at least [`LEAST_FREEDOM`].
 ///
 /// # Reference
@@ -131,7 +131,7 @@ fn moved(value: f64, left_out: &[LeftOut]) -> Result<Moved, UndefinedReason> {
     })
 }
 
-/// Interval about `value` from a `variance` of the delta method over `clusters` clusters.
+/// Interval about `value` from the delta-method variance `variance` over `clusters` clusters.
 pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: usize) -> Interval {
     let freedom = u32::try_from(clusters.saturating_sub(1)).expect("at most 64 clusters");
     let moved = Moved {
@@ -168,7 +168,7 @@ pub(crate) fn delta_interval(value: f64, range: Range, variance: f64, clusters: 
 mod tests {
     use super::*;
 
-    /// The mean of `clusters`, left out one by one.
+    /// Mean of `clusters`, and the means with one cluster left out each.
     fn means(clusters: &[&[f64]]) -> (f64, Vec<LeftOut>) {
         let all: Vec<f64> = clusters.concat();
         let mean = |sum: f64, n: usize| sum / as_f64(n as u64);

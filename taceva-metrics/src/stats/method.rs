@@ -2,7 +2,7 @@
 
 use super::bootstrap::PoissonBootstrap;
 
-/// Method for the interval of a score. Both vary clusters: contact points, or samples that the caller takes as independent.
+/// Method for the interval of a score. Both methods vary clusters: contact points, or samples that the caller declares independent.
 ///
 /// ```
 /// use taceva_metrics::{IntervalMethod, PoissonBootstrap};
@@ -12,9 +12,9 @@ use super::bootstrap::PoissonBootstrap;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IntervalMethod {
-    /// Leaves out one cluster after the other: the score is computed once more per cluster.
+    /// Leaves out one cluster at a time and recomputes the score once per cluster.
     #[default]
     Jackknife,
-    /// Weights clusters at random, for skewed scores: the score is computed once per replicate.
+    /// Gives clusters random weights, for skewed scores, and recomputes the score once per replicate.
     PoissonBootstrap(PoissonBootstrap),
 }

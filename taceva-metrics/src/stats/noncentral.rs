@@ -1,15 +1,15 @@
-//! Student's noncentral t distribution, for limits of detection.
+//! Student's noncentral t distribution, for detection limits.
 
 use super::student::{gamma_ratio, power, quantile, within};
 use crate::elementary::exponential;
 
-/// Risk of a false alarm, and of a miss.
+/// Risk of a false alarm, and risk of a missed detection.
 const RISK: f64 = 0.05;
 
-/// δ(ν): distance from zero in standard deviations at which a value is missed in 5 % of cases by a threshold that zero exceeds in 5 %. The
+/// δ(ν): smallest difference from zero, in standard deviations, with 5 % risk of a false alarm and 5 % risk of a missed detection. The
 /// standard deviation is estimated with `freedom` degrees of freedom.
 ///
-/// The noncentrality at which P(t′ ≤ t) = 5 % for the t that Student's distribution exceeds in 5 %; 3.29 for a known deviation.
+/// The noncentrality at which P(t′ ≤ t) = 5 % for the 95 % quantile t of Student's distribution; 3.29 for a known deviation.
 ///
 /// # Reference
 /// Currie, Pure and Applied Chemistry 67 (1995), 3.7.2; ISO 11843-2, 5.1.
@@ -29,20 +29,20 @@ pub(crate) fn detection_factor(freedom: f64) -> f64 {
     f64::midpoint(low, high)
 }
 
-/// The t that Student's distribution exceeds in 5 %.
+/// The 95 % quantile of Student's distribution.
 pub(crate) fn critical_factor(freedom: f64) -> f64 {
     quantile(1.0 - 2.0 * RISK, freedom)
 }
 
-/// P(t′ ≤ t) for t ≥ 0, of `freedom` degrees of freedom and the noncentrality δ ≥ 0.
+/// P(t′ ≤ t) for t ≥ 0, with `freedom` degrees of freedom and the noncentrality δ ≥ 0.
 ///
 /// With y = δ² / 2, Poisson's shares pⱼ = e^(−y) yʲ / j! and qⱼ = δ e^(−y) yʲ / (√2 Γ(j + 3/2)) and the incomplete beta function I of
-/// x = t² / (ν + t²) it is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))), since Σ qⱼ = 1 − 2 Φ(−δ).
+/// x = t² / (ν + t²) the result is ½ (1 + Σ pⱼ Iₓ(j + ½, ν/2) − Σ qⱼ (1 − Iₓ(j + 1, ν/2))), since Σ qⱼ = 1 − 2 Φ(−δ).
 ///
 /// # Reference
 /// Lenth, Algorithm AS 243, Applied Statistics 38 (1989).
 fn below(t: f64, freedom: f64, noncentrality: f64) -> f64 {
-    /// Most terms, far beyond the mode of Poisson's shares.
+    /// Greatest number of terms, far beyond the mode of the Poisson weights.
     const MOST: u32 = 10_000;
     let half = freedom / 2.0;
     let x = t * t / (freedom + t * t);

@@ -1,4 +1,4 @@
-//! Limits that hold a share of all values of a normal distribution, from a sample of independent or clustered values.
+//! Limits that contain a share of all values of a normal distribution, from a sample of independent or clustered values.
 
 use super::one_way::OneWay;
 use crate::count::as_f64;
@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, Moments};
 /// Share of values between the limits, and confidence of all intervals.
 const SHARE: f64 = 0.95;
 
-/// Mean and standard deviation of values of a normal distribution, with the uncertainty of both.
+/// Mean and standard deviation of a normal sample, with the uncertainty of both.
 ///
 /// ```
 /// use taceva_metrics::{Moments, NormalSample};
@@ -33,12 +33,12 @@ pub struct NormalSample {
     pub sd: f64,
     /// Degrees of freedom of the standard deviation.
     pub freedom: f64,
-    /// Number of independent values whose mean would be as uncertain.
+    /// Number of independent values whose mean has the same uncertainty.
     pub worth: f64,
 }
 
 impl NormalSample {
-    /// Sample of independent values; `None` below two of them.
+    /// Sample of independent values; `None` for fewer than two values.
     #[must_use]
     pub fn of_independent(values: &Moments) -> Option<NormalSample> {
         let mean = values.mean().filter(|_| values.n >= 2)?;
@@ -55,9 +55,9 @@ impl NormalSample {
         })
     }
 
-    /// Sample in clusters whose values depend on each other; `None` without any variation.
+    /// Sample of clustered values, which depend on each other within a cluster; `None` without any variation.
     ///
-    /// The standard deviation holds both components of variance, with degrees of freedom by Satterthwaite. Ends of intervals are therefore
+    /// The standard deviation includes both variance components, with degrees of freedom by Satterthwaite. Interval ends are therefore
     /// approximate.
     #[must_use]
     pub fn of_clusters(model: &OneWay) -> Option<NormalSample> {
@@ -75,20 +75,20 @@ impl NormalSample {
         })
     }
 
-    /// Limits between which 95 % of values are: mean ± 1.96 standard deviations.
+    /// Limits that contain 95 % of values: mean ± 1.96 standard deviations.
     #[must_use]
     pub fn limits(&self) -> [f64; 2] {
         let half = self.half_width();
         [self.mean - half, self.mean + half]
     }
 
-    /// Half of the distance between the limits.
+    /// Half the distance between the limits.
     #[must_use]
     pub fn half_width(&self) -> f64 {
         z() * self.sd
     }
 
-    /// Interval of 95 % of the mean, by Student's distribution.
+    /// 95 % interval of the mean, by Student's distribution.
     #[must_use]
     pub fn mean_ends(&self) -> [f64; 2] {
         let t = student_t::quantile(f64::midpoint(1.0, SHARE), self.mean_freedom);
@@ -96,7 +96,7 @@ impl NormalSample {
         [self.mean - half, self.mean + half]
     }
 
-    /// Interval of 95 % of the standard deviation, by the distribution χ².
+    /// 95 % interval of the standard deviation, by the chi-square distribution.
     #[must_use]
     pub fn sd_ends(&self) -> [f64; 2] {
         let at = |share: f64| {
@@ -106,7 +106,7 @@ impl NormalSample {
         [at(1.0 - tail), at(tail)]
     }
 
-    /// Intervals of 95 % of the lower limit and of the upper one, by the noncentral t distribution.
+    /// 95 % intervals of the lower and of the upper limit, by the noncentral t distribution.
     #[must_use]
     pub fn limit_ends(&self) -> [[f64; 2]; 2] {
         let root = self.worth.sqrt();
@@ -121,14 +121,14 @@ impl NormalSample {
         ]
     }
 
-    /// Factor k: mean ± k standard deviations holds `share` of all values with `confidence`. `None` for an argument out of range.
+    /// Factor k: mean ± k standard deviations contains `share` of all values with `confidence`. `None` for an argument out of range.
     #[must_use]
     pub fn tolerance_factor(&self, share: f64, confidence: f64) -> Option<f64> {
         tolerance::two_sided_factor(self.worth, self.freedom, share, confidence)
     }
 }
 
-/// The normal quantile of the limits, 1.96.
+/// Normal quantile of the limits, 1.96.
 fn z() -> f64 {
     normal::quantile(f64::midpoint(1.0, SHARE))
 }

@@ -1,11 +1,11 @@
-//! One-way random model: groups that differ, and readings that scatter within them.
+//! One-way random model: readings in groups with different means, and scatter within groups.
 
 use std::collections::BTreeMap;
 
 use crate::count::as_f64;
 use crate::exact::{Dyadic, ExactSum, Fraction, Moments};
 
-/// Components of variance of groups of unequal size, in the unit of the readings.
+/// Variance components of groups of unequal size, in the unit of the readings.
 ///
 /// ```
 /// use taceva_metrics::OneWay;
@@ -28,13 +28,13 @@ pub struct OneWay {
     pub groups: u64,
     /// Mean of all readings.
     pub mean: f64,
-    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom. Large groups share one deviation, so they count less than their size.
+    /// Standard uncertainty of the mean, with groups − 1 degrees of freedom. Readings of one group share a deviation, so large groups weigh less.
     pub mean_uncertainty: f64,
     /// Mean square between groups.
     pub mean_square_between: f64,
     /// Mean square within groups.
     pub mean_square_within: f64,
-    /// Readings of a group as they enter the component between groups.
+    /// Effective number of readings of a group in the component between groups.
     pub group_size: f64,
     /// Standard deviation within groups.
     pub within: f64,
@@ -42,17 +42,17 @@ pub struct OneWay {
     pub within_freedom: f64,
     /// Standard deviation between groups; 0 for a negative component.
     pub between: f64,
-    /// Degrees of freedom of `between`; none for a component that is not above 0.
+    /// Degrees of freedom of `between`; `None` for a component that is not above 0.
     pub between_freedom: Option<f64>,
-    /// The component between groups as a variance, before a negative one is replaced by 0.
+    /// Variance between groups, before a negative estimate is replaced by 0.
     pub between_variance_raw: f64,
     /// Standard deviation of a single reading, from both components.
     pub total: f64,
-    /// Degrees of freedom of `total`; none without variation.
+    /// Degrees of freedom of `total`; `None` without variation.
     pub total_freedom: Option<f64>,
 }
 
-/// Exact sums of groups, which determine their components of variance. Sums of different groups merge, in any order.
+/// Exact sums of groups, which determine the variance components. Sums of different groups merge in any order.
 ///
 /// ```
 /// use taceva_metrics::{OneWay, OneWaySums};
@@ -70,14 +70,14 @@ pub struct OneWaySums {
     squared_sizes: u64,
     sum: ExactSum,
     squares: ExactSum,
-    /// Σ x² of the groups of one reading.
+    /// Σ x² of the groups with one reading.
     singles: ExactSum,
-    /// Σ (Σ x)² of the larger groups of each size, so that a quotient is formed once a size.
+    /// Σ (Σ x)² of the larger groups by size, so that each size needs only one quotient.
     of_sizes: BTreeMap<u64, Dyadic>,
 }
 
 impl OneWaySums {
-    /// Adds a whole group; one without readings counts as none.
+    /// Adds a whole group. A group without readings is ignored.
     pub fn add(&mut self, group: &Moments) {
         if group.n == 0 {
             return;
@@ -96,7 +96,7 @@ impl OneWaySums {
         }
     }
 
-    /// Adds other groups.
+    /// Adds the groups of `other`.
     pub fn merge(&mut self, other: &OneWaySums) {
         self.readings = self.readings.saturating_add(other.readings);
         self.groups = self.groups.saturating_add(other.groups);
@@ -120,7 +120,7 @@ impl OneWaySums {
         self.groups
     }
 
-    /// The components; `None` below two groups, or without two readings in one of them.
+    /// Variance components; `None` for fewer than two groups, or if no group has two readings.
     pub fn model(&self) -> Option<OneWay> {
         let (n, k) = (self.readings, self.groups);
         if k < 2 || n <= k {
@@ -183,7 +183,7 @@ impl OneWaySums {
 }
 
 impl OneWay {
-    /// Components of finite readings by group; `None` below two groups, or without two readings in one of them.
+    /// Variance components of finite readings by group; `None` for fewer than two groups, or if no group has two readings.
     ///
     /// # Panics
     /// If a reading is NaN or infinite.

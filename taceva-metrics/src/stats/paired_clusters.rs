@@ -1,4 +1,4 @@
-//! Pairs of clusters of the same samples on both sides.
+//! Pairs of equal clusters of two models.
 
 use super::cluster_sums::{ClusterSum, ClusterSums};
 use super::error::ComparisonError;
@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::score::least::LEAST_CLUSTERS;
 use crate::score::value::UndefinedReason;
 
-/// A difference of means, with its standard error between choices of clusters.
+/// Difference of means, with its standard error over choices of clusters.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MeanDifference {
     pub(super) value: f64,
@@ -17,7 +17,7 @@ pub(super) struct MeanDifference {
     pub(super) freedom: f64,
 }
 
-/// Pairs of clusters that have samples.
+/// Pairs of clusters with samples.
 pub(super) struct PairedClusters {
     counts: Vec<u64>,
     differences: Vec<ExactSum>,
@@ -25,7 +25,7 @@ pub(super) struct PairedClusters {
 }
 
 impl PairedClusters {
-    /// Pairs the clusters of both sides, which must have the same names and numbers of samples.
+    /// Pairs the clusters of both sides. Names and numbers of samples must be equal.
     pub(super) fn of(sums: Sides<&ClusterSums>) -> Result<PairedClusters, ComparisonError> {
         let sampled = |(_, cell): &(&str, &ClusterSum)| cell.n > 0;
         let unpaired = |side, name: &str| ComparisonError::Unpaired {
@@ -61,17 +61,17 @@ impl PairedClusters {
         Ok(pairs)
     }
 
-    /// Samples of each cluster in the order of names.
+    /// Numbers of samples of the clusters, in the order of names.
     pub(super) fn counts(&self) -> &[u64] {
         &self.counts
     }
 
-    /// Σ of A minus Σ of B, for each cluster in the order of names.
+    /// Σ of A minus Σ of B of the clusters, in the order of names.
     pub(super) fn differences(&self) -> &[ExactSum] {
         &self.differences
     }
 
-    /// The difference of the means over all samples, with its standard error between choices of clusters.
+    /// Difference of the means over all samples, with its standard error over choices of clusters.
     pub(super) fn mean_difference(&self) -> Result<MeanDifference, ComparisonError> {
         let clusters = self.counts.len();
         if clusters < LEAST_CLUSTERS {

@@ -1,4 +1,4 @@
-//! Two models on the same samples, whose trainings vary.
+//! Comparison of two models on the same samples, with variation between trainings.
 
 use super::by_intervals::LEAST_P;
 use super::cluster_sums::ClusterSums;
@@ -10,11 +10,11 @@ use super::sides::Sides;
 use super::student::upper;
 use super::trainings::TrainingSpread;
 
-/// Difference of two models on the same samples, whose trainings vary too.
+/// Compares two models on the same samples, with the variation between trainings.
 ///
 /// With D the difference of the means over all samples, s its standard error between clusters (jackknife, G − 1 degrees of freedom) and
-/// sᵢ those between trainings, t = D / √(s² + Σ sᵢ²) follows Student's distribution. Its degrees of freedom are those of Welch and
-/// Satterthwaite. Signs of clusters cannot show how another training would have scored, so that this is no sign-flip test.
+/// sᵢ the standard errors between trainings, t = D / √(s² + Σ sᵢ²) follows Student's distribution. The degrees of freedom are those of Welch
+/// and Satterthwaite. This is no sign-flip test, because signs of clusters cannot show the effect of another training.
 ///
 /// ```
 /// use taceva_metrics::{ClusterSums, Sides, TrainingSpread, paired_over_trainings};
@@ -32,7 +32,7 @@ use super::trainings::TrainingSpread;
 /// ```
 ///
 /// # Errors
-/// As [`SignFlip::test`](crate::SignFlip::test); [`ComparisonError::NoSpread`] if neither clusters nor trainings vary.
+/// The errors of [`SignFlip::test`](crate::SignFlip::test); [`ComparisonError::NoSpread`] if neither clusters nor trainings vary.
 pub fn paired_over_trainings(
     sums: Sides<&ClusterSums>,
     spreads: &[TrainingSpread],

@@ -1,4 +1,4 @@
-//! Independent parts of a standard error, put together.
+//! Combines independent parts of a standard error.
 
 /// One independent part of a standard error.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,7 +8,7 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// Both parts together: s² = s₁² + s₂² with s⁴ / (s₁⁴/ν₁ + s₂⁴/ν₂) degrees of freedom. A part of 0 changes nothing, to the bit.
+    /// Combines two parts: s² = s₁² + s₂² with s⁴ / (s₁⁴/ν₁ + s₂⁴/ν₂) degrees of freedom. A part of 0 changes no bit.
     ///
     /// # Reference
     /// Welch, The generalization of Student's problem, Biometrika 34 (1947); JCGM 100:2008 (GUM), G.4.1.
@@ -33,7 +33,7 @@ impl Part {
     }
 }
 
-/// √(x² + y²), scaled so that squares stay in the range of binary64.
+/// √(x² + y²), scaled so that the squares stay within the range of binary64.
 pub(super) fn root_of_squares(x: f64, y: f64) -> f64 {
     let larger = x.max(y);
     if larger > 0.0 && larger.is_finite() {

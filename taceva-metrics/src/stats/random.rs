@@ -1,4 +1,4 @@
-//! Random bits by counter: each draw is a function of a seed and its purpose, so it is independent of the order.
+//! Random bits by counter: each draw is a function of a seed and its purpose, so the order of draws has no effect.
 
 use taceva_core::random::mix;
 

@@ -1,9 +1,9 @@
-//! Variation of a value between repeats with different random numbers.
+//! Variation of a value over repeats with different random numbers.
 
 use super::student::quantile;
 use crate::score::COVERAGE;
 
-/// Statistics of a few repeated values of one quantity.
+/// Statistics of repeated values of one quantity.
 ///
 /// ```
 /// let repeats = taceva_metrics::Repeats::of(&[0.9, 1.1]).ok_or("two values")?;
@@ -55,7 +55,7 @@ impl Repeats {
         (mean.is_finite() && half.is_finite()).then_some(repeats)
     }
 
-    /// The same with its interval clamped to the possible range of the quantity.
+    /// The same statistics, with the interval limited to the possible range of the quantity.
     pub fn within(self, [least, greatest]: [f64; 2]) -> Repeats {
         Repeats {
             interval: self.interval.map(|end| end.clamp(least, greatest)),

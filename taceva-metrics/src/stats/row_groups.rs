@@ -1,4 +1,4 @@
-//! Rows of a batch by cluster, found once for all families with clusters of the same labels.
+//! Rows of a batch by cluster, computed once for all families with the same cluster labels.
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
@@ -8,10 +8,10 @@ use taceva_core::random::mix;
 
 use taceva_core::random::fnv_1a;
 
-/// Number of clusters to which more locations than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS) are assigned by hash.
+/// Number of hashed clusters, for more contact points than [`NAMED_CLUSTERS`](crate::NAMED_CLUSTERS).
 pub const HASHED_CLUSTERS: usize = 32;
 
-/// Labels, with the rows of each.
+/// Labels, with the rows of each name.
 pub(crate) struct Grouped<'a> {
     labels: Cow<'a, Labels>,
     seed: u64,
@@ -20,7 +20,7 @@ pub(crate) struct Grouped<'a> {
 }
 
 impl<'a> Grouped<'a> {
-    /// Rows of `labels`, grouped when first used; `seed` is the seed of the hash.
+    /// Rows of `labels`, grouped at first use; `seed` is the seed of the hash.
     pub(crate) fn new(labels: Cow<'a, Labels>, seed: u64) -> Grouped<'a> {
         Grouped {
             labels,
@@ -35,13 +35,13 @@ impl<'a> Grouped<'a> {
         self.labels.names()
     }
 
-    /// The rows of each name.
+    /// Rows of each name.
     pub(crate) fn by_name(&self) -> &Groups {
         let find = || Groups::new(&self.labels, self.names().len(), |name, _| name);
         self.by_name.get_or_init(find)
     }
 
-    /// Sets the known groups of rows, by hash or by name.
+    /// Stores known groups of rows, by hash or by name.
     pub(crate) fn know(&self, is_by_hash: bool, groups: &Groups) {
         let cell = match is_by_hash {
             true => &self.by_hash,
@@ -50,7 +50,7 @@ impl<'a> Grouped<'a> {
         cell.get_or_init(|| groups.clone());
     }
 
-    /// Rows of each cluster, with names assigned to clusters by hash.
+    /// Rows of each cluster after assigning names to clusters by hash.
     pub(crate) fn by_hash(&self) -> &Groups {
         let of_name = |_, name: &str| bucket(self.seed, name);
         let find = || Groups::new(&self.labels, HASHED_CLUSTERS, of_name);
@@ -65,7 +65,7 @@ pub(super) fn bucket(seed: u64, name: &str) -> usize {
     usize::try_from(bucket).expect("below 32")
 }
 
-/// Rows of a batch, grouped by cluster, so that a cluster's sums are visited once per batch.
+/// Rows of a batch grouped by cluster, so that a batch accesses a cluster's sums only once.
 #[derive(Clone, Debug)]
 pub(crate) struct Groups {
     rows: Vec<u32>,
@@ -73,7 +73,7 @@ pub(crate) struct Groups {
 }
 
 impl Groups {
-    /// Rows by the group of their name; within a group in the order of the batch.
+    /// Rows by the group of their name, in batch order within a group.
     fn new(points: &Labels, groups: usize, group_of: impl Fn(usize, &str) -> usize) -> Groups {
         let names = points.names().iter().enumerate();
         let group_of_name: Vec<usize> = names.map(|(at, name)| group_of(at, name)).collect();
@@ -96,7 +96,7 @@ impl Groups {
         Groups { rows, ends }
     }
 
-    /// The same groups for rows sorted by group.
+    /// The same groups for rows that are sorted by group.
     pub(crate) fn side_by_side(&self) -> Groups {
         Groups {
             rows: (0..).take(self.rows.len()).collect(),
@@ -109,7 +109,7 @@ impl Groups {
         &self.rows
     }
 
-    /// The groups that have rows.
+    /// Groups with at least one row.
     pub(crate) fn iter(&self) -> impl Iterator<Item = (usize, &[u32])> {
         let starts = std::iter::once(0).chain(self.ends.iter().copied());
         let bounds = starts.zip(&self.ends).enumerate();

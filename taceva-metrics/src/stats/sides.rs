@@ -1,8 +1,8 @@
-//! The two sides of a comparison, by name.
+//! The two sides of a comparison.
 
 use std::fmt;
 
-/// Values of both sides of a comparison: a plain pair, which gets no further fields.
+/// Values of both sides of a comparison. A plain pair, which gets no further fields.
 ///
 /// ```
 /// use taceva_metrics::Sides;
@@ -11,14 +11,14 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sides<T> {
-    /// Value of the minuend.
+    /// Value of side A, the minuend of the difference.
     pub a: T,
-    /// Value of the subtrahend.
+    /// Value of side B, the subtrahend of the difference.
     pub b: T,
 }
 
 impl<T> Sides<T> {
-    /// Results of `convert` for both sides, or the first error.
+    /// Converts both sides; returns the first error.
     pub(crate) fn try_map<U, E>(
         self,
         mut convert: impl FnMut(Side, T) -> Result<U, E>,
@@ -37,9 +37,9 @@ impl<T> Sides<T> {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Side {
-    /// The minuend.
+    /// The minuend of the difference.
     A,
-    /// The subtrahend.
+    /// The subtrahend of the difference.
     B,
 }
 

@@ -1,4 +1,4 @@
-//! Two models on the same samples: the paired sign-flip permutation test.
+//! Paired sign-flip permutation test of two models on the same samples.
 
 use super::cluster_sums::ClusterSums;
 use super::difference::{Difference, DifferenceTest, Flips, Inverse, Tested};
@@ -9,16 +9,16 @@ use super::sides::Sides;
 use super::signed_sums::SignedSums;
 use crate::exact::Dyadic;
 
-/// Test of whether two models are equally far from the truth, on the same samples.
+/// Test of equal errors of two models on the same samples.
 ///
-/// With D_c = Σ|d_A| − Σ|d_B| of cluster c and T = Σ_c D_c: for equal models each D_c might as well have the other sign, and |T| would be
-/// typical of |T*| = |Σ_c ± D_c|. Over N patterns of signs drawn at random p = (1 + #{|T*| ≥ |T|}) / (1 + N). If all 2^G patterns are at
-/// most N, p is the share of all of them with |T*| ≥ |T|. Sums and comparisons are exact, so ties are ties.
+/// Let D_c = Σ|d_A| − Σ|d_B| of cluster c and T = Σ_c D_c. For equal models each D_c could have the opposite sign with equal probability, so |T|
+/// has the distribution of |T*| = |Σ_c ± D_c|. Over N random patterns of signs, p = (1 + #{|T*| ≥ |T|}) / (1 + N). If the number of all
+/// patterns, 2^G, is at most N, p is the share of all patterns with |T*| ≥ |T|. Sums and comparisons are exact, so ties are exact.
 ///
 /// Flip i negates the c-th cluster, in the order of names, if bit c mod 64 of the hash of (seed, i, ⌊c / 64⌋) is set. The result depends
-/// only on the samples, the seed and the number of flips. Exchanging A and B keeps p.
+/// only on the samples, the seed and the number of flips. Exchanging A and B does not change p.
 ///
-/// Hits of a success rate are compared the same way, board by board: Σ is then the number of hits.
+/// Correct predictions of a success rate are compared in the same way, board by board. Σ is then the number of correct predictions.
 ///
 /// ```
 /// use taceva_metrics::{ClusterSums, Sides, SignFlip};
@@ -39,7 +39,7 @@ use crate::exact::Dyadic;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SignFlip {
-    /// Most patterns of signs that are drawn.
+    /// Greatest number of patterns of signs.
     pub flips: u32,
     /// Seed of the patterns.
     pub seed: u64,
@@ -56,7 +56,7 @@ impl Default for SignFlip {
 }
 
 impl SignFlip {
-    /// The same test with at most this many [`flips`](SignFlip::flips).
+    /// The same test with another greatest number of [`flips`](SignFlip::flips).
     #[must_use]
     pub const fn with_flips(self, flips: u32) -> SignFlip {
         SignFlip { flips, ..self }
@@ -68,18 +68,17 @@ impl SignFlip {
         SignFlip { seed, ..self }
     }
 
-    /// Difference of the means over all samples. Its standard error comes from the jackknife over clusters, its interval from the test
-    /// itself.
+    /// Difference of the means over all samples. The standard error comes from the jackknife over clusters, the interval from the sign-flip test.
     ///
-    /// The interval contains the differences δ whose p value is above the level. If A were worse by δ everywhere, D_c less δ times the
-    /// samples of c might as well have the other sign. A pattern of signs has two mean differences, of the negated clusters and of the
-    /// others. Below the observed difference the pattern counts from the smaller mean on; above it, up to the larger one. So each end is
-    /// one of those means, found by counting.
+    /// The interval contains the differences δ whose p value is above the level. If A were worse by δ everywhere, D_c minus δ times the number of
+    /// samples of c could have the opposite sign. A pattern of signs has two mean differences: of the negated clusters and of the
+    /// others. Below the observed difference the pattern counts from the smaller mean on; above, up to the larger mean. Each end is
+    /// therefore one of these means, found by counting.
     ///
     /// # Errors
-    /// - [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the two do not have the same clusters with as many samples.
-    /// - [`ComparisonError::TooFewClusters`] if there are fewer than five with samples.
-    /// - [`ComparisonError::NoInterval`] if a number is beyond the range of binary64.
+    /// - [`ComparisonError::Unpaired`] or [`ComparisonError::Counts`] if the clusters of both sides differ in name or number of samples.
+    /// - [`ComparisonError::TooFewClusters`] for fewer than five clusters with samples.
+    /// - [`ComparisonError::NoInterval`] if a number exceeds the range of binary64.
     pub fn test(&self, sums: Sides<&ClusterSums>) -> Result<Difference, ComparisonError> {
         let pairs = PairedClusters::of(sums)?;
         let mean = pairs.mean_difference()?;
@@ -146,21 +145,21 @@ impl SignFlip {
         }
     }
 
-    /// 2^clusters, if at most the number of flips.
+    /// Number of all patterns, 2^clusters; `None` if above the number of flips.
     fn all_patterns(&self, clusters: usize) -> Option<u32> {
         let patterns = 2_u32.checked_pow(u32::try_from(clusters).ok()?)?;
         (patterns <= self.flips).then_some(patterns)
     }
 }
 
-/// Result over all patterns.
+/// Result over all tried patterns.
 struct Tried {
     test: DifferenceTest,
     p: f64,
     flips: Flips,
 }
 
-/// Clusters for averages over both halves of a pattern.
+/// Clusters for the means over both halves of a pattern.
 struct Halves {
     /// Number of samples, and Σ of A minus Σ of B, of each cluster.
     clusters: Vec<[f64; 2]>,

@@ -2,14 +2,14 @@
 
 use crate::exact::ExactSum;
 
-/// Numbers in one fixed-point format, with the 32-bit digits that the widest span needs.
+/// Numbers in one fixed-point format, with as many 32-bit digits as the numbers need.
 pub(super) struct SignedSums {
-    /// The numbers in order, each from its lowest digit; a negative number has negative digits.
+    /// Digits of the numbers in order, lowest digit first. A negative number has negative digits.
     digits: Vec<i64>,
     width: usize,
 }
 
-/// Magnitude of a sum: digits from the highest, so that magnitudes sort like numbers.
+/// Magnitude of a sum: digits from the highest, so that lexicographic order is numerical order.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Magnitude(Vec<i64>);
 

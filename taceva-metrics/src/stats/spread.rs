@@ -1,10 +1,10 @@
-//! Spread of the means of bins, and the part of chance in it.
+//! Spread of bin means, and the part of this spread from chance.
 
 use crate::exact::moments::Moments;
 use crate::exact::{Dyadic, ExactSum};
 use crate::score::value::{Finished, UndefinedReason};
 
-/// One bin with its rounded statistics, computed once for several spreads.
+/// One bin with rounded statistics, computed once for several spreads.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bin {
     n: u64,
@@ -27,15 +27,15 @@ impl Bin {
         })
     }
 
-    /// True if it has at least `n_min` samples.
+    /// True if the bin has at least `n_min` samples.
     pub(crate) fn has(&self, n_min: u64) -> bool {
         self.n >= n_min
     }
 }
 
-/// Means m_b of some bins, and the scatter within them.
+/// Means m_b of bins, and the scatter within the bins.
 ///
-/// Each m_b is RN of an exact mean. All else is exact over those binary64 numbers, and rounded where a line says RN.
+/// Each m_b is RN of an exact mean. Further arithmetic on these binary64 numbers is exact, except for the roundings marked RN.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Spread {
     means: Moments,
@@ -47,13 +47,13 @@ pub(crate) struct Spread {
     shares: ExactSum,
     /// RN(STD) of each bin, ddof 0.
     deviations: ExactSum,
-    /// True if some scatter is beyond binary64.
+    /// True if the scatter of a bin exceeds the range of binary64.
     overflow: bool,
     n_min: u64,
 }
 
 impl Spread {
-    /// The spread of those `bins` that have at least `n_min` samples.
+    /// Spread of the `bins` with at least `n_min` samples.
     pub(crate) fn of(bins: &[Bin], n_min: u64) -> Spread {
         let mut spread = Spread {
             n_min,
@@ -77,7 +77,7 @@ impl Spread {
         }
     }
 
-    /// Number of bins that count.
+    /// Number of bins with enough samples.
     pub(crate) fn bins(&self) -> u64 {
         self.means.n
     }
@@ -100,7 +100,7 @@ impl Spread {
         self.noise_variance().map(f64::sqrt)
     }
 
-    /// The STD of the bin means beyond chance: √max(0, variance − noise floor²), the variance with ddof 1.
+    /// STD of the bin means beyond chance: √max(0, variance − noise floor²), with ddof 1.
     pub(crate) fn excess(&self) -> Finished {
         let noise = self.noise_variance()?;
         let variance = self.means.variance(1).ok_or(UndefinedReason::TooFewBins {
@@ -110,7 +110,7 @@ impl Spread {
         Ok((variance - noise).max(0.0).sqrt())
     }
 
-    /// RN of the mean over the bins of the population STD within each.
+    /// RN of the mean of the population STD within each bin.
     pub(crate) fn within(&self) -> Finished {
         if self.overflow {
             return Err(UndefinedReason::Overflow);

@@ -1,28 +1,28 @@
 //! Student's t distribution, for any positive number of degrees of freedom.
 //!
-//! Only + − × ÷ and √ are used, which IEEE 754 rounds the same everywhere. A platform's own logarithm or gamma function would not give the
-//! same bytes on every machine.
+//! The code uses only + − × ÷ and √, which IEEE 754 rounds equally everywhere. The logarithms and gamma functions of platforms differ in
+//! their last bits.
 
 use std::f64::consts::{FRAC_2_SQRT_PI, PI};
 
-/// The t for which ±t encloses the share `central` of the distribution.
+/// Quantile: t for which ±t contains the share `central` of the distribution.
 ///
-/// Newton's steps increase towards it, because the probability is concave there. The first step that does not increase ends them. `central`
+/// Newton's steps increase towards the quantile, because the probability is concave. The iteration ends at the first step that does not increase. `central`
 /// is in 0..1 and `freedom` above 0.
 pub(super) fn quantile(central: f64, freedom: f64) -> f64 {
     climb(freedom, |split| central - split.within)
 }
 
-/// The t for which the share `level` is outside ±t. Unlike [`quantile`], it keeps its digits for a small `level`.
+/// Quantile: t for which the share `level` is outside ±t. Unlike [`quantile`], this function is accurate for a small `level`.
 ///
 /// `level` is above 0 and at most 1.
 pub(super) fn beyond(level: f64, freedom: f64) -> f64 {
     climb(freedom, |split| split.beyond - level)
 }
 
-/// Newton's steps from 0, while they increase.
+/// Newton's method from 0, while the steps increase.
 fn climb(freedom: f64, missing: impl Fn(&Split) -> f64) -> f64 {
-    /// Maximum number of steps; the 95 % quantile takes about ten.
+    /// Greatest number of steps; the 95 % quantile needs about ten.
     const MOST_STEPS: usize = 200;
     let mut t = 0.0;
     for _ in 0..MOST_STEPS {
@@ -60,12 +60,12 @@ struct Split {
 }
 
 impl Split {
-    /// Uses the series of the smaller part, approximately, so that small p values keep their digits.
+    /// Uses the series of the approximately smaller part, so that small p values are accurate.
     ///
     /// # Reference
     /// Abramowitz and Stegun, Handbook of Mathematical Functions, 26.7.1 and 26.5.4, of the incomplete beta function.
     fn at(t: f64, freedom: f64) -> Split {
-        /// Square of four standard deviations, beyond which little is left of 1 − within.
+        /// Square of four standard deviations, beyond which 1 − within is nearly 0.
         const FAR: f64 = 16.0;
         let square = t * t;
         let half = freedom / 2.0;
@@ -121,7 +121,7 @@ fn density(t: f64, freedom: f64) -> f64 {
 
 /// Γ(z + 1/2) / Γ(z), z > 0.
 ///
-/// With w = z − 1/4 it is √w (1 + 1/64 w⁻² − 19/8192 w⁻⁴ + 631/2¹⁹ w⁻⁶ − 174317/2²⁷ w⁻⁸ + …), whose next term is below 2⁻⁵⁸
+/// With w = z − 1/4 the ratio is √w (1 + 1/64 w⁻² − 19/8192 w⁻⁴ + 631/2¹⁹ w⁻⁶ − 174317/2²⁷ w⁻⁸ + …), whose next term is below 2⁻⁵⁸
 /// from z = 32 on; smaller arguments are raised by z / (z + 1/2) = the quotient of the ratios at z and z + 1.
 pub(super) fn gamma_ratio(z: f64) -> f64 {
     const COEFFICIENTS: [f64; 5] = [

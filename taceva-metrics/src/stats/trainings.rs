@@ -1,8 +1,8 @@
-//! Variation of a score between trainings of one model.
+//! Variation of a score over trainings of one model.
 
 use super::repeats::Repeats;
 
-/// Standard error of a score by the random numbers of its training, from the scores of several trainings on the same samples.
+/// Standard error of a score from the random numbers of its training, estimated from several trainings on the same samples.
 ///
 /// ```
 /// use taceva_metrics::TrainingSpread;
@@ -39,7 +39,7 @@ impl TrainingSpread {
         })
     }
 
-    /// Standard error of the mean of all trainings; `None` as for [`of_one`](TrainingSpread::of_one).
+    /// Standard error of the mean of all trainings; `None` under the conditions of [`of_one`](TrainingSpread::of_one).
     ///
     /// ```
     /// let spread = taceva_metrics::TrainingSpread::of_mean(&[0.0, 2.0]).ok_or("two")?;
@@ -54,7 +54,7 @@ impl TrainingSpread {
         })
     }
 
-    /// True if the trainings do not all give one score.
+    /// True if the scores of the trainings differ.
     pub fn varies(&self) -> bool {
         self.standard_error > 0.0
     }

@@ -7,7 +7,7 @@ pub(super) fn paulson(ratio: f64, above: f64, below: f64) -> f64 {
     ((1.0 - b) * root - (1.0 - a)) / (b * root * root + a).sqrt()
 }
 
-/// Cube root by Newton's method, with the same bits on every machine. Returns 0 for numbers up to 0.
+/// Cube root by Newton's method, with the same bits on every machine. Returns 0 for negative numbers and 0.
 fn cube_root(of: f64) -> f64 {
     if of <= 0.0 {
         return 0.0;

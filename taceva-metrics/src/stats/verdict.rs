@@ -9,7 +9,7 @@ use super::error::ComparisonError;
 use super::sides::Side;
 use crate::score::direction::Better;
 
-/// Question about a difference.
+/// Question about the difference of two scores.
 ///
 /// ```
 /// use taceva_metrics::{Better, Question, Unit};
@@ -23,12 +23,12 @@ pub struct Question {
     pub unit: Unit,
     /// Direction of good scores.
     pub better: Better,
-    /// Greatest distance of scores that count as equivalent, in `unit`; `None` without a test of equivalence.
+    /// Greatest difference of equivalent scores, in `unit`; `None` without a test of equivalence.
     pub margin: Option<f64>,
 }
 
 impl Question {
-    /// Question for the better of two scores in `unit`, without equivalence.
+    /// Question which of two scores in `unit` is better, without a test of equivalence.
     pub const fn new(unit: Unit, better: Better) -> Question {
         Question {
             unit,
@@ -37,7 +37,7 @@ impl Question {
         }
     }
 
-    /// The same question, with equivalence within [`margin`](Question::margin).
+    /// The same question, with a test of equivalence within [`margin`](Question::margin).
     #[must_use]
     pub fn with_margin(self, margin: impl Into<Option<f64>>) -> Question {
         Question {
@@ -47,7 +47,7 @@ impl Question {
     }
 }
 
-/// Answer of a comparison at a level of 5 %, for a difference that [`decide`](crate::decide) decided within its family.
+/// Answer of a comparison at a level of 5 %, after [`decide`](crate::decide) has decided the difference within its family.
 ///
 /// ```
 /// use taceva_core::Unit;
@@ -71,23 +71,23 @@ pub enum Verdict {
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
-        /// Better side. `None` if values near zero are good and the scores are on both sides of zero, or if no value is better.
+        /// Better side. `None` if no direction is good, or if values near zero are good and the scores are on both sides of zero.
         better: Option<Side>,
     },
-    /// The scores may be equal, or differ by any value in the interval.
+    /// No difference is shown: the true difference may be any value in the interval.
     NoDifferenceShown {
         /// Observed difference.
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
     },
-    /// The scores are closer than the margin, even if a difference is shown.
+    /// The scores differ by less than the margin, even if a difference is shown.
     Equivalent {
         /// Observed difference.
         difference: Difference,
         /// The unit of the scores.
         unit: Unit,
-        /// Allowed distance, which contains the interval.
+        /// Greatest difference of equivalent scores. The interval is within this margin.
         margin: f64,
     },
     /// No answer, with the reason.
@@ -129,7 +129,7 @@ impl Verdict {
         Ok(Verdict::NoDifferenceShown { difference, unit })
     }
 
-    /// Side that is shown to be better, if any.
+    /// Side shown to be better; `None` if no side is.
     pub fn better(&self) -> Option<Side> {
         match self {
             Verdict::Differs { better, .. } => *better,

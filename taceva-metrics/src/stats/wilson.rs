@@ -1,12 +1,12 @@
-//! Wilson's interval of a share of independent trials.
+//! Wilson interval of a share of independent trials.
 
 use crate::count::as_f64;
 use crate::score::Interval;
 
-/// z for which ±z encloses 95 % of the normal distribution.
+/// Normal quantile: ±z contains 95 % of the normal distribution.
 const Z: f64 = 1.959_963_984_540_054;
 
-/// Interval about `hits` of `trials`, at least one, as if all were independent.
+/// Interval about `hits` of `trials`, for at least one trial, all independent.
 ///
 /// # Reference
 /// Wilson, Probable inference, the law of succession, and statistical inference, JASA 22 (1927).
@@ -16,7 +16,7 @@ pub(crate) fn interval(hits: u64, trials: u64) -> Interval {
     Interval::Wilson { low, high }
 }
 
-/// Shares that are less than `z` standard errors from `share` of `n` trials; `n` need not be whole.
+/// Shares within `z` standard errors of `share` for `n` trials; `n` may be fractional.
 pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
     let scale = 1.0 + z * z / n;
     let centre = (share + z * z / (2.0 * n)) / scale;

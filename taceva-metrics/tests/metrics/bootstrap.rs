@@ -36,7 +36,7 @@ fn score(evaluation: &Evaluation, metric: &str) -> Score {
     evaluation.score(metric, "Fx").cloned().expect("a score")
 }
 
-/// Few locations, clustered by name, or many, clustered by hash.
+/// Rows of few locations, clustered by name, or of many, clustered by hash.
 fn rows() -> impl Strategy<Value = Vec<Row>> {
     prop_oneof![Just(12_u32), Just(300_u32)].prop_flat_map(|points| {
         let row = (-2.0..2.0, -2.0..2.0, 0..points);
@@ -68,7 +68,7 @@ proptest! {
     }
 }
 
-/// Errors that depend on the location, at `points` locations.
+/// Rows of `points` locations, with errors that depend on the location.
 fn uneven(points: u32) -> Vec<Row> {
     let row = |row: u32| {
         let point = row % points;

@@ -1,4 +1,4 @@
-//! Splitting, ordering and merging do not change sums by press, unit, time or level, and states survive a file.
+//! Sums by press, unit, time or level are independent of splitting, order and merging, and states survive a file.
 
 use crate::support::laws::{self, states};
 use proptest::prelude::*;
@@ -48,7 +48,7 @@ fn plan() -> MetricPlan {
     plan
 }
 
-/// Few distinct values, so that many are equal; sometimes one of any size, none, or NaN.
+/// Few distinct values, so that many are equal; sometimes a value of any magnitude, none, or NaN.
 fn value() -> impl Strategy<Value = Option<f64>> {
     prop_oneof![
         12 => (-8_i32..9).prop_map(|step| Some(f64::from(step) * 0.3)),
@@ -59,7 +59,7 @@ fn value() -> impl Strategy<Value = Option<f64>> {
     ]
 }
 
-/// Samples of few points, units and times; some name no point.
+/// Samples of few points, units and times. Some samples have no point.
 fn samples() -> impl Strategy<Value = Vec<Sample>> {
     let points = prop_oneof![4 => Just(3_u32), 1 => Just(100_u32)];
     (points, prop::bool::weighted(0.8)).prop_flat_map(|(points, all_named)| {

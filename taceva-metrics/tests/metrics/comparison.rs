@@ -7,7 +7,7 @@ use taceva_metrics::{
     Side, Sides, SignFlip, StatedInterval, Verdict, by_intervals, decide,
 };
 
-/// Hours of sleep that ten patients gained with each of two drugs (Student 1908, after Cushny and Peebles).
+/// Additional hours of sleep of ten patients with each of two drugs (Student 1908, after Cushny and Peebles).
 const SLEEP: Sides<[f64; 10]> = Sides {
     a: [0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0],
     b: [1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4],

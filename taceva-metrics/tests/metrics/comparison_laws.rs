@@ -1,4 +1,4 @@
-//! Laws of comparisons: the order of samples and the names of the sides change no answer.
+//! Laws of comparisons: the order of samples and the names of the sides do not change the answer.
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
@@ -30,7 +30,7 @@ fn test(sums: &Sides<ClusterSums>, flips: u32) -> Difference {
     sign_flip.test(sides).expect("enough clusters")
 }
 
-/// At least five clusters; values of any size, many of them equal.
+/// Samples of at least five clusters, with values of any magnitude and many equal values.
 fn samples() -> impl Strategy<Value = Samples> {
     let value = || {
         prop_oneof![
@@ -48,7 +48,7 @@ fn samples() -> impl Strategy<Value = Samples> {
     })
 }
 
-/// p value, by counting patterns in whole numbers.
+/// p value from counting sign patterns in whole numbers.
 fn counted(differences: &[i64]) -> f64 {
     let observed = differences.iter().sum::<i64>().abs();
     let patterns = 0..1_u32 << differences.len();

@@ -1,4 +1,4 @@
-//! Differences of models that were trained several times: worked examples, apart from this program.
+//! Differences of models with several trainings: examples worked out independently of this program.
 
 use taceva_core::random::Draws;
 use taceva_metrics::{
@@ -14,7 +14,7 @@ fn spread(values: &[f64]) -> TrainingSpread {
     TrainingSpread::of_one(values).expect("at least two trainings")
 }
 
-/// The difference from a constant without any uncertainty.
+/// Difference between `estimate` and a constant without uncertainty.
 fn from_constant(estimate: Estimate, constant: f64) -> Difference {
     let b = Estimate::try_new(constant, 0.0, 30).expect("an estimate");
     by_intervals(Sides { a: estimate, b }).expect("A varies")
@@ -77,7 +77,7 @@ fn a_share_has_fewer_effective_samples_over_trainings() {
     near(share.interval[1], 0.966_046_366_768_468 - 0.5);
 }
 
-/// Five points whose differences are −0.1, −0.2, −0.2, −0.05 and −0.1.
+/// Sums of five points, whose differences are −0.1, −0.2, −0.2, −0.05 and −0.1.
 fn five_points() -> Sides<ClusterSums> {
     let mut sums: Sides<ClusterSums> = Sides::default();
     let errors = [(0.1, 0.2), (0.2, 0.4), (0.1, 0.3), (0.3, 0.35), (0.2, 0.3)];

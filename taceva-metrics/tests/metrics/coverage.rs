@@ -1,5 +1,5 @@
-//! Intervals by contact point contain the expected score as often as stated; intervals by sample do not. Simulated presses;
-//! `examples/coverage.rs` runs more of them.
+//! Intervals by contact point contain the expected score as often as stated; intervals by sample do not. The presses are simulated;
+//! `examples/coverage.rs` runs more designs.
 
 use crate::support::simulation::{Design, METRICS, Method, coverage};
 use taceva_metrics::BootstrapEnds;

@@ -5,7 +5,7 @@ use taceva_metrics::{
     MetricPlan, Readings, Rows, Sample, SampleSink, UndefinedReason, Unit, Value, catalogue,
 };
 
-/// Predictions of 100 different samples, and their truth.
+/// 100 distinct predictions and their truths.
 fn drawn() -> (Vec<f64>, Vec<f64>) {
     let truth: Vec<f64> = (0..100).map(|row| f64::from(row) / 10.0).collect();
     let error = |row: u32| f64::from(row * 37 % 101) / 1000.0;

@@ -1,4 +1,4 @@
-//! Sums at which common algorithms fail: among whole numbers, across the whole range, after many carries.
+//! Sums that common algorithms compute wrongly: whole numbers, numbers over the whole range, and sums with many carries.
 
 use taceva_metrics::ExactSum;
 
@@ -6,7 +6,7 @@ fn sum(values: impl IntoIterator<Item = f64>) -> ExactSum {
     values.into_iter().collect()
 }
 
-/// 2^exponent to the bit. For subnormal results, `powi` differs between the compiler and the machine.
+/// 2^exponent to the bit. The result of `powi` for subnormal numbers depends on the compiler and the machine.
 fn power(exponent: i32) -> f64 {
     let bits = match exponent {
         -1022..=1023 => u64::from((exponent + 1023).unsigned_abs()) << 52,

@@ -1,4 +1,4 @@
-//! Scores by place, scene and grating: values by hand, reasons for missing values, and rejected states.
+//! Scores by place, scene and grating: values computed by hand, reasons for missing values, and rejected states.
 
 mod lighting;
 mod states;

@@ -1,4 +1,4 @@
-//! Scores of sixty ordinary tables against the true values to fifty digits: correctly rounded scores, and nearly correct ones.
+//! Scores of sixty ordinary tables, compared with true values of fifty digits.
 //!
 //! The tables are recipes. `tests/golden/make_tables.py` computes the digits in rational arithmetic.
 
@@ -8,13 +8,13 @@ use serde_json::Value;
 use taceva_metrics::bench::{Case, Kind, Order};
 use taceva_metrics::{Channel, Evaluator};
 
-/// Units in the last place between a score and the true value rounded once.
+/// Distance of a score from the rounded true value, in units in the last place.
 fn apart(found: f64, truth: f64) -> u64 {
     found.to_bits().abs_diff(truth.to_bits())
 }
 
-/// Compared scores: the least number of sixty that equal the rounded true value, and the greatest distance of the others, units in the last
-/// place.
+/// Compared scores: the least number of the sixty that equal the rounded true value, and the greatest distance of the others, in units in the
+/// last place.
 const BOUNDS: [(&str, usize, u64); 4] = [
     ("mae", 50, 1),
     ("rmse", 50, 1),

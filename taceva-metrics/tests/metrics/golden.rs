@@ -1,4 +1,4 @@
-//! Golden values, bit for bit: in the given order, shuffled, in random chunks, in random merge trees, on two threads.
+//! Golden values, bit for bit: in the given order, shuffled, in random chunks, in random merge trees, and on two threads.
 //!
 //! `TACEVA_GOLDEN` names a folder with another `pairs.json` of the same schema.
 
@@ -23,7 +23,7 @@ fn cases() -> Vec<Case> {
     read_cases(&text)
 }
 
-/// Results of both ways to the scores: the sums alone, and a whole evaluation.
+/// Scores computed in two ways: from the sums alone, and by a whole evaluation.
 struct Outcome {
     sums: PairSums,
     evaluator: Evaluator,
@@ -148,7 +148,7 @@ fn status_of(value: Value) -> &'static str {
     }
 }
 
-/// The case's rows in another order, cut into random chunks.
+/// Outcomes for the rows of the case in another order, cut into random chunks.
 fn shuffled_chunks(case: &Case, random: &mut SplitMix64) -> Vec<Outcome> {
     let mut rows: Vec<usize> = (0..case.truth.len()).collect();
     random.shuffle(&mut rows);
@@ -164,7 +164,7 @@ fn shuffled_chunks(case: &Case, random: &mut SplitMix64) -> Vec<Outcome> {
     chunks
 }
 
-/// Runs the other test in a separate process for each instruction set, because a process selects one once.
+/// Runs the other test in a separate process for each instruction set, because a process selects its instruction set only once.
 #[test]
 fn every_golden_value_is_met_on_every_instruction_set_of_the_machine() {
     let program = std::env::current_exe().expect("this program");

@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_metrics::{ExactSum, Isa, PairSpec, PairSums, Paired, Stream, Streams};
 
-/// Numbers of all kinds: typical, of any exponent, denormal, at the limits of valid samples, and NaN.
+/// Numbers of all kinds: typical, with any exponent, denormal, at the limits of valid samples, and NaN.
 fn number() -> impl Strategy<Value = f64> {
     let scaled = |exponents: std::ops::Range<i32>| {
         (-2.0..2.0, exponents).prop_map(|(value, power): (f64, i32)| value * 2.0_f64.powi(power))
@@ -29,7 +29,7 @@ fn number() -> impl Strategy<Value = f64> {
     ]
 }
 
-/// Columns of several blocks, mostly of one kind with some others.
+/// Columns of several blocks, with numbers mostly of one kind.
 fn columns() -> impl Strategy<Value = Vec<[f64; 2]>> {
     let any = prop::collection::vec([number(), number()], 0..80);
     let tame = prop::collection::vec([-2.0..2.0, -2.0..2.0], 0..1500);
@@ -76,7 +76,7 @@ fn scalar(rows: &[[f64; 2]], gate: f64) -> (u64, u64, Vec<ExactSum>, ExactSum) {
     (n, n_gated, sums, gated)
 }
 
-/// Set of streams number `number`.
+/// Set of streams whose bits are `number`.
 fn streams(number: u32) -> Streams {
     let members = Stream::ALL.into_iter();
     let members = members.filter(|stream| number >> (*stream as u32) & 1 == 1);

@@ -1,4 +1,4 @@
-//! Splitting, ordering and merging change nothing: states are equal, and reports are equal byte by byte.
+//! Splitting, order and merging change nothing: states are equal, and reports are equal byte by byte.
 
 use crate::support::laws::{self, states};
 use crate::support::rows::{Row, evaluator, plan};
@@ -15,7 +15,7 @@ fn config() -> ProptestConfig {
     }
 }
 
-/// Typical values, values of any size, and NaN.
+/// Typical values, values of any magnitude, and NaN.
 fn value() -> impl Strategy<Value = Option<f64>> {
     prop_oneof![
         6 => (-2.0..2.0).prop_map(Some),
@@ -25,7 +25,7 @@ fn value() -> impl Strategy<Value = Option<f64>> {
     ]
 }
 
-/// Few locations or many; sometimes a sample without a location.
+/// Rows of few or many locations; sometimes a row without a location.
 fn rows() -> impl Strategy<Value = Vec<Row>> {
     let points = prop_oneof![Just(3_u32), Just(80_u32), Just(1000_u32)];
     (points, prop::bool::weighted(0.8)).prop_flat_map(|(points, all_named)| {

@@ -1,4 +1,4 @@
-//! Scores against fractions of small integers, rounded by long division, and the text of a report.
+//! Scores compared with fractions of small integers, rounded by long division, and the text of a report.
 
 use crate::support::rows::{Row, evaluate};
 use proptest::prelude::*;
@@ -28,7 +28,7 @@ fn nearest(numerator: i128, denominator: i128) -> f64 {
     if negative { -magnitude } else { magnitude }
 }
 
-/// True if `root` is the binary64 nearest to √(squared / n): the midpoints to both neighbours enclose it.
+/// True if `root` is the binary64 nearest to √(squared / n): the root is between the midpoints to both neighbours.
 fn is_nearest_root(root: f64, squared: i128, n: i128) -> bool {
     if squared == 0 {
         return root.to_bits() == 0;

@@ -1,4 +1,4 @@
-//! Periodic angles: an error is the shortest way round.
+//! Periodic angles: an error is the shortest difference over all whole periods.
 
 use std::collections::BTreeMap;
 

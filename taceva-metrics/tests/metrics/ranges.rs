@@ -1,4 +1,4 @@
-//! Every interval stays in the range of its quantity and contains its value, for every metric of the catalogue and any samples.
+//! Every interval is within the range of its quantity and contains the value, for every metric of the catalogue and any samples.
 
 use std::collections::BTreeSet;
 
@@ -158,7 +158,7 @@ fn evaluate(plan: &MetricPlan, samples: &[Sample]) -> Evaluation {
     evaluator.finish().expect("the plan's channels")
 }
 
-/// Fault of an interval, if any, and true if the score has one.
+/// Fault of an interval, if any, and true if the score has an interval.
 fn checked(
     what: &str,
     range: Range,
@@ -177,7 +177,7 @@ fn checked(
     }
 }
 
-/// Scores and variants with an interval, or an error for the first invalid one.
+/// Names of scores and variants with an interval, or an error for the first invalid interval.
 fn intervals(evaluation: &Evaluation) -> Result<BTreeSet<String>, String> {
     let mut found = BTreeSet::new();
     for (metric, label, score) in evaluation.scores() {

@@ -1,4 +1,4 @@
-//! Laws for any samples: powers of two scale exactly, and an error has no direction.
+//! Laws for any samples: scaling by powers of two is exact, and the sign of an error does not matter.
 
 use crate::support::rows::{Row, evaluate};
 use proptest::prelude::*;

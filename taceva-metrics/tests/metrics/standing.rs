@@ -7,7 +7,7 @@ use taceva_metrics::{
     Value, catalogue,
 };
 
-/// Ten presses at each of eight points, with truths 0 to 0.08 N and one of 2 N. The constant 0 is within 0.05 N of six truths in ten.
+/// Scores of ten presses at each of eight points, with truths 0 to 0.08 N and one of 2 N. The constant 0 is within 0.05 N of six truths in ten.
 fn evaluated(errors: [f64; 2], constant: Option<f64>) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let fields = FieldSet::PAIRS.with(Field::Point);
@@ -32,7 +32,7 @@ fn evaluated(errors: [f64; 2], constant: Option<f64>) -> Evaluation {
     evaluator.finish().expect("scores")
 }
 
-/// Standing of `tolerance`, and the share that the constant reaches.
+/// Standing of `tolerance`, and the share reached by the constant.
 fn tolerance(evaluation: &Evaluation) -> (Standing, Option<f64>) {
     let score = evaluation.score("tolerance", "Fz").expect("a score");
     let of_constant = score.variant("of_constant");
@@ -82,7 +82,7 @@ fn what_a_constant_reaches_is_merged_with_that_of_the_same_constant_and_lost_bes
     assert_eq!(share([0.25, 0.0]), None);
 }
 
-/// Six presses at each of `points` points, predicted to within 1 % of a spread of 1 N.
+/// Scores of six presses at each of `points` points, with predictions within 1 % of a spread of 1 N.
 fn of_points(points: usize) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let plan = MetricPlan::new(

@@ -1,4 +1,4 @@
-//! NIST's univariate reference datasets: with rounded sums their deviations lose up to all digits.
+//! NIST's univariate reference datasets, for which deviations from rounded sums lose up to all digits.
 
 use serde_json::Value;
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet};
@@ -7,7 +7,7 @@ use taceva_metrics::{
     Evaluator, ExactSum, Isa, MetricPlan, PairSpec, PairSums, Paired, Stream, Streams, catalogue,
 };
 
-/// Required correct digits: the most that binary64 allows, less the rounding of a root.
+/// Required number of correct digits: the greatest number in binary64, minus the rounding of a root.
 const DIGITS: f64 = 15.8;
 
 struct Dataset {
@@ -40,8 +40,8 @@ fn datasets() -> Vec<Dataset> {
     .collect()
 }
 
-/// Sums with the values as truths and their least value as the estimate. All differences are exact and none is negative, so the variance of
-/// the errors equals that of the values.
+/// Sums with the values as truths and their minimum as the estimate. All differences are exact and at least 0, so the variance of
+/// the errors equals the variance of the values.
 fn sums(values: &[f64], isa: Isa) -> PairSums {
     let spec = PairSpec::new(Streams::ALL);
     let mut sums = PairSums::with_isa(spec, isa).expect("it is available");
@@ -51,7 +51,7 @@ fn sums(values: &[f64], isa: Isa) -> PairSums {
     sums
 }
 
-/// Mean, as the bias of predictions that are all zero.
+/// Mean of the values, computed as the bias of predictions of 0.
 fn mean_of(values: &[f64]) -> f64 {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let plan = MetricPlan::new(&catalogue::ALL, channels.clone(), FieldSet::PAIRS);

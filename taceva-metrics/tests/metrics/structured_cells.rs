@@ -1,4 +1,4 @@
-//! Scores that compare presses at one point: golden vectors, in every order, split and merge.
+//! Scores that compare presses at one point, from golden vectors in every order, split and merged.
 
 use crate::support::golden_vectors::{
     Comparison, Random, check_keys, exact, in_every_way, real, section, text, whole,
@@ -26,7 +26,7 @@ fn variant(score: &Score, name: &str) -> Option<f64> {
     score.variant(name)?.value.scalar()
 }
 
-/// A decimal number or a fraction, as the nearest binary64.
+/// Nearest binary64 of a decimal number or a fraction.
 fn number(value: &Value) -> f64 {
     let parse = |text: &str| text.parse::<f64>().expect("a decimal number");
     match text(value).split_once('/') {
@@ -35,7 +35,7 @@ fn number(value: &Value) -> f64 {
     }
 }
 
-/// Repeats of the recipe; dropped ones are presses with a NaN prediction.
+/// Samples of the recipe's repeats. Dropped repeats are presses with a NaN prediction.
 fn repeats(params: &Value) -> Vec<Sample> {
     let mut random = Random::new(whole(&params["seed"]));
     let count = |key: &str| u32::try_from(whole(&params[key])).expect("a small count");

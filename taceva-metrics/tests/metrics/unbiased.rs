@@ -25,7 +25,7 @@ fn evaluate(metric: &str, channels: &[Channel], samples: &[Sample]) -> Evaluatio
     evaluator.finish().expect("finished")
 }
 
-/// Thirty presses, each repeated `repeats` times, with predictions that scatter by 0.1 N.
+/// Thirty presses with `repeats` repeats each, whose predictions scatter by 0.1 N.
 fn repeats(random: &mut SplitMix64, repeats: u32) -> Vec<Sample> {
     let mut samples = Vec::new();
     for point in 0..30 {
@@ -44,7 +44,7 @@ fn repeats(random: &mut SplitMix64, repeats: u32) -> Vec<Sample> {
     samples
 }
 
-/// The variant that decides verdicts, as an estimate.
+/// Estimate from the variant that decides verdicts.
 fn deciding(evaluation: &Evaluation, metric: &str, variant: Option<&str>) -> Estimate {
     let score = evaluation.score(metric, "Fz").expect("scored");
     let (value, interval) = match variant.and_then(|name| score.variant(name)) {
@@ -81,7 +81,7 @@ fn equal_sensors_with_two_and_ten_repeats_differ_in_at_most_5_percent_of_cases()
     }
 }
 
-/// Presses at `points` places of a disc, four depths each. The mean magnitude of errors grows by `trend` towards the rim.
+/// Presses at `points` places of a disc, at four depths each. The mean magnitude of errors increases by `trend` towards the rim.
 fn places(random: &mut SplitMix64, points: u32, trend: f64) -> Vec<Sample> {
     let mut samples = Vec::new();
     for point in 0..points {

@@ -1,4 +1,4 @@
-//! Scores by press, unit, time and level of samples with a known answer, and reasons for missing ones.
+//! Scores by press, unit, time and level, for samples with a known answer, and reasons for missing scores.
 
 mod detection;
 mod limits;

@@ -1,4 +1,4 @@
-//! A missing value has a reason, in words that a report prints.
+//! A missing value has a reason, which reports print in words.
 
 use crate::support::rows::{Row, evaluate};
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Unit};

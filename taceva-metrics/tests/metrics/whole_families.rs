@@ -1,4 +1,4 @@
-//! Sums without intervals are kept once instead of by contact point: scores and reasons equal those by cluster.
+//! Families without intervals keep their sums once instead of by contact point, with the same scores and reasons.
 
 use crate::support::rows::{Row, batch};
 use taceva_core::{Channel, Channels, FieldSet};
@@ -6,7 +6,7 @@ use taceva_metrics::{
     Clusters, Evaluator, Interval, MetricPlan, State, UndefinedReason, catalogue,
 };
 
-/// Schemas of sums that are kept once.
+/// Schemas of these families.
 const WHOLE: [&str; 2] = ["taceva.joint/2", "taceva.levels/2"];
 
 fn plan(channels: &[Channel]) -> MetricPlan {

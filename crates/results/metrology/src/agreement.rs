@@ -1,4 +1,4 @@
-//! Bland–Altman limits of agreement of two methods that measure the same quantity.
+//! Bland–Altman limits of agreement between two methods that measure the same quantity.
 //!
 //! ```
 //! use taceva_metrology::agreement::{Agreement, Pair};
@@ -41,7 +41,7 @@ impl Pair {
     }
 }
 
-/// Bias and limits of agreement of the first method minus the second, in their unit.
+/// Bias and limits of agreement of the first method minus the second, in the unit of the pairs.
 ///
 /// ```
 /// use taceva_metrology::agreement::{Agreement, Pair};
@@ -52,7 +52,7 @@ impl Pair {
 pub struct Agreement {
     /// Number of pairs.
     pub n: u64,
-    /// Number of clusters, if the pairs came in clusters.
+    /// Number of clusters; `None` for independent pairs.
     pub clusters: Option<u64>,
     /// Mean difference.
     pub bias: f64,
@@ -62,13 +62,13 @@ pub struct Agreement {
     pub sd: f64,
     /// Degrees of freedom of the standard deviation.
     pub freedom: f64,
-    /// Limits between which 95 % of differences are: bias ± 1.96 standard deviations.
+    /// Limits of agreement, which contain 95 % of differences: bias ± 1.96 standard deviations.
     pub limits: [f64; 2],
     /// 95 % confidence interval of the lower limit.
     pub lower_ci95: [f64; 2],
     /// 95 % confidence interval of the upper limit.
     pub upper_ci95: [f64; 2],
-    /// Trend of the difference with the mean of the pair; `None` if all means are equal, and for clusters.
+    /// Trend of the difference with the mean of the pair; `None` for clusters, or if all means are equal.
     pub proportional: Option<Proportional>,
 }
 
@@ -88,9 +88,9 @@ impl Agreement {
         })
     }
 
-    /// Agreement of clustered pairs. Differences within a cluster may be correlated.
+    /// Agreement of clustered pairs. Differences may be correlated within a cluster.
     ///
-    /// The standard deviation includes both components of variance, with degrees of freedom by Satterthwaite. The ends of intervals are therefore
+    /// The standard deviation includes both variance components, with degrees of freedom by Satterthwaite. Interval ends are therefore
     /// approximate. `None` for fewer than two clusters, no cluster with two pairs, a value that is not finite, or no variation.
     ///
     /// ```
@@ -133,7 +133,7 @@ impl Agreement {
     }
 }
 
-/// Sums of the differences of `pairs`; `None` if one is not finite.
+/// Sums of the differences of `pairs`; `None` if a difference is not finite.
 fn differences(pairs: &[Pair]) -> Option<Moments> {
     let differences = pairs.iter().map(|pair| pair.one - pair.other);
     let are_finite = differences.clone().all(f64::is_finite);

@@ -1,6 +1,6 @@
-//! Uncertainty budgets: text of the sources, law of propagation, and a Monte Carlo check.
+//! Uncertainty budgets: parser of the sources, law of propagation, and a Monte Carlo check.
 //!
-//! [`BudgetText`] reads `budget.toml`; [`Evidence`] holds measured figures that its sources name; [`Budget`] is the result.
+//! [`BudgetText`] reads `budget.toml`; [`Evidence`] contains measured figures that sources use by name; [`Budget`] is the result.
 
 mod amount;
 mod assembly;

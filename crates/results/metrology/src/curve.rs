@@ -1,6 +1,6 @@
 //! Calibration curves: least squares with bands, inverse prediction, detection limits, and figures like those of ISO 376 and ISO 7500-1.
 //!
-//! [`CurveFit`] fits; [`ProvingSeries`] and [`IndicationLevel`] give relative errors in %, which [`Standing`] compares with limits.
+//! [`CurveFit`] fits curves; [`ProvingSeries`] and [`IndicationLevel`] compute relative errors in %, which [`Standing`] compares with limits.
 
 mod band;
 mod detection;

@@ -22,7 +22,7 @@ fn is_share(value: f64) -> bool {
     value > 0.0 && value < 1.0
 }
 
-/// Least number of values whose extremes contain `share` of any continuous distribution with `confidence`; `None` if an argument is no share.
+/// Least number of values whose extremes contain `share` of any continuous distribution with `confidence`; `None` unless both are in 0..1.
 #[must_use]
 pub fn least_n_two_sided(share: f64, confidence: f64) -> Option<u64> {
     // 1 − n Pⁿ⁻¹ + (n − 1) Pⁿ grows with n.
@@ -40,7 +40,7 @@ pub fn least_n_one_sided(share: f64, confidence: f64) -> Option<u64> {
     (is_share(share) && is_share(confidence)).then(|| least_n(1, |n| held(n) >= confidence))
 }
 
-/// Least number from `first` on for which `is_enough` holds, which must be monotonic.
+/// Least number from `first` on for which `is_enough` is true. `is_enough` must be monotonic.
 fn least_n(first: u64, is_enough: impl Fn(f64) -> bool) -> u64 {
     let (mut low, mut high) = (first, first);
     while !is_enough(high as f64) && high < 1 << 52 {
@@ -56,7 +56,7 @@ fn least_n(first: u64, is_enough: impl Fn(f64) -> bool) -> u64 {
     high
 }
 
-/// Tolerance interval mean ± k s of independent, normally distributed values, in their unit.
+/// Tolerance interval mean ± k s of independent, normally distributed values, in the unit of the values.
 ///
 /// ```
 /// use taceva_metrology::tolerance::ToleranceInterval;
@@ -79,7 +79,7 @@ pub struct ToleranceInterval {
     pub mean: f64,
     /// Standard deviation of the values.
     pub sd: f64,
-    /// Factor of the standard deviation in the interval.
+    /// Factor k of the standard deviation.
     pub k: f64,
     /// Lower end.
     pub low: f64,
@@ -96,9 +96,9 @@ impl ToleranceInterval {
         ToleranceInterval::of_sample(values.n, &sample, share, confidence)
     }
 
-    /// Interval of clustered values. Values within a cluster may be correlated, so the confidence is approximate.
+    /// Tolerance interval of clustered values. Values may be correlated within a cluster, so the confidence is approximate.
     ///
-    /// `None` for fewer than two clusters, no cluster with two values, no variation, and as for [`of`](ToleranceInterval::of).
+    /// `None` for fewer than two clusters, no cluster with two values, no variation, and under the conditions of [`of`](ToleranceInterval::of).
     ///
     /// ```
     /// use taceva_metrology::tolerance::ToleranceInterval;
@@ -145,7 +145,7 @@ impl ToleranceInterval {
     }
 }
 
-/// Sums of `values`; `None` if one is not finite.
+/// Sums of `values`; `None` if a value is not finite.
 fn moments(values: &[f64]) -> Option<Moments> {
     let are_finite = values.iter().all(|value| value.is_finite());
     are_finite.then(|| values.iter().copied().collect())

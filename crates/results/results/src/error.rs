@@ -1,4 +1,4 @@
-//! Errors of rejected results.
+//! Errors of reading results.
 
 /// Reason why results are rejected.
 #[derive(Debug, thiserror::Error)]
@@ -10,7 +10,7 @@ pub enum ResultsError {
     /// The seal is missing, unreadable or does not match the content.
     #[error("{0}")]
     Seal(#[from] taceva_files::seal::SealError),
-    /// The text names no schema of results.
+    /// The schema in the text is not a schema of results.
     #[error("{found}: expected `taceva.evaluation/1.0` or `taceva.run/1.0`")]
     Schema {
         /// Schema found.
@@ -23,17 +23,17 @@ pub enum ResultsError {
     Version {
         /// Schema found.
         found: String,
-        /// Version that wrote it, or `of an unknown version`.
+        /// Version that wrote the results, or `of an unknown version`.
         version: String,
-        /// Schema of this version.
+        /// Schema of the running version.
         expected: &'static str,
-        /// Command that recreates the results.
+        /// Command that computes the results again.
         command: &'static str,
     },
-    /// A value breaks the schema.
+    /// A value violates the schema.
     #[error("{place}: {problem}")]
     Place {
-        /// Path of the value: `metrics.mae.Fz.value`.
+        /// Path of the value in the JSON: `metrics.mae.Fz.value`.
         place: String,
         /// Value found and value expected.
         problem: String,

@@ -1,11 +1,11 @@
-//! Folds of a cross-validation, as the provenance of a result states them.
+//! Folds of a cross-validation, read from the provenance of a result.
 
 use taceva_core::counted;
 
 use crate::provenance::Provenance;
 
 impl Provenance {
-    /// Cross-validation behind the scores, in words. `None` if one model was fitted and other samples tested it.
+    /// Description of the cross-validation behind the scores. `None` if one model was fitted, and tested on other samples.
     ///
     /// ```
     /// use taceva_results::Provenance;
@@ -41,7 +41,7 @@ impl Provenance {
         }
     }
 
-    /// Samples and models of a [cross-validation](Provenance::cross_validation), in words; `None` without one.
+    /// Description of the samples and models of a [cross-validation](Provenance::cross_validation); `None` without one.
     ///
     /// ```
     /// use taceva_results::Provenance;
@@ -82,7 +82,7 @@ impl Provenance {
 }
 
 impl Provenance {
-    /// Groups that the split keeps together and that intervals leave out: the column `object`, or `block of time`. `None` for other splits.
+    /// Kind of group that the split keeps together and that intervals leave out: the column `object`, or `block of time`. `None` for other splits.
     ///
     /// ```
     /// use taceva_results::Provenance;
@@ -98,7 +98,7 @@ impl Provenance {
     }
 }
 
-/// A split without its number of folds, its shares and its named parts: what it keeps together.
+/// Removes the number of folds, the shares and the named parts from the text of a split. The rest names the group that stays together.
 ///
 /// ```
 /// assert_eq!(taceva_results::kept_together("cv:5 by-column:object"), "by-column:object");

@@ -1,8 +1,8 @@
-//! Escapes CSV cells that a spreadsheet would take for a formula.
+//! Escapes CSV cells that a spreadsheet would evaluate as a formula.
 
-/// Returns the text of a CSV cell, with an apostrophe before the beginning of a formula.
+/// Returns the text of a CSV cell, with an apostrophe before a text that begins like a formula.
 ///
-/// [`unescape_csv`] removes the apostrophe, so that names keep their meaning for programs:
+/// [`unescape_csv`] removes the apostrophe, so that programs read the original names:
 ///
 /// ```
 /// use taceva_results::{escape_csv, unescape_csv};
@@ -16,7 +16,7 @@ pub fn escape_csv(text: &str) -> String {
     }
 }
 
-/// Text of a cell that [`escape_csv`] has written.
+/// Original text of a cell that [`escape_csv`] has written.
 pub fn unescape_csv(cell: &str) -> &str {
     match cell.strip_prefix('\'') {
         Some(text) if begins_like_a_formula(text) => text,
@@ -24,7 +24,7 @@ pub fn unescape_csv(cell: &str) -> &str {
     }
 }
 
-/// True if a spreadsheet may take the text for a formula, or for an escaped one. Full-width signs count as well.
+/// True if a spreadsheet may evaluate the text as a formula, or if the text looks escaped. Full-width signs count as well.
 fn begins_like_a_formula(text: &str) -> bool {
     text.trim_start_matches('\'')
         .starts_with(['=', '+', '-', '@', '\t', '\r', '\n', '＝', '＋', '－', '＠'])

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 use crate::samples::Samples;
 use crate::score::Score;
 
-/// Most groups whose errors are listed.
+/// Greatest number of groups with listed errors.
 const MOST: usize = 20;
 
-/// Mean absolute errors of one group of a split, by channel. They have no interval: an interval needs several groups.
+/// Mean absolute errors of one group of a split, by channel. There is no interval, because an interval needs several groups.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct GroupErrors {
     /// Name of the group.
@@ -28,11 +28,11 @@ pub struct GroupError {
     pub unit: String,
     /// Number of samples.
     pub n: u64,
-    /// Mean absolute error.
+    /// Mean absolute error, in `unit`.
     pub mae: f64,
 }
 
-/// Sum of absolute errors, with their number.
+/// Sum and number of absolute errors.
 #[derive(Clone, Copy, Debug, Default)]
 struct Errors {
     sum: f64,
@@ -50,7 +50,7 @@ impl Errors {
     }
 }
 
-/// Mean absolute errors of each group that the column `group` of `samples` names, for channels with a score `mae` of the same samples. Empty for
+/// Mean absolute errors of each group in the column `group` of `samples`, for channels with a score `mae` of the same samples. Empty for
 /// one group, or more than 20.
 ///
 /// ```

@@ -2,10 +2,10 @@
 
 use taceva_metrics::Scale;
 
-/// Confidence interval of 95 %.
+/// Confidence interval of 95 %, or the reason for its absence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Interval {
-    /// Both ends with their method.
+    /// Both ends and their method.
     Ends {
         /// Lower and upper end, in the unit of the score.
         ends: [f64; 2],
@@ -13,9 +13,9 @@ pub enum Interval {
         method: String,
         /// Standard error behind the ends, in the unit of the score.
         standard_error: Option<f64>,
-        /// Number of clusters.
+        /// Number of clusters; `None` if the result does not state it.
         clusters: Option<u64>,
-        /// Degrees of freedom of Student's t.
+        /// Degrees of freedom of Student's t; `None` if the result does not state them.
         degrees_of_freedom: Option<f64>,
     },
     /// No interval, with the reason.
@@ -37,7 +37,7 @@ impl Interval {
         }
     }
 
-    /// Both ends, if there is an interval.
+    /// Both ends; `None` without an interval.
     pub fn ends(&self) -> Option<[f64; 2]> {
         match self {
             Interval::Ends { ends, .. } => Some(*ends),
@@ -45,7 +45,7 @@ impl Interval {
         }
     }
 
-    /// Method in words.
+    /// Method in words; `None` without an interval.
     pub fn method(&self) -> Option<&str> {
         match self {
             Interval::Ends { method, .. } => Some(method),
@@ -53,7 +53,7 @@ impl Interval {
         }
     }
 
-    /// Degrees of freedom of Student's t, if the result states them.
+    /// Degrees of freedom of Student's t; `None` if the result does not state them.
     pub fn degrees_of_freedom(&self) -> Option<f64> {
         match self {
             Interval::Ends {
@@ -63,7 +63,7 @@ impl Interval {
         }
     }
 
-    /// Scale on which the interval was computed, parsed from the words of its method.
+    /// Scale of the interval, parsed from the words of its method.
     pub fn scale(&self) -> Scale {
         const SCALES: [Scale; 4] = [Scale::Logarithm, Scale::Logit, Scale::Cut, Scale::Wilson];
         let method = self.method().unwrap_or_default();
@@ -71,7 +71,7 @@ impl Interval {
         SCALES.into_iter().find(is_named).unwrap_or(Scale::Own)
     }
 
-    /// Number of clusters, if the result or its method states it.
+    /// Number of clusters; `None` if neither the result nor its method states the number.
     pub fn clusters(&self) -> Option<usize> {
         if let Interval::Ends {
             clusters: Some(clusters),
@@ -86,7 +86,7 @@ impl Interval {
     }
 }
 
-/// Method of an interval for readers, of a score of `n` samples. States the samples behind groups of independent samples.
+/// Method of an interval in words for readers, for a score of `n` samples. States the number of samples behind groups of independent samples.
 ///
 /// ```
 /// use taceva_results::described_method;

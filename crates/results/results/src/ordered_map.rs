@@ -1,4 +1,4 @@
-//! JSON maps with preserved key order.
+//! JSON maps that preserve the order of keys.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use serde::de::{Deserialize, Deserializer, MapAccess, Visitor};
 use serde::ser::{Serialize, Serializer};
 
-/// Entries of a map in their own order.
+/// Entries of a map in the order of the JSON text.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Ordered<T>(pub(crate) Vec<(String, T)>);
 

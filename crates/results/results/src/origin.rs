@@ -1,10 +1,10 @@
-//! Sentence on samples that nobody measured.
+//! Sentence about samples that are not measurements.
 
 use std::collections::BTreeSet;
 
-/// Sentence that every output about samples of these `sources` states; `None` if nothing is known to be simulated or synthetic.
+/// Sentence for every output about samples from these `sources`; `None` if no source is known to be simulated or synthetic.
 ///
-/// A source is one of those of [`Subject::source`](crate::Subject). One simulated or emulated device makes a whole recording `simulated`.
+/// A source is a value of [`Subject::source`](crate::Subject). One simulated or emulated device makes a whole recording `simulated`.
 ///
 /// ```
 /// use taceva_results::not_measured;

@@ -1,11 +1,11 @@
-//! Provenance of results, sufficient to reproduce them.
+//! Provenance of results: everything needed to compute them again.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{Date, PressOutcome, Traceability};
 
-/// Text in every note of optimistic scores: neighbours or copies of test samples were in the training part.
+/// Text in each note about optimistic scores: the training part contained neighbours or copies of test samples.
 ///
 /// ```
 /// let note = "3 of 9 pictures of the test part are in the fit too: the scores are optimistic";
@@ -15,7 +15,7 @@ pub const OPTIMISTIC: &str = "the scores are optimistic";
 
 /// Inputs and settings behind a result.
 ///
-/// Independent of the machine, the time and the number of jobs: equal inputs give equal bytes.
+/// The provenance is independent of the machine, the time and the number of jobs: equal inputs give equal bytes.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Provenance {
@@ -24,22 +24,22 @@ pub struct Provenance {
     /// Digest of the dataset.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub dataset: Option<String>,
-    /// Recordings joined for the result, in the order named; empty for a single recording.
+    /// Recordings joined for the result, in the order of the command; empty for a single recording.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<RecordingProvenance>,
     /// View of the frames, for samples with several pictures: `left`, or `left+right` side by side.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
-    /// Digests of the tables, if there is no dataset.
+    /// Digests of the tables by name, for results without a dataset.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub tables: BTreeMap<String, String>,
-    /// Model with its digest.
+    /// Model with its digest; `None` if no model was fitted or named.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub model: Option<ModelProvenance>,
-    /// Split of the samples.
+    /// Split of the samples; `None` without a split.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub split: Option<String>,
-    /// Findings on neighbouring samples that resemble each other, and their split.
+    /// Sentence about neighbouring samples that resemble each other, and about their division into parts.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub neighbours: Option<String>,
     /// Seed of all random choices.
@@ -51,24 +51,24 @@ pub struct Provenance {
     /// Number of samples in each part, if there is a split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub samples: BTreeMap<String, usize>,
-    /// Press outcomes of each recording, by its digest, if a protocol pressed.
+    /// Number of presses by outcome, by digest of the recording; empty without a protocol.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub presses: BTreeMap<String, BTreeMap<PressOutcome, u64>>,
-    /// Instruments of the labels with their certificates; those of all recordings.
+    /// Instruments of the labels with their certificates, over all recordings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub traceability: Vec<Traceability>,
-    /// UTC day of the last recording with instruments.
+    /// UTC day of the last recording that has instruments.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<Date>,
-    /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded now or for cached
+    /// Number of frames behind the result, each counted once for training and once for prediction, whether decoded in this run or before for cached
     /// features.
     pub frames_decoded: u64,
-    /// Third-party plugins involved.
+    /// Third-party plugins behind the result.
     pub plugins: Vec<String>,
     /// Digest of the table of samples written beside the result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_table: Option<String>,
-    /// Accepted manual edits of its inputs: file, date, reason and digests.
+    /// Accepted manual edits of the inputs: file, date, reason and digests.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub edits: Vec<String>,
     /// Notes for readers.
@@ -86,7 +86,7 @@ impl Provenance {
         counts
     }
 
-    /// Provenance of a combined result: common values, and the inputs of both.
+    /// Provenance of a combined result: the common values, and the inputs of both results.
     #[must_use]
     pub fn joined(mut self, other: &Provenance) -> Provenance {
         let same = |own: Option<String>, other: &Option<String>| {
@@ -152,16 +152,16 @@ impl Provenance {
 pub struct ModelProvenance {
     /// Name: `ridge`.
     pub name: String,
-    /// Settings, including selected ones.
+    /// Settings, including those that the fit chose.
     pub settings: BTreeMap<String, String>,
-    /// Digest of the model file; `unknown` for a model that the caller holds.
+    /// Digest of the model file; `unknown` for a model in the caller's program.
     pub digest: String,
-    /// Digest of the training dataset; `unknown` for a model fitted elsewhere.
+    /// Digest of the training dataset; `unknown` for a model fitted by another program.
     pub fitted_on: String,
-    /// Setting that the fit chose, and how: `strength with each training sample left out in turn`.
+    /// Setting that the fit chose, and the method: `strength with each training sample left out in turn`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub chosen_by: Option<String>,
-    /// `given` if the caller holds the model and only its predictions were used.
+    /// `given` if the model is in the caller's program and only its predictions were used.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub origin: Option<String>,
 }
@@ -169,11 +169,11 @@ pub struct ModelProvenance {
 /// One of several recordings behind a result.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct RecordingProvenance {
-    /// Prefix of the names of its samples and contact points.
+    /// Prefix of the names of the samples and contact points in the recording.
     pub name: String,
     /// Digest of the recording.
     pub digest: String,
-    /// Number of its samples, scored or not.
+    /// Number of samples in the recording, scored or not.
     pub samples: usize,
 }
 

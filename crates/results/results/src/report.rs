@@ -11,63 +11,63 @@ use crate::score::{Score, by_metric, scores};
 use crate::seeds::OverSeeds;
 use crate::subject::Subject;
 
-/// Schema of one evaluation.
+/// Schema of one evaluation report.
 ///
-/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4; the schema after this one is 1.5.
+/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4. The schema after this one is 1.5.
 pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
 
 /// Scores of one sensor, with subject and provenance.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationReport {
-    /// [`EVALUATION_SCHEMA`].
+    /// Schema of the report: [`EVALUATION_SCHEMA`].
     pub schema: String,
-    /// Sensor.
+    /// Evaluated sensor.
     pub subject: Subject,
     /// Scores in catalogue order.
     #[serde(rename = "metrics", with = "by_metric")]
     pub scores: Vec<Score>,
-    /// Skipped metrics.
+    /// Skipped metrics with their reasons.
     #[serde(default)]
     pub skipped: Vec<Skip>,
     /// Inputs and settings behind the scores.
     #[serde(default)]
     pub provenance: Provenance,
-    /// Scores of each recording, if several were joined.
+    /// Scores of each recording; empty unless several recordings were joined.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by_recording: Vec<RecordingScores>,
-    /// Errors of each group that the split keeps together, if a column names at most 20.
+    /// Errors of each group that the split keeps together; empty unless a column names at most 20 groups.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub by_group: Vec<GroupErrors>,
-    /// Scores with other training seeds, if requested.
+    /// Scores with other training seeds; `None` if not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
-    /// Samples behind the scores, if available; not part of the JSON.
+    /// Samples behind the scores, if available. They are not part of the JSON.
     #[serde(skip)]
     pub samples: Option<Samples>,
 }
 
-/// Scores for the samples of one of several recordings.
+/// Scores from the samples of one of several recordings.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RecordingScores {
-    /// Name, as in the provenance.
+    /// Name of the recording in the provenance.
     pub recording: String,
     /// Digest of the recording.
     pub digest: String,
-    /// Number of its scored samples.
+    /// Number of scored samples in the recording.
     pub samples: usize,
-    /// Scores of predictions, with intervals by its contact points.
+    /// Scores of predictions, with intervals by the contact points of the recording.
     #[serde(rename = "metrics", with = "by_metric")]
     pub scores: Vec<Score>,
-    /// Skipped metrics.
+    /// Skipped metrics with their reasons.
     pub skipped: Vec<Skip>,
 }
 
-/// Skipped metric or stage, with the reason.
+/// Skipped metric or stage with its reason.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Skip {
     /// Skipped item: `metric:r_light`.
     pub what: String,
-    /// Reason.
+    /// Reason for the skip.
     pub reason: String,
 }
 
@@ -109,7 +109,7 @@ impl EvaluationReport {
         EvaluationReport::new(Subject::default(), evaluation, provenance)
     }
 
-    /// Score of a metric and a channel or plane.
+    /// Score of `metric` on the channel or plane `channel`; `None` if the report lacks the score.
     pub fn score(&self, metric: &str, channel: &str) -> Option<&Score> {
         let mut scores = self.scores.iter();
         scores.find(|score| score.metric == metric && score.channel == channel)

@@ -1,4 +1,4 @@
-//! Table of the samples behind scores.
+//! Table of the samples behind the scores.
 
 mod dominant_sample;
 
@@ -11,7 +11,7 @@ use taceva_core::{Channel, Column, Unit, shown};
 
 use crate::formula::{escape_csv, unescape_csv};
 
-/// Columns of words.
+/// Names of text columns.
 const WORDS: [&str; 11] = [
     Samples::KEY,
     "recording",
@@ -25,7 +25,7 @@ const WORDS: [&str; 11] = [
     Samples::GROUP,
     Samples::FOLD,
 ];
-/// Columns of numbers other than channels.
+/// Names of numeric columns other than channels.
 const NUMBERS: [&str; 6] = [
     "depth_step",
     "repeat",
@@ -34,15 +34,15 @@ const NUMBERS: [&str; 6] = [
     "spacing_predicted_mm",
     "intensity",
 ];
-/// Suffix of columns with predictions before limiting to the bounds of the model.
+/// Suffix of columns with unclipped predictions, before limiting to the bounds of the model.
 const UNBOUNDED: &str = "_predicted_unbounded";
 
-/// Samples by column: `sample`, covariates, and truth and prediction of each channel.
+/// Samples in columns: `sample`, covariates, and truth and prediction of each channel.
 ///
 /// # Shapes
-/// Every column has one value per sample, or none.
+/// Each column has one optional value per sample.
 /// # Units
-/// Channels in their own unit; `t_s` in s; spacings in mm; `intensity` in grey levels.
+/// Channels in their own unit; `t_s` in s; spacings in mm; `intensity` in grey levels, 0 to 255.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
     rows: usize,
@@ -83,22 +83,22 @@ pub enum SamplesError {
         /// Content of the cell.
         found: String,
     },
-    /// A missing column `sample`.
+    /// The column `sample` is missing.
     #[error("samples: column `sample` with the names of the rows is missing")]
     NoKey,
 }
 
 impl Samples {
-    /// Name of the id column in all tables that this program writes.
+    /// Name of the column with sample names, in all tables that this program writes.
     pub const KEY: &'static str = "sample";
-    /// Name of the column of groups that a split keeps together.
+    /// Name of the column with the groups that a split keeps together.
     pub const GROUP: &'static str = "group";
-    /// Name of the column of folds, from 1, each predicted by its own model.
+    /// Name of the column with fold numbers, from 1. Each fold was predicted by its own model.
     pub const FOLD: &'static str = "fold";
-    /// Suffix of the columns of predictions.
+    /// Suffix of the columns with predictions.
     pub const PREDICTED: &'static str = "_predicted";
 
-    /// Samples called `ids` from the recordings in these folders.
+    /// Samples called `ids`, from the recordings in these folders.
     pub fn new(ids: Vec<Option<String>>, recordings: Vec<PathBuf>) -> Samples {
         Samples {
             rows: ids.len(),
@@ -107,7 +107,7 @@ impl Samples {
         }
     }
 
-    /// The same samples with the truth and the predictions of these channels alone.
+    /// The same samples with only the truths and predictions of these channels.
     pub(crate) fn of_channels(mut self, names: &[&str]) -> Samples {
         self.columns.retain(|(column, values)| {
             let channel = column.strip_suffix(UNBOUNDED).unwrap_or(column);
@@ -119,25 +119,25 @@ impl Samples {
         self
     }
 
-    /// The same samples, of the recordings in these folders.
+    /// The same samples with these folders of recordings.
     #[must_use]
     pub fn with_recordings(self, recordings: Vec<PathBuf>) -> Samples {
         Samples { recordings, ..self }
     }
 
-    /// Adds a column of words, or of covariates as text.
+    /// Adds a text column: words, or covariates as text.
     pub fn push_words(&mut self, name: &str, words: Vec<Option<String>>) {
         self.columns
             .push((name.to_owned(), SampleColumn::Words(words)));
     }
 
-    /// Adds the protocol parts of each sample, in a column after `sample`.
+    /// Adds a column with the protocol part of each sample, after `sample`.
     pub fn insert_protocol(&mut self, parts: Vec<Option<String>>) {
         let column = ("protocol".to_owned(), SampleColumn::Words(parts));
         self.columns.insert(1.min(self.columns.len()), column);
     }
 
-    /// Adds a column of numbers: the truth of a channel, or a covariate.
+    /// Adds a numeric column: the truth of a channel, or a covariate.
     pub fn push_numbers(&mut self, name: &str, numbers: Column) {
         self.columns
             .push((name.to_owned(), SampleColumn::Numbers(numbers)));
@@ -151,7 +151,7 @@ impl Samples {
         );
     }
 
-    /// Adds the predictions of `channel` before limiting to the model's bounds. Without this column they equal the predictions.
+    /// Adds the unclipped predictions of `channel`. Without this column, predictions and unclipped predictions are equal.
     pub fn push_unbounded(&mut self, channel: &Channel, numbers: Column) {
         self.push_numbers(&format!("{}{UNBOUNDED}", channel.name()), numbers);
     }
@@ -206,10 +206,10 @@ impl Samples {
         Ok(samples)
     }
 
-    /// Writes a table for [`Samples::read`], with numbers in shortest round-trip form.
+    /// Writes a table that [`Samples::read`] reads, with numbers in shortest round-trip form.
     ///
     /// # Errors
-    /// Errors of `out`.
+    /// I/O errors of `out`.
     pub fn write(&self, out: &mut dyn Write) -> io::Result<()> {
         let mut writer = csv::Writer::from_writer(out);
         writer.write_record(self.columns.iter().map(|(name, _)| escape_csv(name)))?;
@@ -228,7 +228,7 @@ impl Samples {
         writer.flush()
     }
 
-    /// Folders of the recordings, in the order joined; empty for tables without recordings.
+    /// Folders of the recordings, in the order of joining; empty for tables without recordings.
     pub fn recordings(&self) -> &[PathBuf] {
         &self.recordings
     }
@@ -238,7 +238,7 @@ impl Samples {
         self.rows
     }
 
-    /// Channels in the order of the table.
+    /// Channels in the order of their columns.
     pub fn channels(&self) -> Vec<SampleChannel<'_>> {
         let mut names: Vec<&str> = Vec::new();
         for (name, column) in &self.columns {
@@ -255,7 +255,7 @@ impl Samples {
         channels.filter_map(|name| self.channel(name)).collect()
     }
 
-    /// Channel called `name`.
+    /// Channel called `name`; `None` for an unknown name.
     pub fn channel(&self, name: &str) -> Option<SampleChannel<'_>> {
         let truth = self.numbers(name);
         let prediction = self.numbers(&format!("{name}{}", Samples::PREDICTED));
@@ -268,7 +268,7 @@ impl Samples {
         })
     }
 
-    /// Prediction of `channel` for a sample before limiting to the model's bounds; the prediction itself if no column holds it.
+    /// Unclipped prediction of `channel` for a sample; the prediction itself without a column of unclipped predictions.
     pub fn unbounded(&self, channel: &str, row: usize) -> Option<f64> {
         match self.numbers(&format!("{channel}{UNBOUNDED}")) {
             Some((_, numbers)) => numbers.get(row),
@@ -287,7 +287,7 @@ impl Samples {
         }
     }
 
-    /// Word of a sample in a column; `None` if it is empty or the column is absent.
+    /// Text of a sample in a column; `None` for an empty cell or a missing column.
     pub fn word(&self, column: &str, row: usize) -> Option<&str> {
         match &self.column(column)?.1 {
             SampleColumn::Words(words) => {
@@ -297,7 +297,7 @@ impl Samples {
         }
     }
 
-    /// Number of a sample in a column other than a channel.
+    /// Number of a sample in a column other than a channel; `None` for an empty cell or a missing column.
     pub fn number(&self, column: &str, row: usize) -> Option<f64> {
         match &self.column(column)?.1 {
             SampleColumn::Numbers(numbers) => numbers.get(row),
@@ -305,7 +305,7 @@ impl Samples {
         }
     }
 
-    /// Rows of a part of the protocol; all rows if the table names no parts.
+    /// Rows of a protocol part; all rows if the table names no parts.
     pub fn of_protocol(&self, part: &str) -> Vec<usize> {
         let is_of = |row: &usize| {
             let parts = self.word("protocol", *row);
@@ -330,22 +330,22 @@ impl<'a> SampleChannel<'a> {
         self.rows
     }
 
-    /// Reading of the reference instrument for a sample, in the unit of the channel.
+    /// Reading of the reference instrument for a sample, in the unit of the channel; `None` if missing.
     pub fn truth(&self, row: usize) -> Option<f64> {
         self.truth?.get(row)
     }
 
-    /// Prediction for a sample, in the unit of the channel.
+    /// Prediction for a sample, in the unit of the channel; `None` if missing.
     pub fn prediction(&self, row: usize) -> Option<f64> {
         self.prediction?.get(row)
     }
 
-    /// Truth and prediction of a sample; `None` if either is unknown.
+    /// Truth and prediction of a sample; `None` if either is missing.
     pub fn pair(&self, row: usize) -> Option<[f64; 2]> {
         Some([self.truth(row)?, self.prediction(row)?])
     }
 
-    /// Known true values in the order of samples.
+    /// Existing true values in the order of samples.
     pub fn truths(self) -> impl Iterator<Item = f64> + 'a {
         (0..self.rows).filter_map(move |row| self.truth(row))
     }

@@ -1,4 +1,4 @@
-//! Schemas and seals of results, and their reading and writing.
+//! Schemas and seals of results, with reading and writing.
 
 use std::borrow::Cow;
 
@@ -9,13 +9,13 @@ use taceva_core::shown;
 use crate::error::ResultsError;
 use crate::report::{EVALUATION_SCHEMA, EvaluationReport};
 
-/// Schema of the evaluations of a scene, in versions as [`EVALUATION_SCHEMA`].
+/// Schema of the evaluations of a scene, with the same versions as [`EVALUATION_SCHEMA`].
 pub const RUN_SCHEMA: &str = "taceva.run/1.0";
 
 /// Evaluations of the studies of a scene.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RunReport<'a> {
-    /// [`RUN_SCHEMA`].
+    /// Schema of the report: [`RUN_SCHEMA`].
     pub schema: Cow<'a, str>,
     /// One report per study.
     pub studies: Cow<'a, [EvaluationReport]>,
@@ -31,7 +31,7 @@ impl<'a> RunReport<'a> {
     }
 }
 
-/// Parses the evaluations in a text of [`EVALUATION_SCHEMA`] or [`RUN_SCHEMA`].
+/// Parses the evaluation reports in a text with the schema [`EVALUATION_SCHEMA`] or [`RUN_SCHEMA`].
 ///
 /// Accepted manual edits are added to the provenance of each evaluation.
 ///
@@ -44,7 +44,7 @@ impl<'a> RunReport<'a> {
 /// ```
 ///
 /// # Errors
-/// [`ResultsError`] if the text is no JSON, has another schema, is unsealed or changed, or holds an unexpected value.
+/// [`ResultsError`] if the text is not JSON, has another schema, is unsealed or changed, or contains an unexpected value.
 pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
     let head: Head = serde_json::from_str(text)?;
     let Some(serde_json::Value::String(schema)) = &head.schema else {
@@ -82,16 +82,16 @@ pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
     Ok(reports)
 }
 
-/// Sealed JSON of `report`, one value per line.
+/// Formats `report` as sealed JSON, one value per line.
 ///
 /// # Errors
-/// [`ResultsError`] if `report` is no JSON object.
+/// [`ResultsError`] if `report` does not serialize to a JSON object.
 pub fn sealed(report: &impl Serialize) -> Result<String, ResultsError> {
     let text = serde_json::to_string_pretty(report)?;
     Ok(taceva_files::seal::json::seal(&text)?)
 }
 
-/// Schema of a text, with the version that wrote it.
+/// Schema of a text, and the version that wrote the text.
 #[derive(Default, Deserialize)]
 struct Head {
     schema: Option<serde_json::Value>,

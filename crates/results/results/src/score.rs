@@ -22,15 +22,15 @@ pub struct Score {
     pub unit: Unit,
     /// Number of samples.
     pub n: u64,
-    /// Number of ignored samples without a usable number.
+    /// Number of samples ignored for an unusable number.
     pub n_invalid: u64,
     /// Interval of 95 %; `None` for scores without a meaningful interval.
     pub interval: Option<Interval>,
-    /// Definition: `mae/1`.
+    /// Name and version of the definition: `mae/1`.
     pub definition: String,
     /// Constants of the definition by name.
     pub parameters: Vec<(String, f64)>,
-    /// Counts from the computation, by name.
+    /// Counts of the computation, by name.
     pub counts: Vec<(String, u64)>,
     /// Warnings: `one bin`.
     pub flags: Vec<String>,
@@ -38,7 +38,7 @@ pub struct Score {
     pub standing: Standing,
     /// Share of predictions beyond the bounds of the model; `None` without predictions or bounds.
     pub bounded_share: Option<f64>,
-    /// Source channels, if there are several.
+    /// Source channels; empty for a single channel.
     pub of: Vec<String>,
     /// Further values of the same metric and channel.
     pub variants: Vec<Variant>,
@@ -57,7 +57,7 @@ pub struct Variant {
     pub interval: Option<Interval>,
 }
 
-/// Scores of an evaluation, in its order.
+/// Scores of an evaluation, in the same order.
 pub fn scores(evaluation: &Evaluation) -> Vec<Score> {
     let all = evaluation.scores();
     all.map(|(metric, channel, score)| Score::of(metric, channel, score))
@@ -86,7 +86,7 @@ impl Score {
         }
     }
 
-    /// Score of one number, without interval and samples.
+    /// Score of a single number, without interval and samples.
     pub fn of_number(metric: &str, channel: &str, value: f64, unit: Unit) -> Score {
         Score {
             metric: metric.to_owned(),
@@ -107,7 +107,7 @@ impl Score {
         }
     }
 
-    /// Variant called `name`.
+    /// Variant called `name`; `None` if the score lacks the variant.
     pub fn variant(&self, name: &str) -> Option<&Variant> {
         self.variants.iter().find(|variant| variant.name == name)
     }
@@ -120,7 +120,7 @@ impl Score {
         variant.value.number().map(|_| variant)
     }
 
-    /// Score for verdicts, with value, unit and interval of the deciding variant, if there is one.
+    /// Score for verdicts: the deciding variant's value, unit and interval, or else those of the score.
     #[must_use]
     pub fn deciding(&self) -> Score {
         match self.decided_by() {
@@ -134,7 +134,7 @@ impl Score {
         }
     }
 
-    /// Standing of the score or of its variant called `variant`. Reference constants always count.
+    /// Standing of the score, or of its variant called `variant`. Reference constants always count.
     pub fn standing_of(&self, variant: Option<&str>) -> Standing {
         match variant {
             Some("of_constant" | "constant") => Standing::Counts,
@@ -142,7 +142,7 @@ impl Score {
         }
     }
 
-    /// Better direction; `Described` for metrics outside the catalogue.
+    /// Direction of better values; `Described` for metrics outside the catalogue.
     pub fn better(&self) -> Better {
         catalogue::find(&self.metric).map_or(Better::Described, |metric| metric.better)
     }

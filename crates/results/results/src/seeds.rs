@@ -1,16 +1,16 @@
-//! Scores over training seeds.
+//! Scores over several training seeds.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
 
 /// Scores of one model fitted with several seeds on the same presses and split.
 ///
-/// Their spread comes from the training. Intervals by contact point describe the spread over other presses instead. Comparisons add both.
+/// The spread of the scores comes from the training. Intervals by contact point show the spread over other presses. Comparisons add both.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct OverSeeds {
-    /// Seeds in order. The scores of the report are those of the first.
+    /// Seeds in order. The report's scores belong to the first seed.
     pub seeds: Vec<u64>,
-    /// Effect of a seed, in words.
+    /// Parts of the training that the seed determines, in words.
     pub decides: String,
     /// Scores that use predictions.
     pub scores: Vec<SeedScore>,

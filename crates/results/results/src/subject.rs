@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Sensor of a result, with the origin of its samples.
+/// Sensor behind a result, with the origin of its samples.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Subject {
     /// Sensor model.
@@ -34,7 +34,7 @@ impl Default for Subject {
 }
 
 impl Subject {
-    /// Subject of both combined: `several` where they differ.
+    /// Subject of two combined results: `several` for each field with different values.
     #[must_use]
     pub fn joined(&self, other: &Subject) -> Subject {
         let join = |own: &String, other: &String| match own == other {

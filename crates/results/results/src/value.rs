@@ -2,7 +2,7 @@
 
 use taceva_metrics::{Curve, Map, Matrix};
 
-/// Value of a score, or the reason why it is absent.
+/// Value of a score, or the reason for its absence.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
     /// One finite number.
@@ -13,9 +13,9 @@ pub enum Value {
     Curve(Curve),
     /// One number per pair of names.
     Matrix(Matrix),
-    /// Undetermined by the samples, with the reason.
+    /// The samples determine no value, for this reason.
     Undefined(String),
-    /// Not applicable, with the reason.
+    /// The metric does not apply, for this reason.
     NotApplicable(String),
 }
 
@@ -35,7 +35,7 @@ impl Value {
         }
     }
 
-    /// Number, if the value is one.
+    /// The number; `None` for any other value.
     pub fn number(&self) -> Option<f64> {
         match self {
             Value::Number(number) => Some(*number),
@@ -43,7 +43,7 @@ impl Value {
         }
     }
 
-    /// Reason why the value is absent, in words.
+    /// Reason for the absence of the value, in words.
     pub fn reason(&self) -> Option<String> {
         match self {
             Value::Undefined(reason) => Some(format!("undefined: {reason}")),

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-/// Source of the readings of a driver. Every output that rests on them states it. It gets no further variant in a compatible version,
-/// because every reader must handle each source.
+/// Source of the readings of a driver. Every output based on these readings names the source. It gets no further variant in a compatible
+/// version, because every reader must handle each source.
 ///
 /// ```
 /// use taceva_core::DriverSource;
@@ -13,7 +13,7 @@ use std::fmt;
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[cfg_attr(feature = "serde", serde(rename_all = "lowercase"))]
 pub enum DriverSource {
-    /// A device.
+    /// A physical device.
     Real,
     /// A model of a device.
     Simulated,

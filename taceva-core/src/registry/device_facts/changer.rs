@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ChangerFacts {
-    /// Names of its items; empty if its arguments list them.
+    /// Names of the changer's items; empty if its arguments list the items.
     pub holds: Vec<String>,
 }
 

@@ -13,21 +13,21 @@ use crate::quantity::{Hertz, Newton};
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct ForceFacts {
-    /// Components that it measures.
+    /// Components that the transducer measures.
     pub axes: Axes,
-    /// Readings a second.
+    /// Readings per second.
     pub rate: Option<Hertz>,
-    /// The greatest magnitude of each force it can measure.
+    /// Greatest measurable magnitude of each force.
     pub force_max: Option<Newton>,
     /// Noise of the readings under a constant load: one standard deviation per component.
     pub noise: Option<Newton>,
-    /// Step between two neighbouring readings of a force. Equal readings show a frozen signal only if the step is below the noise.
+    /// Step between two neighbouring force readings. Equal readings reveal a frozen signal only if the step is below the noise.
     pub resolution: Option<Newton>,
-    /// Delay from the measurement of a reading to its stamp, ms. A run subtracts it from the stamps; 0 if they need no correction.
+    /// Delay from the measurement to the stamp of a reading, ms. A run subtracts this delay from the stamps; 0 needs no correction.
     pub latency_ms: Option<f64>,
-    /// True if it numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
+    /// True if the transducer numbers its readings, see [`ForceTransducer::sequence`](crate::ForceTransducer::sequence).
     pub numbered: bool,
-    /// True if it can take the present load as zero.
+    /// True if the transducer can take the present load as zero.
     pub tare: bool,
 }
 
@@ -88,7 +88,7 @@ impl ForceFacts {
         self
     }
 
-    /// True if readings of a working transducer are hardly ever equal to the last bit: its resolution, if stated, is below its noise.
+    /// True if consecutive readings of a working transducer are rarely equal: the resolution, if known, is below the noise.
     ///
     /// ```
     /// use taceva_core::{ForceFacts, Newton};

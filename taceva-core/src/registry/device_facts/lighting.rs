@@ -10,7 +10,7 @@
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct LightingFacts {
-    /// Names of its scenes; the scene of the calibration is first.
+    /// Names of the scenes. The scene of the calibration is first.
     pub scenes: Vec<String>,
 }
 

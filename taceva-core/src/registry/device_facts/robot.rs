@@ -15,24 +15,24 @@ use crate::quantity::Millimetre;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct RobotFacts {
-    /// Box that the tip stays in.
+    /// Workspace of the tip: a box.
     pub workspace: Option<Workspace>,
     /// Greatest speed of the tip.
     pub speed_max: Option<Speed>,
     /// Repeatability of a pose: one standard deviation per axis.
     pub repeatability: Option<Millimetre>,
-    /// Noise of a reported pose about its target: one standard deviation per axis. If unknown, the repeatability is used for a real robot,
-    /// and 0 for a simulated one.
+    /// Noise of a reported pose about its target: one standard deviation per axis. For `None`, the repeatability replaces the noise of a real
+    /// robot, and 0 that of a simulated one.
     pub pose_noise: Option<Millimetre>,
-    /// Deceleration when it is halted, mm/s².
+    /// Deceleration after a halt, mm/s².
     pub deceleration_mm_s2: Option<f64>,
-    /// Time for which it still moves after a halt has reached it, ms.
+    /// Time from the receipt of a halt to rest, ms.
     pub stop_ms: Option<f64>,
-    /// Delay from the measurement of a pose to its stamp, ms. A run subtracts it from the stamps; 0 if they need no correction.
+    /// Delay from the measurement to the stamp of a pose, ms. A run subtracts this delay from the stamps; 0 needs no correction.
     pub latency_ms: Option<f64>,
-    /// True if it can stop by itself at a force.
+    /// True if the robot can stop by itself at a force.
     pub guarded_motion: bool,
-    /// True if its poses are in its own base frame. They must be mapped to the sensor's frame before it moves over a gel.
+    /// True if the robot reports poses in its own base frame. The poses must be mapped to the sensor's frame before a move over a gel.
     pub base_frame: bool,
 }
 

@@ -15,29 +15,29 @@ use crate::quantity::{Hertz, Millimetre, Newton};
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct SensorFacts {
-    /// Size and format of its frames; `None` if only its arguments or a recording decide.
+    /// Size and format of the frames; `None` if they depend on arguments or on a recording.
     pub frame: Option<FrameInfo>,
-    /// Frames a second.
+    /// Frames per second.
     pub rate: Option<Hertz>,
     /// True if the gel blocks ambient light from the camera.
     pub opaque: Option<bool>,
     /// True if markers in the gel show its shear.
     pub markers: Option<bool>,
-    /// Light scenes that it can set itself; an opaque gel has none.
+    /// Light scenes that the sensor can set itself; empty for an opaque gel.
     pub scenes: Vec<String>,
     /// Sensing surface, and its greatest indentation.
     pub footprint: Option<Footprint>,
-    /// Greatest indentation; at most that of the footprint.
+    /// Greatest indentation, at most the depth of the footprint.
     pub depth_max: Option<Millimetre>,
     /// Greatest force of a press.
     pub force_max: Option<Newton>,
-    /// Pixels along x and y of its camera, before anything is scaled.
+    /// Pixels of the camera along x and y, before scaling.
     pub camera: Option<[u32; 2]>,
     /// Thickness of the gel.
     pub gel_thickness: Option<Millimetre>,
-    /// The area that the camera sees, in mm².
+    /// Area in the view of the camera, mm².
     pub field_of_view_mm2: Option<f64>,
-    /// Delay from the capture of a frame to its stamp, ms. A run subtracts it from the stamps; 0 if they need no correction.
+    /// Delay from the capture to the stamp of a frame, ms. A run subtracts this delay from the stamps; 0 needs no correction.
     pub latency_ms: Option<f64>,
 }
 

@@ -2,7 +2,7 @@
 
 use crate::geometry::Point;
 
-/// The box in which a tip may be, its faces included, in the sensor's frame. It gets no further field: two corners are a box.
+/// Box that contains all allowed positions of a tip, faces included, in the sensor's frame. It gets no further field: two corners define a box.
 ///
 /// ```
 /// use taceva_core::{Millimetre, Point, Workspace};
@@ -12,9 +12,9 @@ use crate::geometry::Point;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Workspace {
-    /// The corner of the least coordinates.
+    /// Corner with the least coordinates.
     pub least: Point,
-    /// The corner of the greatest coordinates.
+    /// Corner with the greatest coordinates.
     pub greatest: Point,
 }
 

@@ -1,4 +1,4 @@
-//! A certificate from the entries of its table in a file, whose errors name the key.
+//! Reads a certificate from the entries of its table in a file. Errors name the key.
 
 use std::collections::BTreeMap;
 use std::fmt::Display;
@@ -9,7 +9,7 @@ use serde::de::{Deserialize, Error, IntoDeserializer};
 use super::{DateText, WrittenCertificate, WrittenCorrelation};
 use crate::traceability::{Certificate, CertificateError, Instrument};
 
-/// Kind of the value of a key.
+/// Type of a key's value.
 #[derive(Clone, Copy)]
 enum Kind {
     Text,
@@ -21,7 +21,7 @@ enum Kind {
     Correlations,
 }
 
-/// Keys of a certificate, the required ones first.
+/// Keys of a certificate, required keys first.
 static KEYS: [(&str, Kind); 16] = [
     ("number", Kind::Text),
     ("laboratory", Kind::Text),
@@ -40,7 +40,7 @@ static KEYS: [(&str, Kind); 16] = [
     ("file", Kind::Text),
     ("sha256", Kind::Text),
 ];
-/// Number of required keys at the begin of [`KEYS`].
+/// Number of required keys at the beginning of [`KEYS`].
 const REQUIRED: usize = 4;
 
 impl Kind {
@@ -76,10 +76,10 @@ impl Kind {
 }
 
 impl Certificate {
-    /// Certificate of `instrument` from the entries of its table in a file.
+    /// Reads the certificate of `instrument` from the entries of its table in a file.
     ///
     /// # Errors
-    /// [`CertificateError`] with the key: an unknown key, all missing keys, a value of another type, or as of [`check`](Certificate::check).
+    /// [`CertificateError`] with the key: an unknown key, all missing keys, a value of another type, or an error of [`check`](Certificate::check).
     pub fn of_entries<'de, V, E>(
         instrument: Instrument,
         entries: &BTreeMap<String, V>,

@@ -11,7 +11,7 @@ use crate::evaluate::metric::Metric;
 use crate::exact::record::Record;
 use crate::score::value::{InapplicableReason, UndefinedReason};
 
-/// A [`Family`] whose sums are [`ErasedSums`]; its methods are documented there.
+/// A [`Family`] with [`ErasedSums`]; see that trait for the methods.
 pub(crate) trait AnyFamily: Send {
     fn parameters(&self) -> BTreeMap<String, String>;
     fn empty(&self) -> ErasedSums;
@@ -49,7 +49,7 @@ pub(crate) fn erased(family: impl Family) -> Option<Box<dyn AnyFamily>> {
     Some(Box::new(Erased(family)))
 }
 
-/// A family as an [`AnyFamily`].
+/// A family behind the interface [`AnyFamily`].
 struct Erased<F>(F);
 
 impl<F: Family> AnyFamily for Erased<F> {

@@ -1,10 +1,10 @@
-//! Type-erased sums of a family, so that storage, merges and resampling are compiled once.
+//! Type-erased sums of a family, so that code for storage, merges and resampling is compiled once.
 
 use std::any::Any;
 
 use crate::exact::merge::Merge;
 
-/// The sums of every part of one family: a `Vec` of its sums.
+/// Sums of all parts of one family, as a type-erased `Vec`.
 pub(crate) struct ErasedSums(Box<dyn AnySums>);
 
 /// Operations on parts of unknown type.
@@ -32,7 +32,7 @@ fn typed<S: 'static>(parts: &dyn Any) -> &Vec<S> {
     parts.downcast_ref().expect(ONE_FAMILY)
 }
 
-/// Panic message of a failed downcast. It cannot occur: an accumulator has one family, which made all its parts.
+/// Panic message of a failed downcast. A failure is impossible: the single family of an accumulator created all its parts.
 const ONE_FAMILY: &str = "parts of one family";
 
 impl ErasedSums {
@@ -40,12 +40,12 @@ impl ErasedSums {
         ErasedSums(Box::new(sums))
     }
 
-    /// The sums, of the type of their family.
+    /// Sums with the type of their family.
     pub(super) fn sums<S: 'static>(&self) -> &Vec<S> {
         typed(&*self.0)
     }
 
-    /// The sums, to be added to.
+    /// Mutable sums with the type of their family.
     pub(super) fn sums_mut<S: 'static>(&mut self) -> &mut Vec<S> {
         let parts: &mut dyn Any = &mut *self.0;
         parts.downcast_mut().expect(ONE_FAMILY)

@@ -1,4 +1,4 @@
-//! Resampling: a score computed for other choices of clusters, for its interval.
+//! Resampling: a score recomputed for other selections of clusters, for its interval.
 
 use std::borrow::Cow;
 
@@ -11,12 +11,12 @@ use crate::score::value::{Finished, UndefinedReason};
 use crate::stats::jackknife::{self, LeftOut};
 use crate::stats::{Estimated, PoissonBootstrap};
 
-/// A cluster: the hash or number of its name, and the sums of each part.
+/// A cluster: the hash or index of its name, and the sums of each part.
 pub(super) type Cell<'a> = (u64, &'a ErasedSums);
 
-/// Calls `visit` with each cluster and the sums of all others.
+/// Calls `visit` with each cluster and the sums of all other clusters.
 ///
-/// Running sums of the clusters before and after avoid any subtraction, so that sets that only grow have intervals too.
+/// Running sums of the clusters before and after avoid any subtraction, so that sums without a subtraction have intervals too.
 pub(super) fn each_left_out(
     empty: &ErasedSums,
     cells: &[Cell<'_>],
@@ -37,7 +37,7 @@ pub(super) fn each_left_out(
     }
 }
 
-/// The value and the variants of one score, for other choices of clusters.
+/// Value and variants of one score, recomputed for other selections of clusters.
 pub(super) struct Resampling {
     /// Names and ranges of the numbers.
     names: Vec<(Option<Cow<'static, str>>, Range)>,
@@ -45,14 +45,14 @@ pub(super) struct Resampling {
 }
 
 enum Draws {
-    /// Samples of the left-out cluster, and the numbers of the other clusters.
+    /// Number of samples of the left-out cluster, and the numbers computed from the other clusters.
     LeftOut(Vec<(u64, Vec<Finished>)>),
-    /// The intervals of the numbers.
+    /// Intervals of the numbers.
     Weighted(Vec<Interval>),
 }
 
 impl Resampling {
-    /// Empty resampling for the `numbers` of all clusters, with a value in `range`.
+    /// Empty resampling for `numbers` computed from all clusters, with a value in `range`.
     pub(super) fn new(numbers: &Numbers, range: Range) -> Resampling {
         let variants = numbers.variants.iter();
         let names = variants.map(|variant| (Some(variant.name.clone()), variant.range));
@@ -62,13 +62,13 @@ impl Resampling {
         }
     }
 
-    /// True if any of the numbers has an interval; maxima have none.
+    /// True if any of the numbers has an interval. Maxima have none.
     pub(super) fn is_needed(&self) -> bool {
         let mut ranges = self.names.iter().map(|(_, range)| range);
         ranges.any(|range| *range != Range::Greatest)
     }
 
-    /// Adds the numbers without one cluster, which has `count` samples.
+    /// Adds the numbers computed without one cluster, which has `count` samples.
     pub(super) fn leave_out(&mut self, count: u64, others: &Numbers) {
         let others = self.in_order(others);
         if let Draws::LeftOut(draws) = &mut self.draws {
@@ -76,7 +76,7 @@ impl Resampling {
         }
     }
 
-    /// Finishes the score once per replicate, with clusters of `samples` samples counted as often as their weights.
+    /// Recomputes the score once per replicate, with clusters of `samples` samples multiplied by their weights.
     pub(super) fn weigh(
         &mut self,
         bootstrap: PoissonBootstrap,
@@ -121,7 +121,7 @@ impl Resampling {
         self.draws = Draws::Weighted(intervals.collect());
     }
 
-    /// The interval about `value`, which is the variant called `name`, or the value itself.
+    /// Interval about `value`, for the variant called `name` or the value itself.
     pub(super) fn interval(&self, value: f64, name: Option<&str>) -> Interval {
         let mut names = self.names.iter();
         let position = names.position(|(known, _)| known.as_deref() == name);

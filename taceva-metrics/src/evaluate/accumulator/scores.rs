@@ -1,4 +1,4 @@
-//! From sums to scores with their intervals.
+//! Computes scores with their intervals from sums.
 
 use super::Accumulator;
 use super::erased_sums::ErasedSums;
@@ -13,7 +13,7 @@ use crate::score::verdict_standing::Standing;
 use crate::score::{Interval, Score, Variant};
 use crate::stats::IntervalMethod;
 
-/// A score before its interval.
+/// A score before its interval is computed.
 struct Request {
     metric: &'static Metric,
     output: Output,
@@ -40,14 +40,14 @@ impl Accumulator {
             .collect()
     }
 
-    /// Numbers of an output: those of one part, the mean of two, or the joint numbers of the family.
+    /// Numbers of an output: the numbers of one part, the mean of two parts, or the joint numbers of the family.
     fn numbers(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.numbers(metric, output, sums, part)
         })
     }
 
-    /// The same numbers for other choices of clusters, as far as they have intervals.
+    /// Numbers for another selection of clusters; only those with intervals.
     fn resampled(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.resampled(metric, output, sums, part)
@@ -73,14 +73,14 @@ impl Accumulator {
         }
     }
 
-    /// Number of samples of a cluster that count for an output.
+    /// Number of samples of a cluster that an output uses.
     fn samples(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> u64 {
         let parts = output.parts.iter();
         let counts = parts.map(|&part| self.family.count(metric, sums, part));
         counts.fold(0, u64::saturating_add)
     }
 
-    /// Every score of `metrics`, without intervals.
+    /// All scores of `metrics`, without intervals.
     fn requests(&self, metrics: &[&'static Metric], total: &ErasedSums) -> Vec<Request> {
         let mut requests = Vec::new();
         let of_family = |metric: &&&Metric| metric.family.schema == self.kind.schema;
@@ -98,7 +98,7 @@ impl Accumulator {
         requests
     }
 
-    /// Finishes every score repeatedly, with clusters left out or weighted.
+    /// Recomputes every score repeatedly, with clusters left out or weighted.
     fn resample(&self, requests: &mut [Request], cells: &[Cell<'_>]) {
         let requests = requests.iter_mut();
         let mut requests: Vec<&mut Request> = requests

@@ -1,4 +1,4 @@
-//! Scores of a channel by method instead of by name.
+//! Scores of a channel by method call instead of by name.
 
 use std::borrow::Borrow;
 
@@ -7,11 +7,11 @@ use taceva_core::Channel;
 use super::Evaluation;
 use crate::score::Score;
 
-/// One method per metric: its name, and its meaning.
+/// Generates one method per metric from its name and meaning.
 macro_rules! handles {
     ($($metric:ident: $says:literal),+ $(,)?) => {
-        /// Scores of one channel. `None` if the plan [skipped](Evaluation::skipped) the metric or has no such channel. A score that the
-        /// samples do not determine is present, with the reason as its value. For planes and all other metrics use
+        /// Scores of one channel. `None` if the plan [skipped](Evaluation::skipped) the metric or lacks the channel. A score without a value
+        /// is present, with the reason as its value. For planes and all other metrics use
         /// [`score`](Evaluation::score).
         impl Evaluation {
             $(

@@ -110,7 +110,7 @@ impl Serialize for Variant {
     }
 }
 
-/// Writes the keys of the value, and its unit if there is one.
+/// Writes the keys of the value, and the unit of a number.
 fn serialize_value<M: SerializeMap>(
     into: &mut M,
     value: &Value,
@@ -187,7 +187,7 @@ impl Serialize for Interval {
     }
 }
 
-/// Entries in their own order.
+/// Map entries in insertion order.
 struct Entries<T>(Vec<(&'static str, T)>);
 
 impl<T: Serialize> Serialize for Entries<T> {

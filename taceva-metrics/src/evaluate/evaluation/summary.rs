@@ -1,4 +1,4 @@
-//! Scores as a short table for people: one line per channel.
+//! Short table of scores: one line per channel.
 
 use taceva_core::Unit;
 
@@ -11,7 +11,7 @@ use crate::score::value::Value;
 /// Metrics of the short table, one column each.
 const COLUMNS: [&str; 5] = ["mae", "rmse", "bias", "r2", "skill"];
 
-/// Lines of the short table, headings first; `None` if the evaluation has none of its metrics.
+/// Lines of the short table, headings first; `None` if the evaluation has none of the table's metrics.
 pub(super) fn lines(evaluation: &Evaluation) -> Option<Vec<Vec<String>>> {
     let computed = |id: &&str| {
         let mut metrics = evaluation.entries.iter().map(|entry| entry.metric);
@@ -49,7 +49,7 @@ pub(super) fn lines(evaluation: &Evaluation) -> Option<Vec<Vec<String>>> {
     Some(lines)
 }
 
-/// The value with its unit, if it has one; empty if the metric does not apply to the channel.
+/// Value with its unit; empty if the metric does not apply to the channel.
 fn cell(score: Option<&Score>) -> String {
     let Some(score) = score else {
         return String::new();

@@ -1,4 +1,4 @@
-//! Scores as a table for people.
+//! Tables of scores.
 
 use std::fmt;
 
@@ -12,8 +12,8 @@ use crate::score::value::Value;
 
 const HEADINGS: [&str; 6] = ["metric", "channel", "value", "95% interval", "unit", "n"];
 
-/// Short table by `{}`: one line per channel with `mae`, `rmse`, `bias`, `r2` and `skill`. Long table by `{:#}`: every score with its
-/// interval and variants, and the skipped metrics. Without these five metrics `{}` prints the long table too.
+/// `{}` prints a short table: one line per channel with `mae`, `rmse`, `bias`, `r2` and `skill`. `{:#}` prints a long table: every score
+/// with its interval and variants, and the skipped metrics. Without these five metrics `{}` prints the long table too.
 impl fmt::Display for Evaluation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !f.alternate()
@@ -36,7 +36,7 @@ impl fmt::Display for Evaluation {
     }
 }
 
-/// Writes `lines` with each cell as wide as the widest of its column.
+/// Writes `lines` in aligned columns.
 fn write_aligned(f: &mut fmt::Formatter<'_>, lines: &[Vec<String>]) -> fmt::Result {
     let width = |column: usize| {
         let lengths = lines.iter().filter_map(|line| line.get(column));
@@ -55,7 +55,7 @@ fn write_aligned(f: &mut fmt::Formatter<'_>, lines: &[Vec<String>]) -> fmt::Resu
     Ok(())
 }
 
-/// Number of samples, with the invalid ones that were left out.
+/// Number of samples, with the number of invalid ones.
 pub(super) fn counted(n: u64, n_invalid: u64) -> String {
     match n_invalid {
         0 => n.to_string(),
@@ -63,7 +63,7 @@ pub(super) fn counted(n: u64, n_invalid: u64) -> String {
     }
 }
 
-/// The score, then its variants that are one number.
+/// Row of the score, then rows of its scalar variants.
 fn rows(entry: &Entry) -> Vec<Vec<String>> {
     let score = &entry.score;
     let id = entry.metric.id;

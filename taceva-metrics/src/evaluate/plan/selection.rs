@@ -1,4 +1,4 @@
-//! Selection of the metrics that a plan keeps, and of the fields to read.
+//! Selects the metrics of a plan, and the required fields.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use crate::score::sensor_facts::SensorFacts;
 use crate::stats::IntervalMethod;
 
 impl MetricPlan {
-    /// Keeps the `wanted` metrics that these channels and fields allow, in the order of `catalogue`.
+    /// Plan with the `wanted` metrics that these channels and fields allow, in the order of `catalogue`.
     pub(crate) fn of(
         catalogue: &'static [&'static Metric],
         wanted: &[&'static Metric],
@@ -39,7 +39,7 @@ impl MetricPlan {
         plan.decided()
     }
 
-    /// The same plan with `facts` about the sensor; metrics that they allow are kept too.
+    /// The same plan with `facts` about the sensor, and the additional metrics that these facts allow.
     ///
     /// ```
     /// use taceva_core::{Channel, Channels, FieldSet, Footprint};
@@ -57,7 +57,7 @@ impl MetricPlan {
         MetricPlan { facts, ..self }.decided()
     }
 
-    /// Decides which metrics are kept and which fields are read.
+    /// Determines the computed metrics and the required fields.
     fn decided(mut self) -> MetricPlan {
         self.kept.clear();
         self.skipped.clear();
@@ -79,13 +79,13 @@ impl MetricPlan {
         self
     }
 
-    /// Fields that `metric` reads only if samples carry them.
+    /// Optional fields of `metric` that samples have.
     fn optional(&self, metric: &Metric) -> FieldSet {
         let fields = metric.family.optional;
         fields.iter().filter(|field| self.carries(*field)).collect()
     }
 
-    /// Obstacle to a value of `metric`, if any.
+    /// Reason against a value of `metric`; `None` if a value is possible.
     fn obstacle(&self, metric: &Metric) -> Option<SkipReason> {
         let absent_field = metric
             .needs

@@ -14,12 +14,12 @@ use std::arch::x86_64::{
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX2, FMA and POPCNT.
+/// Proof that the machine has AVX2, FMA and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// Evidence from the features of this processor; `None` if it lacks one.
+    /// Detects the features of this processor; `None` if it lacks one.
     pub(in crate::exact) fn detect() -> Option<Avx2> {
         let found = is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma")
@@ -38,11 +38,11 @@ impl Avx2 {
     }
 }
 
-/// Four numbers, made from a proof or from other vectors.
+/// Four numbers. Construction requires the proof or other vectors.
 #[derive(Clone, Copy)]
 struct Four(__m256d);
 
-/// One instruction on values whose existence proves that the machine has it.
+/// One instruction on values whose existence proves that the machine has the instruction.
 macro_rules! with_avx2 {
     ($instruction:expr) => {
         // SAFETY: a `Four` or an `Avx2` exists only on machines with AVX2 and FMA; no memory is accessed.
@@ -51,7 +51,7 @@ macro_rules! with_avx2 {
 }
 
 impl Four {
-    /// Mask of the lanes that are at least `bound`, one bit per lane.
+    /// Mask of the lanes with values of at least `bound`, one bit per lane.
     #[inline(always)]
     fn lanes_at_least(self, bound: Four) -> i32 {
         with_avx2!(_mm256_movemask_pd(_mm256_cmp_pd::<_CMP_GE_OQ>(

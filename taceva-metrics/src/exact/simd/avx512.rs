@@ -12,12 +12,12 @@ use std::arch::x86_64::{
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine has AVX-512F and POPCNT.
+/// Proof that the machine has AVX-512F and POPCNT.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Avx512(());
 
 impl Avx512 {
-    /// Evidence from the features of this processor; `None` if it lacks one.
+    /// Detects the features of this processor; `None` if it lacks one.
     pub(in crate::exact) fn detect() -> Option<Avx512> {
         let found = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt");
         found.then_some(Avx512(()))
@@ -34,11 +34,11 @@ impl Avx512 {
     }
 }
 
-/// Eight numbers, made from a proof or from other vectors.
+/// Eight numbers. Construction requires the proof or other vectors.
 #[derive(Clone, Copy)]
 struct Eight(__m512d);
 
-/// One instruction on values whose existence proves that the machine has it.
+/// One instruction on values whose existence proves that the machine has the instruction.
 macro_rules! with_avx512 {
     ($instruction:expr) => {
         // SAFETY: an `Eight` or an `Avx512` exists only on machines with AVX-512F; no memory is accessed.

@@ -11,12 +11,12 @@ use std::arch::aarch64::{
 
 use crate::exact::vector::{Job, Vector};
 
-/// Evidence that the machine has NEON.
+/// Proof that the machine has NEON.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Neon(());
 
 impl Neon {
-    /// Evidence from the features of this processor; `None` if it lacks one.
+    /// Detects the features of this processor; `None` if it lacks NEON.
     pub(in crate::exact) fn detect() -> Option<Neon> {
         std::arch::is_aarch64_feature_detected!("neon").then_some(Neon(()))
     }
@@ -32,11 +32,11 @@ impl Neon {
     }
 }
 
-/// Two numbers, made from a proof or from other vectors.
+/// Two numbers. Construction requires the proof or other vectors.
 #[derive(Clone, Copy)]
 struct Two(float64x2_t);
 
-/// One instruction on values whose existence proves that the machine has it.
+/// One instruction on values whose existence proves that the machine has the instruction.
 macro_rules! with_neon {
     ($instruction:expr) => {
         // SAFETY: a `Two` or a `Neon` exists only on machines with NEON; no memory is accessed.

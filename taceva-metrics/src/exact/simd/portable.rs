@@ -2,7 +2,7 @@
 
 use crate::exact::vector::{Job, Vector};
 
-/// Replaces the evidence of other instruction sets: every machine can run this one.
+/// Counterpart of the proofs of other instruction sets: every machine can run this code.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Portable;
 
@@ -32,10 +32,10 @@ fn error_of_product(left: f64, right: f64, product: f64) -> f64 {
     ((above + left_high * right_low) + left_low * right_high) + left_low * right_low
 }
 
-/// Both halves of a mantissa; their sum is the value.
+/// Upper and lower half of a mantissa, with the value as their sum.
 #[inline(always)]
 fn split(value: f64) -> [f64; 2] {
-    /// 2²⁷ + 1 cuts a mantissa in the middle.
+    /// 2²⁷ + 1, which splits a mantissa in the middle.
     const SPLITTER: f64 = 134_217_729.0;
     let scaled = value * SPLITTER;
     let high = scaled - (scaled - value);

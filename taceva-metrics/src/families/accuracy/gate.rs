@@ -1,10 +1,10 @@
-//! Least magnitude of truth of a sample in contact.
+//! Gate of sMAPE: least magnitude of truth of a sample in contact.
 
 use taceva_core::Unit;
 
-/// Least |y| of a sample of the gated sMAPE: 0.02 N, the contact threshold, and 0.02 mm.
+/// Gate of a unit, the least |y| of a sample in the gated sMAPE: 0.02 N, the contact threshold, or 0.02 mm.
 ///
-/// No gate is defined for other units.
+/// `None` for other units.
 pub(crate) fn gate(unit: Unit) -> Option<f64> {
     match unit {
         Unit::Newton | Unit::Millimetre => Some(0.02),

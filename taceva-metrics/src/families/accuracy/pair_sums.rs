@@ -1,4 +1,4 @@
-//! Sums of the pairs of one channel: mergeable, and enough for every score of accuracy.
+//! Sums of the pairs of one channel, which determine every accuracy score.
 
 use taceva_core::{Isa, IsaError};
 
@@ -8,7 +8,7 @@ use crate::exact::streams::{Stream, Streams};
 use crate::exact::{BlockSums, Counts, Dyadic, ExactSum, Machine, Sums};
 use crate::pair::Paired;
 
-/// Streams to sum, and the gate of the gated score.
+/// Streams to sum, and the gate of the gated sum.
 ///
 /// ```
 /// use taceva_metrics::{PairSpec, Streams};
@@ -18,14 +18,14 @@ use crate::pair::Paired;
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct PairSpec {
-    /// Streams that are summed.
+    /// Streams to sum.
     pub streams: Streams,
-    /// Least |y| of a sample of the gated sMAPE, in the channel's unit; `None` for no such score.
+    /// Least |y| of a sample in the gated sMAPE, in the channel's unit; `None` without a gated sum.
     pub gate: Option<f64>,
 }
 
 impl PairSpec {
-    /// Sums of `streams`, without a gated one.
+    /// Sums of `streams`, without a gated sum.
     pub const fn new(streams: Streams) -> PairSpec {
         PairSpec {
             streams,
@@ -33,7 +33,7 @@ impl PairSpec {
         }
     }
 
-    /// The same sums, and the gated one of samples with a |y| of at least `gate`.
+    /// The same sums with a gated sum over samples with |y| of at least `gate`.
     #[must_use]
     pub fn with_gate(self, gate: impl Into<Option<f64>>) -> PairSpec {
         PairSpec {
@@ -45,7 +45,7 @@ impl PairSpec {
 
 /// Counts and exact sums of the pairs of one channel.
 ///
-/// The result of any number of updates and merges, in any order and any split, depends on the set of pairs alone.
+/// The result depends only on the set of pairs, for any number of updates and merges in any order.
 ///
 /// ```
 /// use taceva_metrics::{PairSpec, PairSums, Paired, Stream, Streams};
@@ -61,15 +61,15 @@ pub struct PairSums {
 }
 
 impl PairSums {
-    /// Empty sums that use the instructions of [`Isa::detect`].
+    /// Empty sums, computed with the instruction set of [`Isa::detect`].
     pub fn new(spec: PairSpec) -> PairSums {
         PairSums::with_machine(spec, Machine::detect())
     }
 
-    /// Empty sums that use the instructions of `isa`; they change the time and not the result.
+    /// Empty sums, computed with the instruction set `isa`. The choice affects the run time but not the result.
     ///
     /// # Errors
-    /// [`IsaError::Unavailable`] if this machine does not have them.
+    /// [`IsaError::Unavailable`] if this machine lacks the instruction set.
     pub fn with_isa(spec: PairSpec, isa: Isa) -> Result<PairSums, IsaError> {
         let machine = Machine::with(isa).ok_or(IsaError::Unavailable { isa })?;
         Ok(PairSums::with_machine(spec, machine))
@@ -82,12 +82,12 @@ impl PairSums {
         }
     }
 
-    /// Replaces counts and sums by saved ones of the same specification.
+    /// Replaces counts and sums by saved ones with the same specification.
     pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
         self.kept.set(counts, sums);
     }
 
-    /// Adds pairs. A pair with a NaN, an infinity or a magnitude beyond 2¹⁰²¹ is skipped and counted in [`n_invalid`](PairSums::n_invalid).
+    /// Adds pairs. A pair with a NaN, an infinity or a magnitude above 2¹⁰²¹ is skipped and counted in [`n_invalid`](PairSums::n_invalid).
     pub fn update(&mut self, pairs: Paired<&[f64]>) {
         self.kept.update(pairs);
     }
@@ -97,7 +97,7 @@ impl PairSums {
         self.kept.counts.valid
     }
 
-    /// Number of pairs skipped for a NaN or a magnitude beyond 2¹⁰²¹.
+    /// Number of pairs skipped for a NaN or a magnitude above 2¹⁰²¹.
     pub fn n_invalid(&self) -> u64 {
         self.kept.counts.invalid
     }
@@ -107,17 +107,17 @@ impl PairSums {
         self.kept.counts.gated
     }
 
-    /// The sum of `stream`; zero if it is not kept.
+    /// Sum of `stream`; zero for a stream that is not summed.
     pub fn sum(&self, stream: Stream) -> ExactSum {
         self.kept.sum(stream)
     }
 
-    /// The sum of the sMAPE terms of the pairs whose truth reaches the gate.
+    /// Sum of the sMAPE terms of pairs whose truth reaches the gate.
     pub fn gated_sum(&self) -> ExactSum {
         self.kept.gated_sum()
     }
 
-    /// The gate, if the gated sum is kept.
+    /// Gate of the gated sum; `None` without a gated sum.
     pub fn gate(&self) -> Option<f64> {
         gate(self.spec)
     }
@@ -127,12 +127,12 @@ impl PairSums {
         self.spec
     }
 
-    /// RN(SST), SST = (n Syy − Sy²) / n: the spread of the truth about its own mean. 0 for no pair.
+    /// RN(SST), SST = (n Syy − Sy²) / n: the sum of squares of the truth about its mean; 0 without pairs.
     pub fn total_sum_of_squares(&self) -> f64 {
         self.over_n(&self.scaled_spread(), 1)
     }
 
-    /// RN(Sdd / n). 0 for no pair.
+    /// RN(Sdd / n); 0 without pairs.
     pub fn mean_squared_error(&self) -> f64 {
         self.mean(Stream::Squared)
     }
@@ -144,12 +144,12 @@ impl PairSums {
         (n >= 2).then(|| self.over_n(&self.scaled_variance(absolute, squared), n - 1))
     }
 
-    /// RN(sum / n) of one stream; 0 for no pair.
+    /// RN(sum / n) of one stream; 0 without pairs.
     pub(crate) fn mean(&self, stream: Stream) -> f64 {
         self.over_n(&self.sum(stream).to_dyadic(), 1)
     }
 
-    /// RN(√(sum / n)) of one stream, rounded once; 0 for no pair.
+    /// RN(√(sum / n)) of one stream, rounded once; 0 without pairs.
     pub(crate) fn root_mean_square(&self, stream: Stream) -> f64 {
         match self.n() {
             0 => 0.0,
@@ -157,7 +157,7 @@ impl PairSums {
         }
     }
 
-    /// n Syy − Sy², exactly; zero if and only if all truths are equal.
+    /// n Syy − Sy², exactly. Zero if and only if all truths are equal.
     pub(crate) fn scaled_spread(&self) -> Dyadic {
         self.scaled_variance(Stream::Truth, Stream::TruthSquared)
     }
@@ -178,7 +178,7 @@ impl PairSums {
     /// Merges sums of the same specification.
     ///
     /// # Errors
-    /// [`MetricError::Parameter`] if the two sum different streams or have different gates.
+    /// [`MetricError::Parameter`] if both sums have different streams or gates.
     pub fn try_merge(&mut self, other: &PairSums) -> Result<(), MetricError> {
         if self.spec != other.spec {
             return Err(MetricError::Parameter {
@@ -198,7 +198,7 @@ impl Merge for PairSums {
     }
 }
 
-/// The gate, if the gated terms are summed.
+/// Gate of the specification, if the gated terms are summed.
 fn gate(spec: PairSpec) -> Option<f64> {
     let wanted = spec.streams.contains(Stream::Symmetric);
     spec.gate.filter(|_| wanted)

@@ -1,4 +1,4 @@
-//! Family of scores from the sums of each channel's pairs.
+//! Family of scores computed from the sums of each channel's pairs.
 
 use std::collections::BTreeMap;
 
@@ -28,34 +28,34 @@ pub(crate) static PAIRS: FamilyKind = FamilyKind {
 pub(crate) const PAIR_NEEDS: Needs =
     Needs::new(FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction)).with_least_samples(1);
 
-/// Formula of a metric that is computed from the sums of pairs.
+/// Formula of a metric of this family.
 pub(crate) struct PairFormula {
-    /// The sums it reads.
+    /// Required sums.
     pub(crate) streams: Streams,
-    /// True if it counts only samples that reach the gate.
+    /// True if the metric uses only samples that reach the gate.
     pub(crate) gated: bool,
-    /// Number of samples that count.
+    /// Number of samples that the metric uses.
     pub(crate) count: fn(&PairSums) -> u64,
     /// Computation of the value.
     pub(crate) finish: PairFinish,
 }
 
-/// Computation of a value from sums of pairs.
+/// Formula that computes a value from sums of pairs.
 pub(crate) enum PairFinish {
-    /// Value of one channel with at least one pair; the value of a plane is the mean of its axes'.
+    /// Value of one channel with at least one pair. The value of a plane is the mean over its axes.
     Channel(fn(&PairSums) -> Finished),
-    /// Value of all axes together, with the constants of the model.
+    /// Joint value of all axes, with the constants of the model.
     Axes {
         value: fn(&[Axis<'_>]) -> Finished,
         details: fn(&[Axis<'_>], &Output) -> Details,
     },
 }
 
-/// One channel with the constant that its model is compared with.
+/// One channel with the constant prediction to which the model is compared.
 #[derive(Clone, Copy)]
 pub(crate) struct Axis<'a> {
     pub(crate) sums: &'a PairSums,
-    /// The constant of the training part; `None` for the mean of truth.
+    /// Mean of the training labels; `None` to use the mean of truth.
     pub(crate) constant: Option<f64>,
 }
 
@@ -64,14 +64,14 @@ struct Pairs {
     streams: Streams,
     gated: bool,
     specs: Vec<PairSpec>,
-    /// Constant that the model is compared with, by channel; `None` for the mean of truth.
+    /// Constant predictions to which the model is compared, by channel; `None` to use the mean of truth.
     constants: Vec<Option<f64>>,
     outputs: Vec<Output>,
     gathered: Gathered,
 }
 
 impl Pairs {
-    /// The sums that the kept metrics of `plan` read.
+    /// Sums required by the metrics of `plan`.
     fn for_plan(plan: &MetricPlan) -> Pairs {
         let channels = plan.channels();
         let mut streams = Streams::NONE;
@@ -110,7 +110,7 @@ pub(crate) fn value_of(metric: &Metric, sums: &PairSums) -> Finished {
     }
 }
 
-/// Each channel, then each plane as the mean of its axes.
+/// Outputs of all channels, then of all planes as means over their axes.
 pub(crate) fn outputs(channels: &Channels) -> Vec<Output> {
     let single = channels
         .iter()

@@ -1,4 +1,4 @@
-//! Family of scores from distances in the planes of position and of shear force.
+//! Family of scores computed from distances in the planes of position and of shear force.
 
 use taceva_core::{Batch, Channels, SkipReason, Unit};
 
@@ -18,12 +18,12 @@ pub(crate) struct PlaneAxes {
     label: &'static str,
     names: [&'static str; 2],
     unit: Unit,
-    /// Positions of the axes among the channels.
+    /// Indices of the axes among the channels.
     pub(crate) axes: [usize; 2],
 }
 
 impl PlaneAxes {
-    /// The plane's score, computed from its own sums at position 0.
+    /// Output of the plane, computed from the sums of part 0.
     pub(crate) fn output(&self) -> Output {
         Output {
             label: self.label.to_owned(),
@@ -34,25 +34,25 @@ impl PlaneAxes {
     }
 }
 
-/// Planes of two channels, which scores have and models do not predict: name, axes and unit.
+/// Planes of two channels: name, axes and unit. Planes have scores, but models do not predict them.
 pub const PLANES: [(&str, [&str; 2], Unit); 2] = [
     ("Pxy", ["Px", "Py"], Unit::Millimetre),
     ("Fxy", ["Fx", "Fy"], Unit::Newton),
 ];
 
-/// Axes of the plane called `name`; `None` for a channel.
+/// Axes of the plane called `name`; `None` for a channel name.
 pub fn plane_axes(name: &str) -> Option<[&'static str; 2]> {
     let mut planes = PLANES.into_iter();
     planes.find_map(|(plane, axes, _)| (plane == name).then_some(axes))
 }
 
-/// Plane of which `channel` is an axis.
+/// Plane with the axis `channel`; `None` if no plane has it.
 pub fn plane_of(channel: &str) -> Option<&'static str> {
     let mut planes = PLANES.into_iter();
     planes.find_map(|(plane, axes, _)| axes.contains(&channel).then_some(plane))
 }
 
-/// The planes that `channels` span.
+/// Planes whose axes are both in `channels`.
 pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     let spanned = PLANES.into_iter().filter_map(|(label, names, unit)| {
         Some(PlaneAxes {
@@ -65,7 +65,7 @@ pub(crate) fn planes(channels: &Channels) -> Vec<PlaneAxes> {
     spanned.collect()
 }
 
-/// Formula of a metric that is computed from the distances in a plane.
+/// Formula of a metric of this family.
 pub(crate) struct PlaneFormula(pub(crate) fn(&PlaneSums) -> Finished);
 
 /// Family of distances in planes of two channels.
@@ -81,14 +81,14 @@ pub(crate) static PLANE: FamilyKind = FamilyKind {
 pub(crate) struct Plane {
     planes: Vec<PlaneAxes>,
     outputs: Vec<Output>,
-    /// Adders by plane, as planes differ in magnitude.
+    /// Adders by plane, because planes differ in magnitude.
     adders: Vec<ColumnAdder>,
     gathered: Gathered,
     distances: Vec<f64>,
 }
 
 impl Plane {
-    /// The planes of `channels`; `None` if they span none.
+    /// Planes of `channels`; `None` if no plane has both axes.
     fn for_channels(channels: &Channels) -> Option<Plane> {
         let planes = planes(channels);
         if planes.is_empty() {
@@ -110,7 +110,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Missing axis, if `channels` span no plane: the second axis of a plane with its first, else the first axis of all.
+    /// Missing axis, if no plane has both axes: the second axis of a plane with its first axis, else the first axis of all.
     fn missing_axis(channels: &Channels) -> Option<&'static str> {
         if !planes(channels).is_empty() {
             return None;
@@ -125,7 +125,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// The axis that the channels of `plan` lack.
+    /// Reason against a value: the axis that the channels of `plan` lack.
     fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
         let axis = Plane::missing_axis(plan.channels())?;
         Some(SkipReason::ChannelAbsent(axis.to_owned()))

@@ -13,7 +13,7 @@ pub(crate) struct PlaneSums {
 }
 
 impl PlaneSums {
-    /// Adds one sample: its pairs along x and y. A sample with an unusable value is counted and skipped.
+    /// Adds one sample with its pairs along x and y. A sample with an unusable value is counted and skipped.
     pub(crate) fn add(&mut self, x: Paired<f64>, y: Paired<f64>) {
         match PlaneSums::distance_of(x, y) {
             Some(distance) => {
@@ -41,13 +41,13 @@ impl PlaneSums {
         self.n_invalid
     }
 
-    /// The sum of the distances.
+    /// Sum of the distances.
     pub(crate) fn distance(&self) -> &ExactSum {
         &self.distance
     }
 }
 
-/// Sums of one column, the distances.
+/// Sums of a single column, the distances.
 impl ColumnSums for PlaneSums {
     fn sums(&mut self) -> [&mut [ExactSum]; 2] {
         [std::slice::from_mut(&mut self.distance), &mut []]
@@ -71,18 +71,18 @@ impl Merge for PlaneSums {
     }
 }
 
-/// e = RN(√RN(RN(x²) + RN(y²))), scaled by a power of two where a square would over- or underflow.
+/// e = RN(√RN(RN(x²) + RN(y²))), scaled by a power of two if a square would over- or underflow.
 ///
-/// Unlike the machine's `hypot`, the result is the same to the last bit on every platform.
+/// Unlike the `hypot` of a platform, this function returns the same bits on every platform.
 #[inline]
 fn hypotenuse(x: f64, y: f64) -> f64 {
-    /// 2⁶⁰⁰.
+    /// 2⁶⁰⁰, the factor for small numbers.
     const UP: f64 = f64::from_bits((1023 + 600) << 52);
-    /// 2⁻⁶⁰⁰.
+    /// 2⁻⁶⁰⁰, the factor for large numbers.
     const DOWN: f64 = f64::from_bits((1023 - 600) << 52);
-    /// 2⁵¹⁰: up to here the sum of two squares is finite.
+    /// 2⁵¹⁰: up to this magnitude the sum of two squares is finite.
     const LARGE: f64 = f64::from_bits((1023 + 510) << 52);
-    /// 2⁻⁴⁵⁰: from here on a square that underflows is too small to count.
+    /// 2⁻⁴⁵⁰: from this magnitude on, an underflowing square is negligible.
     const SMALL: f64 = f64::from_bits((1023 - 450) << 52);
     let root = |x: f64, y: f64| (x * x + y * y).sqrt();
     let greatest = x.abs().max(y.abs());

@@ -1,4 +1,4 @@
-//! Views of `ndarray` as pairs.
+//! Views of `ndarray` as columns of pairs.
 
 use ndarray::ArrayView1;
 
@@ -7,7 +7,7 @@ use crate::evaluate::number::Number;
 use crate::families::accuracy::pair_sums::PairSums;
 use crate::pair::Paired;
 
-/// Pairs gathered at once from views that are not contiguous or not binary64.
+/// Number of pairs per block gathered from views that are not contiguous or not binary64.
 const BLOCK: usize = 1024;
 
 impl PairSums {
@@ -15,8 +15,8 @@ impl PairSums {
     /// copy; other views are gathered 1,024 pairs at a time.
     ///
     /// # Errors
-    /// [`MetricError::Lengths`] if they differ in length; nothing is added then. [`MetricError::Absent`] for an `Option` that is `None`;
-    /// the blocks before it are added.
+    /// [`MetricError::Lengths`] if the views differ in length. Nothing is added then. [`MetricError::Absent`] for a missing value in an
+    /// `Option`. Earlier blocks are added then.
     ///
     /// ```
     /// use ndarray::array;

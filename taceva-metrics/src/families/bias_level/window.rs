@@ -1,17 +1,17 @@
-//! Errors of a batch by level, for levels that are mostly close together.
+//! Errors of a batch by level, stored in a window of adjacent levels.
 
 use super::{LevelErrors, LevelSums};
 use crate::exact::FixedSum;
 use crate::exact::level::millionths;
 use crate::pair::Paired;
 
-/// Most levels of the window; a wider range of truth uses a lookup.
+/// Greatest number of levels in the window. A wider range of truth uses a lookup.
 const LEVELS: usize = 1 << 12;
 
-/// Placeholder for the level of a pair without one.
+/// Placeholder for a pair without a level.
 const NONE: i64 = i64::MIN;
 
-/// Adjacent levels from the lowest of a batch on; kept to reuse their memory.
+/// Adjacent levels from the lowest level of a batch on. The memory is reused between batches.
 #[derive(Debug, Default)]
 pub(super) struct Window {
     of_rows: Vec<i64>,
@@ -19,7 +19,7 @@ pub(super) struct Window {
 }
 
 impl Window {
-    /// Adds the errors of pairs to the levels of their truths, each `width` millionths wide.
+    /// Adds the errors of pairs to the levels of their truths. Levels are `width` millionths wide.
     pub(super) fn add(&mut self, pairs: Paired<&[f64]>, width: i64, sums: &mut LevelSums) {
         for pairs in pairs.blocks(FixedSum::MOST) {
             self.add_block(pairs, width, sums);
@@ -69,7 +69,7 @@ impl Window {
     }
 }
 
-/// ⌊value / width⌋; the widths are constants here, since a division by a constant compiles to a multiplication.
+/// ⌊value / width⌋. The widths are constants in this function, because a division by a constant compiles to a multiplication.
 #[inline]
 fn floored(value: i64, width: i64) -> i64 {
     match width {
@@ -87,7 +87,7 @@ fn count(rows: usize) -> u64 {
 mod tests {
     use super::*;
 
-    /// Pair by pair, as levels are defined.
+    /// Adds the pairs one by one, as levels are defined.
     fn one_by_one(pairs: &[[f64; 2]], width: i64) -> LevelSums {
         let mut sums = LevelSums::default();
         for &[reference, estimate] in pairs {

@@ -1,29 +1,29 @@
-//! The slopes of every prediction on all truths together.
+//! Joint regression of every prediction on all truths.
 
 use super::sums::JointSums;
 use crate::exact::single::exactly;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Slopes of predictions over truths, as shares of full scale.
+/// Slopes of predictions on truths, as shares of full scale.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Leaks {
     /// Shares by predicted channel, then by true channel; `None` if the true channel does not vary.
     pub(super) shares: Vec<Vec<Option<f64>>>,
-    /// True for slopes of a joint fit, false for slopes on each truth alone.
+    /// True for slopes of a joint fit, false for slopes on one truth each.
     pub(super) joint: bool,
 }
 
 impl Leaks {
-    /// Fits y_i = a_i + Σ_j b_ij x_j and gives b_ij range_j / range_i, range the full scale of a truth.
+    /// Fits y_i = a_i + Σ_j b_ij x_j and returns b_ij range_j / range_i, with range the full scale of a truth.
     ///
-    /// The products of deviations are exact and rounded once. The normal equations are scaled to correlations and solved by Cholesky's
-    /// method, whose error grows with the collinearity of the truths. Slopes are Σ y_i x_j / Σ x_j² of deviations instead if samples are not
-    /// more than unknowns. The same applies if a truth is a linear function of the others up to 10⁻⁸ of its variance.
+    /// Products of deviations are exact and rounded once. The normal equations are scaled to correlations and solved by Cholesky's
+    /// method, whose error increases with the collinearity of the truths. If there are no more samples than unknowns, the slopes are Σ y_i x_j / Σ x_j²
+    /// of deviations. The same applies if a truth is a linear function of the others up to 10⁻⁸ of its variance.
     ///
     /// # Errors
     /// [`UndefinedReason`] for fewer than three samples, one channel, or no truth that varies.
     pub(super) fn of(sums: &JointSums) -> Result<Leaks, UndefinedReason> {
-        /// Samples that a slope with a spread needs.
+        /// Least number of samples for slopes with a spread.
         const LEAST: u64 = 3;
         let channels = sums.channels();
         match sums.n() {
@@ -69,7 +69,7 @@ impl Leaks {
         })
     }
 
-    /// The greatest magnitude between two different channels.
+    /// Greatest magnitude of a share between two different channels.
     pub(super) fn greatest(&self) -> Finished {
         let rows = self.shares.iter().enumerate();
         let leaks = rows.flat_map(|(row, shares)| {
@@ -83,16 +83,16 @@ impl Leaks {
     }
 }
 
-/// Cholesky's factor of the correlations of the truths that vary.
+/// Cholesky factor of the correlations of the varying truths.
 struct Factor {
     /// Lower triangle, row by row.
     rows: Vec<Vec<f64>>,
 }
 
 impl Factor {
-    /// `None` if the truths cannot be separated.
+    /// Factor of the truths `varying`; `None` if their effects cannot be separated.
     fn of(sums: &JointSums, varying: &[usize]) -> Option<Factor> {
-        /// Least share of a truth's variance that the other truths leave unexplained.
+        /// Least share of a truth's variance that the other truths do not explain.
         const LEAST_OWN: f64 = 1e-8;
         let mut rows: Vec<Vec<f64>> = Vec::new();
         for (place, &truth) in varying.iter().enumerate() {
@@ -111,7 +111,7 @@ impl Factor {
         Some(Factor { rows })
     }
 
-    /// The joint slopes of one prediction.
+    /// Joint slopes of one prediction.
     fn slopes(&self, sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
         let shared = varying
             .iter()
@@ -143,7 +143,7 @@ fn correlation(sums: &JointSums, left: usize, right: usize) -> f64 {
     product / deviation(sums, left) / deviation(sums, right)
 }
 
-/// The slope of one prediction on each truth alone.
+/// Slopes of one prediction on each truth alone.
 fn single_slopes(sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
     let slope = |&truth: &usize| {
         let shared = sums.shared_products(predicted, truth);
@@ -152,7 +152,7 @@ fn single_slopes(sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f
     varying.iter().map(slope).collect()
 }
 
-/// RN(range of `truth` / range of the truth of `predicted`); `None` if the latter does not vary.
+/// RN(range of `truth` / range of the truth of `predicted`); `None` if the truth of `predicted` does not vary.
 fn full_scales(sums: &JointSums, truth: usize, predicted: usize) -> Option<f64> {
     let range = |channel: usize| {
         let [low, high] = sums.range(channel)?;
@@ -168,7 +168,7 @@ mod tests {
     use super::*;
     use crate::exact::ColumnAdder;
 
-    /// The sums of samples, of each the truths and then the predictions.
+    /// Sums of `samples`, each with the truths before the predictions.
     fn of_samples(channels: usize, samples: &[Vec<f64>]) -> JointSums {
         let mut sums = JointSums::new(channels);
         let column = |at: usize| samples.iter().map(|sample| sample[at]).collect();
@@ -178,7 +178,7 @@ mod tests {
         sums
     }
 
-    /// Samples of three channels: the truths by `truths`, and predictions as their linear functions by `slopes`.
+    /// Sums of samples with three channels: the truths are `truths`, and the predictions are linear functions of them with `slopes`.
     fn sums(truths: impl Fn(u32) -> [f64; 3], slopes: [[f64; 3]; 3]) -> JointSums {
         let sample = |row: u32| {
             let x = truths(row);

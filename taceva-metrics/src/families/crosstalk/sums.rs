@@ -1,4 +1,4 @@
-//! Sums of several channels together: x the truths, y the predictions.
+//! Joint sums of several channels, with x the truths and y the predictions.
 
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
@@ -13,13 +13,13 @@ pub(crate) struct JointSums {
     n_invalid: u64,
     /// Σ x_j, then Σ y_i.
     values: Vec<ExactSum>,
-    /// Σ x_k x_j, row by row of k ≤ j, then Σ y_i x_j, row by row of i.
+    /// Σ x_k x_j for k ≤ j, row by row, then Σ y_i x_j, row by row of i.
     products: Vec<ExactSum>,
     /// Least and greatest x_j.
     ranges: Vec<[f64; 2]>,
 }
 
-/// Pairs of columns whose products are summed, for `channels` truths followed by as many predictions.
+/// Pairs of columns to multiply, for `channels` truths followed by as many predictions.
 pub(super) fn products(channels: usize) -> Vec<[usize; 2]> {
     let truths = (0..channels).flat_map(|k| (k..channels).map(move |j| [k, j]));
     let shared = (0..channels).flat_map(|i| (0..channels).map(move |j| [channels + i, j]));
@@ -39,7 +39,7 @@ impl JointSums {
         }
     }
 
-    /// Counts samples.
+    /// Adds `samples` to the number of samples.
     pub(super) fn count(&mut self, samples: usize) {
         self.n += u64::try_from(samples).expect("no column has 2^64 rows");
     }

@@ -1,13 +1,13 @@
-//! Line of predicted over true force of light presses, and the least force that it detects.
+//! Line through predicted over true force of light presses, and its detection limit.
 
 use super::sums::LightSums;
 use crate::exact::Dyadic;
 use crate::score::value::UndefinedReason;
 use crate::stats::noncentral::{critical_factor, detection_factor};
 
-/// Least number of independent places for a limit.
+/// Least number of effective independent places for a limit.
 pub(super) const LEAST_PLACES: u64 = 10;
-/// Least number of places for the line of a limit without some of its places.
+/// Least number of places for the line with some places left out.
 const LEAST_LEFT: u64 = 3;
 
 /// Detection limit and its threshold, N of true force.
@@ -18,7 +18,7 @@ pub(super) struct Limit {
 }
 
 impl Limit {
-    /// The limit of at least ten places, within the forces of their presses.
+    /// Limit from at least ten places, within the range of their forces.
     pub(super) fn of(sums: &LightSums) -> Result<Limit, UndefinedReason> {
         let range = sums.line.range.ok_or(UndefinedReason::NoLightPresses)?;
         let limit = Limit::of_line(sums, LEAST_PLACES)?;
@@ -31,14 +31,14 @@ impl Limit {
         })
     }
 
-    /// The limit of the line for another choice of places, of which there may be fewer.
+    /// Limit of the line for another choice of places, which may be fewer.
     pub(super) fn resampled(sums: &LightSums) -> Result<Limit, UndefinedReason> {
         Limit::of_line(sums, LEAST_LEFT)
     }
 
-    /// The limit of ISO 11843-2 for one prediction a press and g = n² / Σ nᵢ² independent presses.
+    /// Limit of ISO 11843-2 for one prediction per press and g = n² / Σ nᵢ² independent presses.
     ///
-    /// With S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike and R = S_xx S_yy − S_xy² it is s / b = √(R S_xx) / (n S_xy) × √(g / (g − 2)).
+    /// With S_xx = n Σ x² − (Σ x)², S_yy and S_xy alike and R = S_xx S_yy − S_xy², s / b = √(R S_xx) / (n S_xy) × √(g / (g − 2)).
     /// R, S_xx and S_xy are exact; each root and quotient is rounded once.
     fn of_line(sums: &LightSums, least: u64) -> Result<Limit, UndefinedReason> {
         if !sums.places.are_named() {

@@ -14,13 +14,13 @@ pub(crate) struct LightSums {
     pub(super) places: Cells<Presses>,
 }
 
-/// Sums of a line through light presses: x the true force, y the predicted one.
+/// Sums for a line through light presses, with x the true and y the predicted force.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LineSums {
     pub(super) n: u64,
     /// Σ x, Σ y, Σ x², Σ x y, Σ y².
     pub(super) sums: [ExactSum; 5],
-    /// Least and greatest x; `None` for no press.
+    /// Least and greatest x; `None` without presses.
     pub(super) range: Option<Forces>,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct Forces {
     pub(super) greatest: f64,
 }
 
-/// Number of presses of a place.
+/// Number of presses at a place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Presses(pub(super) u64);
 

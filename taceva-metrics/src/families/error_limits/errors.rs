@@ -1,4 +1,4 @@
-//! Errors of one channel as a normal sample, and their change with size.
+//! Errors of one channel as a normal sample, and their change with magnitude.
 
 use super::sums::Totals;
 use crate::score::value::{Finished, UndefinedReason};
@@ -10,7 +10,7 @@ pub(crate) struct Errors<'a> {
     totals: &'a Totals,
     /// True if the caller declared the samples independent.
     are_declared_independent: bool,
-    /// Tolerance factor of all clusters together, if these are some of them.
+    /// Tolerance factor of all clusters together, for a selection of clusters.
     factor: Option<f64>,
 }
 
@@ -23,7 +23,7 @@ impl<'a> Errors<'a> {
         }
     }
 
-    /// The same errors with a known tolerance factor.
+    /// The same errors with a given tolerance factor.
     pub(super) fn with_factor(self, factor: Option<f64>) -> Errors<'a> {
         Errors { factor, ..self }
     }
@@ -33,7 +33,7 @@ impl<'a> Errors<'a> {
         self.totals.errors.mean().ok_or(UndefinedReason::Empty)
     }
 
-    /// The errors as a sample: of independent errors if no two belong together, else of clusters.
+    /// Errors as a normal sample: of independent errors if no two belong to one cluster, else of clusters.
     pub(crate) fn sample(&self) -> Result<NormalSample, UndefinedReason> {
         let errors = &self.totals.errors;
         match errors.n {
@@ -58,7 +58,7 @@ impl<'a> Errors<'a> {
         sample.ok_or(UndefinedReason::Overflow)
     }
 
-    /// Mean ± k standard deviations. The k of a sample is its `factor`, unless it is known.
+    /// Mean ± k standard deviations, with k the given factor or else that of the sample.
     pub(crate) fn tolerance_ends(
         &self,
         factor: fn(&NormalSample) -> Option<f64>,
@@ -73,9 +73,9 @@ impl<'a> Errors<'a> {
         Ok([sample.mean - half, sample.mean + half])
     }
 
-    /// Slope of the errors over the means of truth and prediction, and the probability that chance alone gives such a slope.
+    /// Slope of the errors over the means of truth and prediction, and its p value.
     ///
-    /// The probability is that of independent errors; clusters have it from their jackknife.
+    /// The p value is that of independent errors. For clusters, the jackknife computes the p value.
     pub(crate) fn slope(&self) -> [Finished; 2] {
         let line = self.line();
         let chance = line.and_then(|line| match self.are_independent() {
@@ -86,7 +86,7 @@ impl<'a> Errors<'a> {
         [line.map(|line| line.slope), chance]
     }
 
-    /// True if no two errors belong together.
+    /// True if no two errors belong to one cluster.
     pub(super) fn are_independent(&self) -> bool {
         let totals = self.totals;
         let are_apart = !totals.is_unnamed && totals.groups.groups() == totals.errors.n;

@@ -1,4 +1,4 @@
-//! Intervals of limits of errors: by leaving out one cluster after the other, or from the components of variance.
+//! Intervals of limits of errors, by leaving out one cluster at a time or from variance components.
 
 use taceva_core::Unit;
 
@@ -14,18 +14,18 @@ use crate::score::{COVERAGE, ClusteredBy, Interval};
 use crate::stats::NormalSample;
 use crate::stats::jackknife::{self, LeftOut};
 
-/// Numbers of all clusters together, and the sample behind them.
+/// Numbers of all clusters together, and the normal sample of the errors.
 pub(crate) struct Whole<'a> {
     pub(crate) numbers: &'a Numbers,
-    /// The errors of one channel; none for a plane, whose axes depend on each other.
+    /// Errors of one channel; `None` for a plane, because its axes depend on each other.
     pub(crate) sample: Option<NormalSample>,
-    /// True for one channel of which no two errors belong together.
+    /// True for one channel in which no two errors belong to one cluster.
     pub(crate) are_independent: bool,
     /// Number of clusters with samples.
     pub(crate) clusters: usize,
 }
 
-/// One channel: all clusters together, and without each one.
+/// Errors of one channel: of all clusters together, and without each cluster.
 struct Part {
     all: Totals,
     others: Vec<Totals>,
@@ -47,7 +47,7 @@ impl Part {
         part
     }
 
-    /// The errors without one of the clusters, or all of them.
+    /// Errors without the cluster `left_out`, or all errors for `None`.
     fn errors(&self, left_out: Option<usize>) -> Errors<'_> {
         let totals = left_out.map_or(&self.all, |cluster| &self.others[cluster]);
         Errors::of(totals, self.are_declared_independent).with_factor(self.factor)
@@ -56,7 +56,7 @@ impl Part {
 
 /// Intervals of the value and of every variant of a score with these `clusters`, part by part.
 ///
-/// The tolerance factor is that of all clusters, since another sample of as many clusters would have nearly the same.
+/// The tolerance factor is that of all clusters, because another sample of as many clusters would have nearly the same factor.
 pub(super) fn intervals(
     metric: &Metric,
     formula: &LimitFormula,
@@ -122,7 +122,7 @@ pub(super) fn intervals(
     found
 }
 
-/// Interval with these ends of a number that is estimated with `freedom` degrees of freedom from the components of variance.
+/// Interval with these ends, computed from variance components with `freedom` degrees of freedom.
 pub(crate) fn of_components([low, high]: [f64; 2], freedom: f64, clusters: usize) -> Interval {
     if clusters < LEAST_CLUSTERS {
         return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });

@@ -6,7 +6,7 @@ use crate::exact::record::Record;
 use crate::families::cells::{Cells, add_times};
 use crate::stats::{DifferenceLine, OneWaySums};
 
-/// Greatest number of clusters of a channel whose errors are kept apart, which bounds the memory. Beyond it, clusters count as unknown.
+/// Greatest number of clusters of a channel with separate errors, which limits the memory. Beyond this number, clusters count as unknown.
 pub(super) const MOST_CLUSTERS: u64 = 30_000;
 
 /// Sums of one channel.
@@ -14,14 +14,14 @@ pub(super) const MOST_CLUSTERS: u64 = 30_000;
 pub(crate) struct ErrorSums {
     pub(super) n: u64,
     pub(super) n_invalid: u64,
-    /// Errors over the means of truth and prediction.
+    /// Line of the errors over the means of truth and prediction.
     pub(super) line: DifferenceLine,
-    /// Errors by cluster; one cell of all of them if clusters are unknown or every sample is its own.
+    /// Errors by cluster; a single cell if clusters are unknown or every sample is its own cluster.
     pub(super) clusters: Cells<Moments>,
 }
 
 impl ErrorSums {
-    /// Merges all clusters into one if there are too many. The outcome depends on the set of rows alone.
+    /// Merges all clusters if there are too many. The result depends only on the set of rows.
     pub(super) fn bound(&mut self) {
         if self.clusters.len() as u64 > MOST_CLUSTERS {
             self.clusters.forget_names();
@@ -70,13 +70,13 @@ impl Merge for ErrorSums {
     }
 }
 
-/// Sums of whole clusters, which determine every number.
+/// Sums over whole clusters, which determine every number.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Totals {
     pub(super) line: DifferenceLine,
     pub(super) errors: Moments,
     pub(super) groups: OneWaySums,
-    /// True if some error names no cluster.
+    /// True if an error has no cluster.
     pub(super) is_unnamed: bool,
 }
 
@@ -94,14 +94,14 @@ impl Totals {
         totals
     }
 
-    /// The totals of all `parts`.
+    /// Totals of all `parts` together.
     pub(super) fn of_all(parts: &[Totals]) -> Totals {
         let mut all = Totals::default();
         parts.iter().for_each(|part| all.merge(part));
         all
     }
 
-    /// The totals of all but each one of `parts`, without any subtraction.
+    /// Totals with one of `parts` left out each, without any subtraction.
     pub(super) fn without_each(parts: &[Totals]) -> Vec<Totals> {
         let mut others = Vec::with_capacity(parts.len());
         let mut after = Totals::default();

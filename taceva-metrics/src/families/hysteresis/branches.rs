@@ -1,4 +1,4 @@
-//! Sums of the presses at one point.
+//! Sums of the presses at one contact point.
 
 use std::sync::OnceLock;
 
@@ -13,7 +13,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Forces by depth on both branches, the place of the point, and the lazily computed comparison.
+/// Forces by depth on both branches, the place of the contact point, and the cached comparison of the branches.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Branches {
     load: Branch,
@@ -22,10 +22,10 @@ pub(super) struct Branches {
     press: OnceLock<Result<Press, UndefinedReason>>,
 }
 
-/// The forces at each depth: their count and exact sum.
+/// Number and exact sum of the forces at each depth.
 type Branch = SortedMap<Ordered, (u64, ExactSum)>;
 
-/// Count and exact sums of the x and y of samples, mm.
+/// Number of samples and exact sums of their x and y, mm.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct PlaceSums {
     n: u64,
@@ -33,7 +33,7 @@ struct PlaceSums {
 }
 
 impl Branches {
-    /// Adds a sample: depth in mm and force in N, both finite and of a magnitude up to 2¹⁰²¹.
+    /// Adds a sample with depth in mm and force in N, both finite with magnitudes up to 2¹⁰²¹.
     pub(super) fn add(&mut self, phase: Phase, depth_mm: f64, force_n: f64) {
         self.press = OnceLock::new();
         let branch = match phase {
@@ -53,7 +53,7 @@ impl Branches {
         }
     }
 
-    /// The comparison of the branches.
+    /// Comparison of the branches.
     pub(super) fn press(&self) -> Result<Press, UndefinedReason> {
         *self
             .press
@@ -131,7 +131,7 @@ impl Merge for Branches {
     }
 }
 
-/// Depth and RN of the mean force, by depth.
+/// Depth and RN of the mean force at that depth, by depth.
 fn corners(branch: &Branch) -> Vec<[f64; 2]> {
     let mean = |count: &u64, forces: &ExactSum| forces.to_dyadic().over(&Dyadic::from(*count));
     let corners = branch.iter();

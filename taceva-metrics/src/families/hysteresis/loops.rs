@@ -1,4 +1,4 @@
-//! Family of scores that compare loading with unloading, point by point.
+//! Family of scores that compare loading with unloading at each contact point.
 
 use taceva_core::{Batch, Field, Phase, Unit};
 
@@ -24,7 +24,7 @@ use crate::score::{Count, Variant};
 pub(crate) static KIND: FamilyKind =
     FamilyKind::new("taceva.loops/1", |plan| erased(Loops::for_plan(plan)?));
 
-/// Force over depth of each point, on both branches.
+/// Family of force over depth on both branches of each contact point.
 pub(crate) struct Loops {
     depth: usize,
     force: usize,
@@ -32,7 +32,7 @@ pub(crate) struct Loops {
     grid: Option<Grid>,
 }
 
-/// Sums of all points.
+/// Sums of all contact points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LoopSums {
     n: u64,
@@ -172,7 +172,7 @@ impl Family for Loops {
 }
 
 impl LoopSums {
-    /// RN of the mean of `number` over the points with comparable branches. Presses without the number are skipped.
+    /// RN of the mean of `number` over the contact points with comparable branches. Presses without the number are skipped.
     fn mean(&self, number: &dyn Fn(&Press) -> Option<f64>) -> Finished {
         if self.n == 0 {
             return Err(UndefinedReason::Empty);
@@ -199,7 +199,7 @@ impl LoopSums {
         Ok(sum.to_dyadic().over(&Dyadic::from(count)))
     }
 
-    /// The mean area of the points in each cell of `grid`.
+    /// Mean area of the contact points in each cell of `grid`.
     fn map(&self, grid: &Grid) -> Map {
         let mut areas: SortedMap<(u32, u32), Moments> = SortedMap::default();
         for (_, cell) in self.cells.iter() {
@@ -238,7 +238,7 @@ impl Merge for LoopSums {
     }
 }
 
-/// Returns the reason of the later step, which is the first to fix.
+/// Returns the reason from the later step of the computation.
 fn further(left: UndefinedReason, right: UndefinedReason) -> UndefinedReason {
     let came = |reason: &UndefinedReason| match reason {
         UndefinedReason::ShortBranch => 0,

@@ -1,4 +1,4 @@
-//! Area between the two branches of a press, split at their crossings.
+//! Area between the loading and the unloading branch of a press, split at crossings.
 
 use std::cmp::Ordering;
 
@@ -6,33 +6,33 @@ use crate::exact::single::{exactly, magnitude, sign};
 use crate::exact::{Dyadic, ExactSum};
 use crate::score::value::UndefinedReason;
 
-/// Force over depth of one branch: at least two corners `[depth in mm, force in N]`, depths strictly ascending.
+/// Force over depth of one branch: at least two points `[depth in mm, force in N]`, depths strictly ascending.
 pub(crate) type Branch<'a> = &'a [[f64; 2]];
 
 /// Hysteresis of one press.
 ///
-/// Every stretch between two corners is a rational number rounded once, and the stretches are summed exactly. Areas without sign have a
-/// relative error of at most 2⁻⁵². The signed area is within 2⁻⁵³ of the area without sign, plus one rounding.
+/// The area of each stretch between two depths is a rational number, rounded once. The stretches are summed exactly. Unsigned areas have a
+/// relative error of at most 2⁻⁵². The signed area is within 2⁻⁵³ of the unsigned area, plus one rounding.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Press {
-    /// ∫ |F_load − F_unload| dz over the depths both branches reach, in N mm.
+    /// ∫ |F_load − F_unload| dz over the depths that both branches reach, N mm.
     pub(crate) area: f64,
-    /// ∫ (F_load − F_unload) dz, in N mm: negative if the gel pushes harder during unloading.
+    /// ∫ (F_load − F_unload) dz, N mm; negative if the gel pushes harder during unloading.
     pub(crate) signed_area: f64,
-    /// ∫ F_load dz over the same depths, in N mm.
+    /// ∫ F_load dz over the same depths, N mm.
     pub(crate) work: f64,
-    /// The greatest |F_load − F_unload|, in N.
+    /// Greatest |F_load − F_unload|, N.
     pub(crate) greatest_difference: f64,
-    /// The greatest |F_load| of the whole branch, in N.
+    /// Greatest |F_load| of the whole branch, N.
     pub(crate) full_scale: f64,
 }
 
 impl Press {
-    /// Compares the two branches, each linear between its corners.
+    /// Compares the two branches, each linear between its points.
     ///
     /// # Errors
-    /// [`UndefinedReason::ShortBranch`] for a branch of one depth or none, [`UndefinedReason::NoOverlap`] if no stretch of
-    /// depths is common to both.
+    /// [`UndefinedReason::ShortBranch`] for a branch with fewer than two depths, [`UndefinedReason::NoOverlap`] if the branches have no range of
+    /// depths in common.
     pub(crate) fn compare(load: Branch<'_>, unload: Branch<'_>) -> Result<Press, UndefinedReason> {
         if load.len() < 2 || unload.len() < 2 {
             return Err(UndefinedReason::ShortBranch);
@@ -58,18 +58,18 @@ impl Press {
         })
     }
 
-    /// Share of the work of loading that is lost; `None` if loading took no work.
+    /// Share of the work of loading that is lost; `None` unless the work is above 0.
     pub(crate) fn ratio(&self) -> Option<f64> {
         (self.work > 0.0).then(|| self.area / self.work)
     }
 
-    /// Greatest difference as a share of full scale; `None` if no force was measured.
+    /// Greatest difference as a share of full scale; `None` if all forces are 0.
     pub(crate) fn relative_difference(&self) -> Option<f64> {
         (self.full_scale > 0.0).then(|| self.greatest_difference / self.full_scale)
     }
 }
 
-/// The depths of either branch within the range of both, ascending.
+/// Depths of both branches within their common range, ascending.
 fn common_grid(load: Branch<'_>, unload: Branch<'_>) -> Result<Vec<f64>, UndefinedReason> {
     let start = load[0][0].max(unload[0][0]);
     let end = load[load.len() - 1][0].min(unload[unload.len() - 1][0]);
@@ -85,14 +85,14 @@ fn common_grid(load: Branch<'_>, unload: Branch<'_>) -> Result<Vec<f64>, Undefin
     Ok(grid)
 }
 
-/// A stretch of depths within which both branches are straight.
+/// A range of depths within which both branches are straight.
 struct Stretch {
     /// b − a.
     width: Dyadic,
-    /// F_load at both ends, times `load_scale`.
+    /// F_load at both ends, multiplied by `load_scale`.
     load: [Dyadic; 2],
     load_scale: Dyadic,
-    /// F_load − F_unload at both ends, times `scale`.
+    /// F_load − F_unload at both ends, multiplied by `scale`.
     difference: [Dyadic; 2],
     scale: Dyadic,
 }
@@ -112,7 +112,7 @@ impl Stretch {
         }
     }
 
-    /// (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) if the branches cross; u, v the differences at the ends.
+    /// (|u| + |v|) h / 2, or (u² + v²) h / (2 (|u| + |v|)) if the branches cross, with u and v the differences at the ends.
     fn area(&self) -> f64 {
         let [u, v] = &self.difference;
         let sizes = &magnitude(u.clone()) + &magnitude(v.clone());
@@ -137,7 +137,7 @@ impl Stretch {
         (&(start + end) * &self.width).over(&twice(&self.load_scale))
     }
 
-    /// The greater of |u| and |v|: a difference of straight lines is greatest at an end.
+    /// The greater of |u| and |v|. A difference of straight lines is greatest at an end.
     fn greatest_difference(&self) -> f64 {
         let ends = self
             .difference
@@ -147,11 +147,11 @@ impl Stretch {
     }
 }
 
-/// A branch between two neighbouring corners, at the ends of a stretch within them.
+/// A branch between two neighbouring points, evaluated at the ends of a stretch within them.
 struct Chord {
-    /// The forces, times `scale`.
+    /// Forces, multiplied by `scale`.
     forces: [Dyadic; 2],
-    /// The distance of the corners.
+    /// Distance of the points.
     scale: Dyadic,
 }
 

@@ -1,28 +1,28 @@
-//! Gap between two surfaces in one frame.
+//! Gap between two surfaces in one coordinate frame.
 
 use crate::exact::{Dyadic, ExactSum};
 use crate::geometry::{Hull, NearestPoints, Point};
 use crate::score::value::UndefinedReason;
 
-/// The gap between two surfaces, mm, seen from either.
+/// Gap between two surfaces, mm, in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Gap {
-    /// RN of the mean distance from the points of the first surface to the nearest of the second.
+    /// RN of the mean distance from points of the first surface to the nearest point of the second.
     pub(crate) forward: f64,
-    /// RN of the mean distance from the points of the second to the nearest of the first.
+    /// RN of the mean distance from points of the second surface to the nearest point of the first.
     pub(crate) backward: f64,
-    /// Number of measured points of both surfaces.
+    /// Number of compared points of both surfaces.
     pub(crate) points: u64,
 }
 
 impl Gap {
-    /// Compares two surfaces where both are known. Points count if their projection along z is in the hull of the other surface. The
-    /// nearest point is sought among all points of the other surface.
+    /// Compares two surfaces where they overlap: points whose projection along z is in the hull of the other surface. The
+    /// nearest point is the nearest of all points of the other surface.
     ///
     /// A distance is RN(√RN(RN(RN(x²) + RN(y²)) + RN(z²))), and distances are summed exactly.
     ///
     /// # Errors
-    /// [`UndefinedReason::NoOverlap`] if no point of one of them is in the hull of the other.
+    /// [`UndefinedReason::NoOverlap`] if no point of one surface is in the hull of the other.
     pub(crate) fn between(first: &[Point], second: &[Point]) -> Result<Gap, UndefinedReason> {
         let (forward, there) = mean_distance(first, second)?;
         let (backward, back) = mean_distance(second, first)?;
@@ -33,7 +33,7 @@ impl Gap {
         })
     }
 
-    /// RN of the mean of both directions; lengths are far from the ends of binary64.
+    /// RN of the mean of both directions. Lengths are far from over- and underflow.
     pub(crate) fn both(&self) -> f64 {
         (self.forward + self.backward) * 0.5
     }
@@ -49,7 +49,7 @@ fn mean_distance(from: &[Point], to: &[Point]) -> Result<(f64, u64), UndefinedRe
     mean_of_nearest(common, to).ok_or(UndefinedReason::NoOverlap)
 }
 
-/// RN of the mean distance from each of `from` to the nearest of `to`, and the number of points in `from`.
+/// RN of the mean distance from each point of `from` to the nearest point of `to`, and the number of points in `from`.
 fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> Option<(f64, u64)> {
     let search = NearestPoints::new(to.iter().copied());
     let (mut count, mut distances) = (0, ExactSum::default());
@@ -64,8 +64,8 @@ fn mean_of_nearest<'a>(from: impl Iterator<Item = &'a Point>, to: &[Point]) -> O
 mod tests {
     use super::*;
 
-    /// The clouds of `inter_sensor` in the golden vectors, whose mean distances are 45-digit truth; `TACEVA_GOLDEN` names a
-    /// folder with others.
+    /// The clouds of `inter_sensor` in the golden vectors have mean distances known to 45 digits. `TACEVA_GOLDEN` names a
+    /// folder with other vectors.
     #[test]
     fn distances_to_the_nearest_point_are_those_of_the_golden_vectors() {
         let own = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden");

@@ -1,4 +1,4 @@
-//! Every pair of units, registered onto each other and compared.
+//! Registers and compares every pair of units.
 
 use super::gap::Gap;
 use super::surfaces::{Cloud, SurfaceClouds};
@@ -7,13 +7,13 @@ use crate::geometry::{Motion, Point, Registration, register_clouds};
 use crate::score::matrix::Matrix;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// The gaps of all pairs of units.
+/// Gaps of all pairs of units.
 pub(super) struct UnitGaps {
     units: Vec<String>,
     pairs: Vec<UnitPair>,
 }
 
-/// Two units by their index in the order of names, with their gap.
+/// Two units, by index in the order of names, with their gap.
 struct UnitPair {
     units: [usize; 2],
     gap: Result<Gap, UndefinedReason>,
@@ -22,10 +22,10 @@ struct UnitPair {
 }
 
 impl UnitGaps {
-    /// Moves each later unit, in the order of names, onto each earlier one and compares them.
+    /// Registers each later unit, in the order of names, to each earlier unit and compares both.
     ///
     /// # Errors
-    /// [`UndefinedReason`] if there is no sample or one unit only.
+    /// [`UndefinedReason`] if there are no samples, or only one unit.
     pub(super) fn of(sums: &SurfaceClouds) -> Result<UnitGaps, UndefinedReason> {
         let clouds = sums.by_unit();
         match clouds.len() {
@@ -43,7 +43,7 @@ impl UnitGaps {
         Ok(UnitGaps { units, pairs })
     }
 
-    /// RN of the mean of a number over the pairs that have a gap.
+    /// RN of the mean of `number` over the pairs with a gap.
     ///
     /// # Errors
     /// The reason of the first pair, if no pair has a gap.
@@ -60,7 +60,7 @@ impl UnitGaps {
         }
     }
 
-    /// The gap of each pair, by the names of both.
+    /// Gap of each pair, by the names of both units.
     pub(super) fn matrix(&self) -> Matrix {
         let mut values = vec![vec![None; self.units.len()]; self.units.len()];
         for pair in &self.pairs {
@@ -85,12 +85,12 @@ impl UnitGaps {
         self.count(|_| true)
     }
 
-    /// Number of pairs that have a gap.
+    /// Number of pairs with a gap.
     pub(super) fn valid(&self) -> u64 {
         self.count(|pair| pair.gap.is_ok())
     }
 
-    /// Number of pairs that were registered by points of the same name.
+    /// Number of pairs registered by contact points with equal names.
     pub(super) fn by_point(&self) -> u64 {
         self.count(|pair| pair.by_point)
     }
@@ -106,7 +106,7 @@ impl UnitGaps {
     }
 }
 
-/// Moves `from` onto `onto` and measures the gap.
+/// Registers `from` to `onto` and measures the gap.
 fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
     let [shared_from, shared_onto] = shared_points(from, onto);
     let by_point = shared_from.len() >= 3;
@@ -136,7 +136,7 @@ fn compare(units: [usize; 2], onto: &Cloud, from: &Cloud) -> UnitPair {
     }
 }
 
-/// The points of both clouds at the locations they share, in one order.
+/// Points of both clouds at their common contact points, in the same order.
 fn shared_points(from: &Cloud, onto: &Cloud) -> [Vec<Point>; 2] {
     let located = from.locations.iter().zip(&from.points);
     let (from, onto) = located

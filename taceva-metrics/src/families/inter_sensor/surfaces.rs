@@ -1,4 +1,4 @@
-//! Surfaces of units: the places of first contact.
+//! Surfaces of units, given by the places of first contact.
 
 use taceva_core::{Batch, Field};
 
@@ -14,7 +14,7 @@ use crate::geometry::Point;
 
 /// Places by contact point and unit.
 ///
-/// They are sets: a place found in several samples counts once.
+/// The places form a set: a place in several samples counts once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceClouds {
     n: u64,
@@ -22,26 +22,26 @@ pub(crate) struct SurfaceClouds {
     cells: Cells<Places>,
 }
 
-/// Places in a defined order, each once.
+/// Set of places in ascending order.
 type PlaceSet = SortedMap<[Ordered; 3], ()>;
 
-/// The places of one location, by unit.
+/// Places of one contact point, by unit.
 #[derive(Clone, Debug, Default, PartialEq)]
 struct Places {
     units: SortedMap<String, PlaceSet>,
 }
 
-/// Surface of one unit: points in a fixed order, each with the number of its location.
+/// Surface of one unit: points in a defined order, each with the index of its contact point.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Cloud {
-    /// The points.
+    /// Points of the surface, mm.
     pub(super) points: Vec<Point>,
-    /// Index of each point's location; equal indices in two clouds are one location. Empty if samples name no locations.
+    /// Index of each point's contact point. Equal indices in two clouds are the same contact point. Empty if samples have no contact points.
     pub(super) locations: Vec<usize>,
 }
 
 impl SurfaceClouds {
-    /// Adds the places of `rows` of `batch` on the surfaces of units. `axes` are the channels of x, y and z, mm. A place with an unusable
+    /// Adds the places of `rows` of `batch`. `axes` are the indices of the channels of x, y and z, mm. A place with an unusable
     /// coordinate is counted and skipped.
     pub(super) fn deposit(&mut self, batch: &Batch, axes: [usize; 3], rows: Option<&[u32]>) {
         let mut cells = self.cells.of_batch(batch);
@@ -79,8 +79,8 @@ impl SurfaceClouds {
         self.n_invalid
     }
 
-    /// Cloud of each unit. If samples name locations, a location's point is RN of the mean of its places along each axis. Else every place
-    /// is a point.
+    /// Cloud of each unit. If samples have contact points, the point of a contact point is RN of the mean of its places along each axis.
+    /// Otherwise every place is a point.
     pub(super) fn by_unit(&self) -> Vec<(&str, Cloud)> {
         let mut clouds: SortedMap<&str, Cloud> = SortedMap::default();
         for (location, (_, cell)) in self.cells.iter().enumerate() {
@@ -100,7 +100,7 @@ impl SurfaceClouds {
         clouds.collect()
     }
 
-    /// Converts the surfaces to the record of a state: by location, by unit, x y z of each place.
+    /// Converts the surfaces to the record of a state: x y z of each place, by contact point and unit.
     pub(super) fn to_record(&self) -> Record {
         let cell = |cell: &Places| {
             let units = cell.units.iter().map(|(unit, places)| {

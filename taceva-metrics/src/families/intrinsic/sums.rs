@@ -1,4 +1,4 @@
-//! Frames of a recording, and the hull of its places of contact.
+//! Frames of a recording, and the hull of its contact places.
 
 use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
@@ -10,22 +10,22 @@ use crate::pair::is_valid;
 use crate::score::value::{Finished, UndefinedReason};
 use taceva_core::random::fnv_1a;
 
-/// Time of every frame, and the hull of the places of contact.
+/// Times of all frames, and the hull of the contact places.
 ///
-/// The frames are a set: a frame in several samples counts once. Eight bytes of each digest are kept, enough to distinguish neighbours.
+/// The frames form a set: a frame in several samples counts once. Eight bytes of each digest are stored, enough to distinguish neighbours.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct IntrinsicSums {
     n_invalid: u64,
     /// Samples with a time.
     timed: u64,
-    /// Samples in contact that have a place.
+    /// Number of samples that are in contact and have a place.
     contacts: u64,
     hull: GrowingHull,
     frames: SortedMap<(Ordered, Option<u64>), ()>,
 }
 
 impl IntrinsicSums {
-    /// Adds a frame: its time in s, and the digest of its bytes.
+    /// Adds a frame with its time in s and the digest of its bytes.
     pub(super) fn add_time(&mut self, time_s: f64, digest: Option<&str>) {
         if is_valid(time_s) {
             let digest = digest.map(|digest| fnv_1a(digest.as_bytes()));
@@ -36,7 +36,7 @@ impl IntrinsicSums {
         }
     }
 
-    /// Adds places of contact, mm.
+    /// Adds contact places, mm.
     pub(super) fn add_contacts(&mut self, places_mm: &[[f64; 2]]) {
         let valid = |place: &&[f64; 2]| place.iter().all(|value| is_valid(*value));
         for place in places_mm {
@@ -49,7 +49,7 @@ impl IntrinsicSums {
         self.hull.extend(places_mm.iter().filter(valid).copied());
     }
 
-    /// The times in s, ascending, each once.
+    /// Distinct times in s, ascending.
     pub(super) fn times_s(&self) -> Vec<f64> {
         let mut times: Vec<Ordered> = self.frames.iter().map(|((time, _), ())| *time).collect();
         times.dedup();
@@ -66,17 +66,17 @@ impl IntrinsicSums {
         self.timed
     }
 
-    /// Number of samples in contact that have a place.
+    /// Number of samples that are in contact and have a place.
     pub(super) fn contacts(&self) -> u64 {
         self.contacts
     }
 
-    /// Number of samples skipped for a NaN or a magnitude beyond 2¹⁰²¹.
+    /// Number of samples skipped for a NaN or a magnitude above 2¹⁰²¹.
     pub(super) fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
 
-    /// RN of the share of duplicates among the frames with a digest whose predecessor has one too.
+    /// RN of the share of duplicates among the frames for which the frame and its predecessor have a digest.
     pub(super) fn duplicated(&self) -> Finished {
         if self.frames.is_empty() {
             return Err(UndefinedReason::NoTimes);
@@ -104,7 +104,7 @@ impl IntrinsicSums {
         Ok(self.hull.hull().area())
     }
 
-    /// The width (axis 0) or height (axis 1) of the hull, mm.
+    /// Width (axis 0) or height (axis 1) of the hull, mm.
     pub(super) fn extent(&self, axis: usize) -> Finished {
         let extent = self
             .hull
@@ -114,8 +114,8 @@ impl IntrinsicSums {
         Ok(extent[1] - extent[0])
     }
 
-    /// Converts the sums to the record of a state: the corners of the hull, and frames as two records, times and digests of those that have
-    /// one.
+    /// Converts the sums to the record of a state: the corners of the hull, and two records for the frames with and without
+    /// digests.
     pub(super) fn to_record(&self) -> Record {
         let part = |of: &dyn Fn(&Option<u64>) -> bool| {
             let frames = self.frames.iter().filter(|((_, digest), ())| of(digest));
@@ -174,9 +174,9 @@ impl IntrinsicSums {
     }
 }
 
-/// Name in states of frames without a digest.
+/// Name of the record for frames without a digest.
 const PLAIN: &str = "plain";
-/// Name in states of frames with a digest.
+/// Name of the record for frames with a digest.
 const DIGESTED: &str = "digested";
 
 impl Merge for IntrinsicSums {

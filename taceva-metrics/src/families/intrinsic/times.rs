@@ -1,25 +1,25 @@
-//! The intervals between frames.
+//! Time intervals between frames.
 
 use super::sums::IntrinsicSums;
 use crate::exact::Dyadic;
 use crate::exact::moments::Moments;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// The intervals between successive times, in s, ascending.
+/// Intervals between successive times, s, ascending.
 pub(super) struct Intervals {
     sorted: Vec<f64>,
 }
 
-/// Longest median interval of a stream of frames, s. One picture every few seconds is the pace of a robot, not of a camera.
+/// Greatest median interval of a stream of frames, s. Longer intervals are the pace of a robot, not of a camera.
 pub const STREAM_S: f64 = 1.0;
-/// Medians beyond which an interval is a gap.
+/// Ratio of an interval to the median above which the interval is a gap.
 const GAP: f64 = 1.5;
 
 impl Intervals {
     /// RN of each difference of successive times.
     ///
     /// # Errors
-    /// [`UndefinedReason`] if no sample has a time, all have the same, or single pictures were taken.
+    /// [`UndefinedReason`] if no sample has a time, all times are equal, or the frames are single pictures.
     pub(super) fn of(sums: &IntrinsicSums) -> Result<Intervals, UndefinedReason> {
         match sums.times_s()[..] {
             [] => Err(UndefinedReason::NoTimes),
@@ -37,7 +37,7 @@ impl Intervals {
         }
     }
 
-    /// The middle interval, or RN of the mean of both middle ones.
+    /// Median interval, s: the middle interval, or RN of the mean of the two middle intervals.
     fn median(&self) -> f64 {
         let middle = self.sorted.len() / 2;
         if self.sorted.len() % 2 == 1 {
@@ -52,7 +52,7 @@ impl Intervals {
         Ok(1.0 / self.median())
     }
 
-    /// RN of the standard deviation (over n − 1) of the intervals that are not gaps, s.
+    /// RN of the sample standard deviation of the intervals without gaps, s.
     pub(super) fn jitter(&self) -> Finished {
         let regular: Moments = self.regular().iter().copied().collect();
         regular
@@ -60,7 +60,7 @@ impl Intervals {
             .ok_or(UndefinedReason::TooFew { least: 3 })
     }
 
-    /// RN of the share of intervals that are a gap.
+    /// RN of the share of intervals that are gaps.
     pub(super) fn dropped(&self) -> f64 {
         let count = |intervals: &[f64]| intervals.iter().fold(0_u64, |count, _| count + 1);
         let all = count(&self.sorted);
@@ -68,7 +68,7 @@ impl Intervals {
         Dyadic::from(gaps).over(&Dyadic::from(all))
     }
 
-    /// The intervals that are not gaps.
+    /// Intervals without gaps.
     fn regular(&self) -> &[f64] {
         let limit = GAP * self.median();
         let regular = self.sorted.partition_point(|interval| *interval <= limit);

@@ -1,10 +1,10 @@
-//! One scene compared with the reference scene.
+//! Comparison of one scene with the reference scene.
 
 use super::sums::SceneSums;
 use crate::exact::Dyadic;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Brightness and error of a scene (c) and of the reference scene (o), each a binary64 number that is not negative.
+/// Brightness and error of a scene (c) and of the reference scene (o), each a binary64 number of at least 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Change {
     pub(super) intensity: [f64; 2],
@@ -22,7 +22,7 @@ impl Change {
         }
     }
 
-    /// R = RN(a / (a + b)), a = |Ic/Io − 1|, b = |MAEc/MAEo − 1|, one rational of four binary64 numbers.
+    /// R = RN(a / (a + b)), a = |Ic/Io − 1|, b = |MAEc/MAEo − 1|, rounded once from four binary64 numbers.
     pub(super) fn robustness(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {
@@ -33,7 +33,7 @@ impl Change {
         })
     }
 
-    /// The same with b = max(0, MAEc/MAEo − 1): a smaller error is not a lack of robustness.
+    /// R with b = max(0, MAEc/MAEo − 1): a smaller error does not reduce the robustness.
     pub(super) fn robustness_plus(self) -> Finished {
         self.share(|difference| {
             if difference.is_negative() {
@@ -44,7 +44,7 @@ impl Change {
         })
     }
 
-    /// a / (a + b) expanded by Io MAEo, so that all stays exact: |Ic − Io| MAEo / (|Ic − Io| MAEo + b MAEo Io).
+    /// a / (a + b) multiplied out by Io MAEo to stay exact: |Ic − Io| MAEo / (|Ic − Io| MAEo + b MAEo Io).
     fn share(self, counted: impl Fn(Dyadic) -> Dyadic) -> Finished {
         let [scene_intensity, intensity] = self.intensity.map(Dyadic::from_f64);
         let [scene_error, error] = self.error.map(Dyadic::from_f64);
@@ -69,14 +69,14 @@ impl Change {
         Ok(light.over(&both))
     }
 
-    /// Ic / Io and MAEc / MAEo; `None` for a ratio that is undefined.
+    /// Ic / Io and MAEc / MAEo; `None` for an undefined ratio.
     pub(super) fn ratios(self) -> [Option<f64>; 2] {
         let ratio = |[scene, reference]: [f64; 2]| (reference > 0.0).then_some(scene / reference);
         [ratio(self.intensity), ratio(self.error)]
             .map(|ratio| ratio.filter(|ratio| ratio.is_finite()))
     }
 
-    /// True if the light changed by less than 5 %.
+    /// True if the brightness changed by less than 5 %.
     pub(super) fn is_low_stimulus(self) -> bool {
         let [ratio, _] = self.ratios();
         ratio.is_some_and(|ratio| (ratio - 1.0).abs() < LOW_STIMULUS)
@@ -87,10 +87,10 @@ impl Change {
         self.error[0] < self.error[1]
     }
 
-    /// |∂R / ∂ ln MAEc| = a ρ / (a + b)², ρ = MAEc / MAEo; with respect to ln MAEo it is the same with the other sign.
+    /// |∂R / ∂ ln MAEc| = a ρ / (a + b)², ρ = MAEc / MAEo. The derivative with respect to ln MAEo has the opposite sign.
     ///
-    /// For `plus`, an error below the reference keeps the magnitude of the slope without `plus`. R stays at 1 there, but the true error may
-    /// be on either side of the bend, and a slope of 0 would make R look certain. `None` if R is undefined.
+    /// For `plus`, an error below the reference keeps the magnitude of the slope without `plus`. R is then 1, but the true error may
+    /// be on either side of the bend, and a slope of 0 would suggest a certain R. `None` if R is undefined.
     pub(super) fn slope(self, plus: bool) -> Option<f64> {
         let [Some(light), Some(harm)] = self.ratios() else {
             return None;

@@ -1,4 +1,4 @@
-//! Intervals of a robustness to lighting, by the delta method on its errors.
+//! Intervals of robustness to lighting, by the delta method.
 
 use super::robustness::{changes, variant_of};
 use super::sums::LightingSums;
@@ -13,8 +13,8 @@ use crate::stats::jackknife::{self, LeftOut};
 /// Intervals of one channel's scores, by the jackknife of the joint changes of errors.
 ///
 /// To first order a robustness changes by s_c (δ_c − δ_o), with s_c = ∂R_c / ∂ ln MAEc and δ the relative change of a scene's mean absolute
-/// error. A mean over C scenes changes by Σ s_c (δ_c − δ_o) / C. A contact point is left out of every scene at once, because presses at one
-/// place have similar errors under every light. The brightness is taken as exact: it is a mean over whole pictures.
+/// error. A mean over C scenes changes by Σ s_c (δ_c − δ_o) / C. A contact point is left out of all scenes at once, because presses at one
+/// place have similar errors in every light. The brightness counts as exact, because it is a mean over whole pictures.
 pub(super) fn intervals(
     total: &LightingSums,
     clusters: &[&LightingSums],
@@ -67,20 +67,20 @@ pub(super) fn intervals(
     }
 }
 
-/// A scene's share in a robustness.
+/// Term of one scene in a robustness.
 #[derive(Clone, Copy)]
 struct Term<'a> {
     scene: &'a str,
     value: f64,
-    /// `None` if the robustness has no finite slope.
+    /// Slope of the robustness; `None` if not finite.
     slope: Option<f64>,
 }
 
-/// Mean absolute errors of scenes without each one of the contact points.
+/// Mean absolute errors of scenes, with one contact point left out each.
 struct Moves<'a> {
     total: &'a LightingSums,
     reference: &'a str,
-    /// Samples of each contact point, and the sums of all others.
+    /// Number of samples of each contact point, and the sums of all other points.
     others: Vec<(u64, LightingSums)>,
     clusters: &'a [&'a LightingSums],
 }
@@ -105,7 +105,7 @@ impl<'a> Moves<'a> {
         }
     }
 
-    /// The interval of the mean of `terms`.
+    /// Interval of the mean of `terms`.
     fn interval<'t>(
         &self,
         terms: impl IntoIterator<Item = &'t Term<'t>>,
@@ -139,7 +139,7 @@ impl<'a> Moves<'a> {
         with.filter(|cell| cell.scenes.get(scene).is_some()).count()
     }
 
-    /// First-order change of the mean of `terms` if only the samples of `others` remain.
+    /// First-order change of the mean of `terms` for the sums `others` alone.
     fn moved(&self, terms: &[&Term<'_>], others: &LightingSums) -> Finished {
         let baseline = self.change_of(self.reference, others)?;
         let mut sum = 0.0;
@@ -150,7 +150,7 @@ impl<'a> Moves<'a> {
         Ok(sum / terms.iter().fold(0.0, |count, _| count + 1.0))
     }
 
-    /// The relative change of the mean absolute error of a scene.
+    /// Relative change of the mean absolute error of a scene.
     fn change_of(&self, scene: &str, others: &LightingSums) -> Finished {
         let mean = |sums: &LightingSums| match sums.scenes.get(scene) {
             Some(sums) if sums.n > 0 => Ok(sums.mean_error()),

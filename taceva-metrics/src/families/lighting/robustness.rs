@@ -1,4 +1,4 @@
-//! Robustness of errors to the light.
+//! Robustness of errors to lighting.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -44,7 +44,7 @@ pub(crate) static R_LIGHT: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Change of each scene against the reference scene.
+/// Change of each scene relative to the reference scene.
 pub(super) fn changes<'a>(
     sums: &'a LightingSums,
     reference: &str,
@@ -63,12 +63,12 @@ pub(super) fn changes<'a>(
     Ok(changes)
 }
 
-/// Name of the variant for the value of one scene.
+/// Name of the variant with the value of one scene.
 pub(super) fn variant_of(scene: &str) -> String {
     format!("scene:{scene}")
 }
 
-/// R = RN(Σ R_c / C) over the scenes that determine R_c.
+/// R = RN(Σ R_c / C) over the scenes with a defined R_c.
 pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     let changes = match changes(sums, reference) {
         Ok(changes) => changes,
@@ -92,7 +92,7 @@ pub(super) fn robustness(sums: &LightingSums, reference: &str) -> Numbers {
     })
 }
 
-/// RN of the exact mean of the defined values; the first reason if none is defined.
+/// RN of the exact mean of the defined values; the first reason if all are undefined.
 pub(super) fn mean_of_defined(values: impl Iterator<Item = Finished>) -> Finished {
     let mut reason = None;
     let (mut sum, mut defined) = (ExactSum::default(), 0_u64);
@@ -162,7 +162,7 @@ pub(super) fn flags(parts: &[&LightingSums], reference: &str) -> Vec<Flag> {
     flags.into_iter().flatten().collect()
 }
 
-/// Value for the error of a plane: the mean of both axes' mean absolute errors, scene by scene.
+/// Value for a plane, whose error in each scene is the mean of both axes' mean absolute errors.
 pub(super) fn of_plane(parts: [&LightingSums; 2], reference: &str) -> Finished {
     let [x, y] = [changes(parts[0], reference)?, changes(parts[1], reference)?];
     let along_y = |scene: &str| {

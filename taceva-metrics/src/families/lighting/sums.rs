@@ -1,4 +1,4 @@
-//! Sums of the errors under each light.
+//! Sums of the errors in each lighting scene.
 
 use crate::exact::merge::{Merge, keyed, merge_cells};
 use crate::exact::record::Record;
@@ -10,7 +10,7 @@ use crate::pair::{Paired, is_valid};
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LightingSums {
     pub(super) n_invalid: u64,
-    /// Only scenes that have samples.
+    /// Sums of the scenes with samples.
     pub(super) scenes: SortedMap<String, SceneSums>,
 }
 
@@ -18,9 +18,9 @@ pub(crate) struct LightingSums {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct SceneSums {
     pub(super) n: u64,
-    /// Σ |d|.
+    /// Σ |d|, in the unit of the channel.
     pub(super) error: ExactSum,
-    /// Σ brightness.
+    /// Σ brightness, on the 8-bit scale.
     pub(super) intensity: ExactSum,
 }
 
@@ -54,7 +54,7 @@ impl LightingSums {
         sums.intensity.add(intensity);
     }
 
-    /// Samples of all scenes.
+    /// Number of samples in all scenes.
     pub(super) fn n(&self) -> u64 {
         let scenes = self.scenes.values();
         scenes.fold(0, |n, scene| n.saturating_add(scene.n))

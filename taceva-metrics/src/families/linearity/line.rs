@@ -1,4 +1,4 @@
-//! The least-squares line of predictions on the truth, and the greatest distance from it.
+//! Least-squares line through predictions over truth, and the greatest deviation from the line.
 
 use crate::exact::merge::Merge;
 use crate::exact::record::Record;
@@ -8,15 +8,15 @@ use crate::geometry::{GrowingHull, Hull};
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Least samples of a line; two samples are always on one.
+/// Least number of samples for a line. Two samples are always on a line.
 pub(super) const LEAST_SAMPLES: u64 = 3;
 
-/// The sums of products of the columns x and y: Σ x² and Σ x y.
+/// Pairs of columns to multiply, for Σ x² and Σ x y.
 pub(super) const PRODUCTS: [[usize; 2]; 2] = [[0, 0], [0, 1]];
 
-/// Sums of the pairs of one channel: x the truth, y the prediction.
+/// Sums of the pairs of one channel, with x the truth and y the prediction.
 ///
-/// The distance from any line is greatest at a corner of the convex hull, so the hull replaces all points.
+/// The greatest deviation from any line is at a corner of the convex hull, so the hull replaces the points.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct LineSums {
     n: u64,
@@ -37,7 +37,7 @@ impl LineSums {
         self.n_invalid
     }
 
-    /// Converts the sums to the record of a state: the corners as x, y, x, y, ….
+    /// Converts the sums to the record of a state, with the corners as x, y, x, y, ….
     pub(super) fn to_record(&self) -> Record {
         Record {
             counts: vec![self.n, self.n_invalid],
@@ -90,7 +90,7 @@ impl Merge for LineSums {
     }
 }
 
-/// The best line y = offset + slope x, each number one exact rational rounded once.
+/// Least-squares line y = offset + slope x. Each number is an exact rational, rounded once.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line {
     /// b = (n Sxy − Sx Sy) / (n Sxx − Sx²).
@@ -99,7 +99,7 @@ pub(super) struct Line {
     pub(super) offset: f64,
 }
 
-/// Deviation of predictions from the best line.
+/// Greatest deviation of predictions from the least-squares line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Deviation {
     /// max |y − a − b x|.
@@ -108,7 +108,7 @@ pub(super) struct Deviation {
     pub(super) relative: f64,
 }
 
-/// The parts of the line's formulas.
+/// Terms of the line's formulas.
 struct Fit {
     n: Dyadic,
     /// Sx and Sy.
@@ -172,7 +172,7 @@ impl Deviation {
     /// Deviation of the pairs in `sums`.
     ///
     /// # Errors
-    /// As [`Line::through`].
+    /// The errors of [`Line::through`].
     pub(super) fn of(sums: &LineSums) -> Result<Deviation, UndefinedReason> {
         let fit = Fit::of(sums)?;
         let [x, y] = &fit.sums;

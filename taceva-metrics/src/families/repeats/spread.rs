@@ -1,4 +1,4 @@
-//! Spread within cells, and statistics of the spreads of many cells.
+//! Spread within cells, and statistics of these spreads over cells.
 
 use std::sync::OnceLock;
 
@@ -8,7 +8,7 @@ use crate::exact::{Dyadic, ExactSum};
 use crate::families::cells::Cells;
 use crate::score::value::{Finished, UndefinedReason};
 
-/// Repeats of one cell, and their lazily computed spread.
+/// Repeats of one cell, and their cached spread.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Cell {
     moments: Moments,
@@ -16,7 +16,7 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    /// The cell of the given repeats.
+    /// Cell with the given repeats.
     pub(crate) fn new(moments: Moments) -> Cell {
         Cell {
             moments,
@@ -24,7 +24,7 @@ impl Cell {
         }
     }
 
-    /// Adds a repeat, which is finite.
+    /// Adds a finite repeat.
     pub(crate) fn add(&mut self, value: f64) {
         self.spread = OnceLock::new();
         self.moments.add(value);
@@ -35,7 +35,7 @@ impl Cell {
         &self.moments
     }
 
-    /// The spread; `None` for fewer than two repeats.
+    /// Spread of the repeats; `None` for fewer than two repeats.
     pub(crate) fn spread(&self) -> Option<Spread> {
         *self.spread.get_or_init(|| Spread::of(&self.moments))
     }
@@ -54,7 +54,7 @@ impl Merge for Cell {
     }
 }
 
-/// The spread of the repeats of one cell.
+/// Spread of the repeats of one cell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Spread {
     /// n − 1.
@@ -63,7 +63,7 @@ pub(crate) struct Spread {
     pub(crate) mean: f64,
     /// RN((n Sqq − Sq²) / (n (n − 1))).
     pub(crate) variance: f64,
-    /// The root of the variance.
+    /// RN of the root of `variance`.
     pub(crate) deviation: f64,
     /// √RN((n Sqq − Sq²) / n²).
     pub(crate) population_deviation: f64,
@@ -86,15 +86,15 @@ impl Spread {
     }
 }
 
-/// The spreads of the cells that have one.
+/// Spreads of all cells with at least two repeats.
 pub(crate) struct SpreadSums {
     spreads: Vec<Spread>,
-    /// Reason for a missing score, if any.
+    /// Reason for a missing score; `None` if a score is possible.
     reason: Option<UndefinedReason>,
 }
 
 impl SpreadSums {
-    /// The spreads of `cells`.
+    /// Collects the spreads of `cells`.
     pub(crate) fn of(cells: &Cells<Cell>) -> SpreadSums {
         let spreads: Vec<Spread> = cells.iter().filter_map(|(_, cell)| cell.spread()).collect();
         let reason = if cells.len() == 0 {
@@ -116,14 +116,14 @@ impl SpreadSums {
         self.spreads.iter().fold(0, |count, _| count + 1)
     }
 
-    /// RN of the mean of one number per cell.
+    /// RN of the mean of `number` over the cells.
     pub(crate) fn mean(&self, number: fn(&Spread) -> f64) -> Finished {
         self.defined()?;
         let sum: ExactSum = self.spreads.iter().map(number).collect();
         mean(&sum, self.count())
     }
 
-    /// s_r = √RN(Σ (n_c − 1) s²_c / Σ (n_c − 1)), one rational of the cells' rounded variances s²_c.
+    /// s_r = √RN(Σ (n_c − 1) s²_c / Σ (n_c − 1)), rounded once from the cells' rounded variances s²_c.
     pub(crate) fn pooled(&self) -> Finished {
         self.defined()?;
         let (mut variances, mut freedom) = (ExactSum::default(), 0_u64);
@@ -146,7 +146,7 @@ impl SpreadSums {
         Ok((means * means - by_chance).max(0.0).sqrt())
     }
 
-    /// RN of the standard deviation (over cells − 1) of the cells' rounded means.
+    /// RN of the sample standard deviation of the cells' rounded means.
     fn deviation_of_means(&self) -> Finished {
         self.defined()?;
         let means: Moments = self.spreads.iter().map(|spread| spread.mean).collect();

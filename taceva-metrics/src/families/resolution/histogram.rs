@@ -1,4 +1,4 @@
-//! Histogram of the errors of spacings.
+//! Histogram of spacing errors.
 
 use std::collections::BTreeMap;
 
@@ -6,14 +6,14 @@ use crate::exact::Dyadic;
 use crate::exact::merge::{Merge, keyed};
 use crate::exact::record::Record;
 
-/// Counts of samples by |r̂ − r| in whole nanometres, so that any tolerance can be applied later. Also counts by r, for the success rate of
-/// the best constant answer.
+/// Counts of samples by |r̂ − r| in whole nanometres, so that any tolerance can be applied later. Counts by r give the success rate of
+/// the best constant prediction.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Histogram {
     pub(super) n_invalid: u64,
-    /// Samples by difference; only differences that occurred.
+    /// Number of samples by difference, for occurring differences only.
     counts: BTreeMap<u64, u64>,
-    /// Samples by their true spacing; empty in states of versions without it.
+    /// Number of samples by true spacing; empty in states of versions without these counts.
     truths: BTreeMap<u64, u64>,
 }
 
@@ -32,8 +32,8 @@ impl Histogram {
         }
     }
 
-    /// RN(most / n), the success rate of the best constant prediction: `most` is the largest number of samples within `tolerance_nm` of one
-    /// spacing. `None` without samples, or if some true spacing is unknown.
+    /// RN(most / n), the success rate of the best constant prediction: `most` is the greatest number of samples within `tolerance_nm` of one
+    /// spacing. `None` without samples, or if a true spacing is unknown.
     pub(super) fn of_constant(&self, tolerance_nm: u64) -> Option<f64> {
         let known = self
             .truths
@@ -64,13 +64,13 @@ impl Histogram {
         within.fold(0, |hits, (_, &count)| hits.saturating_add(count))
     }
 
-    /// RN(hits / n); `None` for no sample.
+    /// RN(hits / n); `None` without samples.
     pub(super) fn rate(&self, tolerance_nm: u64) -> Option<f64> {
         let n = self.n();
         (n > 0).then(|| Dyadic::from(self.hits(tolerance_nm)).over(&Dyadic::from(n)))
     }
 
-    /// Converts the histogram to the record of a state: invalid samples, then each difference followed by its count. A cell holds each true
+    /// Converts the histogram to the record of a state: number of invalid samples, then each difference followed by its count. A cell lists each true
     /// spacing followed by its count.
     pub(super) fn to_record(&self) -> Record {
         let flat = |counts: &BTreeMap<u64, u64>| {
@@ -116,7 +116,7 @@ impl Histogram {
     }
 }
 
-/// Reads ascending numbers, each followed by its count; `what` names them in errors.
+/// Reads ascending numbers, each followed by its count. Errors name the numbers by `what`.
 fn read_counts(counts: &[u64], what: &str) -> Result<BTreeMap<u64, u64>, String> {
     let mut read = BTreeMap::new();
     for pair in counts.chunks(2) {

@@ -43,9 +43,9 @@ pub(crate) static SR: Metric = Metric {
     ..Metric::of(&KIND)
 };
 
-/// Step of the tolerances of the curve.
+/// Step between tolerances of the curve, nm.
 const STEP_NM: u64 = 50_000;
-/// Tolerances of the curve: 0, 0.05, …, 1 mm.
+/// Number of tolerances of the curve: 0, 0.05, …, 1 mm.
 const LEVELS: u64 = 21;
 
 /// SR(ε) = RN(#{|r̂ − r| ≤ ε} / n) at the tolerance, and SR(0).

@@ -1,4 +1,4 @@
-//! Variation of errors over distance and depth.
+//! Variation of errors with distance and depth.
 
 use taceva_core::{Field, FieldSet, Needs, Unit};
 
@@ -50,7 +50,7 @@ pub(crate) static R_SPATIAL: Metric = Metric {
 /// Variant that decides verdicts.
 pub(super) const EXCESS: &str = "excess";
 
-/// R = RN((σ_distance + σ_depth) / 2), σ the population STD of the bin means; variants are means of both axes too.
+/// R = RN((σ_distance + σ_depth) / 2), with σ the population STD of the bin means. Variants are also means over both directions.
 pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) -> Numbers {
     if sums.n == 0 {
         let outside = sums.outside > 0;
@@ -108,7 +108,7 @@ pub(super) fn robustness(sums: &SpatialSums, settings: &Settings, unit: Unit) ->
         )
 }
 
-/// Excess of one channel, or mean of two, and its interval, if the samples of each contact point are known.
+/// Excess of one channel, or the mean of two, with its interval, if the contact points of the samples are known.
 pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -> Intervals {
     type Axis = fn(&SpatialSums) -> &SortedMap<u8, Moments>;
     let axes: [Axis; 2] = [|sums| &sums.distance, |sums| &sums.depth];
@@ -136,7 +136,7 @@ pub(super) fn of_clusters(channels: &[Vec<&SpatialSums>], settings: &Settings) -
     })
 }
 
-/// Centred rolling means of the bins that have samples, each RN of an exact mean. The window is cut at the ends.
+/// Centred rolling means of the bins with samples, each RN of an exact mean. The window is shorter at the ends.
 fn smoothed(bins: &[Bin], settings: &Settings) -> Moments {
     let bins = bins.iter().filter(|bin| bin.has(settings.n_min));
     let means: Vec<f64> = bins.map(|bin| bin.mean).collect();

@@ -1,4 +1,4 @@
-//! Sums of errors by distance from the axis and by depth.
+//! Sums of errors by distance from the sensor's axis and by depth.
 
 use taceva_core::{Footprint, Nanometre};
 
@@ -8,15 +8,15 @@ use crate::exact::record::Record;
 use crate::exact::sorted_map::SortedMap;
 use crate::pair::{Paired, is_valid};
 
-/// Bins along each axis.
+/// Number of bins in each direction.
 pub(super) const BINS: u8 = 100;
 
-/// |d| of one channel by bin of distance and by bin of depth; only for bins that have samples.
+/// |d| of one channel by bin of distance and by bin of depth, for bins with samples.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SpatialSums {
     pub(super) n: u64,
     pub(super) n_invalid: u64,
-    /// Samples beyond the reach or the depth of the sensor.
+    /// Number of samples beyond the reach or the depth of the sensor.
     pub(super) outside: u64,
     pub(super) distance: SortedMap<u8, Moments>,
     pub(super) depth: SortedMap<u8, Moments>,
@@ -112,7 +112,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// Declared reach of `footprint`; `None` if the depth is not declared.
+    /// Reach of `footprint`; `None` if the footprint declares no depth.
     pub(super) fn of(footprint: &Footprint) -> Option<Reach> {
         Some(Reach {
             radius: footprint.reach(),
@@ -120,9 +120,9 @@ impl Reach {
         })
     }
 
-    /// Bins of distance and depth of a place in mm, computed in whole nanometres; `None` beyond the reach.
+    /// Bins of distance and depth for a place in mm, computed in whole nanometres; `None` beyond the reach.
     ///
-    /// Distance: the largest k with (k Rmax)² ≤ 10⁴ r²; depth: ⌊100 z / Dmax⌋; both at most 99.
+    /// Distance: the greatest k with (k Rmax)² ≤ 10⁴ r²; depth: ⌊100 z / Dmax⌋; both at most 99.
     fn bins(self, place_mm: [f64; 3]) -> Option<(u8, u8)> {
         let [x, y, z] = place_mm.map(Nanometre::from_millimetres);
         let (x, y, z) = (x?, y?, z?);

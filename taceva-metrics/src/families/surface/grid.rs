@@ -2,7 +2,7 @@
 
 use taceva_core::{Footprint, Nanometre};
 
-/// A square grid of cells over the smallest rectangle around a footprint.
+/// Square grid of cells over the smallest rectangle that encloses a footprint.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
     footprint: Footprint,
@@ -38,7 +38,7 @@ impl Grid {
         bin.min(self.bins - 1)
     }
 
-    /// The edges of columns and of rows in mm, each rounded once.
+    /// Edges of columns and rows, mm, each rounded once.
     pub(crate) fn edges_mm(&self) -> [Vec<f64>; 2] {
         self.footprint.half_extent().map(|half| {
             let edge = |bin: u32| {
@@ -50,12 +50,12 @@ impl Grid {
         })
     }
 
-    /// Cells along each side.
+    /// Number of cells along each side.
     pub(crate) fn bins(&self) -> u32 {
         self.bins
     }
 
-    /// The footprint, as states write it.
+    /// Footprint in the form of a state.
     pub(crate) fn footprint(&self) -> Footprint {
         self.footprint
     }

@@ -1,4 +1,4 @@
-//! Sums of the compliance of a surface.
+//! Sums of the surface compliance.
 
 use super::grid::Cell;
 use crate::exact::ExactSum;
@@ -9,23 +9,23 @@ use crate::exact::sorted_map::SortedMap;
 use crate::pair::is_valid;
 use crate::score::value::UndefinedReason;
 
-/// Variant without the samples that have shear.
+/// Variant from samples without shear only.
 pub(crate) const NORMAL_ONLY: &str = "normal_only";
 
-/// The depth and the normal force of a press, as the reference instruments measured them.
+/// Depth and normal force of a press, measured by the reference instruments.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Press {
     pub(crate) depth_mm: f64,
     pub(crate) force_n: f64,
 }
 
-/// Counts and exact sums of s = RN(Δz / F) of the samples in contact.
+/// Counts and exact sums of s = RN(Δz / F) of samples in contact.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct SurfaceSums {
     pub(crate) n_invalid: u64,
-    /// Samples below the gate, or not pressed into the surface.
+    /// Number of samples below the gate, or not pressed into the surface.
     pub(crate) gated: u64,
-    /// Samples in contact whose place is outside the footprint.
+    /// Number of samples in contact outside the footprint.
     pub(crate) outside: u64,
     pub(crate) compliance: Total,
     /// Compliance of the samples without shear.
@@ -34,7 +34,7 @@ pub(crate) struct SurfaceSums {
     pub(crate) work: ExactSum,
     /// Σ F².
     pub(crate) force_squares: ExactSum,
-    /// s of the samples within the footprint, by cell: of all, and of those without shear.
+    /// s of samples within the footprint, by cell: of all samples, and of those without shear.
     pub(crate) cells: SortedMap<Cell, [Moments; 2]>,
 }
 
@@ -60,7 +60,7 @@ impl Total {
 /// Place of a press relative to the grid.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Place {
-    /// Not known, or not needed.
+    /// Unknown, or not needed.
     Unknown,
     /// Outside the footprint.
     Outside,
@@ -69,7 +69,7 @@ pub(crate) enum Place {
 }
 
 impl SurfaceSums {
-    /// Adds a press; a press below `gate_n` newtons is counted as gated.
+    /// Adds a press. A press below `gate_n` newtons is counted in `gated`.
     pub(crate) fn add(&mut self, press: Press, gate_n: f64, without_shear: bool, place: Place) {
         let Press { depth_mm, force_n } = press;
         if !is_valid(depth_mm) || !is_valid(force_n) {
@@ -104,7 +104,7 @@ impl SurfaceSums {
         }
     }
 
-    /// Number of samples in a cell.
+    /// Number of samples in cells.
     pub(crate) fn binned(&self) -> u64 {
         self.cells.values().map(|[all, _]| all.n).sum()
     }
@@ -192,7 +192,7 @@ impl Merge for SurfaceSums {
     }
 }
 
-/// Checks that some sample is in contact.
+/// Checks that at least one sample is in contact.
 pub(crate) fn contact(sums: &SurfaceSums) -> Result<(), UndefinedReason> {
     match (sums.compliance.n, sums.gated) {
         (0, 0) => Err(UndefinedReason::Empty),

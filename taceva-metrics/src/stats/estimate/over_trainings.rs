@@ -1,15 +1,15 @@
-//! A score whose variance between trainings is added to that between clusters.
+//! Adds the variance of a score between trainings to its variance between clusters.
 
 use super::{Estimate, Shape};
 use crate::stats::parts::{Part, root_of_squares};
 use crate::stats::trainings::TrainingSpread;
 
 impl Estimate {
-    /// The same score with the variance between trainings added to that between clusters.
+    /// The same score, with the variance between trainings added to the variance between clusters.
     ///
-    /// On the scale of its interval the trainings have the standard error s |g′(value)| to first order, with g the scale and s that of
-    /// `spread`. Both parts add as squares; the degrees of freedom are those of Welch and Satterthwaite. A share of n effective samples has
-    /// n′ of them then, 1/n′ = 1/n + s² / (p (1 − p)) with p the mean of all trainings. Trainings that agree change no bit.
+    /// On the scale g of the interval, the trainings have the standard error s |g′(value)| to first order, with s the standard error of
+    /// `spread`. Both standard errors add as squares, with degrees of freedom by Welch and Satterthwaite. A share of n effective samples then has
+    /// n′ of them, 1/n′ = 1/n + s² / (p (1 − p)), with p the mean of all trainings. Equal trainings change no bit.
     ///
     /// ```
     /// use taceva_metrics::{Estimate, Sides, TrainingSpread, by_intervals};

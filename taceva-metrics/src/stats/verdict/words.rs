@@ -1,4 +1,4 @@
-//! Answer of a comparison in words, with the digits that the width of its interval supports.
+//! Answer of a comparison in words, with a number of digits that suits the width of the interval.
 
 use std::fmt;
 
@@ -8,9 +8,9 @@ use super::Verdict;
 use crate::stats::sides::{Side, Sides};
 
 impl Verdict {
-    /// The answer in words, with the names of both sides: `GelSight better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
+    /// Answer in words, with the names of both sides: `GelSight better by 0.012 N (95 % 0.004…0.020, p = 0.003)`.
     ///
-    /// The p value is the adjusted one, and the interval belongs to the same decision.
+    /// The p value is adjusted for the family, and the interval belongs to the same decision.
     pub fn words(&self, names: Sides<&str>) -> String {
         match self {
             Verdict::Differs {
@@ -75,7 +75,7 @@ impl fmt::Display for Verdict {
     }
 }
 
-/// Confidence such as `95 %` or `99.72 %`, with enough digits to know the complement to a twentieth of it.
+/// Confidence such as `95 %` or `99.72 %`, with enough digits to show the complement to one part in twenty.
 fn percent(share: f64) -> String {
     let rest = 100.0 * (1.0 - share);
     let mut places = 1.0;
@@ -89,7 +89,7 @@ fn percent(share: f64) -> String {
     format!("{:.6} %", 100.0 * share)
 }
 
-/// ` N`, or nothing for a ratio.
+/// ` N`, or empty for a ratio.
 fn suffix(unit: Unit) -> String {
     match unit {
         Unit::One => String::new(),
@@ -127,7 +127,7 @@ fn decimals_of_width([low, high]: &[f64; 2], value: f64) -> usize {
     12
 }
 
-/// Text of a number with a true minus sign, and none before a zero.
+/// Number as text with a true minus sign; zero has no sign.
 fn number(value: f64, decimals: usize) -> String {
     if value.is_infinite() {
         return if value < 0.0 { "−∞" } else { "∞" }.to_owned();
@@ -146,14 +146,14 @@ fn is_zero(text: &str) -> bool {
     text.bytes().all(|byte| matches!(byte, b'0' | b'.'))
 }
 
-/// Text of a difference. A nonzero difference gets enough decimals to show one digit, for any width of its interval.
+/// Difference as text. A nonzero difference gets enough decimals to show one digit, for any width of its interval.
 fn apart(value: f64, decimals: usize) -> String {
     let mut texts = (decimals..=12).map(|decimals| number(value, decimals));
     let shown = texts.find(|text| !is_zero(text));
     shown.unwrap_or_else(|| number(value, decimals))
 }
 
-/// Text of an end of an interval. A value too small for `decimals` is written with a power of ten.
+/// End of an interval as text. A value too small for `decimals` is written with a power of ten.
 fn end(value: f64, decimals: usize) -> String {
     match number(value, decimals) {
         text if value.abs() > 1e-12 && is_zero(&text) => format!("{value:.0e}").replace('-', "−"),

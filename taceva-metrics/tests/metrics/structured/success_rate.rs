@@ -10,7 +10,7 @@ fn spacing_sample(row: usize, truth: Nanometre, predicted: Nanometre) -> Sample 
         .with_predicted_spacing(predicted)
 }
 
-/// Share of `samples` within `tolerance`, computed in every way; all results must be equal.
+/// Success rate of `samples` with `tolerance`, for every order and split of the samples.
 fn success_rates(samples: &[Sample], tolerance: Nanometre) -> Vec<(&'static str, Evaluation)> {
     let plan = plan(&["sr"], &[], SensorFacts::default());
     let settings = Settings::default().with_resolution_tolerance(tolerance);

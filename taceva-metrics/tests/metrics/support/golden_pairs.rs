@@ -5,7 +5,7 @@
 use serde_json::{Map, Value};
 use taceva_metrics::bench::{Kind, Order};
 
-/// Inputs of a case in their own order, and the expected results.
+/// Inputs of a case in the order of the file, and the expected results.
 pub(crate) struct Case {
     pub(crate) name: String,
     pub(crate) truth: Vec<f64>,
@@ -16,7 +16,7 @@ pub(crate) struct Case {
 /// Expected results of a case.
 pub(crate) struct Expected {
     pub(crate) n: u64,
-    /// Name and bits; `None` for a missing value.
+    /// Name and bits of each score; `None` for a missing value.
     pub(crate) canonical: Vec<(String, Option<f64>)>,
     /// Metric and status.
     pub(crate) status: Vec<(String, String)>,

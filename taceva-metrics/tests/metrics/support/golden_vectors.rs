@@ -10,7 +10,7 @@ use taceva_core::random::SplitMix64;
 use taceva_core::{Sample, SampleSink};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, State};
 
-/// The section called `name`, whose keys must be among `known`.
+/// Section called `name`. Its keys must be among `known`.
 pub(crate) fn section(name: &str, known: &[&str]) -> Value {
     let folder = std::env::var_os("TACEVA_GOLDEN").map_or_else(
         || PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/golden")),
@@ -39,35 +39,35 @@ pub(crate) fn check_keys(object: &Value, known: &[&str]) {
     );
 }
 
-/// An unsigned whole number.
+/// Converts an unsigned whole number.
 pub(crate) fn whole(value: &Value) -> u64 {
     value
         .as_u64()
         .unwrap_or_else(|| panic!("{value} is not a count"))
 }
 
-/// A signed whole number.
+/// Converts a signed whole number.
 pub(crate) fn signed(value: &Value) -> i64 {
     value
         .as_i64()
         .unwrap_or_else(|| panic!("{value} is not a whole number"))
 }
 
-/// A binary64 number as JSON writes it.
+/// Converts a binary64 number in decimal form.
 pub(crate) fn real(value: &Value) -> f64 {
     value
         .as_f64()
         .unwrap_or_else(|| panic!("{value} is not a number"))
 }
 
-/// A text.
+/// Converts a text.
 pub(crate) fn text(value: &Value) -> &str {
     value
         .as_str()
         .unwrap_or_else(|| panic!("{value} is not text"))
 }
 
-/// A binary64 number by its bits: `"0x3ff…"`, or an object with such a text in `bits` or `rn`.
+/// Converts a binary64 number given by its bits: `"0x3ff…"`, or an object with this text in `bits` or `rn`.
 pub(crate) fn exact(value: &Value) -> f64 {
     let digits = value
         .as_str()
@@ -101,7 +101,7 @@ impl Random {
         usize::try_from(self.next() % length as u64).expect("below a usize")
     }
 
-    /// `u()` of the recipes: uniform from 0 to below 1.
+    /// `u()` of the recipes: uniform, 0 ≤ u < 1.
     pub(crate) fn unit(&mut self) -> f64 {
         self.0.unit()
     }
@@ -112,7 +112,7 @@ impl Random {
     }
 }
 
-/// The scores of `samples`: in order, backwards, and shuffled into random parts whose states are written as JSON and merged.
+/// Scores of `samples`: in order, backwards, and from shuffled random parts whose states are written as JSON and merged.
 pub(crate) fn in_every_way(
     plan: &MetricPlan,
     samples: &[Sample],
@@ -154,7 +154,7 @@ pub(crate) struct Comparison {
 }
 
 impl Comparison {
-    /// Asserts that both have the same bits.
+    /// Asserts that both numbers have the same bits.
     pub(crate) fn bits(&mut self, what: &str, found: Option<f64>, expected: f64) {
         let found = found.unwrap_or_else(|| panic!("{what}: no number, expected {expected:e}"));
         assert_eq!(
@@ -171,14 +171,14 @@ impl Comparison {
         self.compared += 1;
     }
 
-    /// Number of compared values; never zero.
+    /// Returns the number of compared values, which must not be zero.
     pub(crate) fn done(self) -> usize {
         assert!(self.compared > 0, "nothing was compared");
         self.compared
     }
 }
 
-/// Runs the other tests of `module` in a separate process for each instruction set, because a process selects one once.
+/// Runs the other tests of `module` in a separate process for each instruction set, because a process selects its instruction set only once.
 pub(crate) fn again_on_every_instruction_set(module: &str) {
     let program = std::env::current_exe().expect("this program");
     for isa in taceva_metrics::Isa::available() {

@@ -51,7 +51,7 @@ pub(crate) fn merging_is_commutative_and_associative_and_nothing_is_its_identity
     assert_eq!(states(merged(nothing(), a())), states(a()));
 }
 
-/// Asserts that a state survives its text, and that an evaluator that merges it gives the same report.
+/// Asserts that a state survives serialization, and that an evaluator that merges the read state gives the same report.
 pub(crate) fn a_state_that_was_written_and_read_is_the_same<T>(
     samples: &[T],
     of: impl Fn(&[T]) -> Evaluator,

@@ -6,7 +6,7 @@ use taceva_metrics::{Evaluation, Evaluator, MetricPlan, SensorFacts, catalogue};
 /// Metrics by place, scene and grating.
 pub(crate) const METRICS: [&str; 5] = ["sr", "sensitivity", "uniformity", "r_spatial", "r_light"];
 
-/// A disc of 12.5 mm that is pressed up to 1 mm deep.
+/// Facts of a disc with a radius of 12.5 mm and a greatest indentation of 1 mm.
 pub(crate) fn facts() -> SensorFacts {
     SensorFacts::default().with_footprint(Some(Footprint::disc(12.5, Some(1.0)).expect("lengths")))
 }
@@ -23,7 +23,7 @@ pub(crate) fn plan(metrics: &[&str]) -> MetricPlan {
     .with_facts(facts())
 }
 
-/// A press at a place in mm with a normal force in N and no shear, predicted with `error` in every channel.
+/// A press at a place in mm with a normal force in N and no shear. Predictions differ from the truth by `error` in every channel.
 pub(crate) fn press(point: usize, place: [f64; 3], force_n: f64, error: f64) -> Sample {
     let [x, y, z] = place;
     let truth = [x, y, z, 0.0, 0.0, force_n];

@@ -1,7 +1,7 @@
-//! Interprets bytes as a program of batches, merges and states, which are written, damaged and read back.
+//! Interprets bytes as a program that adds batches, merges, and writes, damages and reads states.
 //!
-//! Shared by a test that runs on any compiler and by the fuzzer. No program may panic. Its result is an error, or scores that do not depend
-//! on the path.
+//! A test on any compiler and the fuzzer share this code. No program may panic. The result is an error, or scores that do not depend
+//! on the order of operations.
 
 use taceva_core::{Batch, Channel, Channels, Column, FieldSet, Labels};
 use taceva_metrics::{Evaluator, MetricPlan, State, catalogue};
@@ -22,7 +22,7 @@ impl Tape<'_> {
         }
     }
 
-    /// Any binary64; typical magnitudes and special values are more frequent than among all patterns.
+    /// Any binary64. Typical magnitudes and special values are more frequent than in random bit patterns.
     fn number(&mut self) -> f64 {
         let everyday = |byte: u8| f64::from(byte) / 16.0 - 8.0;
         match self.byte() % 8 {

@@ -30,7 +30,7 @@ pub(crate) fn plan() -> MetricPlan {
     MetricPlan::new(&wanted, channels, FieldSet::PAIRS)
 }
 
-/// The rows as columns; with points if every row names one.
+/// The rows as columns, with contact points if every row has one.
 pub(crate) fn batch(rows: &[Row]) -> Batch {
     let columns = |values: fn(&Row) -> [Option<f64>; 2]| {
         let column = |channel: usize| {
@@ -56,7 +56,7 @@ pub(crate) fn batch(rows: &[Row]) -> Batch {
     )
 }
 
-/// An evaluator that has seen the rows in one batch.
+/// Evaluator after adding the rows in one batch.
 pub(crate) fn evaluator(rows: &[Row]) -> Evaluator {
     let mut evaluator = Evaluator::new(&plan());
     evaluator.update(&batch(rows)).expect("the plan's channels");

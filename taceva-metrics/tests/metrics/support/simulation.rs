@@ -13,7 +13,7 @@ use taceva_metrics::{
     catalogue,
 };
 
-/// Correlation of the sizes |d| of two errors at one location.
+/// Correlation of the magnitudes |d| of two errors at one location.
 pub(crate) const CORRELATION: f64 = 0.3;
 /// Scores with tested intervals, each with its label.
 pub(crate) const METRICS: [(&str, &str); 9] = [
@@ -41,8 +41,8 @@ const SPACING_ERROR_NM: f64 = 350_000.0;
 const TOLERANCE_NM: f64 = 50_000.0;
 /// Range of compliances of locations, mm/N.
 const COMPLIANCES_MM_PER_N: Range<f64> = 0.2..0.4;
-/// Half the range of places, mm; all presses of a location are at one place. A model underestimates places by a share. Its constant is not
-/// their mean.
+/// Half the range of places, mm. All presses of a location are at one place. A model underestimates places by a share. Its constant differs
+/// from their mean.
 const HALF_SPAN_MM: f64 = 3.0;
 const SHORT_BY: f64 = 0.35;
 const PLACE_ERROR_MM_PER_N: f64 = 5.0;
@@ -50,7 +50,7 @@ const CONSTANT_MM: f64 = 0.3;
 /// Cells along each side of the surface, 1 mm wide; each location has its own cell.
 const CELLS: u32 = 20;
 
-/// Number of locations, and of presses at each.
+/// Numbers of locations, and of presses at each location.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Design {
     pub(crate) locations: u32,
@@ -131,7 +131,7 @@ impl Kind {
     }
 }
 
-/// Number of intervals, and of those that contain the expected score.
+/// Number of intervals, and of intervals that contain the expected score.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Coverage {
     pub(crate) intervals: u32,
@@ -139,7 +139,7 @@ pub(crate) struct Coverage {
 }
 
 impl Coverage {
-    /// Share of intervals that contain it; 0 without intervals.
+    /// Share of intervals that contain the expected score; 0 without intervals.
     pub(crate) fn share(self) -> f64 {
         f64::from(self.held) / f64::from(self.intervals.max(1))
     }
@@ -196,7 +196,7 @@ struct Press {
 }
 
 impl Press {
-    /// Force, its prediction, and the predicted spacing of a grating.
+    /// Sample with a force, its prediction, and the predicted spacing of a grating.
     fn force(&self) -> Sample {
         #[expect(clippy::cast_possible_truncation, reason = "a few millimetres")]
         let predicted = SPACING_NM + (self.error_n * SPACING_ERROR_NM).round() as i64;
@@ -209,7 +209,7 @@ impl Press {
             .with_prediction(Readings::from_values([self.force_n - self.error_n]))
     }
 
-    /// A place and its prediction.
+    /// Sample with a place and its prediction.
     fn place(&self) -> Sample {
         let error_mm = SHORT_BY * self.place_mm + PLACE_ERROR_MM_PER_N * self.error_n;
         Sample::default()
@@ -218,7 +218,7 @@ impl Press {
             .with_prediction(Readings::from_values([self.place_mm - error_mm]))
     }
 
-    /// Place, depth and force.
+    /// Sample with place, depth and force.
     fn surface(&self) -> Sample {
         let place = [self.cell % CELLS, self.cell / CELLS];
         let [x, y] = place.map(|at| f64::from(at) + 0.5 - f64::from(CELLS) / 2.0);
@@ -230,7 +230,7 @@ impl Press {
 }
 
 impl Design {
-    /// Presses of one run: Gaussian errors; each location has its own spread and compliance.
+    /// Presses of one run, with Gaussian errors. Each location has its own spread and compliance.
     fn presses(self, run: u32, by_sample: bool) -> Vec<Press> {
         let mut random = Random::new(u64::from(run) << 32 | u64::from(self.locations));
         let mut presses = Vec::new();

@@ -1,13 +1,13 @@
-//! Detection limit of light presses: by hand, and the reasons for which there is none.
+//! Detection limit of light presses: values computed by hand, and reasons for a missing limit.
 
 use super::*;
 
-/// A press of `truth` N at its own place, predicted as `prediction`.
+/// A press with `truth` N at a place of its own, and the prediction `prediction`.
 fn light(place: u32, truth: f64, prediction: f64) -> Sample {
     at(&format!("place {place}"), pair(&[truth], &[prediction]))
 }
 
-/// Presses of 2/64 N to 12/64 N at eleven places, in turn predicted `error` too high and too low.
+/// Presses of 2/64 N to 12/64 N at eleven places, with predictions alternately `error` too high and too low.
 fn eleven_places(error: f64) -> Vec<Sample> {
     let press = |place: u32| {
         let truth = f64::from(place + 2) / 64.0;

@@ -1,8 +1,8 @@
-//! Agreement and tolerance intervals: by hand, by cluster, and the reasons for which there are none.
+//! Agreement and tolerance intervals: values by hand and by cluster, and reasons for missing values.
 
 use super::*;
 
-/// Errors 1 to 5 of five means 9.5, 11, 9.5, 12 and 10.5, whose slope is 2/3.
+/// Truths whose errors 1 to 5 and means 9.5, 11, 9.5, 12 and 10.5 give the slope 2/3.
 const TRUTHS: [f64; 5] = [10.0, 12.0, 11.0, 14.0, 13.0];
 const ERRORS: [f64; 5] = [1.0, 2.0, 3.0, 4.0, 5.0];
 /// The normal quantile of 97.5 %.
@@ -14,7 +14,7 @@ fn samples(point: impl Fn(usize) -> String) -> Vec<Sample> {
         .collect()
 }
 
-/// Three or four presses at each of eight places, in another order at each step.
+/// Three or four presses at each of eight places, in a different order at each step.
 fn clusters() -> Vec<Sample> {
     let press = |step: u32| {
         (0..8_u32).filter_map(move |place| {

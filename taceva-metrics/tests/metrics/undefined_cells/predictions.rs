@@ -1,4 +1,4 @@
-//! Metrics beyond the paper: values by hand, and reasons.
+//! Metrics that the paper does not define: values by hand, and reasons for missing values.
 
 use super::*;
 

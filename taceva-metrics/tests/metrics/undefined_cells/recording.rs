@@ -1,4 +1,4 @@
-//! Properties of the sensor that a recording shows, and those that it cannot show.
+//! Properties of the sensor derived from a recording, and reasons for missing properties.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Surfaces of units, registered onto each other.
+//! Surfaces of units, registered to each other.
 
 use super::*;
 

@@ -14,10 +14,10 @@ pub(super) enum Amount {
     Text(String),
 }
 
-/// Quantity expected of an amount.
+/// Expected quantity of an amount.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Wanted {
-    /// A value of this unit.
+    /// A value in this unit.
     In(Unit),
     /// A share of the reading.
     Share,
@@ -25,7 +25,7 @@ pub(super) enum Wanted {
     Angle,
     /// Any quantity: a plain number unchanged, an angle in radians, other units as written.
     Any,
-    /// A plain number, a share or an angle in radians, if TacEva cannot convert the unit of the measurand.
+    /// A plain number, a share or an angle in radians, for a measurand in a unit that TacEva cannot convert.
     Plain,
 }
 
@@ -61,7 +61,7 @@ impl fmt::Display for Amount {
 }
 
 impl Amount {
-    /// Number in the expected unit, checked to be finite.
+    /// Converts the amount to a finite number in the expected unit.
     pub(super) fn resolve(&self, wanted: Wanted) -> Result<f64, BudgetProblem> {
         let wrong = |expected: &str| BudgetProblem::Value {
             found: taceva_core::shown(&self.to_string()).to_string(),

@@ -1,4 +1,4 @@
-//! Computes budgets from the text and the measured figures.
+//! Computes budgets from the parsed file and the measured figures.
 
 use super::correlation::Correlations;
 use super::error::{BudgetError, BudgetProblem};
@@ -17,12 +17,12 @@ use super::text::BudgetText;
 use taceva_metrics::distributions::student_t;
 
 impl BudgetText {
-    /// One budget for each value of `at`; a single budget for an expression without `at`.
+    /// Computes one budget for each value of `at`, or a single budget for an expression without `at`.
     ///
     /// Source estimates are corrections: Y = ŷ·cos(tilt)·Π(1 + δ_relative) + Σ δ_absolute, or the expression.
     ///
     /// # Errors
-    /// [`BudgetError`] with line, key and expectation: bad numbers, unknown names, figures counted twice, contradicting correlations, a value
+    /// [`BudgetError`] with line, key and expectation: invalid numbers, unknown names, figures counted twice, contradicting correlations, a value
     /// outside the certificate's range, an expression without a value.
     ///
     /// # Reference
@@ -136,7 +136,7 @@ impl BudgetText {
         Ok(budget)
     }
 
-    /// The expression as written, or the default product and sum. The names are those of the sources, then the measurand's.
+    /// Expression of the file, or the default product and sum. Names are those of the sources, then that of the measurand.
     fn model(&self, inputs: &[Input], at: Option<f64>) -> Result<Expression, BudgetError> {
         if let Some(written) = &self.written.expression {
             let mut names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
@@ -201,7 +201,7 @@ impl Budget {
         self.warnings.push(warning.into());
     }
 
-    /// Adds the Monte Carlo result. It gives the interval if the first-order interval is not confirmed.
+    /// Adds the Monte Carlo result, which also gives the interval unless the first-order interval is confirmed.
     fn take_draws(
         &mut self,
         mut drawn: MonteCarloResult,

@@ -1,10 +1,10 @@
-//! Calibration certificate of the reference of one channel.
+//! Calibration certificate of the reference, for one channel.
 
 use super::freedom::Freedom;
 use taceva_core::{Coverage, Date, Traceability};
 use taceva_metrics::distributions::student_t;
 
-/// Coverage factor; `None` if k is not above 0 or p not in 0..1.
+/// Coverage factor; `None` unless k is above 0 or p is in 0..1.
 pub(super) fn factor(coverage: Coverage) -> Option<f64> {
     match coverage {
         Coverage::Factor(k) => (k > 0.0 && k.is_finite()).then_some(k),
@@ -13,7 +13,7 @@ pub(super) fn factor(coverage: Coverage) -> Option<f64> {
     }
 }
 
-/// Certificate of the reference for the measured channel; numbers in the unit of the measurand.
+/// Certificate of the reference for the measured channel. Numbers are in the unit of the measurand.
 ///
 /// ```
 /// use taceva_core::Coverage;
@@ -28,23 +28,23 @@ pub(super) fn factor(coverage: Coverage) -> Option<f64> {
 pub struct Certificate {
     /// Number of the certificate.
     pub number: String,
-    /// Laboratory that issued it.
+    /// Laboratory that issued the certificate.
     pub laboratory: String,
     /// Serial number in the certificate.
     pub serial: String,
-    /// Serial number read by the instrument's driver, if any.
+    /// Serial number read by the instrument's driver; `None` if the driver reads none.
     pub instrument_serial: Option<String>,
     /// Coverage of the expanded uncertainties.
     pub coverage: Coverage,
-    /// Expanded uncertainty that holds at every reading.
+    /// Expanded uncertainty, constant over all readings.
     pub absolute: f64,
     /// Expanded uncertainty relative to the reading.
     pub relative: f64,
-    /// Least and greatest calibrated value.
+    /// Least and greatest calibrated value; `None` if the certificate states no range.
     pub range: Option<[f64; 2]>,
-    /// Last day of validity, as `2027-05-12`.
+    /// Last day of validity, as `2027-05-12`; `None` if not stated.
     pub valid_until: Option<String>,
-    /// Day of the recording, in the same form.
+    /// Day of the recording, as `2027-05-12`; `None` if unknown.
     pub recorded_on: Option<String>,
 }
 
@@ -65,7 +65,7 @@ impl Certificate {
         }
     }
 
-    /// Certificate of a recording's instrument, reduced to `channel`; `None` without a certificate or an uncertainty of this channel.
+    /// Reduces the certificate of a recording's instrument to `channel`; `None` without a certificate or an uncertainty of this channel.
     ///
     /// ```
     /// use taceva_core::{Coverage, Instrument, Traceability};
@@ -120,7 +120,7 @@ impl Certificate {
         }
     }
 
-    /// Warning about a certificate that had expired, or may have, when the recording was made. Dates of one form compare as texts.
+    /// Warning for a certificate that had expired on the day of the recording, or may have. Dates in one form compare as text.
     pub(super) fn expiry(&self) -> Option<String> {
         let (number, until) = (&self.number, self.valid_until.as_ref()?);
         match &self.recorded_on {

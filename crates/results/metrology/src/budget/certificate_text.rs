@@ -1,4 +1,4 @@
-//! Reads the certificate of a reference from a rig, from the header of a recording, or from a file of its own.
+//! Reads the certificate of a reference from a rig, from the header of a recording, or from a separate file.
 
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -8,21 +8,21 @@ use super::certificate::Certificate;
 use super::error::{BudgetError, BudgetProblem};
 use super::text::explained;
 
-/// Instruments that measure the labels.
+/// Instruments whose readings become labels.
 const REFERENCES: [Instrument; 2] = [Instrument::Force, Instrument::Robot];
 
-/// Tables of a file that may hold certificates; other tables are ignored.
+/// Tables of a file that may contain certificates. Other tables are ignored.
 #[derive(Deserialize)]
 struct Tables {
     #[serde(default)]
     traceability: Vec<Traceability>,
     force: Option<Device>,
     robot: Option<Device>,
-    /// Number of the certificate, if its table is the whole file.
+    /// Number of the certificate; present if the whole file is one certificate.
     number: Option<IgnoredAny>,
 }
 
-/// Table of a device.
+/// Table of a device, with its certificate.
 #[derive(Deserialize)]
 struct Device {
     certificate: Option<taceva_core::Certificate>,
@@ -48,7 +48,7 @@ impl Certificate {
     /// ```
     ///
     /// # Errors
-    /// [`BudgetError`] with the line of bad TOML or of an inconsistent certificate, or if none or several state this channel.
+    /// [`BudgetError`] with the line of invalid TOML or of an inconsistent certificate. Also if no certificate, or more than one, states this channel.
     pub fn read(
         text: &str,
         channel: &str,
@@ -84,7 +84,7 @@ impl Certificate {
         }
     }
 
-    /// Certificates of `channel` among the instruments that measure labels.
+    /// Certificates of `channel` among the instruments whose readings become labels.
     pub fn of_references(
         all: &[Traceability],
         channel: &str,

@@ -1,4 +1,4 @@
-//! Correlations of inputs: stated, computed from paired rows, or worst case.
+//! Correlations of inputs: stated, computed from paired rows, or the worst case.
 
 use super::amount::{Amount, Wanted};
 use super::error::{BudgetError, BudgetProblem};
@@ -7,10 +7,10 @@ use super::input::Input;
 use super::source::{deviations, unknown};
 use super::text::{BudgetText, value};
 
-/// Least eigenvalue that rounding alone explains.
+/// Least eigenvalue that rounding can cause.
 const ROUNDING: f64 = -1e-12;
 
-/// A symmetric matrix of correlations.
+/// Symmetric matrix of correlation coefficients.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Correlations {
     count: usize,
@@ -18,7 +18,7 @@ pub(super) struct Correlations {
 }
 
 impl Correlations {
-    /// Correlations of `inputs`; the signs of `contributions` give the worst case for unknown correlations.
+    /// Correlations of `inputs`. The signs of `contributions` determine the worst case for unknown correlations.
     pub(super) fn of(
         text: &BudgetText,
         inputs: &[Input],
@@ -86,7 +86,7 @@ impl Correlations {
         Ok(found)
     }
 
-    /// Adds correlations of inputs whose rows were read together. Each set shares one number of degrees of freedom.
+    /// Adds correlations of inputs whose rows were read together. Inputs of a set have equal degrees of freedom.
     fn add_rows(&mut self, text: &BudgetText, inputs: &[Input]) -> Result<(), BudgetError> {
         for second in 0..inputs.len() {
             for first in 0..second {
@@ -134,12 +134,12 @@ impl Correlations {
         self.r[row * self.count + column]
     }
 
-    /// True if the input is correlated with another one.
+    /// True if the input at index `at` is correlated with another input.
     pub(super) fn is_correlated(&self, at: usize) -> bool {
         (0..self.count).any(|other| other != at && self.get(at, other).abs() > 0.0)
     }
 
-    /// Least eigenvalue, by Jacobi's rotations.
+    /// Least eigenvalue, by Jacobi rotations.
     fn least_eigenvalue(&self) -> f64 {
         const SWEEPS: usize = 50;
         let n = self.count;
@@ -174,7 +174,7 @@ impl Correlations {
         (0..n).map(|at| a[at * n + at]).fold(1.0, f64::min)
     }
 
-    /// Lower triangle L with L Lᵀ = R, row by row; columns of zero length are 0.
+    /// Lower triangle L with L Lᵀ = R, row by row. Columns of zero length are 0.
     pub(super) fn factor(&self) -> Vec<f64> {
         let n = self.count;
         let mut lower = vec![0.0; n * n];

@@ -1,6 +1,6 @@
-//! Rounding of an expanded uncertainty, and of the value beside it.
+//! Rounding of an expanded uncertainty, and of the corresponding value.
 
-/// Rounds an expanded uncertainty to two digits: to the nearest, or up if the nearest is lower by 5 % or more.
+/// Rounds an expanded uncertainty to two digits: to the nearest number, or up if the nearest number is lower by 5 % or more.
 ///
 /// ```
 /// use taceva_metrology::budget::two_digits;
@@ -27,12 +27,12 @@ pub(super) fn exponent(number: f64) -> i32 {
         .unwrap_or_default()
 }
 
-/// Half of the last place of a standard uncertainty rounded to two digits, JCGM 101, 7.9.2.
+/// Half the last place of a standard uncertainty rounded to two digits, JCGM 101, 7.9.2.
 pub(super) fn tolerance(u: f64) -> f64 {
     0.5 * 10_f64.powi(exponent(u) - 1)
 }
 
-/// `number` with as many decimals as `uncertainty` in two digits.
+/// Formats `number` with the decimals of `uncertainty` rounded to two digits.
 pub(super) fn beside(number: f64, uncertainty: f64) -> String {
     let decimals = usize::try_from(1 - exponent(uncertainty)).unwrap_or_default();
     format!("{number:.decimals$}")

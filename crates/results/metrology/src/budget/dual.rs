@@ -1,14 +1,14 @@
 //! Second-order dual numbers: values with their first and second derivatives.
 
-/// Number type that expressions are evaluated with.
+/// Number type for the evaluation of expressions.
 pub(super) trait Scalar: Clone {
-    /// Constant with as many derivatives as `like`.
+    /// Constant with zero derivatives, as many as `like` has.
     fn constant(value: f64, like: &Self) -> Self;
     /// Value without derivatives.
     fn value(&self) -> f64;
     fn plus(self, other: &Self) -> Self;
     fn times(self, other: &Self) -> Self;
-    /// Chain rule: g(self), given g, g′ and g″ at this value.
+    /// Applies a function g by the chain rule. `derivatives` are g, g′ and g″ at this value.
     fn chained(self, derivatives: [f64; 3]) -> Self;
     /// True if the number depends on no input.
     fn is_constant(&self) -> bool;
@@ -35,7 +35,7 @@ impl Scalar for f64 {
     }
 }
 
-/// Value of an expression with its derivatives, in units of the expression over those of the inputs.
+/// Value of an expression with its derivatives, in units of the expression divided by those of the inputs.
 ///
 /// This type gets no further field: derivatives of third order are not computed.
 ///
@@ -49,14 +49,14 @@ impl Scalar for f64 {
 pub struct Expansion {
     /// Value of the expression.
     pub value: f64,
-    /// First derivative by each input.
+    /// First derivative with respect to each input.
     pub gradient: Vec<f64>,
-    /// Second derivatives, row by row.
+    /// Second derivatives with respect to pairs of inputs, row by row.
     pub hessian: Vec<f64>,
 }
 
 impl Expansion {
-    /// Number of input `index` among `count` inputs.
+    /// The input at `index` among `count` inputs, with the derivative 1.
     pub(super) fn input(value: f64, index: usize, count: usize) -> Expansion {
         let slope = |at: usize| if at == index { 1.0 } else { 0.0 };
         Expansion {

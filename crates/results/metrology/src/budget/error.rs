@@ -1,10 +1,10 @@
-//! Errors of a budget file: line, key, content found and content expected.
+//! Errors in a budget file, with line, key, value found and value expected.
 
 use std::fmt;
 
 use super::expression::ExpressionError;
 
-/// A rejected budget.
+/// Reason for rejecting a budget file.
 ///
 /// ```
 /// use taceva_metrology::budget::BudgetText;
@@ -14,9 +14,9 @@ use super::expression::ExpressionError;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct BudgetError {
-    /// Line, from 1, if a single line is at fault.
+    /// Line, from 1; `None` if no single line is at fault.
     pub line: Option<usize>,
-    /// Key at fault, or the table.
+    /// Key or table at fault.
     pub key: Option<String>,
     /// Problem found.
     pub problem: Box<BudgetProblem>,
@@ -56,7 +56,7 @@ impl fmt::Display for BudgetError {
 
 impl std::error::Error for BudgetError {}
 
-/// Problems of a budget.
+/// Problem in a budget file.
 ///
 /// ```
 /// use taceva_metrology::budget::BudgetProblem;
@@ -69,7 +69,7 @@ pub enum BudgetProblem {
     /// Invalid TOML, an unknown key, or a value of the wrong type.
     #[error("{0}")]
     Syntax(String),
-    /// A number out of its range, or an amount that cannot be read.
+    /// A number outside its range, or an amount that cannot be parsed.
     #[error("`{found}` is found, expected {expected}")]
     Value {
         /// Text as found.
@@ -77,7 +77,7 @@ pub enum BudgetProblem {
         /// Accepted values.
         expected: String,
     },
-    /// A key that needs another one, or excludes it.
+    /// A key that requires or excludes another key.
     #[error("{0}")]
     Keys(String),
     /// An unknown name.
@@ -85,9 +85,9 @@ pub enum BudgetProblem {
     UnknownName {
         /// Name as written.
         name: String,
-        /// Kind of the name.
+        /// Kind of the unknown name, for the message.
         kind: &'static str,
-        /// The nearest name, or all of them.
+        /// Nearest known name, or all known names.
         suggestion: String,
     },
     /// A measured figure without a value.
@@ -95,10 +95,10 @@ pub enum BudgetProblem {
     NotMeasured {
         /// Name of the figure.
         name: String,
-        /// Reason why it has no value.
+        /// Reason for the missing value.
         reason: String,
     },
-    /// Two sources with the same name, or that use the same figure.
+    /// Two sources with the same name, or with the same figure.
     #[error("`{name}` is used twice, here and in line {other}")]
     Twice {
         /// Name of the source or figure.
@@ -106,17 +106,17 @@ pub enum BudgetProblem {
         /// Line of the first source.
         other: usize,
     },
-    /// A source that another source already includes.
+    /// A source whose effect another source already includes.
     #[error("`{inner}` is inside `{outer}` (line {line}); remove one of them")]
     Inside {
         /// Included figure.
         inner: String,
-        /// Figure that includes it.
+        /// Figure that includes `inner`.
         outer: String,
         /// Line of `outer`.
         line: usize,
     },
-    /// Contradicting correlations: the matrix has a negative eigenvalue.
+    /// Contradicting correlations: the correlation matrix has a negative eigenvalue.
     #[error(
         "the correlations contradict each other: the least eigenvalue of their matrix is {eigenvalue:.3e}, expected 0 or more"
     )]
@@ -124,7 +124,7 @@ pub enum BudgetProblem {
         /// Least eigenvalue.
         eigenvalue: f64,
     },
-    /// An expression that cannot be read or has no value.
+    /// An expression with a syntax error or without a value.
     #[error("{0}")]
     Expression(ExpressionError),
     /// A certificate that does not apply to the instrument or the value.

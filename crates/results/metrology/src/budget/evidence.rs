@@ -1,11 +1,11 @@
-//! Measured figures that sources name by `from`, and the certificate of the reference.
+//! Measured figures that sources use by `from`, and the certificate of the reference.
 
 use std::collections::BTreeMap;
 
 use super::certificate::Certificate;
 use super::freedom::Freedom;
 
-/// A measured figure that can feed a source, in the unit of the measurand.
+/// A measured figure that a source can use, in the unit of the measurand.
 ///
 /// ```
 /// use taceva_metrology::budget::{Figure, Freedom};
@@ -15,21 +15,21 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Figure {
-    /// Estimate, a correction added to the reading (usually 0). For `drift`, the slope per hour.
+    /// Estimate: a correction added to the reading, usually 0. For `drift`, the slope per hour.
     pub value: f64,
     /// Standard uncertainty.
     pub u: f64,
     /// Degrees of freedom of `u`.
     pub freedom: Freedom,
-    /// Number of rows that the figure is computed from.
+    /// Number of rows behind the figure; `None` if unknown.
     pub n: Option<u64>,
-    /// Number of clusters of these rows, such as contact points.
+    /// Number of clusters among these rows, such as contact points; `None` if unknown.
     pub clusters: Option<u64>,
-    /// Least and greatest label of these rows.
+    /// Least and greatest label of these rows; `None` if unknown.
     pub labels: Option<[f64; 2]>,
-    /// Digest of the file that the figure comes from.
+    /// Digest of the figure's source file; `None` if unknown.
     pub digest: Option<String>,
-    /// Caveat that every output repeats.
+    /// Reservation that every output repeats; `None` for no reservation.
     pub note: Option<String>,
 }
 
@@ -48,7 +48,7 @@ impl Figure {
         }
     }
 
-    /// The drift of idle readings, in units of the measurand per hour.
+    /// Drift of idle readings, in units of the measurand per hour.
     pub fn of_drift(slope_per_hour: f64) -> Figure {
         Figure {
             value: slope_per_hour,
@@ -82,7 +82,7 @@ impl Figure {
     }
 }
 
-/// Measured figures and the certificate that a budget can use.
+/// Measured figures and the certificate for a budget.
 ///
 /// ```
 /// use taceva_metrology::budget::{Evidence, Figure, Freedom};
@@ -96,14 +96,14 @@ pub struct Evidence {
 }
 
 impl Evidence {
-    /// The same evidence with the figure that sources name by `from = "name"`.
+    /// The same evidence with the figure that sources use by `from = "name"`.
     #[must_use]
     pub fn with(mut self, name: &str, figure: Figure) -> Evidence {
         self.figures.insert(name.to_owned(), figure);
         self
     }
 
-    /// The same evidence with the certificate of the reference, `from = "certificate"`.
+    /// The same evidence with the certificate of the reference, which sources use by `from = "certificate"`.
     #[must_use]
     pub fn with_certificate(self, certificate: Certificate) -> Evidence {
         Evidence {
@@ -112,7 +112,7 @@ impl Evidence {
         }
     }
 
-    /// The figure of this name.
+    /// The figure called `name`; `None` for an unknown name.
     pub fn figure(&self, name: &str) -> Option<&Figure> {
         self.figures.get(name)
     }
@@ -122,7 +122,7 @@ impl Evidence {
         self.figures.keys().map(String::as_str)
     }
 
-    /// The certificate.
+    /// Certificate of the reference; `None` without a certificate.
     pub fn certificate(&self) -> Option<&Certificate> {
         self.certificate.as_ref()
     }

@@ -19,11 +19,11 @@ use super::dual::Scalar;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// Steps, each with its column in the text.
+    /// Steps of the stack machine, each with its column in the text.
     steps: Vec<(Step, usize)>,
 }
 
-/// An expression with a syntax error, or without a value at the estimates.
+/// A syntax error, or an expression without a value at the estimates.
 ///
 /// ```
 /// use taceva_metrology::budget::Expression;
@@ -47,7 +47,7 @@ impl fmt::Display for ExpressionError {
 
 impl std::error::Error for ExpressionError {}
 
-/// A step of the calculation on a stack.
+/// One step of the stack machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Step {
     Number(f64),
@@ -61,7 +61,7 @@ pub(super) enum Step {
     Call(Function),
 }
 
-/// A function of one argument.
+/// Function of one argument.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Function {
     Sqrt,
@@ -73,16 +73,16 @@ pub(super) enum Function {
 }
 
 impl Expression {
-    /// Parses `text`; `names` lists the inputs in order. A name with blanks stands in `'…'`.
+    /// Parses `text`. `names` lists the inputs in order. A name with blanks is written in `'…'`.
     ///
     /// # Errors
-    /// [`ExpressionError`] with the column, and for an unknown name the nearest one.
+    /// [`ExpressionError`] with the column and, for an unknown name, the nearest known name.
     pub fn parse(text: &str, names: &[&str]) -> Result<Expression, ExpressionError> {
         let steps = reader::read(text, names)?;
         Ok(Expression { steps })
     }
 
-    /// The expression of these steps, without a text.
+    /// Expression from these steps, without a text.
     pub(super) fn of_steps(steps: Vec<Step>) -> Expression {
         let steps = steps.into_iter().map(|step| (step, 0)).collect();
         Expression { steps }

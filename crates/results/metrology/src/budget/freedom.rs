@@ -1,10 +1,10 @@
-//! Degrees of freedom of an uncertainty: a number, infinity, or the reason why undefined.
+//! Degrees of freedom of an uncertainty: a number, infinity, or undefined with a reason.
 
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Degrees of freedom. In JSON it is a number, `"infinite"`, or `"undefined: …"` with the reason.
+/// Degrees of freedom, in JSON a number, `"infinite"`, or `"undefined: …"` with the reason.
 ///
 /// ```
 /// use taceva_metrology::budget::Freedom;
@@ -32,7 +32,7 @@ pub enum Freedom {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum Undefined {
-    /// Sources with finite degrees of freedom are correlated, but not through the same rows. The Welch–Satterthwaite formula does not apply.
+    /// Sources with finite degrees of freedom are correlated, but not through common rows. The Welch–Satterthwaite formula does not apply.
     #[error("sources of finite freedom are correlated, but not through the same rows")]
     CorrelatedFreedom,
     /// The combined uncertainty is 0.
@@ -60,7 +60,7 @@ impl Freedom {
 }
 
 impl fmt::Display for Freedom {
-    /// Rounds down to one decimal, so that the text never overstates the degrees of freedom.
+    /// Writes one decimal, rounded down, so that the text never overstates the degrees of freedom.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Freedom::Finite(number) => write!(f, "{:.1}", (number * 10.0).floor() / 10.0),

@@ -1,16 +1,16 @@
-//! A source with its numbers: estimate, shape, standard uncertainty and degrees of freedom.
+//! Sources with their numbers: estimate, shape, standard uncertainty and degrees of freedom.
 
 use super::evidence::Figure;
 use super::freedom::Freedom;
 use super::shape::Shape;
 
-/// A resolved source, an input of the model.
+/// Resolved source: an input of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Input {
     pub(super) name: String,
-    /// Line of its table.
+    /// Line of the source's table.
     pub(super) line: usize,
-    /// True for type A, from statistics of rows.
+    /// True for type A: evaluated by statistics of rows.
     pub(super) is_statistical: bool,
     pub(super) shape: Shape,
     pub(super) value: f64,
@@ -18,29 +18,29 @@ pub(super) struct Input {
     pub(super) freedom: Freedom,
     pub(super) enters: Enters,
     pub(super) from: Option<String>,
-    /// Name of a set whose inputs were read together, row by row.
+    /// Name of the set of inputs that were read together, row by row.
     pub(super) set: Option<String>,
     pub(super) rows: Vec<f64>,
     pub(super) covers: Option<String>,
-    /// Measured figure named by the source.
+    /// Measured figure that the source uses.
     pub(super) figure: Option<Figure>,
 }
 
 impl Input {
-    /// Number of rows of its figure.
+    /// Number of rows of the figure; `None` without a figure.
     pub(super) fn n(&self) -> Option<u64> {
         let rows = (!self.rows.is_empty()).then_some(self.rows.len() as u64);
         rows.or(self.figure.as_ref().and_then(|figure| figure.n))
     }
 
-    /// Caveat of its figure.
+    /// Reservation of the figure; `None` without one.
     pub(super) fn note(&self) -> Option<String> {
         let note = self.figure.as_ref()?.note.as_ref()?;
         Some(format!("{}: {note}", self.name))
     }
 }
 
-/// Effect of a source on a model without an expression.
+/// Term of a source in the default model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Enters {
     /// + δ.

@@ -1,4 +1,4 @@
-//! Propagation of distributions by draws, JCGM 101.
+//! Propagation of distributions by random draws, JCGM 101.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::random::{Draws, open_unit};
@@ -13,15 +13,15 @@ use taceva_metrics::distributions::{chi_square, normal};
 
 /// Number of draws in a block.
 const BLOCK: u64 = 10_000;
-/// Least number of blocks before the results may count as stable.
+/// Least number of blocks before the results may be stable.
 const LEAST_BLOCKS: usize = 10;
-/// Stream numbers of random draws. Inputs use their index; correlated normal numbers and Student factors use these constants plus the index.
+/// Offsets of stream numbers. Inputs use their index as the stream number; correlated normal numbers and Student factors add an offset to the index.
 const JOINT: u64 = 1 << 32;
 const FACTOR: u64 = 1 << 33;
 
 /// Request for a Monte Carlo check of a budget.
 ///
-/// Draws come in blocks of 10⁴, each a function of seed, source and counter alone.
+/// Draws are computed in blocks of 10⁴. Each draw is a function of seed, source and counter alone.
 ///
 /// ```
 /// use taceva_metrology::budget::MonteCarlo;
@@ -31,11 +31,11 @@ const FACTOR: u64 = 1 << 33;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct MonteCarlo {
-    /// Maximum number of draws, rounded up to whole blocks.
+    /// Greatest number of draws, rounded up to whole blocks.
     pub draws: u64,
     /// Seed of the random draws.
     pub seed: u64,
-    /// True if drawing stops once the results are stable in two digits of u, JCGM 101, 7.9.
+    /// True to stop drawing once two digits of u are stable, JCGM 101, 7.9.
     pub is_adaptive: bool,
 }
 
@@ -50,7 +50,7 @@ impl Default for MonteCarlo {
 }
 
 impl MonteCarlo {
-    /// The same request with another maximum number of draws.
+    /// The same request with another greatest number of draws.
     #[must_use]
     pub fn with_draws(self, draws: u64) -> MonteCarlo {
         MonteCarlo { draws, ..self }
@@ -62,7 +62,7 @@ impl MonteCarlo {
         MonteCarlo { seed, ..self }
     }
 
-    /// The same request, without stopping early.
+    /// The same request with all draws, without stopping early.
     #[must_use]
     pub fn to_the_end(self) -> MonteCarlo {
         MonteCarlo {
@@ -96,30 +96,30 @@ pub struct MonteCarloResult {
     pub u: f64,
     /// Shortest interval with the coverage probability.
     pub shortest: [f64; 2],
-    /// Interval with equal tail probabilities.
+    /// Interval with equal probabilities in both tails.
     pub symmetric: [f64; 2],
     /// Standard errors of both ends of the symmetric interval.
     pub end_errors: [f64; 2],
     /// True if the first-order and symmetric intervals agree within the tolerance and twice the standard errors of the ends.
     pub validated: bool,
-    /// Half of the last place of u rounded to two digits.
+    /// Half the last place of u rounded to two digits.
     pub tolerance: f64,
-    /// True if drawing stopped because the results were stable.
+    /// True if drawing stopped early because the results were stable.
     pub is_stable: bool,
 }
 
-/// The model with its inputs and their joint distribution.
+/// Model with its inputs and their joint distribution.
 pub(super) struct Sampler<'a> {
     pub(super) expression: &'a Expression,
     pub(super) inputs: &'a [Input],
-    /// Values of names other than the inputs.
+    /// Values of names that are not inputs.
     pub(super) constants: &'a [f64],
     pub(super) correlations: &'a Correlations,
     pub(super) coverage: f64,
 }
 
 impl Sampler<'_> {
-    /// Draws from the model; `None` if a draw has no value. `estimate` is the value at the estimates.
+    /// Runs the model on random draws; `None` if a draw has no value. `estimate` is the value at the estimates.
     pub(super) fn run(&self, request: MonteCarlo, estimate: f64) -> Option<MonteCarloResult> {
         // A block holds 100 values beyond its interval, JCGM 101, 7.9.4.
         let tails = (100.0 / (1.0 - self.coverage)).ceil().min(1e7);
@@ -183,13 +183,13 @@ impl Sampler<'_> {
     }
 }
 
-/// Inputs that are drawn together: correlated inputs, and inputs of one set.
+/// Inputs with a joint draw: correlated inputs, and inputs of one set.
 struct Joint<'a> {
     inputs: &'a [Input],
     members: Vec<usize>,
     lower: Vec<f64>,
     normals: Vec<Draws>,
-    /// Factor of Student's distribution of each member; a single factor for a set.
+    /// Streams of Student's factor for each member; a single stream for a set.
     factors: Vec<Draws>,
 }
 
@@ -264,7 +264,7 @@ impl Summary {
     }
 }
 
-/// Number of sorted values that an interval spans, JCGM 101, 7.7.2.
+/// Number of sorted values within an interval, JCGM 101, 7.7.2.
 fn width(count: usize, coverage: f64) -> usize {
     whole_size(coverage * count as f64 + 0.5).min(count.saturating_sub(1))
 }
@@ -280,7 +280,7 @@ fn shortest(sorted: &[f64], coverage: f64) -> [f64; 2] {
     })
 }
 
-/// Means and spreads of the results of blocks: mean, u and both ends.
+/// Sums of the results of blocks: mean, u and both ends.
 #[derive(Default)]
 struct Stability {
     results: Vec<[f64; 4]>,
@@ -292,7 +292,7 @@ impl Stability {
         self.results.push([block.mean, block.u, low, high]);
     }
 
-    /// True if twice the standard error of each result is below half of the last place of u.
+    /// True if twice the standard error of each result is below half the last place of u.
     fn is_reached(&self) -> bool {
         let limit = tolerance(self.mean(1));
         self.results.len() >= LEAST_BLOCKS
@@ -304,7 +304,7 @@ impl Stability {
         sum / self.results.len() as f64
     }
 
-    /// Standard error of the mean over two blocks or more.
+    /// Standard error of the mean over blocks, for at least two blocks.
     fn standard_error(&self, which: usize) -> f64 {
         let (h, mean) = (self.results.len() as f64, self.mean(which));
         let offs = self.results.iter().map(|result| result[which] - mean);

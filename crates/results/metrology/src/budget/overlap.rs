@@ -1,11 +1,11 @@
-//! Figures that include other figures, which a budget must not count twice, and effects that a test does not exercise.
+//! Figures that include other figures, and effects that a test does not vary. A budget must count each effect once.
 
 use super::error::{BudgetError, BudgetProblem};
 use super::evidence::Evidence;
 use super::input::Input;
 use super::report::Missing;
 
-/// Figures of residuals, each with the figures that it includes.
+/// Figures of residuals, each with the figures included in it.
 const INSIDE: [(&str, &[&str]); 2] = [
     (
         "error",
@@ -21,7 +21,7 @@ const INSIDE: [(&str, &[&str]); 2] = [
     ("error.within", &["repeatability", "noise", "placement"]),
 ];
 
-/// Effects that presses of one unit in one session do not exercise, each with its figure.
+/// Effects that presses of one unit in one session do not vary, each with its figure.
 const UNEXERCISED: [(&str, &str); 4] = [
     ("hysteresis", "unloading"),
     ("r_light", "other light"),
@@ -29,7 +29,7 @@ const UNEXERCISED: [(&str, &str); 4] = [
     ("drift", "other days"),
 ];
 
-/// Refuses two sources of one figure, and a source that another source includes.
+/// Rejects two sources with one figure, and a source that another source includes.
 pub(super) fn check(inputs: &[Input]) -> Result<(), BudgetError> {
     let of = |input: &Input| input.from.clone().unwrap_or_default();
     for (at, input) in inputs.iter().enumerate() {
@@ -67,7 +67,7 @@ fn holds(outer: &str, inner: &str) -> bool {
     is_inside || (plain == outer && inner != outer)
 }
 
-/// True if the component `sum` of a gauge study includes its component `part`. Other names are those of operators.
+/// True if the component `sum` of a gauge study includes its component `part`. Unknown names are names of operators.
 fn holds_component(sum: &str, part: &str) -> bool {
     const SUMS: [&str; 5] = ["reproducibility", "repeatability", "gauge", "part", "total"];
     match sum {

@@ -1,4 +1,4 @@
-//! Law of propagation of uncertainty, with effective degrees of freedom and terms of second order.
+//! Law of propagation of uncertainty, with effective degrees of freedom and second-order terms.
 
 use super::correlation::Correlations;
 use super::expression::Expansion;
@@ -11,16 +11,16 @@ pub(super) struct Combined {
     pub(super) freedom: Freedom,
     /// Standard uncertainty including second-order terms.
     pub(super) second_order_u: f64,
-    /// Indices of the two inputs of the greatest second-order term.
+    /// Indices of the two inputs with the greatest second-order term.
     pub(super) greatest_term: Option<[usize; 2]>,
 }
 
-/// Combines the inputs at the expansion of the model; derivatives beyond the inputs belong to constants.
+/// Combines the inputs at the expansion of the model. Derivatives after those of the inputs belong to constants.
 ///
-/// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ. Degrees of freedom by Welch and Satterthwaite; inputs of one set count as one component (GUM H.2).
+/// u² = Σ cᵢ²uᵢ² + 2 ΣΣ cᵢcⱼuᵢuⱼrᵢⱼ. Degrees of freedom by Welch and Satterthwaite, with the inputs of a set as one component (GUM H.2).
 ///
 /// # Reference
-/// GUM 5.1.2, 5.2.2 and G.4.1. The second-order terms are ½ tr((HΣ)²); terms with third derivatives are left out.
+/// GUM 5.1.2, 5.2.2 and G.4.1. The second-order terms are ½ tr((HΣ)²); terms with third derivatives are omitted.
 pub(super) fn combine(inputs: &[Input], expansion: &Expansion, r: &Correlations) -> Combined {
     let contributions = contributions(inputs, expansion);
     let covariance = |i: usize, j: usize| contributions[i] * contributions[j] * r.get(i, j);
@@ -67,7 +67,7 @@ pub(super) fn contributions(inputs: &[Input], expansion: &Expansion) -> Vec<f64>
     slopes.map(|(input, slope)| slope * input.u).collect()
 }
 
-/// ½ Σ (HΣ)ᵢⱼ (HΣ)ⱼᵢ, and the indices of the greatest |Hᵢⱼ| uᵢuⱼ.
+/// ½ Σ (HΣ)ᵢⱼ (HΣ)ⱼᵢ, and the indices with the greatest |Hᵢⱼ| uᵢuⱼ.
 fn second_order(
     inputs: &[Input],
     expansion: &Expansion,

@@ -1,4 +1,4 @@
-//! Computed budget, `taceva.budget/1`.
+//! Results of a budget in the form `taceva.budget/1`.
 
 use std::fmt;
 
@@ -9,14 +9,14 @@ use super::digits::{beside, two_digits};
 use super::freedom::Freedom;
 use super::monte_carlo::MonteCarloResult;
 
-/// Warning of a budget without a certificate of the reference.
+/// Warning for a budget without a certificate of the reference.
 pub(super) const NOT_TRACEABLE: &str =
     "not traceable: the budget has no certificate of the reference";
 
 /// Name and version of the JSON form.
 pub const BUDGET_SCHEMA: &str = "taceva.budget/1";
 
-/// Uncertainty budget of one value. Numbers are unrounded and in `unit`; printed text rounds U to two digits.
+/// Uncertainty budget of one value. Numbers are unrounded and in `unit`. Printed text rounds U to two digits.
 ///
 /// ```
 /// # use taceva_metrology::budget::{BudgetText, Evidence, MonteCarlo};
@@ -32,7 +32,7 @@ pub struct Budget {
     pub schema: String,
     /// Name of the measurand.
     pub measurand: String,
-    /// Reading that the budget applies to; `None` if an expression alone gives the value.
+    /// Reading of the instrument; `None` if an expression alone gives the value.
     pub at: Option<f64>,
     /// Unit of all values and uncertainties.
     pub unit: String,
@@ -44,32 +44,32 @@ pub struct Budget {
     pub second_order_u: f64,
     /// Effective degrees of freedom.
     pub nu_eff: Freedom,
-    /// Coverage factor, for `nu_eff` rounded down to a whole number.
+    /// Coverage factor for `nu_eff` rounded down; `None` if `nu_eff` is undefined.
     pub k: Option<f64>,
     /// Coverage probability.
     pub p: f64,
-    /// Expanded uncertainty k u of first order, unrounded, whatever the method of the interval.
+    /// First-order expanded uncertainty k u, unrounded, for either method of the interval.
     #[serde(rename = "U")]
     pub expanded: Option<f64>,
     /// Coverage interval, computed by `method`.
     pub interval: Option<[f64; 2]>,
-    /// Method that gave the interval.
+    /// Method of the coverage interval.
     pub method: Method,
-    /// Sources, in order of the file.
+    /// Sources in the order of the file.
     pub sources: Vec<Source>,
     /// Nonzero correlations.
     pub correlations: Vec<Correlation>,
-    /// Monte Carlo result, if requested.
+    /// Monte Carlo result; `None` if not requested.
     pub mcm: Option<MonteCarloResult>,
     /// Effects that no source covers.
     pub missing: Vec<Missing>,
-    /// Certificate of the reference; `None` without one.
+    /// Certificate of the reference; `None` if there is no certificate.
     pub traceability: Option<Traceability>,
     /// Warnings that every output repeats.
     pub warnings: Vec<String>,
 }
 
-/// Method that gave an interval. It gets no further variant.
+/// Method of an interval. It gets no further variant.
 ///
 /// ```
 /// use taceva_metrology::budget::Method;
@@ -118,22 +118,22 @@ pub struct Source {
     pub u: f64,
     /// Degrees of freedom of `u`.
     pub nu: Freedom,
-    /// Sensitivity, unit of the measurand over that of the source.
+    /// Sensitivity coefficient, in the unit of the measurand divided by the unit of the source.
     pub c: f64,
     /// Signed contribution c u.
     pub contribution: f64,
-    /// (c u)² over the squared combined uncertainty, `None` if that is 0. Without correlation the shares sum to 1.
+    /// Share (c u)² / u² of the combined variance; `None` if that variance is 0. Without correlation the shares sum to 1.
     pub share: Option<f64>,
-    /// Measured figure that the source names.
+    /// Measured figure that the source uses; `None` for stated numbers.
     pub from: Option<String>,
-    /// Number of rows of the figure.
+    /// Number of rows behind the figure.
     pub n: Option<u64>,
-    /// Number of clusters of the figure.
+    /// Number of clusters behind the figure.
     pub clusters: Option<u64>,
-    /// Least and greatest label of these rows.
+    /// Least and greatest label of the figure's rows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub labels: Option<[f64; 2]>,
-    /// Digest of the file that the figure comes from.
+    /// Digest of the figure's source file.
     pub digest: Option<String>,
 }
 
@@ -152,7 +152,7 @@ pub struct Correlation {
     pub r: f64,
 }
 
-/// An effect without a source.
+/// An effect that no source covers.
 ///
 /// ```
 /// let one: taceva_metrology::budget::Missing =
@@ -163,14 +163,14 @@ pub struct Correlation {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Missing {
-    /// Name of the figure that would cover it.
+    /// Name of the figure that would cover the effect.
     pub source: String,
-    /// Effect, and the reason why it matters.
+    /// Effect, and its relevance to the budget.
     pub reason: String,
 }
 
 impl Missing {
-    /// An effect that the figure `source` would cover.
+    /// Missing effect that the figure `source` would cover.
     pub fn new(source: &str, reason: &str) -> Missing {
         Missing {
             source: source.to_owned(),
@@ -179,7 +179,7 @@ impl Missing {
     }
 }
 
-/// Certificate behind a budget.
+/// Certificate of the reference behind a budget.
 ///
 /// ```
 /// # use taceva_metrology::budget::Traceability;
@@ -199,7 +199,7 @@ pub struct Traceability {
     pub serial: String,
     /// Last day of validity.
     pub valid_until: Option<String>,
-    /// Day of the recording, in the same form.
+    /// Day of the recording, in the form of `valid_until`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<String>,
 }
@@ -214,12 +214,12 @@ impl Traceability {
 }
 
 impl Budget {
-    /// Half-width of the interval rounded to two digits.
+    /// Half-width of the interval, rounded to two digits.
     pub fn rounded(&self) -> Option<f64> {
         self.half_width().map(two_digits)
     }
 
-    /// Half-width of the interval: the greater one if the interval is asymmetric. It equals U unless the interval comes from draws.
+    /// Half-width of the interval; the greater one for an asymmetric interval. Equals U unless the interval is from draws.
     pub fn half_width(&self) -> Option<f64> {
         match self.method {
             Method::FirstOrder => self.expanded,
@@ -230,7 +230,7 @@ impl Budget {
         }
     }
 
-    /// Value, U in two digits and coverage, in one line. U of draws has no k and no degrees of freedom.
+    /// Value, U in two digits and coverage, in one line. An interval from draws has no k and no degrees of freedom.
     pub fn statement(&self) -> String {
         let (unit, name) = (shown(&self.unit), shown(&self.measurand));
         let value = beside(self.value, self.scale());
@@ -252,14 +252,14 @@ impl Budget {
         format!("{name} = {value} {unit}, {uncertainty}, p = {p} %, nu_eff {freedom})")
     }
 
-    /// Interval and its method, as text.
+    /// Interval and its method, in words.
     pub fn interval_in_words(&self) -> Option<String> {
         let [low, high] = self.interval?.map(|end| beside(end, self.scale()));
         let unit = shown(&self.unit);
         Some(format!("interval {low} to {high} {unit}, {}", self.method))
     }
 
-    /// Reservation about the reference: no certificate, or one that had expired on the day of the recording.
+    /// Reservation about the reference: no certificate, or a certificate that had expired on the day of the recording.
     pub fn reservation(&self) -> Option<&'static str> {
         let stated = self.traceability.as_ref();
         if stated.is_some_and(Traceability::is_expired) {
@@ -271,13 +271,13 @@ impl Budget {
             .then_some("not traceable")
     }
 
-    /// Label ranges of the samples whose errors the sources pool, as text; each once.
+    /// Distinct label ranges of the samples behind the sources, in words.
     pub fn labels_in_words(&self) -> Vec<String> {
         let ranges = self.label_ranges().into_iter();
         ranges.map(|range| self.range_in_words(range)).collect()
     }
 
-    /// Warnings about a reading outside the labels of samples whose errors the sources pool.
+    /// Warnings for a reading outside the label range of the samples behind a source.
     pub(super) fn beyond_labels(&self) -> Vec<String> {
         let Some(at) = self.at else {
             return Vec::new();
@@ -306,7 +306,7 @@ impl Budget {
         ranges
     }
 
-    /// Range in three digits of its width.
+    /// Range as text, to three digits of its width.
     fn range_in_words(&self, [low, high]: [f64; 2]) -> String {
         let place = (high - low).max(high.abs() / 10.0) / 10.0;
         let [low, high] = [low, high].map(|end| beside(end, place));
@@ -314,13 +314,13 @@ impl Budget {
         format!("{low} {unit} to {high} {unit}")
     }
 
-    /// Uncertainty whose two digits set the decimals of printed values.
+    /// Uncertainty that determines the decimals of printed values.
     fn scale(&self) -> f64 {
         let wide = self.half_width().filter(|half| *half > 0.0);
         wide.unwrap_or(self.u)
     }
 
-    /// Correlation of the values of two budgets with the same sources; `None` if either has no uncertainty.
+    /// Correlation of the values of two budgets with the same sources; `None` if either value has no uncertainty.
     ///
     /// # Reference
     /// GUM H.2.3: r = ΣΣ cᵢuᵢ cⱼ′uⱼ′ rᵢⱼ / (u u′).

@@ -1,4 +1,4 @@
-//! One-way components of residuals: variance between and within contact points.
+//! One-way variance components of residuals: variance between and within contact points.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use taceva_metrics::{ExactSum, Moments, OneWaySums};
 use super::evidence::{Evidence, Figure};
 use super::freedom::Freedom;
 
-/// Residuals d = truth − prediction by contact point, as exact sums. Partial sums merge in any order.
+/// Exact sums of the residuals d = truth − prediction, by contact point. Partial sums merge in any order.
 ///
 /// ```
 /// use taceva_metrology::budget::Residuals;
@@ -24,13 +24,13 @@ use super::freedom::Freedom;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Residuals {
     points: BTreeMap<String, Moments>,
-    /// Least and greatest truth.
+    /// Least and greatest true value.
     truths: Option<[f64; 2]>,
     /// Number of rows whose truth or prediction is not finite.
     n_invalid: u64,
 }
 
-/// Variance components of the random model with one factor, the contact point, in the unit of the channel.
+/// Variance components of the one-way random model with contact points as groups, in the unit of the channel.
 ///
 /// ```
 /// # use taceva_metrology::budget::{Evidence, Residuals};
@@ -53,19 +53,19 @@ pub struct Components {
     pub mean_square_within: f64,
     /// Effective number of rows of a point, (n − Σnₚ²/n)/(G − 1).
     pub n0: f64,
-    /// Standard deviation between points, √max(0, (MS_b − MS_w)/n0); freedom by Satterthwaite.
+    /// Standard deviation between points, √max(0, (MS_b − MS_w)/n0), with degrees of freedom by Satterthwaite.
     pub between: Figure,
     /// Standard deviation within points, √MS_w.
     pub within: Figure,
-    /// Mean residual, a correction of the prediction. u² = s_b² Σ nₚ²/n² + MS_w/n, which is MS_b/n for points with equally many rows.
+    /// Mean residual, a correction of the prediction. u² = s_b² Σ nₚ²/n² + MS_w/n, which is MS_b/n for points with equal numbers of rows.
     pub bias: Figure,
-    /// Root mean square residual. Degrees of freedom by Satterthwaite, since rows of a point are correlated.
+    /// Root mean square residual, with degrees of freedom by Satterthwaite because rows of a point are correlated.
     pub rmse: Figure,
     /// True if MS_b is below MS_w, so that `between` is set to 0.
     pub is_negative: bool,
 }
 
-/// Reason why there are no components: fewer than two points, or no point with two rows.
+/// Reason for missing components: fewer than two points, or no point with two rows.
 ///
 /// This type gets no further field.
 ///
@@ -84,7 +84,7 @@ pub struct TooFewRows {
 }
 
 impl Residuals {
-    /// Adds one row. Truth and prediction are in the unit of the channel.
+    /// Adds one row, with truth and prediction in the unit of the channel.
     pub fn add(&mut self, point: &str, truth: f64, prediction: f64) {
         let residual = truth - prediction;
         if !(is_scorable(truth) && is_scorable(prediction)) {
@@ -99,7 +99,7 @@ impl Residuals {
         self.widen([truth, truth]);
     }
 
-    /// Adds the rows of another part.
+    /// Adds the rows of `other`.
     pub fn merge(&mut self, other: &Residuals) {
         self.n_invalid += other.n_invalid;
         for (name, point) in &other.points {
@@ -115,7 +115,7 @@ impl Residuals {
         self.truths = Some([least.min(low), most.max(high)]);
     }
 
-    /// Number of rows skipped because truth or prediction is not finite.
+    /// Number of rows skipped for a truth or prediction that is not finite.
     pub fn n_invalid(&self) -> u64 {
         self.n_invalid
     }
@@ -123,7 +123,7 @@ impl Residuals {
     /// Computes the variance components.
     ///
     /// # Errors
-    /// [`TooFewRows`] if there is one point, or no point with two rows.
+    /// [`TooFewRows`] if there are fewer than two points, or no point with two rows.
     ///
     /// # Reference
     /// Searle, Casella and McCulloch, Variance Components (1992), 3.6; Satterthwaite, Biometrics Bulletin 2 (1946).
@@ -167,7 +167,7 @@ impl Residuals {
 }
 
 impl Components {
-    /// Adds the components as figures: `error`, `error.between`, `error.within` and `bias`.
+    /// Adds the components to `evidence` as the figures `error`, `error.between`, `error.within` and `bias`.
     #[must_use]
     pub fn feed(&self, evidence: Evidence) -> Evidence {
         evidence

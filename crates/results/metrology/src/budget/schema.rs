@@ -1,4 +1,4 @@
-//! Tables and keys of a budget file, each with its position in the text.
+//! Tables and keys of a budget file, each with the position of its text.
 
 use serde::Deserialize;
 use toml::Spanned;

@@ -1,4 +1,4 @@
-//! Distribution shapes of a source, their standard uncertainty and their random draws.
+//! Distribution shapes of sources, with standard uncertainty and random draws.
 
 use std::f64::consts::TAU;
 
@@ -20,17 +20,17 @@ use taceva_metrics::distributions::normal;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Shape {
-    /// Normal, u = `u`; drawn from Student's distribution if the degrees of freedom are finite.
+    /// Normal, u = `u`. Draws use Student's distribution if the degrees of freedom are finite.
     Normal {
         /// Standard uncertainty.
         u: f64,
     },
-    /// Mean of readings, u = s/√n; drawn from Student's distribution.
+    /// Mean of readings, u = s/√n. Draws use Student's distribution.
     Student {
         /// Standard uncertainty.
         u: f64,
     },
-    /// Rectangular, u = a/√3; drawn from a curvilinear trapezoid if the degrees of freedom are finite.
+    /// Rectangular, u = a/√3. Draws use a curvilinear trapezoid if the degrees of freedom are finite.
     Rectangular {
         /// Half-width a.
         half_width: f64,
@@ -49,7 +49,7 @@ pub enum Shape {
     Trapezoid {
         /// Half-width a.
         half_width: f64,
-        /// Ratio of top width to base width, 0 to 1.
+        /// Ratio of top width to base width, from 0 to 1.
         beta: f64,
     },
     /// Curvilinear trapezoid, u = √(a²/3 + d²/9).
@@ -91,12 +91,12 @@ impl Shape {
         }
     }
 
-    /// True for shapes drawn from a normal or Student distribution.
+    /// True for shapes with normal or Student draws.
     pub(super) fn is_bell(&self) -> bool {
         matches!(self, Shape::Normal { .. } | Shape::Student { .. })
     }
 
-    /// Deviation from the estimate in draw number `counter`.
+    /// Deviation from the estimate, in draw number `counter`.
     pub(super) fn draw(&self, freedom: Freedom, draws: Draws, counter: u64) -> f64 {
         let unit = |which: u64| draws.unit(2 * counter + which);
         let signed = |which: u64| 2.0 * unit(which) - 1.0;
@@ -122,7 +122,7 @@ impl Shape {
     }
 }
 
-/// Draw from the standard normal distribution, or from Student's if the degrees of freedom are finite.
+/// Draw from the standard normal distribution, or from Student's distribution if the degrees of freedom are finite.
 ///
 /// # Reference
 /// Bailey, Mathematics of Computation 62 (1994): √(ν (U^(−2/ν) − 1)) cos(2πV) has Student's distribution.

@@ -1,4 +1,4 @@
-//! Converts sources of the file, with measured figures, to inputs of the model.
+//! Converts sources of the file, with their measured figures, to inputs of the model.
 
 mod keys;
 mod measurement;
@@ -17,15 +17,15 @@ use super::schema::WrittenSource;
 use super::shape::Shape;
 use super::text::{BudgetText, value};
 
-/// Conversion of one table to an input.
+/// Converts one source table to an input.
 pub(super) struct Reader<'a> {
     pub(super) text: &'a BudgetText,
     pub(super) evidence: &'a Evidence,
-    /// Value of the measurand.
+    /// Value of the measurand, in its unit.
     pub(super) at: f64,
 }
 
-/// Estimate, shape and freedom of a source.
+/// Estimate, shape and degrees of freedom of a source.
 struct Numbers {
     value: f64,
     shape: Shape,
@@ -54,7 +54,7 @@ impl Numbers {
 }
 
 impl Reader<'_> {
-    /// Inputs of all sources, in order of the file.
+    /// Inputs of all sources, in the order of the file.
     pub(super) fn inputs(&self) -> Result<Vec<Input>, BudgetError> {
         let mut inputs: Vec<Input> = Vec::new();
         for written in &self.text.written.source {
@@ -129,14 +129,14 @@ impl Reader<'_> {
         found.map_err(|problem| self.text.error(of, key, problem))
     }
 
-    /// Amount that must not be negative.
+    /// Converts an amount that must not be negative.
     fn width(&self, of: &Spanned<Amount>, key: &str, wanted: Wanted) -> Result<f64, BudgetError> {
         let found = self.amount(of, key, wanted)?;
         let problem = || self.text.error(of, key, value(found, "0 or more"));
         (found >= 0.0).then_some(found).ok_or_else(problem)
     }
 
-    /// Number that must be within `range`.
+    /// Number, which must be within `range`.
     fn number(&self, of: &Spanned<f64>, key: &str, range: &Range) -> Result<f64, BudgetError> {
         let found = *of.get_ref();
         let problem = || self.text.error(of, key, value(found, range.words));
@@ -161,7 +161,7 @@ impl Reader<'_> {
     }
 }
 
-/// Accepted numbers of a key.
+/// Accepted range of a number.
 struct Range {
     holds: fn(f64) -> bool,
     words: &'static str,

@@ -1,4 +1,4 @@
-//! Parser of `budget.toml`, with all checks that need no measured figures.
+//! Parser of `budget.toml`, with all checks that are possible without measured figures.
 
 use taceva_core::{Channel, Unit, nearest, shown, suggestion};
 
@@ -29,13 +29,13 @@ use super::schema::WrittenBudget;
 #[derive(Clone, Debug)]
 pub struct BudgetText {
     pub(super) written: WrittenBudget,
-    /// Byte offset of each line.
+    /// Byte offset of the start of each line.
     starts: Vec<usize>,
-    /// Unit of the measurand that sources are converted to; `None` if it is free text.
+    /// Unit of the measurand, to which sources are converted; `None` for a unit that TacEva cannot convert.
     pub(super) kept_unit: Option<Unit>,
     pub(super) unit: String,
     pub(super) coverage: f64,
-    /// Values of the measurand for which budgets are made.
+    /// Values of the measurand, one budget each.
     pub(super) at: Vec<f64>,
 }
 
@@ -146,25 +146,25 @@ impl BudgetText {
         &self.unit
     }
 
-    /// Values of the measurand for which budgets are made, in its unit.
+    /// Values of the measurand in its unit, one budget each.
     pub fn at(&self) -> &[f64] {
         &self.at
     }
 
-    /// The same budget at these values of the measurand, in its unit.
+    /// The same budget file with other values of the measurand, in its unit.
     #[must_use]
     pub fn with_at(self, at: Vec<f64>) -> BudgetText {
         BudgetText { at, ..self }
     }
 
-    /// Measured figures that sources name by `from`, in order of the file.
+    /// Measured figures that sources use by `from`, in the order of the file.
     pub fn figures(&self) -> impl Iterator<Item = &str> {
         let named = self.written.source.iter();
         let named = named.filter_map(|source| source.get_ref().from.as_ref());
         named.map(|from| from.get_ref().as_str())
     }
 
-    /// Error of the source that uses `figure`, if the figure has no value.
+    /// Error for the source that uses `figure`, which has no value for `reason`.
     pub fn not_measured(&self, figure: &str, reason: &str) -> BudgetError {
         let mut named = self.written.source.iter();
         let from = named.find_map(|source| {
@@ -203,7 +203,7 @@ impl BudgetText {
     }
 }
 
-/// Problem for a number outside its range.
+/// Problem of a number outside its range.
 pub(super) fn value(found: f64, expected: &str) -> BudgetProblem {
     BudgetProblem::Value {
         found: found.to_string(),
@@ -211,7 +211,7 @@ pub(super) fn value(found: f64, expected: &str) -> BudgetProblem {
     }
 }
 
-/// The parser's message in one line, with the nearest key for an unknown key.
+/// The TOML parser's message in one line, with the nearest key for an unknown key.
 pub(super) fn explained(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

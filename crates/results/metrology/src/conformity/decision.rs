@@ -1,4 +1,4 @@
-//! Decisions on one measured value.
+//! Decision about one measured value.
 
 use std::fmt;
 
@@ -19,16 +19,16 @@ pub enum Word {
     /// Accepted by the rule.
     #[serde(rename = "pass")]
     Pass,
-    /// Within the limit, not accepted by the rule.
+    /// Within the limit, but not accepted by the rule.
     #[serde(rename = "conditional pass")]
     ConditionalPass,
-    /// Beyond the limit, not refused by the rule.
+    /// Beyond the limit, but not rejected by the rule.
     #[serde(rename = "conditional fail")]
     ConditionalFail,
-    /// Refused by the rule.
+    /// Rejected by the rule.
     #[serde(rename = "fail")]
     Fail,
-    /// No decision: the uncertainty is unknown, or exceeds the agreed one.
+    /// No decision: the uncertainty is unknown, or exceeds the agreed maximum.
     #[serde(rename = "undecided")]
     Undecided,
 }
@@ -53,7 +53,7 @@ impl fmt::Display for Word {
     }
 }
 
-/// Decision on one measured value, with the numbers behind it.
+/// Decision about one measured value, with the numbers behind the decision.
 ///
 /// ```
 /// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, decide};
@@ -68,29 +68,29 @@ impl fmt::Display for Word {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Decision {
-    /// Measurement value.
+    /// Measured value.
     pub value: f64,
-    /// Standard uncertainty, in the unit of the value.
+    /// Standard uncertainty, in the unit of the value; `None` if unknown.
     pub standard_uncertainty: Option<f64>,
-    /// Degrees of freedom; `None` if infinite or unknown.
+    /// Degrees of freedom of the uncertainty; `None` if infinite or unknown.
     pub freedom: Option<f64>,
-    /// Coverage factor of the expanded uncertainty.
+    /// Coverage factor of the expanded uncertainty; `None` if the uncertainty is unknown.
     pub coverage_factor: Option<f64>,
-    /// Expanded uncertainty at the coverage of the rule, in the unit of the value. On a logarithmic scale, a first-order approximation.
+    /// Expanded uncertainty at the coverage of the rule, in the unit of the value; to first order on a logarithmic scale.
     pub expanded_uncertainty: Option<f64>,
     /// Limits of the tolerance.
     pub limits: Limits,
-    /// The rule.
+    /// Decision rule.
     pub rule: DecisionRule,
-    /// Acceptance limits; `None` without an uncertainty, or if no value would be accepted.
+    /// Limits of accepted values; `None` without an uncertainty, or if no value is accepted.
     pub acceptance: Option<Limits>,
-    /// Probability of conformity.
+    /// Probability of conformity; `None` if the uncertainty is unknown.
     pub conformance_probability: Option<f64>,
-    /// The decision in a word.
+    /// Decision in one word.
     pub word: Word,
 }
 
-/// Decides on `measured` by `rule`.
+/// Decides about `measured` by `rule`.
 ///
 /// ```
 /// use taceva_metrology::conformity::{DecisionRule, Limits, Measurement, Word, decide};
@@ -102,7 +102,7 @@ pub struct Decision {
 /// ```
 ///
 /// # Errors
-/// [`ConformityError::Number`] for a rule whose settings are outside their range.
+/// [`ConformityError::Number`] for a setting of the rule outside its range.
 pub fn decide(
     measured: &Measurement,
     limits: &Limits,
@@ -171,7 +171,7 @@ fn word(is_accepted: bool, is_within: bool, is_refused: bool) -> Word {
     }
 }
 
-/// Range of values with at least this probability of conformity; `None` if empty.
+/// Range of values whose probability of conformity is at least `least`; `None` for an empty range.
 fn acceptance_of(measured: &Measurement, limits: &Limits, least: f64) -> Option<Limits> {
     let u = measured.expanded(0.5)?;
     if u <= 0.0 {

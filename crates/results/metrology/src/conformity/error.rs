@@ -1,4 +1,4 @@
-//! Reasons why no decision is possible.
+//! Reasons for a missing decision.
 
 use taceva_core::{shown, suggestion};
 use thiserror::Error;
@@ -16,7 +16,7 @@ const RULES: [&str; 4] = ["simple", "guarded", "probability", "shared"];
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum ConformityError {
-    /// A number outside its range.
+    /// A number outside its allowed range.
     #[error("{name} is {value}, expected {expected}")]
     Number {
         /// Name of the number.
@@ -40,14 +40,14 @@ pub enum ConformityError {
         shown(.rule)
     )]
     BothRules {
-        /// Name of the setting.
+        /// Name of the misplaced setting.
         setting: &'static str,
         /// Rule found.
         rule: String,
         /// Rule that has this setting.
         expected: &'static str,
     },
-    /// A rule without its setting.
+    /// A rule without its required setting.
     #[error("rule = \"{rule}\" needs `{setting}`")]
     MissingSetting {
         /// Rule found.
@@ -63,7 +63,7 @@ pub enum ConformityError {
     },
 }
 
-/// Rejects `value` unless `is_right`.
+/// Rejects `value` unless `is_right` is true.
 pub(super) fn check(
     name: &'static str,
     value: f64,

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::ConformityError;
 use super::error::check;
 
-/// A lower limit, an upper one, or both, in the unit of the measured quantity.
+/// A lower limit, an upper limit, or both, in the unit of the measured quantity.
 ///
 /// ```
 /// use taceva_metrology::conformity::Limits;
@@ -20,7 +20,7 @@ pub struct Limits {
     most: Option<f64>,
 }
 
-/// Limits as parsed, before their check.
+/// Parsed limits before their check.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Ends {
@@ -60,7 +60,7 @@ impl Limits {
         Limits::of(Some(least), Some(most))
     }
 
-    /// Values from `least` to `most`; a missing limit leaves that side unbounded.
+    /// Values from `least` to `most`. `None` leaves a side unbounded.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a limit that is not finite, [`ConformityError::Limits`] unless the lower limit is below the upper one.
@@ -76,25 +76,25 @@ impl Limits {
         }
     }
 
-    /// The lower limit.
+    /// Lower limit; `None` if unbounded.
     #[must_use]
     pub fn least(&self) -> Option<f64> {
         self.least
     }
 
-    /// The upper limit.
+    /// Upper limit; `None` if unbounded.
     #[must_use]
     pub fn most(&self) -> Option<f64> {
         self.most
     }
 
-    /// True for a value within the limits or at one of them.
+    /// True for a value within the limits, limits included.
     #[must_use]
     pub fn contain(&self, value: f64) -> bool {
         self.least.is_none_or(|least| value >= least) && self.most.is_none_or(|most| value <= most)
     }
 
-    /// The limits changed by `change`; `None` if no range is left.
+    /// Limits after applying `change` to each; `None` for an empty range.
     pub(super) fn map(
         &self,
         change_least: impl Fn(f64) -> f64,

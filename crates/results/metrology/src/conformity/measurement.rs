@@ -7,7 +7,7 @@ use super::error::check;
 use super::scale::OpenScale;
 use super::{ConformityError, Limits};
 
-/// Measured value with its standard uncertainty and degrees of freedom, if known.
+/// Measured value with standard uncertainty and degrees of freedom, if known.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Measurement};
@@ -23,7 +23,7 @@ pub struct Measurement {
     scale: OpenScale,
 }
 
-/// Standard uncertainty on the scale of the distribution, with its degrees of freedom.
+/// Standard uncertainty on the scale of the distribution, with degrees of freedom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Uncertainty {
     scaled: f64,
@@ -31,7 +31,7 @@ struct Uncertainty {
 }
 
 impl Measurement {
-    /// Value and standard uncertainty in the same unit; `freedom` may be infinite.
+    /// Measured value and standard uncertainty in the same unit. `freedom` may be infinite.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not finite, an uncertainty below 0 or degrees of freedom not above 0.
@@ -58,10 +58,10 @@ impl Measurement {
         })
     }
 
-    /// Value with a 95 % confidence interval whose ends are symmetric about it on `scale`.
+    /// Measured value with a 95 % confidence interval whose ends are symmetric about the value on `scale`.
     ///
-    /// The uncertainty is half the width of the interval on that scale, divided by Student's t. For a Wilson interval, the scale is the log odds.
-    /// If the value or an end is outside the scale, the linear distance to the farther end is used.
+    /// The uncertainty is half the width of the interval on that scale, divided by Student's t. A Wilson interval uses the log odds.
+    /// If the value or an end is outside the domain of the scale, the linear distance to the farther end is used.
     ///
     /// ```
     /// use taceva_metrics::Scale;
@@ -109,7 +109,7 @@ impl Measurement {
         })
     }
 
-    /// Value with unknown uncertainty, on which only the simple rule decides.
+    /// Measured value with unknown uncertainty. Only the simple rule can decide about this value.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not finite.
@@ -122,7 +122,7 @@ impl Measurement {
         })
     }
 
-    /// The same value with a distribution on the logarithmic scale, for errors that are always positive.
+    /// The same value with a distribution on the logarithmic scale, for quantities that are always positive.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a value that is not above 0.
@@ -144,25 +144,25 @@ impl Measurement {
         })
     }
 
-    /// The value.
+    /// Measured value.
     #[must_use]
     pub fn value(&self) -> f64 {
         self.value
     }
 
-    /// Standard uncertainty, in the unit of the value.
+    /// Standard uncertainty, in the unit of the value; `None` if unknown.
     #[must_use]
     pub fn standard_uncertainty(&self) -> Option<f64> {
         self.uncertainty.map(|of| self.in_unit(of.scaled))
     }
 
-    /// Degrees of freedom of the standard uncertainty.
+    /// Degrees of freedom of the standard uncertainty; `None` if the uncertainty is unknown.
     #[must_use]
     pub fn freedom(&self) -> Option<f64> {
         self.uncertainty.map(|of| of.freedom)
     }
 
-    /// Coverage factor for a two-sided coverage in 0..1: the expanded uncertainty over the standard uncertainty.
+    /// Coverage factor for a two-sided coverage in 0..1: the ratio of expanded to standard uncertainty.
     #[must_use]
     pub fn coverage_factor(&self, coverage: f64) -> Option<f64> {
         let of = self.uncertainty?;
@@ -172,7 +172,7 @@ impl Measurement {
         ))
     }
 
-    /// Expanded uncertainty for a two-sided coverage in 0..1; relative to the value on a logarithmic scale.
+    /// Expanded uncertainty for a two-sided coverage in 0..1. On a logarithmic scale relative to the value.
     #[must_use]
     pub fn expanded(&self, coverage: f64) -> Option<f64> {
         Some(self.coverage_factor(coverage)? * self.uncertainty?.scaled)
@@ -210,7 +210,7 @@ impl Measurement {
         }
     }
 
-    /// Quantity of a limit that a guard divides or multiplies, in words. `None` if the guard is subtracted or added in the unit of the value.
+    /// Name of the quantity of a limit that a guard divides or multiplies. `None` if the guard is subtracted or added in the unit of the value.
     ///
     /// ```
     /// use taceva_metrics::Scale;
@@ -224,7 +224,7 @@ impl Measurement {
         self.scale.quantity()
     }
 
-    /// Quotient of the guarded quantity at `inner` and at `limit`.
+    /// Ratio of the guarded quantity at `inner` to that at `limit`.
     #[must_use]
     pub fn guard_quotient(&self, limit: f64, inner: f64) -> f64 {
         self.scale.quantity_of(inner) / self.scale.quantity_of(limit)
@@ -245,12 +245,12 @@ impl Measurement {
         self.scale.distance(self.value, value)
     }
 
-    /// True if `value` is inside the domain of the scale.
+    /// True if `value` is in the domain of the scale.
     pub(super) fn holds(&self, value: f64) -> bool {
         self.scale.holds(value)
     }
 
-    /// `limits` moved inwards by `guard` on the scale of the distribution; `None` if no range is left.
+    /// Moves both limits inwards by `guard` on the scale of the distribution; `None` for an empty range.
     pub(super) fn narrowed(&self, limits: &Limits, guard: f64) -> Option<Limits> {
         limits.map(
             |least| self.scale.moved(least, guard),
@@ -258,7 +258,7 @@ impl Measurement {
         )
     }
 
-    /// The same uncertainty on the same scale, for another value.
+    /// The same uncertainty on the same scale, about another value.
     pub(super) fn at(&self, value: f64) -> Measurement {
         Measurement { value, ..*self }
     }

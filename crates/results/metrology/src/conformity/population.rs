@@ -1,4 +1,4 @@
-//! Process that makes units, known from measurements of several units.
+//! Distribution of units from one process, estimated from measurements of several units.
 
 use super::error::check;
 use super::{ConformityError, GlobalRisk, Limits, Measurement, Process};
@@ -6,7 +6,7 @@ use super::{ConformityError, GlobalRisk, Limits, Measurement, Process};
 /// Least number of units that characterise a process.
 const LEAST_UNITS: usize = 5;
 
-/// Units of one process, normally distributed on the scale of a measurement. One more unit is measured on that scale.
+/// Distribution of the units of one process: normal on the scale of a measurement. Further units are measured on that scale.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Measurement, Population};
@@ -31,13 +31,13 @@ pub struct Population {
 }
 
 impl Population {
-    /// Process estimated from `units`; further units are measured with the uncertainty of `measured`.
+    /// Estimates the process from `units`. Further units are measured with the uncertainty of `measured`.
     ///
     /// The variance between units is the variance of their values minus the mean variance of their measurements, on the scale of `measured`.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for fewer than five units, a value outside the scale, a measurement without an uncertainty, or units whose
-    /// differences their uncertainties explain.
+    /// differences are within their uncertainties.
     pub fn of(
         units: &[Measurement],
         measured: &Measurement,
@@ -91,14 +91,14 @@ impl Population {
         })
     }
 
-    /// Risks if values within `acceptance` are accepted and units within `limits` conform; `None` for a limit outside the scale.
+    /// Risks of accepting values within `acceptance` if units within `limits` conform; `None` for a limit outside the scale.
     #[must_use]
     pub fn risk(&self, limits: &Limits, acceptance: &Limits) -> Option<GlobalRisk> {
         let (limits, acceptance) = (self.on_scale(limits)?, self.on_scale(acceptance)?);
         Some(self.process.risk(&limits, &acceptance))
     }
 
-    /// Acceptance limits that reach the consumer's risk `target`; `None` if no possible guard band does.
+    /// Acceptance limits with the consumer's risk `target`; `None` if no guard band reaches this risk.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a target outside 0..1.
@@ -122,7 +122,7 @@ impl Population {
     }
 }
 
-/// Sum that is independent of the order of `numbers`.
+/// Sum of `numbers`, independent of their order.
 fn sum(numbers: &mut [f64]) -> f64 {
     numbers.sort_by(f64::total_cmp);
     numbers.iter().sum()

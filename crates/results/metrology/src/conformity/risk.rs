@@ -5,10 +5,10 @@ use taceva_metrics::distributions::{integral, normal};
 use super::error::check;
 use super::{ConformityError, Limits};
 
-/// Distance in standard deviations beyond which the normal density is negligible.
+/// Distance from the mean, in standard deviations, beyond which the normal density is negligible.
 const FAR: f64 = 12.0;
 
-/// Process with normally distributed units, measured with a known uncertainty.
+/// Process with normally distributed units, which are measured with a known uncertainty.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Process};
@@ -29,7 +29,7 @@ pub struct Process {
     uncertainty: f64,
 }
 
-/// Shares of all units with a wrong decision.
+/// Shares of units with a wrong decision.
 ///
 /// ```
 /// use taceva_metrology::conformity::{Limits, Process};
@@ -41,14 +41,14 @@ pub struct Process {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct GlobalRisk {
-    /// Share of all units that are accepted although they do not conform.
+    /// Share of all units that are accepted but do not conform.
     pub consumer: f64,
-    /// Share of all units that are rejected although they conform.
+    /// Share of all units that are rejected but conform.
     pub producer: f64,
 }
 
 impl Process {
-    /// Mean and standard deviation of the units, and standard uncertainty of one measurement, in the same unit.
+    /// Process with the mean and the standard deviation of units, and the standard uncertainty of one measurement, in the same unit.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a mean that is not finite, or a deviation or uncertainty not above 0.
@@ -72,7 +72,7 @@ impl Process {
         })
     }
 
-    /// Risks if values within `acceptance` are accepted, and units within `limits` conform.
+    /// Risks of accepting values within `acceptance` if units within `limits` conform.
     #[must_use]
     pub fn risk(&self, limits: &Limits, acceptance: &Limits) -> GlobalRisk {
         GlobalRisk {
@@ -83,9 +83,9 @@ impl Process {
         }
     }
 
-    /// Guard band that reaches the consumer's risk `target`: inward distance of the acceptance limits. 0 if the risk is lower without a guard band.
+    /// Guard band with the consumer's risk `target`: inward distance of the acceptance limits. 0 if the risk is lower without a guard band.
     ///
-    /// `None` if no possible guard band reaches the target.
+    /// `None` if no guard band reaches the target.
     ///
     /// # Errors
     /// [`ConformityError::Number`] for a target outside 0..1.
@@ -133,7 +133,7 @@ impl Process {
         below + above
     }
 
-    /// Both limits; the end of the process replaces a missing limit.
+    /// Both limits. The end of the process distribution replaces a missing limit.
     fn ends(&self, limits: &Limits) -> [f64; 2] {
         let far = FAR * self.deviation;
         let (low, high) = (self.mean - far, self.mean + far);
@@ -170,7 +170,7 @@ impl Process {
         below + above
     }
 
-    /// Share of units between `ends`, weighted by `share`. Panels are narrow where `share` changes.
+    /// Share of units between `ends`, weighted by `share`. Panels of the integral are narrow where `share` changes.
     fn integral(
         &self,
         [from, to]: [f64; 2],

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::ConformityError;
 use super::error::check;
 
-/// Rule that decides on a measured value.
+/// Rule for decisions about a measured value.
 ///
 /// ```
 /// use taceva_metrology::conformity::DecisionRule;
@@ -15,21 +15,21 @@ use super::error::check;
 #[serde(tag = "rule", rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum DecisionRule {
-    /// The value alone meets the limit.
+    /// Accepts a value that meets the limit, without regard to uncertainty.
     Simple,
-    /// The value is inside the limit by a guard band w = r U.
+    /// Accepts a value inside the limit by at least a guard band w = r U.
     Guarded {
-        /// Factor of the expanded uncertainty, from 0 on.
+        /// Guard band as a multiple r of the expanded uncertainty, at least 0.
         r: f64,
         /// Coverage of the expanded uncertainty, in 0..1.
         coverage: f64,
     },
-    /// The probability of conformity reaches a threshold.
+    /// Accepts a value whose probability of conformity reaches a threshold.
     Probability {
         /// Least probability of conformity, above 0.5 and below 1.
         p_conformity: f64,
     },
-    /// The value meets the limit, and the expanded uncertainty does not exceed the agreed maximum.
+    /// Accepts a value that meets the limit, if the expanded uncertainty does not exceed the agreed maximum.
     Shared {
         /// Greatest expanded uncertainty, in the unit of the value.
         most_uncertainty: f64,
@@ -42,7 +42,7 @@ pub enum DecisionRule {
 const COVERAGE: f64 = 0.95;
 
 impl DecisionRule {
-    /// Coverage of the expanded uncertainty: the setting of the rule, or 0.95.
+    /// Coverage of the expanded uncertainty: the setting of the rule, or else 0.95.
     #[must_use]
     pub fn coverage(&self) -> f64 {
         match *self {
@@ -111,7 +111,7 @@ impl std::fmt::Display for DecisionRule {
     }
 }
 
-/// Settings of a rule in a limits file. The default rule is `simple`, the default coverage 0.95.
+/// Settings of a rule in a limits file. The default rule is `simple`, and the default coverage 0.95.
 ///
 /// ```
 /// use taceva_metrology::conformity::{DecisionRule, RuleSettings};
@@ -126,21 +126,21 @@ impl std::fmt::Display for DecisionRule {
 pub struct RuleSettings {
     /// Name of the rule: simple, guarded, probability or shared.
     pub rule: Option<String>,
-    /// Factor of the guard, for `guarded`.
+    /// Guard band as a multiple of the expanded uncertainty, for `guarded`.
     pub r: Option<f64>,
-    /// Least probability, for `probability`.
+    /// Least probability of conformity, for `probability`.
     pub p_conformity: Option<f64>,
-    /// Greatest expanded uncertainty, for `shared`.
+    /// Greatest expanded uncertainty, in the unit of the value, for `shared`.
     pub most_uncertainty: Option<f64>,
     /// Coverage of the expanded uncertainty.
     pub coverage: Option<f64>,
 }
 
 impl RuleSettings {
-    /// Rule described by the settings.
+    /// Rule with these settings.
     ///
     /// # Errors
-    /// An unknown rule, a setting of another rule or outside its range, or a missing setting.
+    /// [`ConformityError`] for an unknown rule, a setting of another rule or outside its range, or a missing setting.
     pub fn decision_rule(&self) -> Result<DecisionRule, ConformityError> {
         let rule = self.rule.as_deref().unwrap_or("simple");
         let settings = [

@@ -8,16 +8,16 @@ use taceva_metrics::elementary::{exponential, logarithm};
 pub(super) enum OpenScale {
     /// Identity: the value itself.
     Own,
-    /// Logarithm of the value, as for errors.
+    /// Logarithm of the value, for errors.
     Logarithm,
-    /// Negative logarithm of the distance to 1, as for R².
+    /// Negative logarithm of the distance to 1, for R².
     Remainder,
-    /// Logarithm of the odds value / (width − value), as for shares.
+    /// Logarithm of the odds value / (width − value), for shares.
     Odds { width: f64 },
 }
 
 impl OpenScale {
-    /// Scales, other than that of the value, on which the ends of an interval may be symmetric.
+    /// Scales, other than that of the value, on which interval ends may be symmetric.
     pub(super) fn candidates(scale: Scale) -> &'static [OpenScale] {
         match scale {
             Scale::Logarithm => &[OpenScale::Logarithm, OpenScale::Remainder],
@@ -31,7 +31,7 @@ impl OpenScale {
         }
     }
 
-    /// Quantity whose logarithm, or negative logarithm, the scale is, in words about a limit; `None` for the value itself.
+    /// Name of the quantity whose logarithm is the scale, for texts about a limit; `None` for the value itself.
     pub(super) fn quantity(self) -> Option<&'static str> {
         match self {
             OpenScale::Own => None,
@@ -42,7 +42,7 @@ impl OpenScale {
         }
     }
 
-    /// Quantity of the scale at `value`; `value` itself on its own scale.
+    /// Quantity of the scale at `value`: `value` itself for `Own`.
     pub(super) fn quantity_of(self, value: f64) -> f64 {
         match self {
             OpenScale::Own | OpenScale::Logarithm => value,
@@ -80,7 +80,7 @@ impl OpenScale {
         }
     }
 
-    /// `value` moved by `by` on the scale; a value outside the domain stays. Moving by 0 returns the identical value.
+    /// Moves `value` by `by` on the scale. A value outside the domain is unchanged. Moving by 0 returns the identical value.
     pub(super) fn moved(self, value: f64, by: f64) -> f64 {
         match self {
             _ if by.abs() <= 0.0 || !self.holds(value) => value,
@@ -93,7 +93,7 @@ impl OpenScale {
         }
     }
 
-    /// Converts an uncertainty of `value` from the scale to its unit, to first order.
+    /// Converts an uncertainty of `value` from the scale to the unit of the value, to first order.
     pub(super) fn in_unit(self, value: f64, scaled: f64) -> f64 {
         match self {
             OpenScale::Own => scaled,

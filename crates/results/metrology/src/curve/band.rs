@@ -5,7 +5,7 @@ use super::squares::{Square, form};
 use super::undefined::{CurveUndefined, probability};
 use taceva_metrics::distributions::{f_ratio, student_t};
 
-/// Origin of a covariance. It gets no further variant: rows are independent or clustered.
+/// Source of a covariance. It gets no further variant: rows are independent or clustered.
 ///
 /// ```
 /// use taceva_metrology::curve::CovarianceOf;
@@ -15,7 +15,7 @@ use taceva_metrics::distributions::{f_ratio, student_t};
 pub enum CovarianceOf {
     /// Residuals of independent rows, s²(XᵀX)⁻¹.
     Rows,
-    /// Jackknife over contact points: one fit without each point.
+    /// Jackknife over contact points, with one point left out at a time.
     Points {
         /// Number of points.
         clusters: usize,
@@ -44,17 +44,17 @@ impl std::fmt::Display for CovarianceOf {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Band {
-    /// Value y(x) of the curve.
+    /// Value y(x) of the curve, in the unit of y.
     pub value: f64,
     /// Lower end.
     pub low: f64,
     /// Upper end.
     pub high: f64,
-    /// Standard uncertainty; the half-width is a multiple of it.
+    /// Standard uncertainty. The half-width is a multiple of this uncertainty.
     pub u: f64,
     /// Degrees of freedom.
     pub freedom: f64,
-    /// Origin of the covariance.
+    /// Source of the covariance.
     pub covariance: CovarianceOf,
 }
 
@@ -76,11 +76,11 @@ pub struct CoefficientUncertainty {
     pub u: f64,
     /// Degrees of freedom.
     pub freedom: f64,
-    /// Origin of the covariance.
+    /// Source of the covariance.
     pub covariance: CovarianceOf,
 }
 
-/// Covariance of the coefficients of z, with its degrees of freedom.
+/// Covariance of the coefficients of z, with degrees of freedom.
 pub(super) struct Spread {
     pub(super) covariance: Square,
     pub(super) freedom: f64,
@@ -99,7 +99,7 @@ impl CurveFit {
         }
     }
 
-    /// Covariance between points, if it is defined.
+    /// Covariance between contact points; `None` if undefined.
     pub(super) fn of_points(&self) -> Option<Spread> {
         let Clustered {
             covariance,
@@ -126,7 +126,7 @@ impl CurveFit {
         Some(points.filter(|points| points.u > rows.u).unwrap_or(rows))
     }
 
-    /// Widest of the bands factor(ν) √(extra + z₀ᵀ cov z₀).
+    /// Widest of the bands with half-widths factor(ν) √(extra + z₀ᵀ cov z₀).
     fn widest(&self, x: f64, extra: f64, factor: impl Fn(f64) -> f64) -> Band {
         let (value, powers) = (self.value(x), self.axis.powers(x));
         let band = |spread: Spread| {
@@ -152,7 +152,7 @@ impl CurveFit {
     /// Confidence band of the curve at one x: y ± t u(y).
     ///
     /// # Errors
-    /// [`CurveUndefined::Probability`].
+    /// [`CurveUndefined::Probability`] for `p` outside 0..1.
     pub fn confidence(&self, x: f64, p: f64) -> Result<Band, CurveUndefined> {
         let p = probability(p)?;
         Ok(self.widest(x, 0.0, |freedom| {
@@ -163,7 +163,7 @@ impl CurveFit {
     /// Prediction band for the mean of m = `readings` new readings at one x: y ± t √(s²/m + u²(y)).
     ///
     /// # Errors
-    /// [`CurveUndefined::Probability`]; [`CurveUndefined::NotPositive`] for no reading.
+    /// [`CurveUndefined::Probability`] for `p` outside 0..1; [`CurveUndefined::NotPositive`] for no readings.
     pub fn prediction(&self, x: f64, p: f64, readings: u32) -> Result<Band, CurveUndefined> {
         let (p, extra) = (probability(p)?, self.reading_variance(readings)?);
         Ok(self.widest(x, extra, |freedom| {
@@ -174,7 +174,7 @@ impl CurveFit {
     /// Simultaneous confidence band of the curve at all x: y ± √(q F(q, ν)) u(y) for q coefficients.
     ///
     /// # Errors
-    /// [`CurveUndefined::Probability`].
+    /// [`CurveUndefined::Probability`] for `p` outside 0..1.
     ///
     /// # Reference
     /// Scheffé, The Analysis of Variance (1959), 3.5.

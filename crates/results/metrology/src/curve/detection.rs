@@ -6,7 +6,7 @@ use taceva_metrics::distributions::{noncentral_t, student_t};
 
 /// Error risks and number of averaged readings.
 ///
-/// It gets no further field.
+/// This type gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::DetectionRisks;
@@ -17,7 +17,7 @@ use taceva_metrics::distributions::{noncentral_t, student_t};
 pub struct DetectionRisks {
     /// Risk of a false detection at x = 0.
     pub alpha: f64,
-    /// Risk of a missed detection at the detectable value.
+    /// Risk of a missed detection at the detectable value x_D.
     pub beta: f64,
     /// Number K of averaged readings.
     pub readings: u32,
@@ -45,9 +45,9 @@ impl Default for DetectionRisks {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Detection {
-    /// Critical value x_C: a reading above its y value shows that x is not 0.
+    /// Critical value x_C. A reading above y(x_C) shows that x is not 0.
     pub critical: f64,
-    /// Detectable value x_D: the least x that is missed with at most the risk `beta`.
+    /// Detectable value x_D: the least x with a risk of at most `beta` of a missed detection.
     pub detectable: f64,
     /// Noncentrality parameter δ(ν; α, β).
     pub factor: f64,
@@ -56,10 +56,10 @@ pub struct Detection {
 }
 
 impl CurveFit {
-    /// x_C = t s/b √(1/K + 1/(IJ) + x̄²/S_xx) and x_D = δ s/b √(…), for IJ rows.
+    /// Computes x_C = t s/b √(1/K + 1/(IJ) + x̄²/S_xx) and x_D = δ s/b √(…), for IJ rows.
     ///
     /// # Errors
-    /// [`CurveUndefined::NotALine`], [`CurveUndefined::Probability`], [`CurveUndefined::NotPositive`] for no reading,
+    /// [`CurveUndefined::NotALine`], [`CurveUndefined::Probability`], [`CurveUndefined::NotPositive`] for no readings,
     /// [`CurveUndefined::SlopeNotShown`] at the coverage 1 − α.
     ///
     /// # Reference

@@ -8,7 +8,7 @@ use taceva_metrics::LEAST_CLUSTERS;
 use super::squares::{Axis, Coefficients, MOST, Solution, Square, form, solve};
 use super::undefined::CurveUndefined;
 
-/// Reading y at a reference value x, each in its own unit.
+/// Reading y at a reference value x, each in a unit of its own.
 ///
 /// ```
 /// use taceva_metrology::curve::CurveRow;
@@ -19,9 +19,9 @@ use super::undefined::CurveUndefined;
 pub struct CurveRow {
     /// Reference value.
     pub x: f64,
-    /// Reading, in its own unit.
+    /// Reading, in a unit of its own.
     pub y: f64,
-    /// Contact point, whose rows are correlated; `None` for an independent row.
+    /// Contact point; rows of one point are correlated. `None` for an independent row.
     pub point: Option<u64>,
 }
 
@@ -41,7 +41,7 @@ impl CurveRow {
     }
 }
 
-/// A polynomial y(x) of order 1 to 3 by least squares, with its covariance.
+/// Polynomial y(x) of order 1 to 3 by least squares, with the covariance of its coefficients.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow};
@@ -60,11 +60,11 @@ pub struct CurveFit {
     pub(super) axis: Axis,
     pub(super) count: usize,
     pub(super) solution: Solution,
-    /// Covariance of the coefficients by the jackknife over points, and the number of points.
+    /// Jackknife covariance of the coefficients over points, and the number of points.
     pub(super) clustered: Option<Clustered>,
 }
 
-/// Covariance of the coefficients between clusters.
+/// Covariance of the coefficients between contact points.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Clustered {
     pub(super) covariance: Square,
@@ -75,7 +75,7 @@ impl CurveFit {
     /// Fits a polynomial of `order` 1 to 3.
     ///
     /// # Errors
-    /// [`CurveUndefined`] for another order, numbers that are not finite, at most `order` + 1 rows, or too few different x.
+    /// [`CurveUndefined`] for another order, numbers that are not finite, at most `order` + 1 rows, or too few distinct x.
     pub fn of(rows: &[CurveRow], order: usize) -> Result<CurveFit, CurveUndefined> {
         let count = order + 1;
         if order == 0 || count > MOST {
@@ -146,7 +146,7 @@ impl CurveFit {
         terms.map(|(power, of)| power * of).sum()
     }
 
-    /// Coefficients of x⁰, x¹, ….
+    /// Coefficients of x⁰, x¹, … in this order.
     pub fn coefficients(&self) -> Vec<f64> {
         let all = self.powers_of_x();
         let own = self.solution.coefficients;
@@ -192,7 +192,7 @@ pub(super) fn levels(rows: &[CurveRow]) -> Vec<Vec<CurveRow>> {
     levels.map(<[CurveRow]>::to_vec).collect()
 }
 
-/// Jackknife covariance (G − 1)/G Σ (β₋ₚ − β̄)(β₋ₚ − β̄)ᵀ over fits without one point. `None` if no point has two rows, or a fit is undetermined.
+/// Jackknife covariance (G − 1)/G Σ (β₋ₚ − β̄)(β₋ₚ − β̄)ᵀ over fits without one point. `None` if no point has two rows, or a fit is underdetermined.
 ///
 /// # Reference
 /// Efron and Tibshirani, An Introduction to the Bootstrap (1993), chapter 11.

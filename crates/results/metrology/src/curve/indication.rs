@@ -1,10 +1,10 @@
-//! Relative errors of indicated forces, similar to ISO 7500-1.
+//! Relative errors of indicated forces, similar to those of ISO 7500-1.
 
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, positive, range};
 use taceva_core::whole_size;
 
-/// Upper limits of q, b, v, f_0 and a in %, from a laboratory's workbook, not checked against the text of the standard.
+/// Upper limits of q, b, v, f_0 and a in %, from a laboratory's workbook and not compared with the text of the standard.
 const LIMITS: Table = Table {
     standard: "ISO 7500-1",
     figures: &["q", "b", "v", "f_0", "a"],
@@ -16,7 +16,7 @@ const LIMITS: Table = Table {
     ],
 };
 
-/// Fewest repeats that define the range b.
+/// Least number of repeats for the range b.
 const LEAST_REPEATS: usize = 3;
 
 /// Indicated force and true force, in the same unit. It gets no further field.
@@ -40,7 +40,7 @@ impl Indication {
         Indication { indicated, truth }
     }
 
-    /// Relative error q = (F_i − F)/F in %; `None` for a blank (NaN), and for a true force that is not above 0.
+    /// Relative error q = (F_i − F)/F, %; `None` for a blank (NaN), or for a true force that is not above 0.
     pub fn error_percent(&self) -> Option<f64> {
         let is_there = self.indicated.is_finite() && self.truth > 0.0 && self.truth.is_finite();
         is_there.then(|| 100.0 * (self.indicated - self.truth) / self.truth)
@@ -54,7 +54,7 @@ impl Indication {
     }
 }
 
-/// Readings at one level of force.
+/// Readings at one force level.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};
@@ -66,17 +66,17 @@ impl Indication {
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct IndicationLevel {
-    /// Repeats while loading; blanks are NaN and are skipped.
+    /// Repeats during loading. Blanks are NaN and are skipped.
     pub up: Vec<Indication>,
-    /// Reading while unloading, after the last repeat.
+    /// Reading during unloading, after the last repeat; `None` if not recorded.
     pub down: Option<Indication>,
     /// Readings at zero force.
     pub zeros: Vec<f64>,
-    /// Resolution of the indication, in the unit of the force.
+    /// Resolution of the indication, in the unit of the force; `None` if unknown.
     pub resolution: Option<f64>,
 }
 
-/// Figures of a level in %, like those of ISO 7500-1.
+/// Figures of a force level in %, similar to those of ISO 7500-1.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};
@@ -95,16 +95,16 @@ pub struct IndicationFigures {
     pub q_mean_u: Option<f64>,
     /// Range b = max q − min q; `None` for fewer than three repeats.
     pub b: Option<f64>,
-    /// Reversibility v = (F_up − F_down)/F̄ at one indicated force; `None` without an unloading reading.
+    /// Reversibility v = (F_up − F_down)/F̄ at one indicated force, %; `None` without an unloading reading.
     pub v: Option<f64>,
-    /// Zero error f_0 = max |zero|/F_N.
+    /// Zero error f_0 = max |zero|/F_N, %; `None` without readings at zero force.
     pub f_0: Option<f64>,
-    /// Relative resolution a = resolution/F.
+    /// Relative resolution a = resolution/F, %; `None` for an unknown resolution.
     pub a: Option<f64>,
 }
 
 impl IndicationLevel {
-    /// A level with these repeats and no other readings.
+    /// Force level with these repeats and no other readings.
     pub fn new(up: &[Indication]) -> IndicationLevel {
         IndicationLevel {
             up: up.to_vec(),
@@ -112,7 +112,7 @@ impl IndicationLevel {
         }
     }
 
-    /// Computes the figures; `full_scale` is F_N.
+    /// Computes the figures. `full_scale` is F_N.
     ///
     /// # Errors
     /// [`CurveUndefined::MissingSeries`] without a repeat, [`CurveUndefined::NotPositive`] for a full scale or resolution that is not above 0.
@@ -150,7 +150,7 @@ impl IndicationLevel {
 }
 
 impl IndicationFigures {
-    /// Place among limits like those of ISO 7500-1, using the mean of q.
+    /// Standing among limits similar to those of ISO 7500-1, with the mean of q.
     pub fn standing(&self) -> Standing {
         let figures: [Figure; 5] = [
             Ok(self.q_mean.abs()),
@@ -163,7 +163,7 @@ impl IndicationFigures {
     }
 }
 
-/// Magnitude of the relative error q over many presses.
+/// Magnitude of the relative error q over a set of presses.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationSummary};
@@ -178,16 +178,16 @@ impl IndicationFigures {
 pub struct IndicationSummary {
     /// Number of presses with a defined q.
     pub n: usize,
-    /// Median of |q|, %.
+    /// Median of |q|, in %.
     pub median_abs: f64,
-    /// 95th percentile of |q|, %, interpolated between neighbours.
+    /// 95th percentile of |q| in %, interpolated between neighbours.
     pub p95_abs: f64,
-    /// Share of presses with |q| up to 3 %, the limit of the last row.
+    /// Share of presses with |q| of at most 3 %, the limit of the last row.
     pub share_within_3: f64,
 }
 
 impl IndicationSummary {
-    /// Summarises presses; skips those without a defined q.
+    /// Summarises presses with a defined q and skips the others.
     ///
     /// # Errors
     /// [`CurveUndefined::TooFewRows`] without any press.

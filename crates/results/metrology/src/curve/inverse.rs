@@ -1,11 +1,11 @@
-//! Inverse prediction: reference value of a given reading.
+//! Inverse prediction: the reference value for a given reading.
 
 use super::band::CovarianceOf;
 use super::fit::CurveFit;
 use super::undefined::{CurveUndefined, probability};
 use taceva_metrics::distributions::student_t;
 
-/// Reference value of a reading, with Fieller's interval, in the unit of x.
+/// Reference value for a reading, with Fieller's interval, in the unit of x.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow};
@@ -27,12 +27,12 @@ pub struct InversePrediction {
     pub half_width: f64,
     /// Fieller's g, (t u(b)/b)²; 0 for an exact slope.
     pub g: f64,
-    /// Origin of the covariance with the wider interval.
+    /// Source of the covariance with the wider interval.
     pub covariance: CovarianceOf,
 }
 
 impl CurveFit {
-    /// Reference value whose curve equals `y`, the mean of `readings` readings, with an interval of coverage `p`.
+    /// Reference value at which the curve equals `y`, the mean of `readings` readings, with an interval of coverage `p`.
     ///
     /// # Errors
     /// [`CurveUndefined::SlopeNotShown`] if g is 1 or more, [`CurveUndefined::NotALine`] for an order other than 1.

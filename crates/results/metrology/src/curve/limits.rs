@@ -1,4 +1,4 @@
-//! Limits of relative errors, similar to those of a standard, and the row that measured figures meet.
+//! Limits of relative errors, similar to those of a standard, and the strictest row that measured figures meet.
 
 use std::fmt;
 
@@ -10,17 +10,17 @@ pub(super) struct Table {
     pub(super) standard: &'static str,
     /// Names of the figures.
     pub(super) figures: &'static [&'static str],
-    /// Name of each row and the limits of its figures, strictest first.
+    /// Name of each row and the limits of its figures, strictest row first.
     pub(super) rows: &'static [(&'static str, &'static [f64])],
 }
 
-/// Magnitude of a figure in %, or the name of the missing series.
+/// Magnitude of a figure in %, or the name of the series that is missing.
 pub(super) type Figure = Result<f64, &'static str>;
 
-/// Place of figures among limits similar to those of a standard. No class is claimed, because neither the procedure nor the limits are the
-/// standard's own.
+/// Standing of figures among limits similar to those of a standard. No class is claimed, because neither the procedure nor the limits are those
+/// of the standard.
 ///
-/// This place gets no further variant: figures are within a row, beyond all rows, or incomplete.
+/// This type gets no further variant: figures are within a row, beyond all rows, or incomplete.
 ///
 /// ```
 /// use taceva_metrology::curve::{Indication, IndicationLevel};
@@ -38,7 +38,7 @@ pub enum Standing {
         /// Standard that the limits resemble.
         standard: &'static str,
     },
-    /// A figure exceeds the last row.
+    /// A figure exceeds the limit of the last row.
     Beyond {
         /// Figure that exceeds its limit most.
         figure: &'static str,
@@ -48,14 +48,14 @@ pub enum Standing {
         row: &'static str,
         /// Limit of that row, %.
         end: f64,
-        /// Least multiple of the class 1 limits that covers all known figures; one of 5 to 200.
+        /// Least multiple of the class 1 limits, from 5 to 200, that covers all known figures; `None` if no multiple does.
         multiple: Option<u32>,
         /// True if no series is missing, so that the multiple covers all figures.
         is_complete: bool,
         /// Standard that the limits resemble.
         standard: &'static str,
     },
-    /// Series are missing, and no known figure exceeds the last row.
+    /// Some series are missing, and no known figure exceeds the last row.
     Unknown {
         /// Names of the missing series.
         missing: Vec<&'static str>,
@@ -105,7 +105,7 @@ impl fmt::Display for Standing {
 }
 
 impl Table {
-    /// Place of `figures`, in the order of the table. `may_have` excludes rows by other conditions.
+    /// Standing of `figures`, in the order of the table. `may_have` excludes rows by other conditions.
     pub(super) fn standing(&self, figures: &[Figure], may_have: impl Fn(&str) -> bool) -> Standing {
         let places = || figures.iter().enumerate();
         let known = || places().filter_map(|(at, figure)| Some((at, figure.ok()?)));

@@ -1,10 +1,10 @@
-//! Relative errors of a force-proving instrument, similar to ISO 376.
+//! Relative errors of a force-proving instrument, similar to those of ISO 376.
 
 use super::fit::{CurveFit, CurveRow};
 use super::limits::{Figure, Standing, Table};
 use super::undefined::{CurveUndefined, all_positive, range};
 
-/// Upper limits of b, b', f_c, f_0, v and c in %, not checked against the text of the standard.
+/// Upper limits of b, b', f_c, f_0, v and c in %, not compared with the text of the standard.
 const LIMITS: Table = Table {
     standard: "ISO 376",
     figures: &["b", "b'", "f_c", "f_0", "v", "c"],
@@ -20,7 +20,7 @@ const LIMITS: Table = Table {
 const LEAST_FORCES: [(&str, f64); 4] =
     [("00", 4000.0), ("0.5", 2000.0), ("1", 1000.0), ("2", 500.0)];
 
-/// Readings by force level: X1 and X2 in one mounting, X3 and X5 in others, X4' and X6' while unloading.
+/// Readings by force level: X1 and X2 in one mounting, X3 and X5 in other mountings, X4' and X6' during unloading.
 ///
 /// ```
 /// use taceva_metrology::curve::ProvingSeries;
@@ -33,7 +33,7 @@ const LEAST_FORCES: [(&str, f64); 4] =
 pub struct ProvingSeries {
     /// Forces F, ascending.
     pub forces: Vec<f64>,
-    /// First series. Like every series, it is empty if not recorded.
+    /// First series. A series that was not recorded is empty.
     pub x1: Vec<f64>,
     /// Second series, in the mounting of the first.
     pub x2: Vec<f64>,
@@ -45,17 +45,17 @@ pub struct ProvingSeries {
     pub x5: Vec<f64>,
     /// Unloading after `x5`.
     pub x6: Vec<f64>,
-    /// Readings at zero force, before and after.
+    /// Readings at zero force, before and after the series; `None` if not recorded.
     pub zeros: Option<[f64; 2]>,
-    /// Readings at the greatest force after 30 s and after 300 s.
+    /// Readings at the greatest force after 30 s and after 300 s; `None` if not recorded.
     pub creep: Option<[f64; 2]>,
-    /// Resolution in the unit of the force.
+    /// Resolution, in the unit of the force; `None` if unknown.
     pub resolution: Option<f64>,
-    /// Full-scale reading X_N, in the unit of the readings; defaults to X̄_r at the greatest force.
+    /// Full-scale reading X_N, in the unit of the readings. Defaults to X̄_r at the greatest force.
     pub full_scale: Option<f64>,
 }
 
-/// Figures of one level, in % unless stated otherwise.
+/// Figures of one force level, in % unless stated otherwise.
 ///
 /// ```
 /// # use taceva_metrology::curve::ProvingSeries;
@@ -68,23 +68,23 @@ pub struct ProvingSeries {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ProvingLevel {
-    /// Force of the level, in the unit of the reference.
+    /// Force of the level, in the unit of the reference force.
     pub force: f64,
-    /// X̄_r, mean of X1, X3 and X5, in the unit of the readings.
+    /// X̄_r: mean of X1, X3 and X5, in the unit of the readings.
     pub mean: f64,
-    /// b, range of X1, X3 and X5 over X̄_r.
+    /// b: range of X1, X3 and X5, divided by X̄_r.
     pub b: f64,
-    /// b', |X2 − X1| over their mean.
+    /// b': |X2 − X1| divided by their mean; `None` without X2.
     pub b_prime: Option<f64>,
-    /// f_c, (X̄_r − X_a)/X_a for the cubic X_a.
+    /// f_c: (X̄_r − X_a)/X_a, with the fitted cubic X_a.
     pub f_c: f64,
-    /// v, mean of |X4' − X3|/X3 and |X6' − X5|/X5.
+    /// v: mean of |X4' − X3|/X3 and |X6' − X5|/X5; `None` without unloading.
     pub v: Option<f64>,
-    /// w2 as a ratio, √(Σ(X_i − X̄_r)²/6)/X̄_r.
+    /// w2 as a ratio: √(Σ(X_i − X̄_r)²/6)/X̄_r.
     pub w_rotation: f64,
 }
 
-/// Figures of all levels, similar to those of ISO 376.
+/// Figures of all force levels, similar to those of ISO 376.
 ///
 /// ```
 /// # use taceva_metrology::curve::ProvingSeries;
@@ -99,16 +99,16 @@ pub struct ProvingLevel {
 pub struct ProvingFigures {
     /// Levels, in the order of the forces.
     pub levels: Vec<ProvingLevel>,
-    /// f_0, (i_f − i_0)/X_N, %.
+    /// f_0: (i_f − i_0)/X_N, in %; `None` without readings at zero force.
     pub f_0: Option<f64>,
-    /// c, (i_300 − i_30)/X_N, %.
+    /// c: (i_300 − i_30)/X_N, in %; `None` without creep readings.
     pub c: Option<f64>,
-    /// Resolution in the unit of the force.
+    /// Resolution, in the unit of the force.
     pub resolution: Option<f64>,
 }
 
 impl ProvingSeries {
-    /// Series of these forces, without readings yet.
+    /// Series with these forces and no readings.
     pub fn new(forces: &[f64]) -> ProvingSeries {
         ProvingSeries {
             forces: forces.to_vec(),
@@ -190,10 +190,10 @@ impl ProvingSeries {
 }
 
 impl ProvingFigures {
-    /// Place of a level among limits like those of ISO 376.
+    /// Standing of a level among limits similar to those of ISO 376.
     ///
     /// # Panics
-    /// If there is no such level.
+    /// If there is no level with this index.
     pub fn standing(&self, level: usize) -> Standing {
         let of = &self.levels[level];
         let mut figures: Vec<Figure> = vec![
@@ -220,7 +220,7 @@ impl ProvingFigures {
     /// f_0, `temperature` and f_c. Missing figures count as 0.
     ///
     /// # Panics
-    /// If there is no such level.
+    /// If there is no level with this index.
     ///
     /// # Reference
     /// Terms like those of ISO 376:2011, annex C.

@@ -1,11 +1,11 @@
-//! Lack of fit of a curve, tested against the scatter of repeated readings.
+//! Lack-of-fit test of a curve.
 
 use super::fit::{CurveFit, levels};
 use taceva_metrics::distributions::f_ratio;
 
-/// F test of level means against the scatter of readings at equal x.
+/// F test of lack of fit: deviations of level means, compared with the scatter of readings at equal x.
 ///
-/// It gets no further field.
+/// This type gets no further field.
 ///
 /// ```
 /// use taceva_metrology::curve::{CurveFit, CurveRow};
@@ -21,7 +21,7 @@ use taceva_metrics::distributions::f_ratio;
 pub struct LackOfFit {
     /// Ratio of mean squares.
     pub f: f64,
-    /// Probability of a greater ratio if the curve is correct.
+    /// p value: probability of a greater ratio for a correct curve.
     pub p: f64,
     /// Degrees of freedom of numerator and denominator.
     pub freedoms: [f64; 2],
@@ -30,7 +30,7 @@ pub struct LackOfFit {
 }
 
 impl CurveFit {
-    /// Computes the test. `None` without repeats at equal x, with too few levels for the coefficients, or if all repeats agree.
+    /// Computes the test. `None` without repeats at equal x, with too few levels for the coefficients, or if all repeats are equal.
     pub fn lack_of_fit(&self) -> Option<LackOfFit> {
         let levels = levels(&self.rows);
         let freedoms = [

@@ -6,7 +6,7 @@ pub(super) const MOST: usize = 4;
 /// Coefficients of powers of z = (x − centre)/scale.
 pub(super) type Coefficients = [f64; MOST];
 
-/// A symmetric matrix over the coefficients.
+/// Symmetric matrix with a row and a column per coefficient.
 pub(super) type Square = [[f64; MOST]; MOST];
 
 /// Centre and scale of x.
@@ -17,7 +17,7 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Centre (mean) and scale (greatest distance from it); `None` if all x are equal.
+    /// Centre (mean) and scale (greatest distance from the mean); `None` if all x are equal.
     pub(super) fn of(x: &[f64]) -> Option<Axis> {
         let first = x.first()?;
         let off = x.iter().map(|x| x - first).sum::<f64>() / x.len() as f64;
@@ -41,7 +41,7 @@ pub(super) struct Solution {
     pub(super) inverse: Square,
 }
 
-/// Solves least squares over rows of `count` powers; `None` if the columns are linearly dependent.
+/// Solves the least-squares problem for rows of `count` powers; `None` if the columns are linearly dependent.
 ///
 /// # Reference
 /// Golub and Van Loan, Matrix Computations, 5.2.1 and 5.3.2.

@@ -12,7 +12,7 @@ pub enum CurveUndefined {
     /// The order is not 1, 2 or 3.
     #[error("order {0} is found, expected 1, 2 or 3")]
     Order(usize),
-    /// Too few rows: no degree of freedom is left.
+    /// Too few rows: no degree of freedom remains.
     #[error("{}, expected {least} or more", taceva_core::counted(*have, "row"))]
     TooFewRows {
         /// Number of rows.
@@ -23,12 +23,12 @@ pub enum CurveUndefined {
     /// All x are equal.
     #[error("all x are equal, expected at least two different values")]
     EqualX,
-    /// Fewer different x than coefficients.
+    /// Fewer distinct x than coefficients.
     #[error("{have} different x, expected {least} or more")]
     TooFewX {
-        /// Number of different x.
+        /// Number of distinct x.
         have: usize,
-        /// Least number.
+        /// Least number of distinct x.
         least: usize,
     },
     /// A row has a number that is not finite.
@@ -40,13 +40,13 @@ pub enum CurveUndefined {
     /// A probability outside 0..1.
     #[error("probability {0} is found, expected a number between 0 and 1")]
     Probability(f64),
-    /// The slope does not differ significantly from 0, so the inverse is unbounded: Fieller's g is 1 or more.
+    /// The slope does not differ significantly from 0: Fieller's g is 1 or more, and the inverse is unbounded.
     #[error("the slope is not shown to differ from 0: Fieller's g is {g:.3}, expected below 1")]
     SlopeNotShown {
         /// Fieller's g, (t u(b)/b)².
         g: f64,
     },
-    /// The figure is defined only for a straight line.
+    /// The figure is defined only for a line; the value is the order of the curve.
     #[error("order {0} is found, expected 1: the figure is defined for a straight line")]
     NotALine(usize),
     /// A force, a reading or a resolution that must be above 0.
@@ -62,12 +62,12 @@ pub enum CurveUndefined {
     Levels {
         /// Name of the series.
         series: &'static str,
-        /// Number of its levels.
+        /// Number of levels of the series.
         have: usize,
         /// Number of forces.
         expected: usize,
     },
-    /// A missing series; the name of the series.
+    /// A missing series, by name.
     #[error("series {0} is missing")]
     MissingSeries(&'static str),
 }
@@ -88,7 +88,7 @@ pub(super) fn all_positive<'a>(
     values.try_for_each(|value| positive(what, *value).map(|_| ()))
 }
 
-/// Range of `values`: greatest minus least.
+/// Range of `values`: greatest minus least value.
 pub(super) fn range(values: &[f64]) -> f64 {
     let greatest = values.iter().copied().fold(f64::MIN, f64::max);
     greatest - values.iter().copied().fold(f64::MAX, f64::min)

@@ -32,13 +32,13 @@ impl Square {
 pub(super) struct Squares {
     pub(super) operator: Square,
     pub(super) part: Square,
-    /// `None` if parts are nested in operators.
+    /// Interaction of parts and operators; `None` if parts are nested in operators.
     pub(super) interaction: Option<Square>,
     pub(super) repeatability: Square,
     total: Square,
 }
 
-/// Variance components before negative values are replaced by 0.
+/// Variance components before negative estimates are replaced by 0.
 #[derive(Clone, Debug)]
 pub(super) struct Raw {
     pub(super) repeatability: Fraction,
@@ -47,7 +47,7 @@ pub(super) struct Raw {
     pub(super) part: Fraction,
 }
 
-/// Variance components, table and decision on the interaction.
+/// Variance components, analysis-of-variance table and decision about the interaction.
 pub(super) struct Anova {
     pub(super) raw: Raw,
     pub(super) table: Vec<TableRow>,
@@ -129,7 +129,7 @@ impl Squares {
         }
     }
 
-    /// Ratio of mean squares with its p value; `None` if the denominator is 0.
+    /// Ratio of mean squares and its p value; `None` if the denominator is 0.
     fn ratio(above: &Square, below: &Square) -> Option<[f64; 2]> {
         let ratio = above.mean().over(&below.mean())?;
         Some([ratio, f_ratio::above(ratio, real(above.df), real(below.df))])

@@ -1,4 +1,4 @@
-//! Assembles reports from components, intervals and remarks.
+//! Assembles reports from variance components, intervals and remarks.
 
 use taceva_core::whole_count;
 use taceva_metrics::Fraction;
@@ -12,18 +12,18 @@ use super::report::{
 };
 use super::{Design, GaugeSettings, Method, RangeConstants};
 
-/// Fewest operators without a remark on degrees of freedom.
+/// Least number of operators without a remark on degrees of freedom.
 const FEW_OPERATORS: usize = 5;
 /// Number of standard deviations that AIAG compares with the tolerance.
 const SPAN: f64 = 6.0;
 
-/// Estimate of one component.
+/// Estimate of one variance component.
 struct Estimate {
     name: ComponentName,
     raw: Option<f64>,
     variance: f64,
     sd: f64,
-    /// Ratios of variance and of standard deviation to the total; `None` without variation.
+    /// Ratios to the total of variance and of standard deviation; `None` without variation.
     shares: Option<[f64; 2]>,
 }
 
@@ -133,7 +133,7 @@ fn whole(value: f64) -> u64 {
     whole_count(value.floor())
 }
 
-/// Components of an analysis of variance; negative values become 0.
+/// Components by analysis of variance. Negative estimates become 0.
 fn by_anova(raw: &Raw) -> Vec<Estimate> {
     let repeatability = raw.repeatability.at_least_zero();
     let operator = raw.operator.at_least_zero();
@@ -179,7 +179,7 @@ fn by_anova(raw: &Raw) -> Vec<Estimate> {
     all
 }
 
-/// Components by the range method, which has no interaction.
+/// Components by the range method, which does not separate the interaction.
 fn by_range(study: &Balanced) -> Vec<Estimate> {
     let constants = RangeConstants::of(study.parts, study.operators, study.trials);
     let found = estimate(study, &constants);

@@ -1,11 +1,11 @@
-//! Balanced studies: equally many readings in every cell.
+//! Balanced studies, with the same number of readings in every cell.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::reading::Reading;
 use super::{Design, GaugeError, GaugeSettings};
 
-/// Labels of parts, operators and trials, in alphabetical order.
+/// Labels of parts, operators and trials, sorted alphabetically.
 pub(super) struct Names<'a> {
     pub(super) parts: &'a [&'a str],
     pub(super) operators: &'a [&'a str],
@@ -19,9 +19,9 @@ pub(super) struct Balanced {
     /// Number of parts: of the study if crossed, of each operator if nested.
     pub(super) parts: usize,
     pub(super) trials: usize,
-    /// Number of parts dropped because of an incomplete cell.
+    /// Number of parts dropped for an incomplete cell.
     pub(super) dropped: usize,
-    /// Readings by operator, then part, then trial.
+    /// Readings sorted by operator, then part, then trial.
     values: Vec<f64>,
 }
 
@@ -33,7 +33,7 @@ struct Cell {
 }
 
 impl Balanced {
-    /// Checks `readings`, sorted by part, operator and trial.
+    /// Checks that `readings` are balanced. The readings must be sorted by part, operator and trial.
     pub(super) fn of(
         readings: &[Reading],
         names: &Names<'_>,
@@ -95,13 +95,13 @@ impl Balanced {
         })
     }
 
-    /// Readings of each cell, by operator and then part.
+    /// Readings of each cell, sorted by operator and then part.
     pub(super) fn cells(&self) -> impl Iterator<Item = &[f64]> {
         self.values.chunks(self.trials)
     }
 }
 
-/// Part of a cell with its operator, since nested parts of different operators differ.
+/// Key of a cell's part. The key includes the operator in a nested study, whose operators have different parts.
 fn key(cell: &Cell, design: Design) -> [usize; 2] {
     match design {
         Design::Crossed => [cell.part, 0],
@@ -136,7 +136,7 @@ fn cells(readings: &[Reading], names: &Names<'_>) -> Result<Vec<Cell>, GaugeErro
     Ok(cells)
 }
 
-/// Cells sorted by part and operator, with an empty cell for each part that an operator did not measure.
+/// Sorted cells, with an empty cell for each part that an operator did not measure.
 fn with_empty_cells(cells: Vec<Cell>, names: &Names<'_>) -> Vec<Cell> {
     let mut all = Vec::with_capacity(names.parts.len() * names.operators.len());
     let mut given = cells.into_iter().peekable();
@@ -153,7 +153,7 @@ fn with_empty_cells(cells: Vec<Cell>, names: &Names<'_>) -> Vec<Cell> {
     all
 }
 
-/// Most frequent count, the greatest in case of a tie; 0 for none.
+/// Most frequent count, the greatest in case of a tie; 0 without counts.
 fn most_frequent(counts: impl Iterator<Item = usize>) -> usize {
     let mut frequency: BTreeMap<usize, usize> = BTreeMap::new();
     for count in counts {

@@ -1,8 +1,8 @@
-//! Reasons why a gauge study has no result.
+//! Reasons for the failure of a gauge study.
 
 use thiserror::Error;
 
-/// Reason why a gauge study has no result.
+/// Reason for the failure of a gauge study.
 ///
 /// ```
 /// use taceva_metrology::gauge::{GaugeError, GaugeSettings, GaugeStudy};
@@ -49,7 +49,7 @@ pub enum GaugeError {
         /// Label of the trial.
         trial: String,
     },
-    /// A cell whose number of readings differs from most cells.
+    /// A cell whose number of readings differs from that of most cells.
     #[error(
         "part {part}, operator {operator}: {have} readings, expected {expected} as in most cells; `--drop-incomplete` leaves such parts out"
     )]
@@ -97,7 +97,7 @@ pub enum GaugeError {
         /// Trials found.
         have: usize,
     },
-    /// The range method requested for a nested study.
+    /// A nested study with the range method.
     #[error(
         "the range method needs parts that every operator measures; use `--method anova` for a nested study"
     )]

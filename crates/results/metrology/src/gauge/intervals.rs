@@ -1,6 +1,6 @@
-//! 95 % confidence intervals of components and their ratios.
+//! 95 % confidence intervals of variance components and of their ratios.
 //!
-//! They use the mean squares of the full model even if the interaction was pooled, because intervals after a test are too short.
+//! The intervals use the mean squares of the full model even for a pooled interaction, because intervals after a test are too short.
 
 use taceva_core::random::Draws;
 use taceva_core::whole_size;
@@ -11,7 +11,7 @@ use super::anova::{Square, Squares, count, real};
 use super::cells::Balanced;
 use super::report::ComponentName;
 
-/// Probability outside each end of an interval.
+/// Probability beyond each end of an interval.
 const TAIL: f64 = 0.025;
 
 /// Lower and upper end of an interval.
@@ -25,13 +25,13 @@ struct Term {
     freedom: f64,
 }
 
-/// Interval of a variance estimated with `freedom` degrees of freedom.
+/// Interval of a variance with `freedom` degrees of freedom.
 fn of_variance(variance: f64, freedom: f64) -> Ends {
     let end = |share| freedom * variance / chi_square::quantile(share, freedom);
     [end(1.0 - TAIL), end(TAIL)]
 }
 
-/// Interval of a sum of positively weighted mean squares, by the modified large-sample method.
+/// Interval of a sum of mean squares with positive weights, by the modified large-sample method.
 ///
 /// # Reference
 /// Graybill and Wang, Confidence intervals on nonnegative linear combinations of variances, JASA 75 (1980).
@@ -53,7 +53,7 @@ pub(super) struct Drawn {
 }
 
 impl Drawn {
-    /// Quantiles of both tails, linearly interpolated.
+    /// Quantiles of both tails, with linear interpolation.
     fn ends(mut self) -> Ends {
         self.values.sort_by(f64::total_cmp);
         let last = self.values.len() - 1;
@@ -71,11 +71,11 @@ impl Drawn {
     }
 }
 
-/// Intervals of all figures in a report.
+/// Intervals of all figures of a report.
 pub(super) struct Intervals {
     /// Interval of the variance of each component.
     pub(super) variances: Vec<(ComponentName, Ends)>,
-    /// Interval of each component's standard deviation over the total.
+    /// Interval of the ratio of each component's standard deviation to the total.
     pub(super) shares: Vec<(ComponentName, Ends)>,
     pub(super) ndc: Ends,
 }

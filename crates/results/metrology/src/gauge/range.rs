@@ -6,9 +6,9 @@ use taceva_metrics::{Dyadic, ExactSum, Fraction};
 use super::anova::{count, real};
 use super::cells::Balanced;
 
-/// Factors from a range to a standard deviation: 1 / d2 for trials, 1 / d2* for operators and parts.
+/// Factors that convert a range to a standard deviation: 1 / d2 for trials, 1 / d2* for operators and parts.
 ///
-/// d2 is the mean range of standard normal numbers, and d3 its standard deviation. d2* = √(d2² + d3²) is for a single range.
+/// d2 is the mean range of standard normal numbers, and d3 the standard deviation of that range. d2* = √(d2² + d3²) applies to a single range.
 ///
 /// ```
 /// use taceva_metrology::gauge::RangeConstants;
@@ -55,9 +55,9 @@ impl RangeConstants {
     }
 }
 
-/// Mean range of `n` standard normal numbers, or mean squared range, by `power`.
+/// Mean of the range of `n` standard normal numbers raised to `power`, 1 or 2.
 fn moment(power: usize, n: usize) -> f64 {
-    /// Distance in standard deviations beyond which the density is negligible, and width of a panel.
+    /// Distance from the mean, in standard deviations, beyond which the density is negligible, and width of a panel.
     const FAR: f64 = 9.0;
     const WIDTH: f64 = 1.0;
     let between_count = n.saturating_sub(2);
@@ -105,13 +105,13 @@ fn whole_power(base: f64, exponent: usize) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RangeEstimate {
-    /// Equipment variation: between trials.
+    /// Equipment variation: standard deviation between trials.
     pub equipment: f64,
-    /// Appraiser variation: between operators.
+    /// Appraiser variation: standard deviation between operators.
     pub appraiser: f64,
     /// Equipment and appraiser variation combined.
     pub gauge: f64,
-    /// Variation between parts.
+    /// Part variation: standard deviation between parts.
     pub part: f64,
     /// Gauge and part variation combined.
     pub total: f64,
@@ -145,7 +145,7 @@ pub(super) fn estimate(study: &Balanced, constants: &RangeConstants) -> RangeEst
     }
 }
 
-/// Greatest minus least sum.
+/// Greatest sum minus least sum.
 fn spread(sums: &[ExactSum]) -> Dyadic {
     let mut ends: Option<[Dyadic; 2]> = None;
     for sum in sums.iter().map(ExactSum::to_dyadic) {

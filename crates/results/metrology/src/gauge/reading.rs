@@ -1,6 +1,6 @@
-//! One reading of a study.
+//! Readings of a study.
 
-/// Reading whose labels are numbers.
+/// Reading with numbers in place of labels.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
     pub(super) part: usize,

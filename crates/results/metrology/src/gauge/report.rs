@@ -1,4 +1,4 @@
-//! Report of a gauge study, as written to files.
+//! Report of a gauge study, in the form of its files.
 
 use std::fmt;
 
@@ -50,7 +50,7 @@ impl fmt::Display for ComponentName {
     }
 }
 
-/// Method of computing an interval.
+/// Method for computing an interval.
 ///
 /// ```
 /// use taceva_metrology::gauge::IntervalMethod;
@@ -60,7 +60,7 @@ impl fmt::Display for ComponentName {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum IntervalMethod {
-    /// Chi-square distribution of a single mean square.
+    /// Chi-square distribution, for a single mean square.
     ChiSquare,
     /// Modified large-sample method of Graybill and Wang.
     ModifiedLargeSamples,
@@ -82,7 +82,7 @@ pub enum IntervalMethod {
 pub struct Component {
     /// Name of the component.
     pub name: ComponentName,
-    /// Estimate before replacing a negative value by 0; `None` for sums and the range method.
+    /// Estimate before a negative value is replaced by 0; `None` for sums and for the range method.
     pub variance_raw: Option<f64>,
     /// Variance, in the square of the unit of the readings.
     pub variance: f64,
@@ -90,21 +90,21 @@ pub struct Component {
     pub sd: f64,
     /// 95 % confidence interval of the standard deviation.
     pub ci95: [f64; 2],
-    /// Method that gave `ci95`.
+    /// Method of `ci95`.
     pub interval: IntervalMethod,
-    /// Variance over the total variance, in per cent; `None` without variation.
+    /// Share of the total variance, in per cent; `None` without variation.
     pub percent_contribution: Option<f64>,
-    /// Standard deviation over the total standard deviation, in per cent; `None` without variation.
+    /// Ratio to the total standard deviation, in per cent; `None` without variation.
     pub percent_study: Option<f64>,
     /// 95 % confidence interval of `percent_study`, by generalized pivotal quantities.
     pub percent_study_ci95: Option<[f64; 2]>,
-    /// Six standard deviations over the tolerance, in per cent.
+    /// Six standard deviations divided by the tolerance, in per cent; `None` without a tolerance.
     pub percent_tolerance: Option<f64>,
     /// 95 % confidence interval of `percent_tolerance`.
     pub percent_tolerance_ci95: Option<[f64; 2]>,
 }
 
-/// Reason why the number of distinct categories is undefined.
+/// Reason for an undefined number of distinct categories.
 ///
 /// ```
 /// use taceva_metrology::gauge::NdcReason;
@@ -118,7 +118,7 @@ pub enum NdcReason {
     NoVariation,
     /// The gauge variation is 0.
     NoGaugeVariation,
-    /// The readings are errors, not values.
+    /// The readings are errors instead of values.
     Errors,
 }
 
@@ -132,7 +132,7 @@ impl fmt::Display for NdcReason {
     }
 }
 
-/// Number of distinct categories: √2 times the standard deviation of the parts over that of the gauge.
+/// Number of distinct categories: √2 times the ratio of part to gauge standard deviation.
 ///
 /// ```
 /// use taceva_metrology::gauge::Ndc;
@@ -145,7 +145,7 @@ impl fmt::Display for NdcReason {
 pub struct Ndc {
     /// Unrounded value.
     pub value: Option<f64>,
-    /// Value rounded down, as AIAG counts categories.
+    /// Value rounded down, as AIAG counts distinct categories.
     pub floor: Option<u64>,
     /// 95 % confidence interval, by generalized pivotal quantities.
     pub ci95: Option<[f64; 2]>,
@@ -153,7 +153,7 @@ pub struct Ndc {
     pub undefined: Option<NdcReason>,
 }
 
-/// AIAG's classes for the share of the gauge in the total variation.
+/// AIAG's class for the ratio of gauge to total standard deviation.
 ///
 /// ```
 /// use taceva_metrology::gauge::Band;
@@ -172,7 +172,7 @@ pub enum Band {
 }
 
 impl Band {
-    /// Class of a share in per cent.
+    /// Class of a ratio in per cent.
     #[must_use]
     pub fn of(percent: f64) -> Band {
         if percent < 10.0 {
@@ -185,7 +185,7 @@ impl Band {
     }
 }
 
-/// Remark on a study.
+/// Remark about a study.
 ///
 /// ```
 /// use taceva_metrology::gauge::Flag;
@@ -201,7 +201,7 @@ pub enum Flag {
         /// Number of operators.
         operators: usize,
     },
-    /// A negative component, replaced by 0.
+    /// A negative variance estimate, replaced by 0.
     NegativeComponent {
         /// Name of the component.
         component: ComponentName,
@@ -210,14 +210,14 @@ pub enum Flag {
     },
     /// The interaction was pooled with repeatability.
     Pooled {
-        /// The p value of the interaction.
+        /// p value of the interaction.
         p: f64,
-        /// Threshold of the p value for pooling.
+        /// Threshold of the p value above which the interaction is pooled.
         above: f64,
     },
-    /// Incomplete parts were left out.
+    /// Incomplete parts were dropped.
     Dropped {
-        /// Number of parts left out.
+        /// Number of dropped parts.
         parts: usize,
     },
     /// All readings are equal.
@@ -287,7 +287,7 @@ pub struct GaugeReport {
     pub operators: usize,
     /// Number of readings of each part by each operator.
     pub trials: usize,
-    /// Number of incomplete parts left out.
+    /// Number of dropped incomplete parts.
     pub dropped: usize,
     /// Table of the analysis of variance.
     pub table: Vec<TableRow>,
@@ -295,13 +295,13 @@ pub struct GaugeReport {
     pub pooled: bool,
     /// Components of variance.
     pub components: Vec<Component>,
-    /// Width of the tolerance, in the unit of the readings.
+    /// Width of the tolerance, in the unit of the readings; `None` if not given.
     pub tolerance: Option<f64>,
     /// Number of distinct categories.
     pub ndc: Ndc,
     /// AIAG class of the gauge.
     pub band: Option<Band>,
-    /// AIAG classes of both ends of the confidence interval.
+    /// AIAG classes of both ends of the gauge's confidence interval.
     pub band_ci95: Option<[Band; 2]>,
     /// Number of draws of generalized pivotal quantities.
     pub draws: u32,
@@ -312,7 +312,7 @@ pub struct GaugeReport {
 }
 
 impl GaugeReport {
-    /// Component `name`; `None` if the design does not have it.
+    /// Component called `name`; `None` if the design lacks the component.
     pub fn component(&self, name: ComponentName) -> Option<&Component> {
         self.components.iter().find(|one| one.name == name)
     }

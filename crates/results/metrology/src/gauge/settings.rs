@@ -17,7 +17,7 @@ pub enum Design {
     /// Every operator measures every part.
     #[default]
     Crossed,
-    /// Each part is measured by one operator; equal labels under two operators name two parts.
+    /// Each part is measured by one operator only. Equal labels under two operators are different parts.
     Nested,
 }
 
@@ -31,10 +31,10 @@ pub enum Design {
 #[serde(rename_all = "snake_case")]
 #[non_exhaustive]
 pub enum Method {
-    /// Analysis of variance.
+    /// Analysis-of-variance method.
     #[default]
     Anova,
-    /// Average and range.
+    /// Average-and-range method.
     Range,
 }
 
@@ -55,9 +55,9 @@ pub struct GaugeSettings {
     pub method: Method,
     /// Threshold of the p value above which the interaction is pooled with repeatability; AIAG uses 0.25.
     pub pool: f64,
-    /// Width of the tolerance, in the unit of the readings.
+    /// Width of the tolerance, in the unit of the readings; `None` without a tolerance.
     pub tolerance: Option<f64>,
-    /// True if the readings are errors. Parts then differ only by bias, so distinct categories and AIAG class are undefined.
+    /// True if the readings are errors. Parts then differ only by bias, so distinct categories and the AIAG class are undefined.
     pub are_errors: bool,
     /// Drops parts with incomplete cells instead of rejecting the study.
     pub drop_incomplete: bool,
@@ -65,7 +65,7 @@ pub struct GaugeSettings {
     pub draws: u32,
     /// Seed of the draws.
     pub seed: u64,
-    /// Unit of the readings, as printed.
+    /// Unit of the readings, for printing.
     pub unit: String,
 }
 
@@ -88,7 +88,7 @@ impl Default for GaugeSettings {
 impl GaugeSettings {
     /// Rejects settings outside their range.
     pub(super) fn check(&self) -> Result<(), GaugeError> {
-        /// Least number of draws: it leaves ten values beyond each end of the interval.
+        /// Least number of draws, which leaves ten values beyond each end of the interval.
         const LEAST_DRAWS: u32 = 400;
         let refuse = |name, value, expected| {
             Err(GaugeError::Setting {

@@ -8,7 +8,7 @@ use super::range::estimate;
 use super::reading::Reading;
 use super::{GaugeError, GaugeReport, GaugeSettings, RangeConstants, RangeEstimate};
 
-/// Labels, numbered in the order of first use.
+/// Distinct labels, numbered in order of first use.
 #[derive(Clone, Debug, Default)]
 struct Labels {
     numbers: BTreeMap<String, usize>,
@@ -24,7 +24,7 @@ impl Labels {
         number
     }
 
-    /// Labels ordered by number.
+    /// Labels in the order of their numbers.
     fn by_number(&self) -> Vec<&str> {
         let mut labels = vec![""; self.numbers.len()];
         for (label, &number) in &self.numbers {
@@ -33,7 +33,7 @@ impl Labels {
         labels
     }
 
-    /// Alphabetical rank of each label, ordered by number.
+    /// Alphabetical rank of each label, in the order of their numbers.
     fn places(&self) -> Vec<usize> {
         let mut places = vec![0; self.numbers.len()];
         for (place, &number) in self.numbers.values().enumerate() {
@@ -96,7 +96,7 @@ impl GaugeStudy {
         Ok(())
     }
 
-    /// Adds the readings of another study.
+    /// Adds the readings of `other`.
     pub fn merge(&mut self, other: &GaugeStudy) {
         let renumber = |ours: &mut Labels, theirs: &Labels| -> Vec<usize> {
             let labels = theirs.by_number().into_iter();
@@ -127,7 +127,7 @@ impl GaugeStudy {
     /// Computes variance components with their intervals.
     ///
     /// # Errors
-    /// A setting outside its range, an unbalanced study, or fewer than two operators, parts or trials.
+    /// [`GaugeError`] for a setting outside its range, an unbalanced study, or fewer than two operators, parts or trials.
     pub fn analyse(&self, settings: &GaugeSettings) -> Result<GaugeReport, GaugeError> {
         settings.check()?;
         Ok(assemble(&self.balanced(settings)?, settings))
@@ -136,7 +136,7 @@ impl GaugeStudy {
     /// Components by the range method with the given constants, such as those of a printed table.
     ///
     /// # Errors
-    /// As for [`analyse`](GaugeStudy::analyse).
+    /// The errors of [`analyse`](GaugeStudy::analyse).
     pub fn range_with(
         &self,
         settings: &GaugeSettings,

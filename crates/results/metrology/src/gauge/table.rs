@@ -18,7 +18,7 @@ pub enum Source {
     Part,
     /// Interaction of operators and parts.
     Interaction,
-    /// Within cells, between trials.
+    /// Within cells: between trials.
     Repeatability,
     /// Pooled interaction and repeatability.
     Pooled,
@@ -26,7 +26,7 @@ pub enum Source {
     Total,
 }
 
-/// Row of an analysis of variance, in the squared unit of the readings.
+/// Row of an analysis-of-variance table, in the squared unit of the readings.
 ///
 /// ```
 /// use taceva_metrology::gauge::{GaugeSettings, GaugeStudy, Source};
@@ -50,8 +50,8 @@ pub struct TableRow {
     pub ss: f64,
     /// Mean square; `None` for the total.
     pub ms: Option<f64>,
-    /// F ratio to the mean square of the next lower source.
+    /// F ratio to the mean square of the next lower source; `None` without one.
     pub f: Option<f64>,
-    /// p value of the F ratio.
+    /// p value of the F ratio; `None` without a ratio.
     pub p: Option<f64>,
 }

@@ -12,7 +12,7 @@ fn digits(number: f64) -> String {
     Value::Scalar(number).to_string()
 }
 
-/// Number with both ends of its interval; a dash if missing.
+/// Number with both ends of its interval; a dash for a missing number.
 fn with_ends(number: Option<f64>, ends: Option<[f64; 2]>) -> String {
     match (number, ends) {
         (Some(number), Some([low, high])) => {

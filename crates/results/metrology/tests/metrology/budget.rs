@@ -10,7 +10,7 @@ mod residuals;
 
 use taceva_metrology::budget::{Budget, BudgetText, Evidence, MonteCarlo};
 
-/// The budgets of a text without measured figures.
+/// Budgets of a file text without measured figures.
 fn budgets(text: &str) -> Vec<Budget> {
     BudgetText::parse(text)
         .expect("a budget")
@@ -18,7 +18,7 @@ fn budgets(text: &str) -> Vec<Budget> {
         .expect("values")
 }
 
-/// The first budget of a text, with draws.
+/// First budget of a file text, with Monte Carlo draws.
 fn drawn(text: &str, draws: MonteCarlo) -> Budget {
     let text = BudgetText::parse(text).expect("a budget");
     text.budgets(&Evidence::default(), draws)
@@ -26,13 +26,13 @@ fn drawn(text: &str, draws: MonteCarlo) -> Budget {
         .remove(0)
 }
 
-/// The error of a text.
+/// Error message for a file text.
 fn refusal(text: &str, evidence: &Evidence) -> String {
     let found = BudgetText::parse(text).and_then(|text| text.budgets(evidence, None));
     found.expect_err("refused").to_string()
 }
 
-/// The case of `gum.json` whose name begins so.
+/// Case of `gum.json` whose name begins with `name`.
 fn case(name: &str) -> serde_json::Value {
     let golden: serde_json::Value =
         serde_json::from_str(include_str!("../golden/gum.json")).expect("JSON");

@@ -1,4 +1,4 @@
-//! Conformity: probabilities, the four words, and global risks of JCGM 106.
+//! Conformity: probabilities, decisions in words, and global risks of JCGM 106.
 
 mod scales;
 
@@ -275,7 +275,7 @@ fn without_uncertainty_of_measurement_the_probability_is_zero_or_one() {
     assert_eq!(decided(&exact, &at_most(0.05), &GUARDED).word, Word::Pass);
 }
 
-/// The refusal of settings written as TOML.
+/// Error message for settings written as TOML.
 fn refusal(text: &str) -> String {
     let settings: RuleSettings = toml::from_str(text).expect("settings");
     settings.decision_rule().expect_err("refused").to_string()

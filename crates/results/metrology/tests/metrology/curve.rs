@@ -8,7 +8,7 @@ mod proving;
 use serde_json::Value;
 use taceva_metrology::curve::CurveRow;
 
-/// The case of `limits.json` whose name begins so.
+/// Case of `limits.json` whose name begins with `name`.
 fn case(name: &str) -> Value {
     let golden: Value = serde_json::from_str(include_str!("../golden/limits.json")).expect("JSON");
     let cases = golden["cases"].as_array().expect("cases");

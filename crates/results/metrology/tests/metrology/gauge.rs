@@ -1,4 +1,4 @@
-//! Gauge studies: the worked example of AIAG, its nested reading, intervals and refusals.
+//! Gauge studies: AIAG's worked example, also read as a nested study, intervals and errors.
 
 mod coverage;
 mod exactness;

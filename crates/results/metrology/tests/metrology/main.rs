@@ -1,4 +1,4 @@
-//! Values of published worked examples, recomputed.
+//! Published worked examples, recomputed.
 
 mod agreement;
 mod budget;

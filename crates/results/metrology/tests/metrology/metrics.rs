@@ -1,11 +1,11 @@
-//! The metrics of predictions have the bits of the functions of slices.
+//! Metrics of predictions equal the functions over slices, bit for bit.
 
 use taceva_core::{Channel, Channels, FieldSet};
 use taceva_metrics::{Evaluation, Evaluator, MetricPlan, Rows, catalogue};
 use taceva_metrology::agreement::{Agreement, Pair};
 use taceva_metrology::tolerance::ToleranceInterval;
 
-/// Presses of places in turn, truth and prediction: `presses` of nine places.
+/// Truth and prediction of `presses` presses, which cycle through nine places.
 fn presses(presses: u32) -> Vec<(u32, Pair)> {
     let press = |row: u32| {
         let (place, step) = (row % 9, row / 9);
@@ -16,7 +16,7 @@ fn presses(presses: u32) -> Vec<(u32, Pair)> {
     (0..presses).map(press).collect()
 }
 
-/// Scores of these presses, in parts of `at_once` that are merged.
+/// Scores of these presses, from merged parts of `at_once` presses.
 fn evaluated(presses: &[(u32, Pair)], at_once: usize) -> Evaluation {
     let channels = Channels::new([Channel::FZ]).expect("one channel");
     let wanted = catalogue::select(["agreement", "tolerance_interval"]).expect("known names");

@@ -1,4 +1,4 @@
-//! Tolerance factors of the e-Handbook and of tables.
+//! Tolerance factors of the NIST e-Handbook and of printed tables.
 
 use taceva_metrology::tolerance::{
     ToleranceInterval, least_n_one_sided, least_n_two_sided, one_sided_factor, two_sided_factor,

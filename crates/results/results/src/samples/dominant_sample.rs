@@ -1,4 +1,4 @@
-//! Sample that makes a great part of the squared error.
+//! Detects a single sample that causes a great part of the squared error.
 
 use std::fmt;
 
@@ -7,12 +7,12 @@ use taceva_metrics::plane_axes;
 
 use super::{SampleChannel, Samples};
 
-/// Least number of samples. Of fewer, one may make a quarter of the squared error by chance.
+/// Least number of samples. Among fewer samples, one may cause a quarter of the squared error by chance.
 const LEAST_SAMPLES: usize = 50;
-/// Least share of the squared error.
+/// Least reported share of the squared error.
 const LEAST_SHARE: f64 = 0.25;
 
-/// A sample that makes a great part of the squared error of a channel. `Display` gives the clause.
+/// A sample that causes a great part of the squared error of a channel. `Display` writes a clause about the sample.
 ///
 /// ```
 /// use taceva_results::Samples;
@@ -27,12 +27,12 @@ const LEAST_SHARE: f64 = 0.25;
 pub struct DominantSample {
     /// Name of the sample.
     pub name: String,
-    /// Share of the squared error that it makes, from 0 to 1.
+    /// Share of the squared error caused by the sample, from 0 to 1.
     pub share: f64,
 }
 
 impl Samples {
-    /// Sample that makes at least a quarter of the squared error of a channel or plane. `None` if none does, or if fewer than 50 samples have a
+    /// Sample that causes at least a quarter of the squared error of a channel or plane. `None` if no sample does, or if fewer than 50 samples have a
     /// prediction.
     pub fn dominant(&self, channel: &str) -> Option<DominantSample> {
         let axes = match plane_axes(channel) {

@@ -1,4 +1,4 @@
-//! Tests of accepted and rejected tables of samples.
+//! Accepted and rejected tables of samples.
 
 use super::*;
 

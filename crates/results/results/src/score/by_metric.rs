@@ -1,4 +1,4 @@
-//! Scores as `{"mae": {"Fz": …}}`, grouped by metric.
+//! Scores grouped by metric: `{"mae": {"Fz": …}}`.
 
 use serde::de::{Deserialize, Deserializer};
 use serde::ser::{Serialize, SerializeMap, Serializer};

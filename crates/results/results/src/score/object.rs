@@ -1,4 +1,4 @@
-//! JSON keys of scores and variants.
+//! JSON object of a score or variant.
 
 mod keys;
 
@@ -66,7 +66,7 @@ impl Serialize for Variant {
     }
 }
 
-/// Writes the value, and its unit if there is a value.
+/// Writes the value, and the unit of a value that is present.
 fn serialize_value<M: SerializeMap>(
     object: &mut M,
     value: &Value,
@@ -138,7 +138,7 @@ fn serialize_interval<M: SerializeMap>(
     }
 }
 
-/// `{"undefined": reason}`.
+/// Serialized reason: `{"undefined": reason}`.
 #[derive(serde::Serialize, serde::Deserialize)]
 struct Reason {
     undefined: String,

@@ -1,10 +1,10 @@
-//! Parser of expressions: text to steps on a stack, each with its column.
+//! Parser of expressions, from text to steps of a stack machine with columns.
 
 use taceva_core::{shown, suggestion};
 
 use super::{ExpressionError, Function, Step};
 
-/// Deepest nesting of brackets, powers and signs.
+/// Greatest nesting of brackets, powers and signs.
 const DEEPEST: usize = 100;
 
 const FUNCTIONS: [(&str, Function); 6] = [
@@ -66,7 +66,7 @@ impl Reader<'_> {
         self.steps.push((step, column));
     }
 
-    /// Left-associative chain of operators of the same precedence.
+    /// Parses a left-associative chain of operators with the same precedence.
     fn chain(
         &mut self,
         operators: [(char, Step); 2],
@@ -85,7 +85,7 @@ impl Reader<'_> {
         Ok(())
     }
 
-    /// Counts the nesting of a bracket, a sign or a power.
+    /// Counts one more level of nesting, for a bracket, a sign or a power.
     fn deepen(&mut self) -> Result<(), ExpressionError> {
         self.depth += 1;
         match self.depth > DEEPEST {
@@ -105,7 +105,7 @@ impl Reader<'_> {
         self.chain([('*', Step::Multiply), ('/', Step::Divide)], Self::signed)
     }
 
-    /// Parses a sign. A sign binds less than a power: -x^2 is -(x^2).
+    /// Parses a sign. A sign has lower precedence than a power: -x^2 is -(x^2).
     fn signed(&mut self) -> Result<(), ExpressionError> {
         self.deepen()?;
         match self.peek() {

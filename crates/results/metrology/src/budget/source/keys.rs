@@ -6,7 +6,7 @@ use super::Reader;
 use crate::budget::error::{BudgetError, BudgetProblem};
 use crate::budget::schema::WrittenSource;
 
-/// Figures that averaging readings at one place does not lower.
+/// Figures that averaging readings at one place does not reduce.
 const LASTING: [&str; 7] = [
     "error",
     "error.between",
@@ -17,14 +17,14 @@ const LASTING: [&str; 7] = [
     "certificate",
 ];
 
-/// True for a figure that averaging does not lower, including gauge components other than repeatability.
+/// True for a figure that averaging does not reduce, including gauge components other than repeatability.
 fn is_lasting(figure: &str) -> bool {
     let component = figure.rsplit_once('#').map(|(_, name)| name);
     LASTING.contains(&figure) || component.is_some_and(|name| name != "repeatability")
 }
 
 impl Reader<'_> {
-    /// Requires exactly one origin for each source, and no keys of another origin.
+    /// Requires exactly one origin for each source, and rejects keys of other origins.
     pub(super) fn check_keys(&self, of: &WrittenSource) -> Result<(), BudgetError> {
         let origins = [
             of.from.is_some(),

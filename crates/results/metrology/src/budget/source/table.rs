@@ -1,4 +1,4 @@
-//! Sources whose table states the numbers.
+//! Sources with numbers in their table.
 
 use taceva_core::{Coverage, shown};
 use taceva_metrics::ExactSum;
@@ -22,7 +22,7 @@ const SHAPES: [&str; 5] = [
 ];
 
 impl Reader<'_> {
-    /// Numbers stated in the table.
+    /// Numbers stated in the source's table.
     pub(super) fn stated_numbers(
         &self,
         of: &WrittenSource,
@@ -63,7 +63,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Mean of rows with u = s/√n and n − 1 degrees of freedom.
+    /// Mean of rows, with u = s/√n and n − 1 degrees of freedom.
     fn of_rows(&self, rows: &Spanned<Vec<f64>>) -> Result<Numbers, BudgetError> {
         let values = rows.get_ref();
         if values.len() < 2 || values.iter().any(|value| !value.is_finite()) {

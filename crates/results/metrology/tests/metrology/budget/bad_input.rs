@@ -1,4 +1,4 @@
-//! Bad input of a budget file: each is refused with its line, key and expectation.
+//! Invalid budget files: each error states line, key and expectation.
 
 use taceva_core::Coverage;
 use taceva_metrology::budget::{BudgetText, Certificate, Evidence};
@@ -6,7 +6,7 @@ use taceva_metrology::budget::{BudgetText, Certificate, Evidence};
 use super::overlaps::figures;
 use super::{budgets, refusal};
 
-/// Refusal of a budget of one source.
+/// Error message for a budget of one source.
 fn source(keys: &str) -> String {
     let text = format!(
         "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n[[source]]\nname = \"a\"\n{keys}\n"
@@ -14,7 +14,7 @@ fn source(keys: &str) -> String {
     refusal(&text, &Evidence::default())
 }
 
-/// Refusal of an expression over a = 4 and b = 0.
+/// Error message for an expression over a = 4 and b = 0.
 fn expression(text: &str) -> String {
     let text = format!(
         "budget_version = 1\nmeasurand = \"y\"\nunit = \"N\"\nexpression = \"{text}\"\n\
@@ -125,7 +125,7 @@ fn a_coverage_outside_0_to_1_is_refused() {
     assert!(source("U = \"1 mN\"\np = 1.5").starts_with("line 7, `p`"));
 }
 
-/// Refusal of three sources with these correlations.
+/// Error message for three sources with these correlations.
 fn correlations(rest: &str) -> String {
     let mut text = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"1 N\"]\n".to_owned();
     for name in ["one", "two", "three"] {
@@ -172,7 +172,7 @@ fn a_correlation_with_an_unknown_source_names_the_nearest_one() {
     assert!(correlations(&twice).contains("is used twice, here and in line 14"));
 }
 
-/// Refusal of a budget with a certificate, at 60 N.
+/// Error message for a budget with a certificate, at 60 N.
 fn certified(certificate: Certificate) -> String {
     let text = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"60 N\"]\n[[source]]\nname = \"a\"\nfrom = \"certificate\"\n";
     refusal(text, &Evidence::default().with_certificate(certificate))

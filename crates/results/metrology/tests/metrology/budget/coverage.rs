@@ -1,4 +1,4 @@
-//! Share of made presses whose truth lies within the interval of a budget.
+//! Coverage: share of simulated presses whose truth is within the interval of a budget.
 
 use taceva_core::random::Draws;
 use taceva_metrology::budget::{Budget, BudgetText, Evidence, Figure, Freedom, Residuals};
@@ -14,7 +14,7 @@ const BUDGET: &str = "budget_version = 1\nmeasurand = \"Fz\"\nat = [\"0.5 N\"]\n
     [[source]]\nname = \"one reading\"\nfrom = \"error.within\"\n";
 const UNIT: &str = "[[source]]\nname = \"unit to unit\"\nfrom = \"gauge.json#unit\"\n";
 
-/// The budget of a test of 60 places, pressed twice each, whose residuals have the mean 0.01 N.
+/// Budget from a test of 60 places, pressed twice each, whose residuals have the mean 0.01 N.
 fn study(text: &str, draws: Draws) -> Budget {
     let mut residuals = Residuals::default();
     for place in 0..60 {
@@ -33,7 +33,7 @@ fn study(text: &str, draws: Draws) -> Budget {
     text.budgets(&evidence, None).expect("values").remove(0)
 }
 
-/// Share of 10,000 presses at new places within the intervals of 100 studies; on other units if `units` is above 0.
+/// Share of 10,000 presses at new places within the intervals of 100 studies. Presses are on other units if `units` is above 0.
 fn share(text: &str, units: f64) -> f64 {
     let mut hits = 0.0;
     for number in 0..100 {

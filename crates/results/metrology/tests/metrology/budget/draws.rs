@@ -1,4 +1,4 @@
-//! Monte Carlo of JCGM 101.
+//! Monte Carlo method of JCGM 101.
 
 use taceva_metrology::budget::{Method, MonteCarlo};
 
@@ -9,7 +9,7 @@ fn all() -> MonteCarlo {
     MonteCarlo::default().to_the_end()
 }
 
-/// Text of a sum of rectangular sources of these standard uncertainties.
+/// Text of a sum of rectangular sources with these standard uncertainties.
 fn rectangles(uncertainties: &[f64]) -> String {
     let names: Vec<String> = (0..uncertainties.len())
         .map(|at| format!("x{at}"))
@@ -31,7 +31,7 @@ fn pair(of: &serde_json::Value) -> [f64; 2] {
     [number(&of[0]), number(&of[1])]
 }
 
-/// The end of an interval is `expected` within four standard errors, those of a quantile with this density.
+/// Asserts that an interval end is `expected` within four standard errors of a quantile with this density.
 fn within(found: f64, expected: f64, draws: u64, density: f64) {
     let error = (0.025_f64 * 0.975 / draws as f64).sqrt() / density;
     assert!(

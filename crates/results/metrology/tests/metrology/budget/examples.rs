@@ -97,7 +97,7 @@ fn shares_add_up_to_one_without_correlation() {
     assert!(budget.correlations.is_empty() && budget.missing.is_empty());
 }
 
-/// The budget of a quotient of H.2.
+/// Budget of a quotient of example H.2.
 fn impedance(expression: &str, set: &str) -> Budget {
     let golden = case("GUM H.2");
     let mut text = format!(

@@ -1,8 +1,8 @@
-//! Figures that hold others, which no budget counts twice.
+//! Figures that include others; budgets reject counting an effect twice.
 
 use taceva_metrology::budget::{Budget, BudgetError, BudgetText, Evidence, Figure, Freedom};
 
-/// Refusal of two sources of these figures.
+/// Error message for two sources with these figures.
 pub(super) fn figures(one: &str, other: &str) -> String {
     let found = of_figures(one, other);
     found.expect_err("refused").to_string()

@@ -1,4 +1,4 @@
-//! One-way components of residuals, and budgets that rest on them.
+//! One-way components of residuals, and budgets that use the components.
 
 use taceva_metrology::budget::{BudgetText, Components, Evidence, Figure, Freedom, Residuals};
 

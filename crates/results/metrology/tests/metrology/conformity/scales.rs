@@ -1,4 +1,4 @@
-//! Measured values by their intervals, on the scale on which an interval is symmetric.
+//! Measured values given by intervals, on the scale on which each interval is symmetric.
 
 use taceva_metrics::Scale;
 use taceva_metrology::conformity::{
@@ -8,7 +8,7 @@ use taceva_metrology::conformity::{
 use super::{GUARDED, at_most, decided};
 use crate::support::close;
 
-/// Intervals about a value, each on its scale: errors, R², a normalised error of at most 2, a share, and a bias.
+/// Intervals about a value, each with its scale: errors, R², a normalised error of at most 2, a share, and a bias.
 const INTERVALS: [(f64, [f64; 2], Scale); 5] = [
     (0.08, [0.064, 0.1], Scale::Logarithm),
     // Distances to 1 of 0.2, 0.1 and 0.05.
@@ -179,7 +179,7 @@ fn a_limit_at_the_end_of_a_range_leaves_the_other_one_to_the_probability() {
     }
 }
 
-/// Measurements of five units, by the logarithms of their ratios to 0.08.
+/// Measurements of five units, whose values are 0.08 times the exponentials of `steps`.
 fn units(steps: [f64; 5], standard: f64) -> Vec<Measurement> {
     let unit = |step: f64| {
         let value = 0.08 * step.exp();

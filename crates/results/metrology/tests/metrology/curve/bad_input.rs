@@ -1,4 +1,4 @@
-//! Bad input of curves: undefined by name, never a number.
+//! Invalid input of curves gives a named reason, never a number.
 
 use taceva_metrology::curve::{
     CurveFit, CurveRow, CurveUndefined, DetectionRisks, Indication, IndicationLevel, ProvingSeries,

@@ -4,7 +4,7 @@ use taceva_metrology::curve::{CovarianceOf, CurveFit, CurveRow, DetectionRisks};
 
 use super::{case, near, number, numbers, rows};
 
-/// Rows and certified estimates with their deviations, of a data set of NIST.
+/// Rows, certified estimates and their standard deviations of a data set from NIST.
 struct Certified {
     rows: Vec<CurveRow>,
     coefficients: Vec<[f64; 2]>,

@@ -1,11 +1,11 @@
-//! Shares of simulated studies whose intervals hold the truth.
+//! Coverage: shares of simulated studies whose intervals contain the truth.
 
 use taceva_core::random::Draws;
 use taceva_metrology::gauge::{ComponentName, GaugeStudy};
 
 use super::example::settings;
 
-/// Deviations of parts, operators, their interaction and repeats.
+/// Standard deviations of parts, operators, their interaction and repeats.
 const TRUTH: [f64; 4] = [1.0, 0.3, 0.1, 0.2];
 
 /// A study of 8 parts, 6 operators and 2 trials.

@@ -1,4 +1,4 @@
-//! Exact sums, whatever the order of the readings.
+//! Exact sums, independent of the order of the readings.
 
 use std::collections::BTreeSet;
 

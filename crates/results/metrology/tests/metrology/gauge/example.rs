@@ -18,7 +18,7 @@ pub(crate) struct Row {
     pub(crate) value: f64,
 }
 
-/// Readings of the worked example times `factor`.
+/// Readings of the worked example, multiplied by `factor`.
 pub(crate) fn readings(factor: f64) -> Vec<Row> {
     let file = file();
     let mut all = Vec::new();

@@ -1,4 +1,4 @@
-//! The method of average and range.
+//! Average-and-range method.
 
 use taceva_metrology::gauge::{ComponentName, Method, RangeConstants};
 

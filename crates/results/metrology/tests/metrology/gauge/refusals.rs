@@ -1,4 +1,4 @@
-//! Studies and settings that have no result.
+//! Studies and settings without a result.
 
 use taceva_metrology::gauge::{
     Design, Flag, GaugeError, GaugeReport, GaugeSettings, GaugeStudy, Method, NdcReason,
@@ -6,10 +6,10 @@ use taceva_metrology::gauge::{
 
 use super::example::{Row, analyse, readings, settings, study_of};
 
-/// First words of a refusal, and the change that it refuses.
+/// First words of an error message, and the change that causes the error.
 type Change = (&'static str, fn(&mut GaugeSettings));
 
-/// The error of the worked example without the readings that `is_left` refuses.
+/// Error for the worked example, reduced to the readings with `is_left` true.
 fn refusal(is_left: impl Fn(&Row) -> bool) -> GaugeError {
     let kept: Vec<_> = readings(1.0).into_iter().filter(is_left).collect();
     let refused = study_of(&kept).analyse(&settings(|_| {}));

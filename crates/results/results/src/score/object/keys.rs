@@ -1,4 +1,4 @@
-//! Keys of the JSON object of a score, as read.
+//! Reads the keys of a score's JSON object.
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess};
 use taceva_core::{Unit, shown};
@@ -10,7 +10,7 @@ use crate::ordered_map::Ordered;
 use crate::score::{Score, Variant};
 use crate::value::Value;
 
-/// Keys of a score or variant; `None` if the object lacks one.
+/// Keys of a score or variant; `None` for a key that the object lacks.
 #[derive(Default)]
 pub(super) struct Keys {
     value: Option<f64>,
@@ -122,7 +122,7 @@ impl Keys {
         Ok(())
     }
 
-    /// Score, with metric and channel left empty.
+    /// Score without metric and channel, which the caller fills in.
     pub(super) fn score<E: Error>(mut self) -> Result<Score, E> {
         let interval = self.interval();
         let counts = match self.counts.take() {
@@ -228,7 +228,7 @@ impl Keys {
     }
 }
 
-/// True if `grid` has one cell between each two edges of `x` and of `y`.
+/// True if `grid` has one cell between each two neighbouring edges of `x` and of `y`.
 fn fills<T>(grid: &[Vec<T>], x: &[f64], y: &[f64]) -> bool {
     grid.len() + 1 == y.len() && grid.iter().all(|row| row.len() + 1 == x.len())
 }
@@ -237,7 +237,7 @@ fn shape<E: Error>() -> E {
     E::custom("expected one value for each place, found another number of values")
 }
 
-/// Standing, parsed from its words.
+/// Standing, parsed from the words in the JSON object.
 struct Words(Standing);
 
 impl<'de> Deserialize<'de> for Words {
