@@ -186,8 +186,7 @@ pub fn replace<E: From<io::Error>>(
     Ok(sync_folder(parent_of(path))?)
 }
 
-/// Rejects a target that is not a regular file, such as `/dev/null`, or a link to an open file of the process, such as `/dev/stdout`. A rename would replace
-/// it.
+/// Rejects a device, pipe or socket, such as `/dev/null`, and a link to an open file of the process, such as `/dev/stdout`. A rename would replace them.
 fn refuse_devices(target: &Path) -> io::Result<()> {
     let leads_to_process = fs::read_link(target).is_ok_and(|to| to.starts_with("/proc"));
     match fs::metadata(target).map(|found| found.file_type()) {
