@@ -262,7 +262,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// Decodes a JPEG with one scan for each colour. `zune-jpeg` decodes such a file wrongly without an error.
+/// Decodes a JPEG with one scan for each colour. `zune-jpeg` decodes this file wrongly without an error.
 fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let text = |error: jpeg_decoder::Error| error.to_string();
     let mut decoder = Decoder::new(bytes);

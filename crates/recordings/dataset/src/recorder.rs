@@ -80,7 +80,7 @@ impl RecordingSpec {
         }
     }
 
-    /// The same recording for frames that differ from those of the camera.
+    /// The same recording for frames that differ from the frames of the camera.
     #[must_use]
     pub fn with_reduced(self, reduced: ReducedFrames) -> RecordingSpec {
         RecordingSpec {

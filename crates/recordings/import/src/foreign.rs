@@ -199,7 +199,7 @@ impl ForeignTable {
         }
     }
 
-    /// True if the file states that a column holds integers or lists of integers.
+    /// True if the file states that a column contains integers or lists of integers.
     pub(crate) fn holds_integers(&self, name: &str) -> bool {
         match self {
             ForeignTable::Columns(table) => table.holds_integers(name),
@@ -310,7 +310,7 @@ impl ForeignTable {
         }
     }
 
-    /// Columns that seem to hold pictures.
+    /// Columns that seem to contain pictures.
     pub(crate) fn picture_columns(&self) -> Vec<PictureColumn> {
         match self {
             ForeignTable::Columns(table) => table.picture_columns(),

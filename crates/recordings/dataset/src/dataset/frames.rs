@@ -39,7 +39,7 @@ impl Dataset {
 
     /// Description of damage inside the picture of a row that decodes without an error. `None` if the picture is intact or missing.
     ///
-    /// A JPEG is checked code by code to its end. Imports reject such damage, but older datasets may contain it.
+    /// A JPEG is checked code by code to its end. Imports reject this damage, but older datasets may contain it.
     ///
     /// # Errors
     /// [`DatasetError::Digest`] if the file of the picture differs from the recorded digest; [`DatasetError::Request`] if the row does not exist;

@@ -167,8 +167,8 @@ type Shared = (Digest, Vec<Option<u64>>);
 /// Number of different pictures, shared under other labels, from which two recordings overlap. No camera takes the same picture twice.
 const SAME_PICTURES: usize = 3;
 
-/// Rejects recordings that share a sample: equal frame bytes and labels, or [`SAME_PICTURES`] pictures under other labels, as in two imports of one recording.
-/// A shared sample could be in both the training and the test part.
+/// Rejects recordings that share a sample: equal frame bytes and labels, or at least [`SAME_PICTURES`] pictures under other labels, as in two imports of one
+/// recording. A shared sample could be in both the training and the test part.
 fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
     let mut known: HashMap<Shared, (usize, usize)> = HashMap::new();
     let mut pictures: HashMap<Digest, (usize, usize)> = HashMap::new();

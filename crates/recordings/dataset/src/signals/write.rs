@@ -1,4 +1,4 @@
-//! Writer of signals, row by row. Memory holds at most one row group.
+//! Writer of signals, row by row. Memory contains at most one row group.
 
 use std::fs::File;
 use std::io::BufWriter;

@@ -126,7 +126,7 @@ fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     groups.collect()
 }
 
-/// True if files with this ending may be tables. Tables whose names differ in the last word usually hold different data.
+/// True if files with this ending may be tables. Tables whose names differ in the last word usually contain different data.
 fn is_table_ending(ending: &str) -> bool {
     !matches!(
         ending,

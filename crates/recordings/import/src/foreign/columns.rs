@@ -49,7 +49,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         None
     }
 
-    /// True if the file states that a column holds integers or lists of integers.
+    /// True if the file states that a column contains integers or lists of integers.
     fn holds_integers(&self, _name: &str) -> bool {
         false
     }
@@ -79,7 +79,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Ok(Vec::new())
     }
 
-    /// Columns that seem to hold pictures.
+    /// Columns that seem to contain pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
     /// Class lists stated by the file, for columns whose numbers index them.
@@ -106,7 +106,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     }
 }
 
-/// Column that seems to hold pictures.
+/// Column that seems to contain pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PictureColumn {
     pub(crate) name: String,

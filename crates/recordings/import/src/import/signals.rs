@@ -175,7 +175,7 @@ impl PlannedSignals {
         Ok(writer.finish()?)
     }
 
-    /// Appends the signals to `writer`. Memory holds only some rows of an array at a time.
+    /// Appends the signals to `writer`. Memory contains only some rows of an array at a time.
     pub(super) fn write_to(
         &self,
         writer: &mut SignalsWriter,

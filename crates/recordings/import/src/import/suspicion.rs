@@ -55,7 +55,7 @@ struct Plausible {
     large: f64,
     most: f64,
     typical: [f64; 2],
-    /// Units that labs use for such numbers.
+    /// Units in which labs state this quantity.
     written: &'static [&'static str],
 }
 

@@ -132,7 +132,7 @@ impl<'a> Joined<'a> {
         taceva_files::parent_of(self.tables[self.matches[row].table].table.path())
     }
 
-    /// True if every file states that `column` holds integers.
+    /// True if every file states that `column` contains integers.
     pub(super) fn holds_integers(&self, column: &str) -> bool {
         let mut tables = self.tables.iter();
         !self.tables.is_empty() && tables.all(|joined| holds_integers(&joined.table, column))
