@@ -27,7 +27,7 @@ pub struct Evidence<'a> {
     pub signals: Option<&'a SignalFacts>,
     /// Rows whose pictures can be decoded although they are damaged, with a description of the damage.
     pub damaged: &'a [(usize, String)],
-    /// Sessions on a real rig that made the recording; `None` if unknown.
+    /// Sessions on a real rig that made the recording; `None` without a table of sessions.
     pub sessions: Option<&'a RecordedSessions>,
 }
 
