@@ -15,7 +15,7 @@ pub fn sync_folder(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Folder that contains `path`; `.` for a bare name.
+/// Parent folder of `path`; `.` for a file name without a folder.
 ///
 /// ```
 /// use std::path::Path;

@@ -1,4 +1,4 @@
-//! Seals of text files: a digest over their content, and a history of accepted edits.
+//! Seals of text files: a digest of the content, and a history of accepted edits.
 
 mod canonical;
 mod digest;

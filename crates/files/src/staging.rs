@@ -12,7 +12,7 @@ use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living
 
 /// Name prefix of every staging folder.
 pub const STAGED: &str = ".taceva-staged-";
-/// Maximum number of waits for a process between its two renames, and the length of each wait.
+/// Maximum number of waits for a process between its two renames.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
 /// Age of a folder's modification time from which any later change gives a different time.
@@ -21,7 +21,7 @@ const CLOCK: Duration = Duration::from_secs(2);
 const CLAIMS: u32 = 6;
 const CLAIM_PAUSE: Duration = Duration::from_millis(3);
 
-/// New version of a file or folder, staged beside its target and removed on drop unless it was put in place.
+/// New version of a file or folder, staged beside its target. Removed on drop unless it replaced the target.
 ///
 /// The staging folder has a random name, a marker and a lock. The next process that stages in the same parent folder removes leftovers of killed
 /// processes.
@@ -52,17 +52,17 @@ impl Staged {
     /// folder.
     ///
     /// # Errors
-    /// [`io::Error`] of the file system, or `InvalidInput` if `target` names nothing, or a device, a pipe or a socket.
+    /// [`io::Error`] of the file system, or `InvalidInput` if `target` has no file name, or is a device, a pipe or a socket.
     pub fn beside(target: &Path) -> io::Result<Staged> {
         let staged = Staged::make(target)?;
         clear(parent_of(target), STAGED);
         Ok(staged)
     }
 
-    /// As [`beside`](Staged::beside), for one process at a time: `None` while another stages the same target.
+    /// Creates a staging folder like [`beside`](Staged::beside), for one process at a time. Returns `None` while another process stages the same target.
     ///
     /// # Errors
-    /// As [`beside`](Staged::beside).
+    /// Errors of [`beside`](Staged::beside).
     pub fn alone(target: &Path) -> io::Result<Option<Staged>> {
         for attempt in 1..=CLAIMS {
             let staged = Staged::beside(target)?;
@@ -115,15 +115,16 @@ impl Staged {
     /// The names inside a staged folder must be durable before the call. The name of the target is durable on return.
     ///
     /// # Errors
-    /// [`io::Error`] of the file system. The target is then unchanged.
+    /// [`io::Error`] of the file system. The target is unchanged after an error.
     pub fn put_in_place(self) -> io::Result<()> {
         self.put_in_place_by(exchange)
     }
 
-    /// As [`put_in_place`](Staged::put_in_place), with a given exchange of names. `exchange` returns false if the file system does not support it.
+    /// Replaces the target like [`put_in_place`](Staged::put_in_place), with `exchange` as the exchange of names. `exchange` returns false if the file system
+    /// does not support it.
     ///
     /// # Errors
-    /// As [`put_in_place`](Staged::put_in_place).
+    /// Errors of [`put_in_place`](Staged::put_in_place).
     #[doc(hidden)]
     pub fn put_in_place_by(
         self,
@@ -163,14 +164,14 @@ impl Staged {
     }
 }
 
-/// Replaces the file at `path`. `write` writes the new content to the path that it receives, in a marked folder beside it.
+/// Replaces the file at `path`. `write` receives a path in a marked folder beside the file and writes the new content there.
 ///
-/// A reader of `path` sees the old file or the new one, at any moment. The new file is durable on return. The first call for a parent folder removes
+/// A reader of `path` always sees the complete old or the complete new file. The new file is durable on return. The first call for a parent folder removes
 /// leftovers of killed processes.
 ///
 /// # Errors
-/// Errors of `write` and of the file system, and `InvalidInput` as [`Staged::beside`]. `path` is then unchanged, unless only the sync of its
-/// folder failed.
+/// Errors of `write` and of the file system, and `InvalidInput` as [`Staged::beside`]. After an error `path` is unchanged, unless only the sync of its folder
+/// failed.
 pub fn replace<E: From<io::Error>>(
     path: &Path,
     write: impl FnOnce(&Path) -> Result<(), E>,
@@ -185,7 +186,7 @@ pub fn replace<E: From<io::Error>>(
     Ok(sync_folder(parent_of(path))?)
 }
 
-/// Refuses a target that a rename would replace by a file, such as `/dev/null`, or `/dev/stdout`, a link to an open file of the process.
+/// Rejects a device, pipe or socket, such as `/dev/null`, and a link to an open file of the process, such as `/dev/stdout`. A rename would replace them.
 fn refuse_devices(target: &Path) -> io::Result<()> {
     let leads_to_process = fs::read_link(target).is_ok_and(|to| to.starts_with("/proc"));
     match fs::metadata(target).map(|found| found.file_type()) {
@@ -198,7 +199,7 @@ fn refuse_devices(target: &Path) -> io::Result<()> {
     }
 }
 
-/// Restores `target` if a process was killed between its two renames, and removes the leftovers. Waits for a living process.
+/// Restores `target` if a process was killed between its two renames, and removes leftovers. Waits for a process that is still running.
 ///
 /// # Errors
 /// [`io::Error`] if the old version of `target` exists and cannot be restored.
@@ -232,7 +233,7 @@ pub fn clear_leftovers(parent: &Path) {
     clear(parent, STAGED);
 }
 
-/// As [`clear_leftovers`], once per process and folder, so that a large folder is not listed for each file.
+/// Calls [`clear_leftovers`] once per process and folder, so that a large folder is not listed for each file.
 fn clear_once(parent: &Path) {
     static CLEARED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let mut cleared = CLEARED.lock().unwrap_or_else(PoisonError::into_inner);
@@ -242,7 +243,7 @@ fn clear_once(parent: &Path) {
     }
 }
 
-/// As [`clear_leftovers`], unless the folder is unchanged since this process found it clean.
+/// Calls [`clear_leftovers`], unless the folder is unchanged since this process last found no leftovers in it.
 fn clear_changed(parent: &Path) {
     static CLEAN: Mutex<BTreeMap<PathBuf, SystemTime>> = Mutex::new(BTreeMap::new());
     let lock = || CLEAN.lock().unwrap_or_else(PoisonError::into_inner);
@@ -261,7 +262,7 @@ fn clear_changed(parent: &Path) {
     }
 }
 
-/// Path of the old content of `target`, between two renames.
+/// Path of the old version of `target` between the two renames.
 fn former_of(target: &Path) -> Option<PathBuf> {
     let mut name = std::ffi::OsString::from(FORMER);
     name.push(target.file_name()?);

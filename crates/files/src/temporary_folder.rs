@@ -8,22 +8,22 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::durable::{parent_of, sync_folder};
 
-/// Marker file of temporary folders of this crate, locked while the process lives.
+/// Marker file in the temporary folders of this crate, locked while the process that created the folder runs.
 pub(crate) const MARKER: &str = ".taceva-temporary";
-/// Name prefix of the old version of a target, kept here between two renames.
+/// Name prefix of the old version of a target, which is kept in a temporary folder between the two renames.
 pub(crate) const FORMER: &str = "replaced-";
-/// Attempts to create a folder that vanishes before it is locked.
+/// Maximum number of attempts to create a folder, if another process removes it before it is locked.
 const CREATIONS: u32 = 16;
-/// Letters and digits behind the prefix of a name.
+/// Number of random letters and digits after the prefix of a name.
 const RANDOM: usize = 6;
 
-/// Temporary folders of this process whose content nobody publishes.
+/// Temporary folders of this process that are removed at exit, because their content is not being published.
 static OWN: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
-/// Removes the temporary folders of this process. For a program that ends while other threads still work.
+/// Removes the temporary folders of this process, for a program that exits while other threads still work.
 ///
-/// From then on, a thread that makes or removes a temporary folder, or puts a staged version in place, waits for the exit. A folder in which another
-/// thread writes at this moment can remain. The next process removes it, unless that thread made it again after its marker was gone.
+/// After the call, a thread that makes or removes a temporary folder, or replaces a target, blocks until the exit. A folder in which another thread writes
+/// during the call can remain. The next process removes that folder, unless the thread recreated it after its marker was removed.
 pub fn remove_before_exit() {
     let own = own();
     for path in own.iter() {
@@ -53,14 +53,14 @@ fn own() -> MutexGuard<'static, BTreeSet<PathBuf>> {
 #[derive(Debug)]
 pub struct TemporaryFolder {
     path: PathBuf,
-    /// Holds the lock.
+    /// Open marker file, which keeps the lock.
     _marker: File,
 }
 
 impl TemporaryFolder {
-    /// Creates a folder in `parent` whose name begins with `prefix`. Removes leftovers of the same prefix and owner from killed processes.
+    /// Creates a folder in `parent` whose name begins with `prefix`. Removes folders of killed processes with the same prefix and owner.
     ///
-    /// Keeps existing entries: links, folders of other owners, and folders without a marker.
+    /// Existing links, folders of other owners, and folders without a marker are not removed.
     ///
     /// # Errors
     /// [`io::Error`] of the file system.
@@ -110,7 +110,8 @@ impl TemporaryFolder {
         &self.path
     }
 
-    /// Keeps [`remove_before_exit`] from the folder, because its content is about to be published. While the result is held, that function waits.
+    /// Excludes the folder from [`remove_before_exit`], because its content is about to be published. `remove_before_exit` waits until the returned guard is
+    /// dropped.
     pub(crate) fn disown(&self) -> MutexGuard<'static, BTreeSet<PathBuf>> {
         let mut own = own();
         own.remove(&self.path);
@@ -126,7 +127,7 @@ impl Drop for TemporaryFolder {
     }
 }
 
-/// Removes leftover folders of this user from `parent`: those with `prefix` whose marker is unlocked.
+/// Removes folders of this user in `parent` whose name begins with `prefix` and whose marker is not locked.
 pub(crate) fn clear(parent: &Path, prefix: &str) {
     let mut is_durable = false;
     for path in folders(parent, prefix) {
@@ -141,7 +142,7 @@ pub(crate) fn clear(parent: &Path, prefix: &str) {
     }
 }
 
-/// Folders in `parent` with `prefix` that belong to this user; links are ignored.
+/// Folders in `parent` that belong to this user and whose name begins with `prefix`; links are ignored.
 pub(crate) fn folders(parent: &Path, prefix: &str) -> impl Iterator<Item = PathBuf> {
     let entries = fs::read_dir(parent).into_iter().flatten().flatten();
     entries.filter_map(move |entry| {
@@ -155,19 +156,19 @@ pub(crate) fn folders(parent: &Path, prefix: &str) -> impl Iterator<Item = PathB
     })
 }
 
-/// True while the process that made the folder at `path` holds its marker.
+/// True if the process that made the folder at `path` still locks its marker.
 pub(crate) fn is_living(path: &Path) -> bool {
     marker(path).is_some_and(|marker| matches!(marker.try_lock(), Err(TryLockError::WouldBlock)))
 }
 
-/// Marker in the folder at `path`; links are ignored.
+/// Opens the marker in the folder at `path`; `None` without a marker or if the marker is a link.
 fn marker(path: &Path) -> Option<File> {
     let marker = path.join(MARKER);
     let is_file = fs::symlink_metadata(&marker).is_ok_and(|marker| marker.is_file());
     is_file.then(|| File::open(&marker).ok())?
 }
 
-/// Removes the folder of a dead process. A folder without a marker is removed only if it is empty.
+/// Removes the folder of an ended process. A folder without a marker is removed only if it is empty.
 fn remove_dead(path: &Path) -> io::Result<()> {
     let Some(marker) = marker(path) else {
         return fs::remove_dir(path);
@@ -179,9 +180,9 @@ fn remove_dead(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Removes a marked folder, the marker last, so an interrupted removal is recognised.
+/// Removes a marked folder. The marker is removed last, so that an interrupted removal is recognised.
 ///
-/// Keeps a folder that another process reads, and one that holds the old version of a missing target.
+/// Does not remove a folder that another process reads, or a folder with the old version of a missing target.
 fn remove(path: &Path) -> io::Result<()> {
     let mut inner = Vec::new();
     let mut held = Vec::new();

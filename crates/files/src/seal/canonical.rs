@@ -1,4 +1,4 @@
-//! Canonical form of a JSON value for its digest, independent of formatting.
+//! Canonical form of a JSON value, from which a digest independent of formatting is computed.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -31,7 +31,7 @@ impl Canonical {
         hasher.finalize().into()
     }
 
-    /// Prefixes every value with its kind and, if needed, its length, so that the encoding is unambiguous.
+    /// Adds the value to `hasher`, prefixed with its kind and, if needed, its length. The encoding is therefore unambiguous.
     fn add_to(&self, hasher: &mut Sha256) {
         match self {
             Canonical::Null => hasher.update(b"n"),

@@ -1,8 +1,8 @@
-//! Entries of a JSON object, in file order and with their formatting.
+//! Entries of a JSON object, in file order and with unchanged formatting.
 
 use crate::seal::error::SealError;
 
-/// Object `text` without the entries of `keys`. All other characters stay unchanged. `text` must be valid JSON.
+/// JSON object `text` without the entries of `keys`; all other characters are unchanged. `text` must be valid JSON.
 pub(crate) fn without(text: &str, keys: &[&str]) -> Result<String, SealError> {
     let no_object = || SealError::Content {
         problem: "expected a JSON object".to_owned(),
@@ -20,7 +20,7 @@ pub(crate) fn without(text: &str, keys: &[&str]) -> Result<String, SealError> {
     Ok(format!("{before}{{{}{end}}}{after}", kept.join(",")))
 }
 
-/// Splits the content of an object at the commas between its entries.
+/// Splits `inside`, the content of an object, at the commas between entries.
 fn split(inside: &str) -> Vec<&str> {
     let (mut depth, mut start) = (0_usize, 0);
     let (mut is_text, mut is_escaped) = (false, false);

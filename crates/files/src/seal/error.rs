@@ -13,25 +13,25 @@ pub enum SealError {
         /// Key of the changed value, if known.
         key: Option<String>,
     },
-    /// Missing seal in a file whose version requires one.
+    /// Missing seal in a file whose version requires a seal.
     #[error(
         "the seal is gone, but files of this version need one; restore it, or accept the file as it is with `taceva reseal FILE \
          --reason …`"
     )]
     Gone,
-    /// Seal without its file.
+    /// File that contains a seal and nothing else.
     #[error("a seal without the file that it belongs to")]
     Alone,
-    /// Unreadable seal.
+    /// Seal that cannot be parsed.
     #[error("the seal cannot be read: {problem}")]
     Unreadable {
-        /// Problem with the seal.
+        /// Reason why the seal cannot be parsed.
         problem: String,
     },
     /// Content that is neither JSON nor TOML.
     #[error("{problem}")]
     Content {
-        /// Problem with the content.
+        /// Reason why the content cannot be parsed.
         problem: String,
     },
 }

@@ -10,7 +10,7 @@ pub struct Edit {
     pub date: String,
     /// Digest before the edit, or `unsealed`.
     pub from: String,
-    /// Digest of the accepted content, without this entry.
+    /// Digest of the accepted content, without this history entry.
     pub to: String,
     /// Reason, in the words of the person who accepted the edit.
     pub reason: String,
@@ -36,7 +36,7 @@ fn short(digest: &str) -> &str {
 /// File with a valid seal.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Opened {
-    /// Digest of its content, `sha256:…`.
+    /// Digest of the sealed content, `sha256:…`.
     pub digest: String,
     /// Accepted edits, oldest first.
     pub history: Vec<Edit>,

@@ -22,10 +22,10 @@ pub fn seal(text: &str) -> Result<String, SealError> {
     seal_with(text, &[])
 }
 
-/// As [`seal`], but the seal also covers `attached`, named bytes outside the text.
+/// Seals `text` like [`seal`], but the seal also covers `attached`, named bytes outside the text.
 ///
 /// # Errors
-/// As [`seal`].
+/// Errors of [`seal`].
 pub fn seal_with(text: &str, attached: &[(&str, &[u8])]) -> Result<String, SealError> {
     let parsed = Parsed::of(text, attached)?;
     if parsed.seal.is_some() {
@@ -42,10 +42,10 @@ pub fn check(text: &str) -> Result<Opened, SealError> {
     check_with(text, &[])
 }
 
-/// As [`check`], for a file sealed with the same bytes outside the text.
+/// Checks `text` like [`check`], for a file sealed with the same bytes outside the text.
 ///
 /// # Errors
-/// As [`check`].
+/// Errors of [`check`].
 pub fn check_with(text: &str, attached: &[(&str, &[u8])]) -> Result<Opened, SealError> {
     let parsed = Parsed::of(text, attached)?;
     let opened = Opened {
@@ -62,11 +62,11 @@ pub fn check_with(text: &str, attached: &[(&str, &[u8])]) -> Result<Opened, Seal
     }
 }
 
-/// Accepts `text` in its present state. Adds a history entry and a valid seal; keeps all other entries with their order and formatting. Returns a
-/// text with a valid seal unchanged.
+/// Accepts `text` in its present state: adds a history entry and a valid seal, and keeps all other entries with their order and formatting. Returns a text with
+/// a valid seal unchanged.
 ///
 /// # Errors
-/// [`SealError::Content`] if `text` is not a JSON object; [`SealError::Alone`].
+/// [`SealError::Content`] if `text` is not a JSON object; [`SealError::Alone`] if `text` contains only a seal.
 pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError> {
     let parsed = Parsed::of(text, &[])?;
     if parsed.is_alone {
@@ -90,7 +90,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     Ok(format!("{}\n", seal(&edited)?.trim_end()))
 }
 
-/// Parsed text: value, seal and digests of the keys.
+/// Parsed text: value, seal and digests of the values by key.
 struct Parsed {
     rest: Canonical,
     digest: String,
@@ -144,7 +144,7 @@ impl Parsed {
         })
     }
 
-    /// Digests of the keys, with names encoded as in a line of keys.
+    /// Digests of the values by key, with names encoded as in a line of keys.
     fn keys(&self) -> Keys {
         let mut keys = keys::of(&self.rest);
         keys.extend(self.attached.clone());
@@ -152,7 +152,7 @@ impl Parsed {
     }
 }
 
-/// Digest and line of keys of a seal.
+/// Digest and line of keys that the seal contains.
 fn seal_of(seal: Canonical) -> Result<(String, String), SealError> {
     let unreadable = |problem: &str| SealError::Unreadable {
         problem: problem.to_owned(),

@@ -5,15 +5,15 @@ use std::collections::BTreeMap;
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::hexadecimal;
 
-/// Limit of nested key levels.
+/// Maximum depth of nested keys.
 const LEVELS: usize = 3;
-/// Limit of the number of keys. If it is exceeded, no keys are stored.
+/// Maximum number of keys. A file with more keys stores no digests of values.
 const MOST: usize = 4_096;
 
 /// Shortened digest of each value, by its key: `metrics.mae.Fz`, `studies[1].provenance.seed`.
 pub(crate) type Keys = BTreeMap<String, String>;
 
-/// Keys of `value`; empty if there are too many.
+/// Digests of the values in `value`, by key; empty if there are more keys than the maximum.
 pub(crate) fn of(value: &Canonical) -> Keys {
     let mut keys = Keys::new();
     add(value, "", LEVELS, &mut keys);
@@ -74,7 +74,7 @@ pub(crate) fn to_line(keys: &Keys) -> String {
     entries.collect::<Vec<_>>().join(";")
 }
 
-/// Parses a line made by [`to_line`]. Names stay percent-encoded, also in a comparison.
+/// Parses a line made by [`to_line`]. Names remain percent-encoded.
 pub(crate) fn from_line(line: &str) -> Keys {
     line.split(';')
         .filter_map(|entry| entry.split_once('='))

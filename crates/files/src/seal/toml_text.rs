@@ -1,4 +1,4 @@
-//! TOML with a seal over all preceding bytes, comments included, as its last table.
+//! TOML text whose last table is a seal over all preceding bytes, including comments.
 
 use crate::seal::canonical::Canonical;
 use crate::seal::digest::{PREFIX, digest_of_bytes};
@@ -9,7 +9,7 @@ use crate::seal::keys::{self, Keys};
 /// First line of the seal.
 const SEAL: &str = "[seal]";
 
-/// Seals `body`, TOML, by appending the seal as its last table.
+/// Seals the TOML text `body` by appending the seal as the last table.
 ///
 /// # Errors
 /// [`SealError::Content`] if `body` is not TOML or already has a seal.
@@ -27,7 +27,7 @@ pub fn seal(body: &str) -> Result<String, SealError> {
     ))
 }
 
-/// Checks that `text` is unchanged since sealing, byte by byte.
+/// Checks that every byte of `text` is unchanged since sealing.
 ///
 /// # Errors
 /// [`SealError`] if the content was changed (with the key if known), the seal is missing, or the file has only a seal.
@@ -56,7 +56,7 @@ pub fn check(text: &str) -> Result<Opened, SealError> {
 /// Accepts `text` in its present state: adds a history entry and a valid seal. Returns a text with a valid seal unchanged.
 ///
 /// # Errors
-/// [`SealError::Content`] if `text` is not TOML; [`SealError::Alone`].
+/// [`SealError::Content`] if `text` is not TOML; [`SealError::Alone`] if `text` contains only a seal.
 pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError> {
     let (body, from) = match split(text) {
         None => (text, "unsealed".to_owned()),
@@ -86,7 +86,7 @@ pub fn reseal(text: &str, date: &str, reason: &str) -> Result<String, SealError>
     seal(&format!("{}\n\n{entry}", body.trim_end()))
 }
 
-/// Splits the text before its last table, if this table is the seal.
+/// Splits `text` before its last table; `None` if this table is not the seal.
 fn split(text: &str) -> Option<(&str, &str)> {
     let at = match text.rfind(&format!("\n{SEAL}")) {
         Some(before) => before + 1,

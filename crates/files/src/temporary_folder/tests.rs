@@ -9,7 +9,6 @@ fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// K4.
 #[test]
 fn what_a_killed_process_left_is_cleared_and_what_is_held_is_not() {
     let parent = tempfile::tempdir().expect("a folder");
@@ -25,7 +24,6 @@ fn what_a_killed_process_left_is_cleared_and_what_is_held_is_not() {
     assert_eq!(names(parent.path()), [""; 0]);
 }
 
-/// K3.
 #[cfg(unix)]
 #[test]
 fn links_and_folders_without_the_marker_are_never_entered_or_removed() {

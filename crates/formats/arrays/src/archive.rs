@@ -18,11 +18,11 @@ const LOCAL: u32 = 0x0403_4b50;
 const END_BYTES: u64 = 22;
 /// Maximum length of the comment of an archive, bytes.
 const COMMENT_BYTES: u64 = 65_535;
-/// Value of a 32-bit or 16-bit field that refers to the fields of zip64.
+/// Value of a 32-bit or 16-bit field whose number is in the zip64 fields instead.
 const ELSEWHERE: u64 = 0xffff_ffff;
 const ELSEWHERE_16: u64 = 0xffff;
 
-/// Reads the directory.
+/// Reads the directory of an archive.
 pub(crate) fn members(archive: &dyn ByteSource) -> Result<Vec<Packed>, Problem> {
     let directory = directory(archive)?;
     let bytes = bytes_of(archive, directory.at, directory.bytes)?;
@@ -120,7 +120,7 @@ fn directory(archive: &dyn ByteSource) -> Result<Directory, Problem> {
     Ok(found)
 }
 
-/// Parses one entry of the directory. Returns the entry and the rest; `None` for a folder. The offset is the offset of the local header.
+/// Parses one entry of the directory. Returns the entry, with the offset of its local header, and the remaining bytes; `None` for a folder.
 fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     let cut = || Problem::damaged(at, "the end of the directory", "an entry");
     if number(rest, 0, 4).ok_or_else(cut)? != u64::from(ENTRY) {
@@ -181,7 +181,7 @@ fn entry(rest: &[u8], at: u64) -> Result<(Option<Packed>, &[u8]), Problem> {
     Ok((Some(member), behind))
 }
 
-/// Member with the location of its bytes, from the local header.
+/// Member with the location of its bytes, as the local header states.
 fn located(archive: &dyn ByteSource, listed: Packed) -> Result<Packed, Problem> {
     let header = bytes_of(archive, listed.at, 30)?;
     let field = |place: usize, bytes: usize| number(&header, place, bytes).unwrap_or(0);

@@ -1,4 +1,4 @@
-//! File of arrays in any format.
+//! File of arrays in any supported format.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -20,7 +20,7 @@ use crate::zarr::Zarr;
 /// Number of names that an error for a missing array lists.
 const NAMES_SHOWN: usize = 12;
 
-/// Named arrays of one file, read in ranges of rows. Threads may share it.
+/// Named arrays of one file, read in ranges of rows. Threads may share an open file.
 ///
 /// ```no_run
 /// use taceva_arrays::{ArrayFile, ArrayFormat};
@@ -42,7 +42,7 @@ pub struct ArrayFile {
 }
 
 impl ArrayFile {
-    /// Opens a file and lists its arrays. Reads no element.
+    /// Opens a file and lists its arrays. Does not read elements.
     ///
     /// # Errors
     /// [`ArrayError`] if the file cannot be opened, is damaged, has another format, or contains unsupported content.
@@ -61,7 +61,7 @@ impl ArrayFile {
     /// Reads the bytes of a `.npy` file within another file. `path` is used only in errors.
     ///
     /// # Errors
-    /// [`ArrayError`] if they are damaged, are not a NumPy array, or have an unsupported type.
+    /// [`ArrayError`] if the bytes are damaged, are not a NumPy array, or have an unsupported type.
     ///
     /// ```
     /// use taceva_arrays::{ArrayFile, ArrayValues};
@@ -108,7 +108,7 @@ impl ArrayFile {
         self.arrays.iter().map(|(name, _)| name.clone()).collect()
     }
 
-    /// Shape and type of the array `name`. The leading slash of a full name is optional.
+    /// Shape and type of the array `name`; `None` if it does not exist. The leading slash of a full name is optional.
     #[must_use]
     pub fn info(&self, name: &str) -> Option<&ArrayInfo> {
         let index = self.index(name)?;
@@ -127,7 +127,7 @@ impl ArrayFile {
     /// ```
     ///
     /// # Errors
-    /// [`ArrayError`] if there is no such array, or if it is not supported.
+    /// [`ArrayError`] if the array does not exist or is not supported.
     pub fn find(&self, name: &str) -> Result<&ArrayInfo, ArrayError> {
         self.info(name)
             .ok_or_else(|| self.wrong(name, self.absent(name)))
@@ -141,7 +141,7 @@ impl ArrayFile {
         }
     }
 
-    /// Index of the array `name`. The leading slash of a full name is optional.
+    /// Index of the array `name`; `None` if it does not exist. The leading slash of a full name is optional.
     fn index(&self, name: &str) -> Option<usize> {
         let found = self
             .by_name
@@ -150,8 +150,8 @@ impl ArrayFile {
         found.copied()
     }
 
-    /// Groups of HDF5 and zarr with full names that match `pattern`, in order. `*` matches any characters except `/`. Dictionaries within
-    /// the dictionary of a pickle are groups too, after dots: `trajectories.*`.
+    /// Full names of the groups of HDF5 and zarr that match `pattern`, in order. `*` matches any characters except `/`. Dictionaries within the dictionary of a
+    /// pickle are also groups, after dots: `trajectories.*`.
     #[must_use]
     pub fn groups(&self, pattern: &str) -> Vec<String> {
         let mut groups = self.store.groups();
@@ -167,7 +167,7 @@ impl ArrayFile {
         groups
     }
 
-    /// Dead links of the file, each with the reason. They are not listed as arrays. Reading a dead link by name is an error.
+    /// Dead links of the file, each with the reason. They are not listed as arrays, and reading them by name is an error.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -201,7 +201,7 @@ impl ArrayFile {
             .collect()
     }
 
-    /// Checks that no dead link matches `pattern` or a parent of a match. Then [`groups`](ArrayFile::groups) is complete.
+    /// Checks that no dead link matches `pattern` or a parent of a match. [`groups`](ArrayFile::groups) is then complete.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
@@ -212,7 +212,7 @@ impl ArrayFile {
     /// ```
     ///
     /// # Errors
-    /// [`ArrayError`] with the name of such a link.
+    /// [`ArrayError`] with the name of a matching dead link.
     pub fn check_groups(&self, pattern: &str) -> Result<(), ArrayError> {
         let wanted: Vec<&str> = pattern.trim_matches('/').split('/').collect();
         let is_like = |link: &str| {
@@ -241,24 +241,24 @@ impl ArrayFile {
         self.store.attributes(owner)
     }
 
-    /// Attribute `name` of the group or array `owner`. Numbers have the shortest text that reads back exactly. Several numbers are in
+    /// Attribute `name` of the group or array `owner`; `None` if it is missing. Numbers have the shortest text that parses back exactly. Several numbers are in
     /// brackets.
     #[must_use]
     pub fn attribute(&self, owner: &str, name: &str) -> Option<String> {
         self.store.attribute(owner, name)
     }
 
-    /// Reads rows of the first axis, in the byte order of this machine, in C order. A single number has one row.
+    /// Reads rows of the first axis, in the byte order of this machine and in C order. A single number is one row.
     ///
     /// # Errors
-    /// [`ArrayError`] if there is no such array or row, if the rows need more than 1 GiB, or if the file is damaged there.
+    /// [`ArrayError`] if the array or a row does not exist, if the rows need more than 1 GiB, or if the file is damaged in these rows.
     pub fn read(&self, name: &str, rows: Range<u64>) -> Result<ArrayData, ArrayError> {
         self.rows(name, rows)
             .map_err(|problem| self.wrong(name, problem))
     }
 
-    /// Number of chunks of the array that were never written (HDF5, zarr). Their elements read as the fill value, mostly 0, without any
-    /// mark. Returns 0 for arrays without chunks, and if the index of an HDF5 file cannot be listed.
+    /// Number of chunks of the array that were never written (HDF5, zarr). Their elements are read as the fill value, mostly 0, without any mark. Returns 0 for
+    /// arrays without chunks, and if the index of an HDF5 file cannot be listed.
     ///
     /// ```no_run
     /// # fn of(file: &taceva_arrays::ArrayFile) -> Result<(), taceva_arrays::ArrayError> {
@@ -271,7 +271,7 @@ impl ArrayFile {
     /// ```
     ///
     /// # Errors
-    /// [`ArrayError`] if there is no such array, or its chunks cannot be listed.
+    /// [`ArrayError`] if the array does not exist, or its chunks cannot be listed.
     pub fn absent_chunks(&self, name: &str) -> Result<u64, ArrayError> {
         let index = self.index(name);
         let index = index.ok_or_else(|| self.wrong(name, self.absent(name)))?;

@@ -1,4 +1,4 @@
-//! Contiguous elements, in C or Fortran order.
+//! Contiguous elements of an array, in C or Fortran order.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -22,7 +22,7 @@ pub(crate) struct Block {
 }
 
 impl Block {
-    /// Elements that begin at byte `at` of the source. Rejects elements beyond its end.
+    /// Elements that begin at byte `at` of the source. Rejects elements beyond the end of the source.
     pub(crate) fn new(
         source: Arc<dyn ByteSource>,
         at: u64,
@@ -92,7 +92,7 @@ impl Block {
         }
     }
 
-    /// Reads one field of `rows`.
+    /// Reads the field with the index `field` in `rows`.
     pub(crate) fn read(&self, field: usize, rows: Range<u64>) -> Result<ArrayData, Problem> {
         let mut shape = self.shape.clone();
         if let Some(first) = shape.first_mut() {

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// Values by key. The least recently used are dropped first.
+/// Values by key. The least recently used values are removed first.
 #[derive(Debug)]
 pub(crate) struct Cache<K, T> {
     most_bytes: u64,
     bytes: u64,
     turn: u64,
-    /// With the turn of the last use, and the size in bytes.
+    /// For each key: the turn of the last use, the size in bytes, and the value.
     values: BTreeMap<K, (u64, u64, Arc<T>)>,
     by_turn: BTreeMap<u64, K>,
 }
@@ -35,7 +35,7 @@ impl<K: Ord + Clone, T> Cache<K, T> {
         Some(Arc::clone(value))
     }
 
-    /// Stores a value of `bytes` bytes. Removes the least recently used ones. The newest value always stays.
+    /// Stores a value of `bytes` bytes. Removes the least recently used values above the limit, but never the newest value.
     pub(crate) fn keep(&mut self, key: K, bytes: u64, value: Arc<T>) {
         self.turn += 1;
         self.by_turn.insert(self.turn, key.clone());

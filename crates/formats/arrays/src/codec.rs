@@ -1,4 +1,4 @@
-//! Decompressors of whole buffers. Each has a limit of the output in bytes, and fails beyond it.
+//! Decompressors of whole buffers. Each limits its output, in bytes, and fails above the limit.
 
 mod blosc;
 mod shuffle;
@@ -12,15 +12,15 @@ use mzstd::{DecodeError, DecodeLimits, DecoderConfig, Decompressor};
 use crate::error::Problem;
 use crate::inflate::{Wrapping, inflated_at_most};
 
-/// Window size that zstd needs up to its level 19, bytes.
+/// Window size that zstd needs for levels up to 19, bytes.
 const ZSTD_WINDOW_BYTES: usize = 8 << 20;
 
-/// Decompresses a zlib stream and checks its checksum.
+/// Decompresses a zlib stream and verifies its checksum.
 pub(crate) fn zlib(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     inflated_at_most(packed, most, Wrapping::Zlib).map(|(bytes, _)| bytes)
 }
 
-/// Decompresses a gzip file (RFC 1952). Checks its checksum and length.
+/// Decompresses a gzip file (RFC 1952). Verifies its checksum and length.
 pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     let cut = || {
         Problem::damaged(
@@ -70,7 +70,7 @@ pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     Ok(bytes)
 }
 
-/// Decompresses zstd frames. Checks their checksums if present.
+/// Decompresses zstd frames. Verifies their checksums if present.
 pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     // A stream without frames has no bytes.
     if packed.is_empty() {
@@ -101,7 +101,7 @@ pub(crate) fn zstd(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     }
 }
 
-/// Unpacks one LZ4 block that fills `bytes`.
+/// Unpacks one LZ4 block, whose output must fill `bytes`.
 pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
     let expected = bytes.len();
     match lz4_flex::block::decompress_into(packed, bytes) {
@@ -119,7 +119,7 @@ pub(crate) fn lz4(packed: &[u8], bytes: &mut [u8]) -> Result<(), Problem> {
     }
 }
 
-/// Unpacks an LZ4 block that follows its length in 4 bytes.
+/// Unpacks an LZ4 block. Four bytes with the unpacked length precede the block.
 pub(crate) fn lz4_with_length(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
     let length = packed.split_first_chunk::<4>();
     let (length, block) =

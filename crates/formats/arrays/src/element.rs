@@ -12,11 +12,11 @@
 pub enum Element {
     /// True or false.
     Bool,
-    /// Whole numbers from 0, of 8, 16, 32 or 64 bits.
+    /// Whole numbers without a sign, of 8, 16, 32 or 64 bits.
     Unsigned(u8),
     /// Whole numbers with a sign, of 8, 16, 32 or 64 bits.
     Signed(u8),
-    /// IEEE 754 numbers of 16, 32 or 64 bits.
+    /// IEEE 754 floating-point numbers of 16, 32 or 64 bits.
     Float(u8),
     /// Variable-length text.
     Text,
@@ -37,7 +37,7 @@ impl std::fmt::Display for Element {
     }
 }
 
-/// Shape and type of one array. Reading them reads no element.
+/// Shape and type of one array, known without reading its elements.
 ///
 /// ```no_run
 /// # fn of(file: &taceva_arrays::ArrayFile) {
@@ -50,7 +50,7 @@ impl std::fmt::Display for Element {
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct ArrayInfo {
-    /// Lengths of the axes, the slowest first; empty for a single number.
+    /// Lengths of the axes, the slowest axis first; empty for a single number.
     pub shape: Vec<u64>,
     /// Type of the elements.
     pub element: Element,
@@ -67,7 +67,7 @@ impl ArrayInfo {
         self.shape.first().copied().unwrap_or(1)
     }
 
-    /// Number of elements of one row: the product of all axes except the first. `None` above 64 bits.
+    /// Number of elements of one row: the product of all axes except the first. `None` if it exceeds 64 bits.
     #[must_use]
     pub fn row_elements(&self) -> Option<u64> {
         let rest = self.shape.get(1..).unwrap_or(&[]);

@@ -19,14 +19,15 @@ use std::path::PathBuf;
 pub struct ArrayError {
     /// File, or folder of a zarr store.
     pub path: PathBuf,
-    /// Array, if the error concerns one.
+    /// Name of the array, if the error concerns a single array.
     pub array: Option<String>,
-    /// Problem.
+    /// Problem with the file or array.
     #[source]
     pub problem: Problem,
 }
 
-/// Problem of a file: its location and a remedy. Offsets are in bytes from the start of the file, or of the member or chunk in the text.
+/// Problem of a file, with its location and a remedy. Offsets are in bytes from the start of the file, or from the start of the member or chunk that the text
+/// names.
 ///
 /// ```
 /// use taceva_arrays::Problem;
@@ -37,12 +38,12 @@ pub struct ArrayError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// Input or output error.
+    /// Error of input or output.
     #[error("cannot {doing}: {source}")]
     Io {
-        /// Failed operation.
+        /// Operation that failed.
         doing: &'static str,
-        /// System error.
+        /// Error of the operating system.
         source: std::io::Error,
     },
     /// Bytes that contradict the format.
@@ -63,35 +64,35 @@ pub enum Problem {
         /// Remedy.
         mend: String,
     },
-    /// A size above the limit. Nothing was allocated for it.
+    /// Size above a limit. No memory was allocated.
     #[error("{what}: {size}, above the limit of {limit}")]
     TooLarge {
-        /// Subject of the limit, with its unit.
+        /// Limited quantity, with its unit.
         what: String,
         /// Size in that unit.
         size: u64,
-        /// Limit.
+        /// Limit in that unit.
         limit: u64,
     },
-    /// A checksum of the file that does not match its content.
+    /// Checksum of the file that does not match its content.
     #[error(
         "{what}: checksum {computed:#010x}, but the file states {stated:#010x}: the file is damaged"
     )]
     Checksum {
-        /// Part of the file.
+        /// Part of the file that the checksum covers.
         what: String,
         /// Checksum in the file.
         stated: u32,
         /// Computed checksum of the bytes.
         computed: u32,
     },
-    /// An inconsistent structure of the file, with the message of its library.
+    /// Inconsistent structure of the file, with the message of the library that reads it.
     #[error("{problem}")]
     Structure {
         /// Message of the library.
         problem: String,
     },
-    /// No array of that name.
+    /// Array name that does not exist.
     #[error("no such array; there are {there}")]
     Absent {
         /// First names of existing arrays.
@@ -105,12 +106,12 @@ pub enum Problem {
         /// Number of rows of the array.
         rows: u64,
     },
-    /// A pickle that needs a class or function beyond plain values and arrays. No code in it was run.
+    /// Pickle that needs a class or function other than plain values and arrays. No code of the pickle was run.
     #[error("byte {at}: needs `{global}`, which is not run here; {mend}")]
     Global {
         /// Offset, bytes.
         at: u64,
-        /// Module and name.
+        /// Module and name of the class or function.
         global: String,
         /// Remedy.
         mend: String,
@@ -134,7 +135,7 @@ impl Problem {
         }
     }
 
-    /// Repeats the problem for a later request. Other kinds become `Structure` with the same text.
+    /// Copies the problem for a later request. Kinds that cannot be copied become `Structure` with the same text.
     pub(crate) fn again(&self) -> Problem {
         match self {
             Problem::Unsupported { found, mend } => {
@@ -159,7 +160,7 @@ impl Problem {
         }
     }
 
-    /// Same problem, with the part of the file that its offsets refer to.
+    /// The same problem, with the part of the file to which its offsets refer.
     pub(crate) fn within(self, part: &str) -> Problem {
         match self {
             Problem::Damaged {

@@ -1,4 +1,4 @@
-//! Records: elements of several consecutive fields. Each field is read as a separate array.
+//! Records: elements that consist of several consecutive fields. Each field is read as a separate array.
 
 use crate::element::{ArrayInfo, Element};
 use crate::error::Problem;
@@ -7,12 +7,12 @@ use crate::literal::Literal;
 use crate::scalar::{Scalar, shown};
 use crate::values::{ArrayData, ArrayValues};
 
-/// One field of a record, or the whole element if it is not a record.
+/// Field of a record, or the whole element if it is not a record.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Field {
-    /// Field names from the outermost, joined by dots; empty if the element is not a record.
+    /// Names of the nested fields, joined by dots, the outermost first; empty if the element is not a record.
     pub(crate) name: String,
-    /// Offset within the element, bytes.
+    /// Offset of the field within the element, bytes.
     pub(crate) at: usize,
     /// Lengths of the axes within the field.
     pub(crate) extent: Vec<u64>,
@@ -40,7 +40,7 @@ impl Item {
         }
     }
 
-    /// Type of an element that is one scalar; `None` for other elements, and for elements of zero bytes.
+    /// Type of an element that is a single scalar; `None` for other elements, and for elements of zero bytes.
     pub(crate) fn scalar(&self) -> Option<Scalar> {
         match self.fields.as_slice() {
             [field]
@@ -54,7 +54,7 @@ impl Item {
         }
     }
 
-    /// Parses a NumPy `descr`: a type name, or a list of named fields.
+    /// Parses a NumPy `descr`, which is a type name or a list of named fields.
     pub(crate) fn from_descr(descr: &Literal) -> Result<Item, Problem> {
         let mut item = Item {
             bytes: 0,
@@ -64,7 +64,7 @@ impl Item {
         Ok(item)
     }
 
-    /// Appends the fields of `descr`.
+    /// Appends the fields of `descr`, with names below `name` and axes after `extent`.
     fn add(&mut self, descr: &Literal, name: &str, extent: &[u64]) -> Result<(), Problem> {
         let unknown = || {
             Problem::unsupported(
@@ -142,7 +142,7 @@ impl Item {
         Ok(())
     }
 
-    /// Names and shapes of the fields of the array `name` with these elements.
+    /// Names and shapes of the arrays into which the fields of the array `name` are split.
     pub(crate) fn arrays(&self, name: &str, shape: &[u64]) -> Vec<(String, ArrayInfo)> {
         let array = |field: &Field| {
             let name = if field.name.is_empty() {
@@ -156,7 +156,7 @@ impl Item {
         self.fields.iter().map(array).collect()
     }
 
-    /// Reads one field of the elements `raw` of the shape `shape`.
+    /// Reads one field of the elements `raw`, which have the shape `shape`.
     pub(crate) fn read(
         &self,
         field: &Field,
@@ -183,7 +183,7 @@ impl Item {
     }
 }
 
-/// Product of the sides. The caller has checked each against a limit.
+/// Product of the lengths in `shape`. The caller has checked each length against a limit.
 fn elements(shape: &[u64]) -> usize {
     let product = shape
         .iter()
@@ -217,7 +217,7 @@ pub(crate) fn check_read(shape: &[u64], element: Element, held_bytes: u64) -> Re
 }
 
 impl From<ArrayValues> for ArrayData {
-    /// One axis.
+    /// Creates data with a single axis.
     fn from(values: ArrayValues) -> ArrayData {
         ArrayData {
             shape: vec![values.len() as u64],

@@ -39,7 +39,7 @@ impl ArrayFormat {
         ArrayFormat::Pickle,
     ];
 
-    /// Format for the extension of `path`. Opens nothing.
+    /// Format indicated by the extension of `path`. Does not open the file.
     #[must_use]
     pub fn of(path: &Path) -> Option<ArrayFormat> {
         let ending = path.extension()?.to_str()?.to_ascii_lowercase();
@@ -47,7 +47,7 @@ impl ArrayFormat {
         ArrayFormat::ALL.into_iter().find(named)
     }
 
-    /// Extensions of the format, in lower case and without the dot.
+    /// Usual extensions of the format, in lower case and without the dot.
     ///
     /// ```
     /// assert_eq!(taceva_arrays::ArrayFormat::Matlab.endings(), ["mat"]);

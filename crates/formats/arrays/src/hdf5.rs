@@ -1,4 +1,4 @@
-//! HDF5 files. The crate `hdf5-pure` reads structures, chunks and filters. Contiguous data and variable-length values are read here.
+//! HDF5 files. The crate `hdf5-pure` reads structures, chunks and filters. This module reads contiguous data and variable-length values.
 
 mod attribute;
 mod chunk_index;
@@ -47,9 +47,9 @@ pub(crate) struct Hdf5 {
     groups: Vec<String>,
     datasets: Vec<Listed>,
     refused: Vec<(String, Problem)>,
-    /// Dead links.
+    /// Dead links, each with the reason.
     nowhere: Vec<(String, Problem)>,
-    /// Index of the dataset and of the field of each listed array.
+    /// For each listed array, the index of the dataset and of the field.
     listed: Vec<(usize, usize)>,
     open: Mutex<Cache<usize, Opened>>,
     unpacked: UnpackedSizes,
@@ -66,11 +66,11 @@ pub(crate) struct Listed {
     pub(crate) row_bytes: u64,
 }
 
-/// Dataset with parsed structures.
+/// Dataset whose structures are parsed.
 #[derive(Debug)]
 struct Opened {
     dataset: Dataset,
-    /// Offset of its rows, if they are contiguous.
+    /// Offset of the rows, if they are contiguous.
     at: Option<u64>,
 }
 
@@ -138,7 +138,7 @@ impl Hdf5 {
         Ok(opened)
     }
 
-    /// Opens the dataset. Also returns the size of its chunks in memory, bytes.
+    /// Opens the dataset with this index. Also returns the size of its chunks in memory, bytes.
     fn open_dataset(&self, index: usize) -> Result<(Opened, u64), Problem> {
         let listed = &self.datasets[index];
         let dataset = self.file.dataset(&listed.path).map_err(problem)?;
@@ -206,7 +206,7 @@ impl Hdf5 {
         }
     }
 
-    /// Adds a dataset to the unpacked size of the file: its unpacked chunks and the elements that were never written.
+    /// Adds a dataset to the unpacked size of the file: the larger of `chunks` (bytes of unpacked chunks) and the size of all rows.
     fn take_unpacked(&self, index: usize, chunks: u64) -> Result<(), Problem> {
         let listed = &self.datasets[index];
         let rows = listed.shape.first().copied().unwrap_or(1);
@@ -214,7 +214,7 @@ impl Hdf5 {
         self.unpacked.take(index, bytes, self.bytes.length())
     }
 
-    /// Bytes of rows after all filters.
+    /// Bytes of `rows` after all filters are reversed.
     pub(crate) fn raw_rows(&self, index: usize, rows: Range<u64>) -> Result<Vec<u8>, Problem> {
         let row_bytes = self.datasets[index].row_bytes;
         let count = rows.end - rows.start;
@@ -329,14 +329,14 @@ impl Store for Hdf5 {
     }
 }
 
-/// Size of a block, bytes; `None` above 64 bits.
+/// Size of a block, bytes; `None` if it exceeds 64 bits.
 pub(crate) fn product(sides: &[u64], item_bytes: u64) -> Option<u64> {
     sides
         .iter()
         .try_fold(item_bytes, |bytes, side| bytes.checked_mul(*side))
 }
 
-/// Converts an error of the crate. Adds a remedy if there is one.
+/// Converts an error of `hdf5-pure`. Adds a remedy if one is known.
 pub(crate) fn problem(error: hdf5_pure::Error) -> Problem {
     use hdf5_pure::Error;
     match error {

@@ -6,9 +6,9 @@ use miniz_oxide::inflate::core::{DecompressorOxide, decompress, inflate_flags};
 use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 
-/// Size of the pieces in which deflated bytes are read, bytes.
+/// Number of deflated bytes read at once.
 const INPUT_BYTES: u64 = 256 << 10;
-/// Size of the output window, bytes: a power of two of at least 32 KiB.
+/// Size of the output window, bytes. Must be a power of two of at least 32 KiB.
 const WINDOW_BYTES: usize = 256 << 10;
 
 /// Container of deflated bytes.
@@ -16,7 +16,7 @@ const WINDOW_BYTES: usize = 256 << 10;
 pub(crate) enum Wrapping {
     /// No container.
     Raw,
-    /// Header and checksum of zlib. The checksum is checked.
+    /// Header and checksum of zlib. The checksum is verified.
     Zlib,
 }
 
@@ -46,7 +46,7 @@ pub(crate) fn inflated(
     }
 }
 
-/// Inflates to an unknown length of at most `most` bytes. Also returns the number of used packed bytes.
+/// Inflates at most `most` bytes of unknown length. Also returns the number of consumed packed bytes.
 pub(crate) fn inflated_at_most(
     packed: &[u8],
     most: usize,
@@ -79,18 +79,18 @@ fn broken(at: u64, status: TINFLStatus) -> Problem {
     Problem::damaged(at, found, expected)
 }
 
-/// Incremental inflater: from the first byte up to the requested byte.
+/// Incremental inflater. Inflates from the first byte up to the requested byte.
 pub(crate) struct Inflater {
     state: Box<DecompressorOxide>,
     wrapping: Wrapping,
-    /// Range of the deflated bytes in their source.
+    /// Range of the deflated bytes in the source.
     from: std::ops::Range<u64>,
-    /// Offset of the next byte to read.
+    /// Offset of the next deflated byte to read.
     next: u64,
     input: Vec<u8>,
     used: usize,
     window: Vec<u8>,
-    /// Unread bytes of the window.
+    /// Range of unread bytes in the window.
     ready: std::ops::Range<usize>,
     is_done: bool,
 }
@@ -110,7 +110,7 @@ impl Inflater {
         }
     }
 
-    /// Fills `into` with the next bytes. Returns fewer only at the end.
+    /// Fills `into` with the next bytes. Returns fewer bytes only at the end.
     pub(crate) fn read(
         &mut self,
         source: &dyn ByteSource,
@@ -130,7 +130,7 @@ impl Inflater {
         Ok(filled)
     }
 
-    /// Inflates until the window has bytes. False at the end.
+    /// Inflates until the window contains bytes. Returns false at the end.
     fn step(&mut self, source: &dyn ByteSource) -> Result<bool, Problem> {
         while !self.is_done {
             if self.used == self.input.len() && self.next < self.from.end {

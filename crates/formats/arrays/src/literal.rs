@@ -26,7 +26,7 @@ impl Literal {
         Ok(literal)
     }
 
-    /// Value of `key` in a dictionary; `None` if there is no such key.
+    /// Value of `key` in a dictionary; `None` if the key is missing.
     pub(crate) fn key(&self, key: &str) -> Option<&Literal> {
         let Literal::Dictionary(entries) = self else {
             return None;
@@ -35,7 +35,7 @@ impl Literal {
         found.map(|(_, literal)| literal)
     }
 
-    /// Lengths of axes: one number, or several.
+    /// Lengths of axes, given as one number or several; `None` for another literal.
     pub(crate) fn shape(&self) -> Option<Vec<u64>> {
         match self {
             Literal::Whole(side) => Some(vec![*side]),
@@ -66,7 +66,7 @@ impl Reader<'_> {
         self.place += self.rest().len() - self.rest().trim_start().len();
     }
 
-    /// Consumes `mark` if it is next. True if it was.
+    /// Skips `mark` if it is next. Returns true if it was.
     fn skips(&mut self, mark: &str) -> bool {
         self.blank();
         let is_here = self.rest().starts_with(mark);

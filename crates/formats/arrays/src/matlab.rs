@@ -1,6 +1,6 @@
-//! MATLAB files of version 5 (`save`, `save -v7`), read here, and of version 7.3, which are HDF5.
+//! MATLAB files of version 5 (`save`, `save -v7`), parsed by this module, and of version 7.3, which are HDF5.
 //!
-//! Lengths of axes are in MATLAB order. A variable of 480×640×20 is an array of that shape, with rows along the first axis.
+//! Lengths of axes are in MATLAB order. A variable of 480×640×20 becomes an array of the same shape, with rows along the first axis.
 
 mod content;
 mod element;
@@ -112,7 +112,7 @@ impl Matlab5 {
     }
 }
 
-/// Opens a deflated variable. Its own tag states its inflated length.
+/// Opens a deflated variable. Its tag states the inflated length.
 fn inflated(
     file: &Arc<FileBytes>,
     tag: &element::Tag,

@@ -1,4 +1,4 @@
-//! Deflated or stored bytes within a file: members of an archive, variables of MATLAB.
+//! Deflated or stored bytes within a file: members of an archive, and variables of MATLAB.
 
 use std::ops::Range;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -12,18 +12,18 @@ use crate::limits;
 use crate::scalar::shown;
 use crate::source::{ByteSource, FileBytes, bytes_of};
 
-/// Size of the pieces in which checksums are computed and unneeded bytes are skipped.
+/// Number of bytes processed at once when checksums are computed and bytes are skipped.
 const PIECE_BYTES: u64 = 1 << 20;
-/// Size of the beginning that nearly always contains the header, bytes. Listing arrays inflates only this part.
+/// Size of the beginning of a member that nearly always contains the header, bytes. Listing arrays inflates only this part.
 const BEGINNING_BYTES: u64 = 4 << 10;
 
 /// Location of packed bytes.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Packed {
     pub(crate) name: String,
-    /// Container of the deflated bytes; `None` if they are stored.
+    /// Container of the deflated bytes; `None` if the bytes are stored.
     pub(crate) wrapping: Option<Wrapping>,
-    /// Checksum of the unpacked bytes, if the file has one.
+    /// Checksum of the unpacked bytes; `None` if the file states none.
     pub(crate) crc32: Option<u32>,
     pub(crate) at: u64,
     /// Size in the file, bytes.
@@ -76,14 +76,14 @@ impl Packed {
     }
 }
 
-/// Number of inflated bytes of one file that are kept.
+/// Number of inflated bytes of one file that are kept in memory.
 #[derive(Debug, Default)]
 pub(crate) struct Budget {
     held_bytes: u64,
 }
 
 impl Budget {
-    /// Reserves `bytes` more. False if they exceed the limit.
+    /// Reserves `bytes` more bytes. Returns false if they exceed the limit.
     fn takes(&mut self, bytes: u64) -> bool {
         let is_held = bytes <= limits::HELD_BYTES.saturating_sub(self.held_bytes);
         self.held_bytes += if is_held { bytes } else { 0 };
@@ -93,30 +93,30 @@ impl Budget {
 
 /// Unpacked bytes of a member.
 ///
-/// Stored bytes are read in place, after a check of their checksum. Deflated members are inflated whole and kept if together they take at
-/// most 64 MiB. Larger members are inflated from the end of the last rows, or from the beginning for earlier rows. Their checksum is
-/// checked when the last byte is reached.
+/// Stored bytes are read in place, after their checksum is verified. Deflated members are inflated as a whole and kept in memory if together they take at most
+/// 64 MiB. Larger members are inflated from the end of the last rows, or from the beginning for earlier rows. Their checksum is verified when the last byte is
+/// reached.
 #[derive(Debug)]
 pub(crate) struct PackedBytes {
     file: Arc<FileBytes>,
     member: Packed,
     is_held: bool,
-    /// True after the header was read. From then on a checksum covers all returned bytes, at the latest at the end of the member.
+    /// True after the header was read. A checksum then covers all returned bytes, at the latest at the end of the member.
     is_listed: AtomicBool,
     read: Mutex<Read>,
 }
 
-/// Part of a member that was read.
+/// State of reading a member.
 #[derive(Debug)]
 enum Read {
     Nothing,
-    /// Stored, with a matching checksum.
+    /// Stored, with a verified checksum.
     Checked,
     Whole(Arc<Vec<u8>>),
     Part(Box<Part>),
 }
 
-/// Progress of the inflation of a member.
+/// Progress of inflating a member.
 #[derive(Debug)]
 struct Part {
     inflater: Inflater,
@@ -176,7 +176,7 @@ impl PackedBytes {
         }
     }
 
-    /// Ends the reading of headers, which reads only the beginning.
+    /// Ends the reading of headers, during which only the beginning of a member is read.
     pub(crate) fn end_listing(&self) {
         self.is_listed.store(true, Ordering::Relaxed);
     }

@@ -18,7 +18,7 @@ const MAGIC: &[u8; 6] = b"\x93NUMPY";
 /// NumPy array in any source of bytes.
 #[derive(Debug)]
 pub(crate) struct NpyArray {
-    /// Empty for a file with only this array.
+    /// Name of the array; empty for a file with only this array.
     name: String,
     content: Content,
 }
@@ -26,7 +26,7 @@ pub(crate) struct NpyArray {
 #[derive(Debug)]
 enum Content {
     Numbers(Block),
-    /// Pickled Python values.
+    /// Python values, stored as a pickle.
     Objects(Pickle),
 }
 
@@ -96,7 +96,7 @@ impl NpyHeader {
 }
 
 impl NpyArray {
-    /// Parses the header. Compares it with the length of the source.
+    /// Parses the header. Rejects an array beyond the end of the source.
     pub(crate) fn open(name: &str, source: Arc<dyn ByteSource>) -> Result<NpyArray, Problem> {
         let header = NpyHeader::read(&*source)?;
         let name = name.to_owned();

@@ -17,7 +17,7 @@ use crate::values::ArrayData;
 #[derive(Debug)]
 pub(crate) struct Npz {
     arrays: Vec<NpyArray>,
-    /// Index of the member and of the field of each listed array.
+    /// For each listed array, the index of the member and of the field.
     listed: Vec<(usize, usize)>,
     refused: Vec<(String, Problem)>,
 }

@@ -1,4 +1,4 @@
-//! Column-major arrays (Fortran order, the first axis fastest), transposed to rows block by block.
+//! Column-major arrays (Fortran order, first axis fastest), transposed block by block to rows.
 
 use std::ops::Range;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -7,14 +7,14 @@ use crate::error::Problem;
 use crate::limits;
 use crate::source::{ByteSource, bytes_of};
 
-/// Size of the pieces in which short columns are read, bytes.
+/// Number of bytes read at once from short columns.
 const PIECE_BYTES: u64 = 1 << 20;
 
-/// Transposed rows, with their range.
+/// Transposed rows, and their range.
 type Turned = (Range<u64>, Arc<Vec<u8>>);
 
-/// Array with the first axis fastest. Rows are transposed in blocks of up to 64 MiB. The last block is cached. Reading row after row
-/// therefore reads the file once for every 64 MiB.
+/// Array whose first axis varies fastest. Rows are transposed in blocks of up to 64 MiB. The last block is cached, so reading row after row reads the file once
+/// for every 64 MiB.
 #[derive(Debug)]
 pub(crate) struct ColumnMajor {
     rows: u64,
@@ -27,7 +27,7 @@ pub(crate) struct ColumnMajor {
 }
 
 impl ColumnMajor {
-    /// Array with bytes from `data_at` on. The caller has checked the sizes against the source.
+    /// Array whose bytes begin at `data_at`. The caller has checked the sizes against the source.
     pub(crate) fn new(shape: &[u64], item_bytes: u64, data_at: u64) -> ColumnMajor {
         let rest = shape.get(1..).unwrap_or(&[]).to_vec();
         ColumnMajor {
@@ -119,7 +119,7 @@ impl ColumnMajor {
     }
 }
 
-/// Transposes a block with the axes in the order `order` to the order of `sides`.
+/// Transposes a block whose axes are in the order `order` to the order of `sides`.
 pub(crate) fn c_order(
     block: &[u8],
     sides: &[u64],
@@ -161,7 +161,7 @@ pub(crate) fn c_places(sides: &[u64]) -> impl Iterator<Item = usize> {
     std::iter::repeat_with(move || places.next_place())
 }
 
-/// Strides along each axis of a block in C order, in units of `item_bytes`.
+/// Strides along each axis of a block in C order, bytes, for elements of `item_bytes`.
 pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
     let mut strides = vec![item_bytes; sides.len()];
     for axis in (1..sides.len()).rev() {
@@ -170,7 +170,7 @@ pub(crate) fn strides(sides: &[u64], item_bytes: usize) -> Vec<usize> {
     strides
 }
 
-/// Iterator over the index of each column (second axis fastest) in a row in C order.
+/// Iterator over the index of each column (second axis fastest) within a row in C order.
 struct Places {
     sides: Vec<u64>,
     strides: Vec<usize>,

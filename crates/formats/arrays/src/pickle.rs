@@ -1,6 +1,6 @@
-//! Python pickles, protocols 2 to 5, with NumPy arrays and plain values.
+//! Python pickles of protocols 2 to 5, with NumPy arrays and plain values.
 //!
-//! No code in them is run. Eleven known names are built here, and any other name is rejected.
+//! Code of a pickle is never run. This module constructs the values of eleven known names, and rejects any other name.
 
 mod calls;
 mod columns;
@@ -23,7 +23,7 @@ use crate::values::{ArrayData, ArrayValues};
 use columns::{Cells, Column, Values, held};
 use value::{Bytes, Content, Id, PickledArray, Value};
 
-/// Columns of a pickle.
+/// Columns found in a pickle.
 #[derive(Debug)]
 pub(crate) struct Pickle {
     source: Arc<dyn ByteSource>,
@@ -35,7 +35,7 @@ pub(crate) struct Pickle {
 /// Location of the elements of a column.
 #[derive(Debug)]
 enum Stored {
-    /// One array, or several arrays, one for each row.
+    /// One array for all rows, or one array for each row.
     Blocks {
         element: Element,
         blocks: Vec<Block>,
@@ -48,7 +48,7 @@ enum Stored {
 }
 
 impl Pickle {
-    /// Parses the pickle that begins at `at`. Does not read the elements of its arrays.
+    /// Parses the pickle that begins at `at`. Does not read the elements of arrays.
     pub(crate) fn open(source: Arc<dyn ByteSource>, at: u64) -> Result<Pickle, Problem> {
         let (values, whole) = machine::run(&*source, at)?;
         let text = |bytes: &Bytes| String::from_utf8(machine::read(&*source, bytes).ok()?).ok();

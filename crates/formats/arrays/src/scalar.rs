@@ -16,13 +16,13 @@ pub(crate) enum Kind {
     Unsigned,
     Signed,
     Float,
-    /// UTF-8 with padding.
+    /// UTF-8 text with padding.
     Text(Filler),
-    /// UTF-32 padded with zeros.
+    /// UTF-32 text padded with zeros.
     WideText,
-    /// Reference to text of any length.
+    /// Reference to text of any length in a heap.
     HeapText,
-    /// Reference to bytes of any length.
+    /// Reference to bytes of any length in a heap.
     HeapBytes,
 }
 
@@ -34,7 +34,7 @@ pub(crate) enum Kind {
 )]
 pub(crate) enum Filler {
     Zeros,
-    /// Zero, then any bytes.
+    /// The text ends at the first zero; any bytes may follow.
     FirstZero,
     Spaces,
 }
@@ -48,7 +48,7 @@ pub(crate) struct Scalar {
 }
 
 impl Scalar {
-    /// Scalar type; `None` if the kind has no such length.
+    /// Scalar type; `None` if the kind does not exist in this length.
     pub(crate) fn new(kind: Kind, bytes: usize, is_big_endian: bool) -> Option<Scalar> {
         let is_known = match kind {
             Kind::Bool => bytes == 1,
@@ -127,7 +127,7 @@ impl Scalar {
         }
     }
 
-    /// Bytes of a number; `None` if the element type cannot hold it.
+    /// Bytes of a number; `None` if the element type cannot represent it.
     pub(crate) fn encode(self, number: &serde_json::Number) -> Option<Vec<u8>> {
         if self.kind == Kind::Float {
             return self.encode_float(number.as_f64()?);
@@ -180,7 +180,7 @@ impl Scalar {
     }
 }
 
-/// Shortens foreign text for a message and escapes control characters.
+/// Shortens untrusted text for a message and escapes control characters.
 pub(crate) fn shown(text: &str) -> String {
     let mut short: String = text.chars().take(60).flat_map(char::escape_debug).collect();
     if text.chars().nth(60).is_some() {

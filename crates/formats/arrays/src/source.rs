@@ -8,16 +8,16 @@ use std::sync::Mutex;
 use crate::error::Problem;
 use crate::limits;
 
-/// Bytes of known length. Any thread reads them at any offset.
+/// Source of bytes with a known length. Threads may read at any offset.
 pub(crate) trait ByteSource: std::fmt::Debug + Send + Sync {
     /// Length, bytes.
     fn length(&self) -> u64;
 
-    /// Fills `into` with the bytes from `at`. The caller has checked the range.
+    /// Fills `into` with the bytes from offset `at`. The caller has checked the range.
     fn read_at(&self, at: u64, into: &mut [u8]) -> Result<(), Problem>;
 }
 
-/// Reads the `length` bytes from `at`. Checks the range before it allocates.
+/// Reads the `length` bytes from offset `at`. Checks the range before it allocates memory.
 pub(crate) fn bytes_of(source: &dyn ByteSource, at: u64, length: u64) -> Result<Vec<u8>, Problem> {
     if length > limits::READ_BYTES {
         return Err(Problem::too_large(

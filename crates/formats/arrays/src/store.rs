@@ -1,4 +1,4 @@
-//! Interface of all formats: a list of arrays, and rows of each.
+//! Interface of all formats: a list of arrays, and access to the rows of each array.
 
 use std::ops::Range;
 
@@ -44,16 +44,16 @@ pub(crate) trait Store: std::fmt::Debug + Send + Sync {
         None
     }
 
-    /// Number of chunks of the array at `index` that were never written. Their elements have the fill value.
+    /// Number of chunks of the array at `index` that were never written. Their elements are the fill value.
     fn absent_chunks(&self, _index: usize) -> Result<u64, Problem> {
         Ok(0)
     }
 
-    /// Reads rows of the array at `index`. The caller has checked them against its shape and the limits.
+    /// Reads rows of the array at `index`. The caller has checked the rows against the shape and the limits.
     fn read(&self, index: usize, rows: Range<u64>) -> Result<ArrayData, Problem>;
 }
 
-/// Number of chunks of an array. Saturates at 64 bits.
+/// Number of chunks of an array; the maximum of 64 bits on overflow.
 pub(crate) fn chunks_of(shape: &[u64], chunk: &[u64]) -> u64 {
     let sides = shape.iter().zip(chunk);
     sides.fold(1, |all: u64, (side, chunk)| {

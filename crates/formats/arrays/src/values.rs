@@ -2,7 +2,7 @@
 
 mod conversion;
 
-/// Rows of an array: their shape and their elements in C order.
+/// Rows of an array: their shape, and their elements in C order.
 ///
 /// ```no_run
 /// use taceva_arrays::{ArrayFile, ArrayFormat, ArrayValues};
@@ -18,13 +18,13 @@ mod conversion;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArrayData {
-    /// Lengths of the axes. The first is the number of rows read. Empty for a single number.
+    /// Lengths of the axes, of which the first is the number of rows read. Empty for a single number.
     pub shape: Vec<u64>,
-    /// Elements. Their number is the product of the shape.
+    /// Elements. Their number is the product of the lengths in `shape`.
     pub values: ArrayValues,
 }
 
-/// Elements in the byte order of this machine. Floating-point numbers of 16 bits are widened to 32 bits exactly.
+/// Elements in the byte order of this machine. Floating-point numbers of 16 bits are converted to 32 bits exactly.
 ///
 /// ```
 /// use taceva_arrays::ArrayValues;
@@ -38,25 +38,25 @@ pub struct ArrayData {
 pub enum ArrayValues {
     /// True or false.
     Bool(Vec<bool>),
-    /// Unsigned, 8 bits.
+    /// Unsigned whole numbers of 8 bits.
     U8(Vec<u8>),
-    /// Unsigned, 16 bits.
+    /// Unsigned whole numbers of 16 bits.
     U16(Vec<u16>),
-    /// Unsigned, 32 bits.
+    /// Unsigned whole numbers of 32 bits.
     U32(Vec<u32>),
-    /// Unsigned, 64 bits.
+    /// Unsigned whole numbers of 64 bits.
     U64(Vec<u64>),
-    /// Signed, 8 bits.
+    /// Signed whole numbers of 8 bits.
     I8(Vec<i8>),
-    /// Signed, 16 bits.
+    /// Signed whole numbers of 16 bits.
     I16(Vec<i16>),
-    /// Signed, 32 bits.
+    /// Signed whole numbers of 32 bits.
     I32(Vec<i32>),
-    /// Signed, 64 bits.
+    /// Signed whole numbers of 64 bits.
     I64(Vec<i64>),
-    /// Floating point of 16 or 32 bits.
+    /// Floating-point numbers of 16 or 32 bits.
     F32(Vec<f32>),
-    /// Floating point, 64 bits.
+    /// Floating-point numbers of 64 bits.
     F64(Vec<f64>),
     /// Text.
     Text(Vec<String>),
@@ -114,7 +114,7 @@ impl ArrayValues {
         }
     }
 
-    /// Numbers as `f64`, true as 1. `None` for text and bytes, and if a number of 64 bits has no exact `f64`.
+    /// Numbers as `f64`, with true as 1. `None` for text and bytes, and if a number of 64 bits cannot be represented exactly.
     #[must_use]
     pub fn to_f64(&self) -> Option<Vec<f64>> {
         fn all<T: Copy + Into<f64>>(values: &[T]) -> Option<Vec<f64>> {
@@ -148,7 +148,7 @@ impl ArrayValues {
     }
 }
 
-/// Whole number as `f64`; `None` if that is not exact.
+/// Whole number as `f64`; `None` if the conversion is not exact.
 fn exact(number: i128) -> Option<f64> {
     let near = number as f64;
     #[expect(

@@ -1,4 +1,4 @@
-//! Zarr, versions 2 and 3: a folder of arrays with one file for each chunk, or a ZIP archive of it. A missing chunk has the fill value.
+//! Zarr, versions 2 and 3: a folder of arrays with one file for each chunk, or a ZIP archive of this folder. A missing chunk has the fill value.
 
 mod array;
 mod codecs;
@@ -30,7 +30,7 @@ use tree::Tree;
 /// Maximum nesting of groups.
 const DEPTH: usize = 16;
 
-/// Cached chunks, by the index of their array and their position in its grid.
+/// Cached chunks, by the index of the array and the position of the chunk in the grid.
 type Chunks = Cache<(usize, Vec<u64>), Vec<u8>>;
 
 /// Zarr store.
@@ -38,13 +38,13 @@ type Chunks = Cache<(usize, Vec<u64>), Vec<u8>>;
 pub(crate) struct Zarr {
     groups: Vec<String>,
     arrays: Vec<(Tree, ZarrArray)>,
-    /// Index of the stored array and of the field of each listed array.
+    /// For each listed array, the index of the stored array and of the field.
     listed: Vec<(usize, usize)>,
     /// Attributes of groups and arrays, by full name.
     attributes: Vec<(String, Value)>,
     refused: Vec<(String, Problem)>,
     chunks: Mutex<Chunks>,
-    /// Arrays with checked unpacked size.
+    /// Indices of the arrays whose unpacked size was already checked.
     checked: Mutex<BTreeSet<usize>>,
 }
 
@@ -83,7 +83,7 @@ impl Zarr {
         Ok(zarr)
     }
 
-    /// Lists the content of `folder`. `path` is its full name, empty for the root.
+    /// Lists the content of `folder`. `path` is the full name of the folder, empty for the root.
     fn visit(&mut self, folder: &Tree, path: &str, depth: usize) -> Result<(), Problem> {
         let name = if path.is_empty() { "/" } else { path };
         let within = |problem: Problem| problem.within(&format!("the metadata of `{name}`"));
@@ -130,7 +130,7 @@ impl Zarr {
         Ok(())
     }
 
-    /// Rejects an array that would exhaust memory or time. Compares its unpacked size with its stored size.
+    /// Rejects an array that would exhaust memory or time, by comparing its unpacked size with its stored size.
     fn check_unpacked(
         &self,
         index: usize,
@@ -173,7 +173,7 @@ impl Zarr {
         }
     }
 
-    /// One chunk, row by row; `None` if it was never written.
+    /// Bytes of one chunk, row by row; `None` if the chunk was never written.
     fn chunk(&self, index: usize, place: &[u64]) -> Result<Option<Arc<Vec<u8>>>, Problem> {
         let key = (index, place.to_vec());
         let mut kept = self.chunks.lock().unwrap_or_else(PoisonError::into_inner);
@@ -203,7 +203,7 @@ impl Zarr {
     }
 }
 
-/// True if `folder` has a regular file `name` for a chunk. Rejects a link to a file outside the folder.
+/// True if `folder` contains a regular file `name` for a chunk. Returns an error for another entry of this name, such as a link.
 fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     let path = folder.join(name);
     match fs::symlink_metadata(&path) {
@@ -227,15 +227,15 @@ fn is_own_file(folder: &Path, name: &str) -> Result<bool, Problem> {
     }
 }
 
-/// Existing chunks of an array.
+/// Chunk files that exist for an array.
 #[derive(Clone, Copy, Debug, Default)]
 struct Written {
     chunks: u64,
-    /// Stored size, bytes.
+    /// Total stored size of these chunks, bytes.
     bytes: u64,
 }
 
-/// Finds the chunks of the array in `folder`: the files with names of chunks.
+/// Finds the chunks of the array in `folder`, which are the files with names of chunks.
 fn written(folder: &Tree, array: &ZarrArray) -> Result<Written, Problem> {
     let mut there = Written::default();
     let mut folders = vec![(folder.clone(), String::new(), 0)];

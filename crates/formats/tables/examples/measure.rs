@@ -1,5 +1,5 @@
-//! Measures the cost of reading a file. `measure FILE COLUMN [TOPIC]` visits every picture in COLUMN once, or reads the column as a whole if it has
-//! none. It prints processor time and peak memory of this process, and the load of the machine.
+//! Measures the cost of reading a file. `measure FILE COLUMN [TOPIC]` visits every picture in COLUMN once, or reads the whole column if it contains no
+//! pictures. Prints processor time and peak memory of this process, and the load of the machine.
 //!
 //! ```text
 //! cargo run --release -p taceva-tables --example measure -- run.parquet image.bytes

@@ -17,14 +17,14 @@ use crate::source::Source;
 
 /// Number of rows converted to cells at once.
 const ROWS_AT_ONCE: u64 = 64;
-/// First bytes of a file with a footer, before its stream.
+/// First bytes of a file with a footer. The stream follows them.
 const FILE_MARK: &[u8] = b"ARROW1\0\0";
 /// Maximum number of batches of a file.
 const BATCHES: usize = 1 << 20;
 
-/// A table in an Arrow file: a stream, as `datasets` of Hugging Face writes with `save_to_disk`, or Feather version 2.
+/// Table in an Arrow file: a stream, as `datasets` of Hugging Face writes with `save_to_disk`, or Feather version 2.
 ///
-/// Opening reads the metadata of all batches and no cells. Buffers may be compressed by LZ4 or Zstandard. Threads may share a table.
+/// Opening reads the metadata of all batches, but no cells. Buffers may be compressed with LZ4 or Zstandard. Threads may share a table.
 ///
 /// ```
 /// use taceva_tables::{ArrowTable, Cell, ColumnKind};
@@ -105,7 +105,7 @@ impl ArrowTable {
         })
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         self.source.path()
     }
@@ -115,12 +115,12 @@ impl ArrowTable {
         self.rows
     }
 
-    /// Columns in the order of the schema. A structure is replaced by its members, such as `pose.x`.
+    /// Columns in the order of the schema. Members replace a structure, such as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
 
-    /// Schema metadata under `key`, such as `huggingface`.
+    /// Schema metadata under `key`, such as `huggingface`; `None` without this key.
     ///
     /// ```
     /// # use taceva_tables::ArrowTable;
@@ -136,7 +136,7 @@ impl ArrowTable {
     /// Kind of the cells of the column `name`, which may be a structure or an element of lists.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column.
+    /// [`TableError::Missing`] if the column does not exist.
     pub fn kind(&self, name: &str) -> Result<ColumnKind, TableError> {
         let kind = Found::new(&self.source, &self.columns, name)?.kind();
         kind.ok_or_else(|| self.source.missing(name, self.names()))
@@ -146,8 +146,8 @@ impl ArrowTable {
     /// `ft[2,0]`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column; [`TableError::Mismatch`] if a list is too short for `name` in some row;
-    /// [`TableError::TooLarge`] if the cells take more than 320 MiB of memory; [`TableError::Damaged`] if a batch is invalid.
+    /// [`TableError::Missing`] if the column does not exist; [`TableError::Mismatch`] if a list is too short for `name` in some row; [`TableError::TooLarge`]
+    /// if the cells take more than 320 MiB of memory; [`TableError::Damaged`] if a batch is invalid.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let found = Found::new(&self.source, &self.columns, name)?;
         let field = self.field(name)?;
@@ -169,13 +169,13 @@ impl ArrowTable {
         Ok(cells)
     }
 
-    /// Calls `each` with each row of `sorted` and its bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory holds
-    /// one cell at a time, or a compressed buffer.
+    /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory contains one cell
+    /// at a time, or one compressed buffer.
     ///
-    /// `sorted` must ascend; a row listed twice is passed twice.
+    /// `sorted` must be ascending. A row listed twice is passed twice.
     ///
     /// # Errors
-    /// As [`column`](Self::column). [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row that does not
+    /// Errors of [`column`](Self::column). [`TableError::Mismatch`] if the column has no bytes, or if `sorted` is not ascending or contains a row that does not
     /// exist. Also the errors of `each`.
     pub fn visit_bytes<E: From<TableError>>(
         &self,

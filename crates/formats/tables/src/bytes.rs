@@ -1,6 +1,6 @@
 //! Sequential reader of numbers and texts in bytes, with bounds checks.
 
-/// Bytes that are read from the beginning.
+/// Bytes, and the position of the next unread byte.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bytes<'a> {
     all: &'a [u8],
@@ -22,7 +22,7 @@ impl<'a> Bytes<'a> {
         self.all.get(self.at..).unwrap_or_default()
     }
 
-    /// Next `count` bytes; [`None`] if there are fewer.
+    /// Next `count` bytes; [`None`] if fewer are left.
     pub(crate) fn take(&mut self, count: usize) -> Option<&'a [u8]> {
         let end = self.at.checked_add(count)?;
         let taken = self.all.get(self.at..end)?;

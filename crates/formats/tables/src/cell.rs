@@ -5,10 +5,10 @@ use std::fmt::Write;
 
 use crate::path::{indices, longest};
 
-/// One cell of a table.
+/// Cell of a table: the value of one column in one row.
 ///
-/// A single-precision number is converted exactly to double precision and written in full: 0.3 of an `f32` is 0.30000001192092896. NumPy and pyarrow
-/// give the same number when they widen it. A label rounded to 0.3 would differ from theirs in the eighth digit.
+/// A single-precision number is converted exactly to double precision and written in full: 0.3 as an `f32` is 0.30000001192092896. NumPy and pyarrow give the
+/// same number after widening. A label rounded to 0.3 would differ from theirs in the eighth digit.
 ///
 /// ```
 /// use taceva_tables::Cell;
@@ -25,9 +25,9 @@ pub enum Cell {
     Bool(bool),
     /// An integer of 8 to 64 bits, with or without sign.
     Integer(i128),
-    /// A time in nanoseconds, for any unit of the file: since 1970, since midnight, or a duration. Its text is in seconds.
+    /// Time in nanoseconds: since 1970, since midnight, or a duration. The text of the cell is in seconds, for any unit of the file.
     Time(i128),
-    /// A number; NaN and infinities are kept.
+    /// Number of double precision, including NaN and infinities.
     Number(f64),
     /// A text.
     Text(String),
@@ -44,8 +44,8 @@ impl Cell {
     ///
     /// A [`Cell::Time`] is written in seconds with all decimals, so the text does not depend on the unit of the file.
     ///
-    /// The text inside lists and structures is JSON, except for numbers that JSON cannot express (`NaN`, `inf`). Bytes are written as UTF-8 if valid,
-    /// else as hexadecimal digits.
+    /// The text inside lists and structures is JSON, except for numbers that JSON cannot express (`NaN`, `inf`). Bytes are written as UTF-8 if valid, otherwise
+    /// as hexadecimal digits.
     ///
     /// ```
     /// use taceva_tables::Cell;
@@ -71,9 +71,9 @@ impl Cell {
         }
     }
 
-    /// Cell at a path inside this one: `x`, `pose.x`, `[2]`, `ft[2,0]`; the cell itself for the empty path.
+    /// Cell at a path inside this cell: `x`, `pose.x`, `[2]`, `ft[2,0]`; the cell itself for the empty path.
     ///
-    /// [`None`] if there is no such member, or if the path is malformed. A member whose name contains dots or brackets is found by its whole name.
+    /// [`None`] if the member does not exist, or if the path is malformed. A member whose name contains dots or brackets is found by its whole name.
     ///
     /// ```
     /// use taceva_tables::Cell;
@@ -107,7 +107,7 @@ impl Cell {
         Some(cell)
     }
 
-    /// Cell at a path inside this one; null if a cell on the path is null; `None` if there is no such member.
+    /// Cell at a path inside this cell; null if a cell on the path is null; `None` if the member does not exist.
     pub(crate) fn into_inside(self, path: &str) -> Option<Cell> {
         if path.is_empty() || self == Cell::Null {
             return Some(self);
@@ -179,7 +179,7 @@ impl Cell {
     }
 }
 
-/// Writes a number in the fewest digits that parse back: decimal if that is short, else with an exponent.
+/// Writes a number with the fewest digits that parse back: in decimal notation if that is short, otherwise with an exponent.
 fn write_number(value: f64, into: &mut String) {
     let size = value.abs();
     let is_plain = !value.is_finite() || value == 0.0 || (1e-5..1e17).contains(&size);

@@ -20,7 +20,7 @@ pub(crate) enum Codec {
     Gzip,
     Brotli,
     Lz4Block,
-    /// LZ4 blocks, each after its two sizes, as in Hadoop.
+    /// LZ4 blocks as in Hadoop, each preceded by its unpacked and packed size.
     Lz4Hadoop,
     Lz4Frame,
     /// A stream of bz2.
@@ -29,16 +29,16 @@ pub(crate) enum Codec {
     Zstd,
 }
 
-/// Maximum growth of Snappy and LZ4 blocks. A Snappy copy of 64 bytes takes 3 bytes; 255 bytes of LZ4 take 1.
+/// Maximum growth of Snappy and LZ4 blocks. A Snappy copy of 64 bytes takes 3 bytes; 255 bytes of LZ4 take 1 byte.
 const SNAPPY_GROWTH: usize = 64;
 const LZ4_GROWTH: usize = 255;
-/// Window size that Zstandard needs up to its level 19, bytes.
+/// Window size that Zstandard needs for levels up to 19, bytes.
 const ZSTD_WINDOW_BYTES: u64 = 8 << 20;
 
 /// Unpacks `packed` to exactly `size` bytes.
 ///
 /// # Errors
-/// A message: wrong size, checksum mismatch, or invalid bytes.
+/// Error message for a wrong size, a checksum mismatch, or invalid bytes.
 pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     let unpacked = match codec {
         Codec::Plain => packed.to_vec(),
@@ -70,7 +70,7 @@ pub(crate) fn unpack(codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>
 /// Reader that unpacks `packed` to `size` bytes while it is read. Block formats are unpacked as a whole, up to [`limits::PAGE_BYTES`].
 ///
 /// # Errors
-/// As [`unpack`]; later faults are errors of the returned reader.
+/// Errors of [`unpack`]. Faults found later are errors of the returned reader.
 pub(crate) fn stream(
     codec: Codec,
     mut packed: impl BufRead + 'static,
@@ -129,7 +129,7 @@ fn not_whole(error: &DecodeError) -> io::Error {
     io::Error::other(format!("incomplete Zstandard frame: {error}"))
 }
 
-/// Decoder for frames of at most `size` bytes. Its window is `size`, and at least the window of level 19.
+/// Decoder for frames of at most `size` bytes. The window is `size`, but at least the window of level 19.
 fn decompressor(size: u64) -> Result<Decompressor, String> {
     let window = size.clamp(ZSTD_WINDOW_BYTES, limits::PAGE_BYTES.max(ZSTD_WINDOW_BYTES));
     let log = u8::try_from(window.next_power_of_two().ilog2()).unwrap_or(u8::MAX);
@@ -141,7 +141,7 @@ fn decompressor(size: u64) -> Result<Decompressor, String> {
     ))
 }
 
-/// Output of `decoder`, up to one byte more than `size`, so any excess is detected.
+/// Output of `decoder`, up to one byte more than `size`, so that an excess is detected.
 fn streamed(name: &str, decoder: impl Read, size: usize) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     decoder
@@ -213,10 +213,10 @@ fn zstd(packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
     Ok(unpacked)
 }
 
-/// Unpacks a message of one Zstandard frame of at most `most` bytes.
+/// Unpacks a message that is one Zstandard frame of at most `most` bytes.
 ///
 /// # Errors
-/// A message.
+/// Error message about the invalid frame.
 pub(crate) fn zstandard_message(packed: &[u8], most: u64) -> Result<Vec<u8>, String> {
     let mut unpacked = Vec::new();
     let decoded = decompressor(most)?.decompress_into(packed, &mut unpacked);

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::shown as core_shown;
 
-/// Error of reading or writing a table, or one of its columns.
+/// Error of reading or writing a table or one of its columns.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum TableError {
@@ -15,7 +15,7 @@ pub enum TableError {
     Io {
         /// Path of the file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// A file that cannot be created or written.
@@ -23,7 +23,7 @@ pub enum TableError {
     Write {
         /// Path of the file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// Bytes that contradict the format: truncated, changed, or written incorrectly.
@@ -36,7 +36,7 @@ pub enum TableError {
         /// Content found, and content expected.
         problem: String,
     },
-    /// A recording that ends before its index: it was truncated, or its recorder did not close it.
+    /// Recording that ends before its index, because it was truncated or its recorder did not close it.
     #[error(
         "{}{place}: {}; {} {} before the cut: {remedy}",
         core_shown(path),
@@ -45,15 +45,15 @@ pub enum TableError {
         taceva_core::by_count(*messages, "is", "are")
     )]
     Cut {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// Location at which the cut shows.
+        /// Location at which the end was detected.
         place: Place,
-        /// The missing content.
+        /// Missing content.
         problem: String,
         /// Number of messages that [`Recording::open_to_cut`](crate::Recording::open_to_cut) reads.
         messages: u64,
-        /// Command of another program that recovers them.
+        /// Command of another program that recovers these messages.
         remedy: &'static str,
     },
     /// Content that the format allows but this crate does not read.
@@ -63,7 +63,7 @@ pub enum TableError {
         path: PathBuf,
         /// Location in the file.
         place: Place,
-        /// Unsupported content, and supported alternative.
+        /// Unsupported content, and the supported alternative.
         problem: String,
     },
     /// Content above the memory limit.
@@ -73,7 +73,7 @@ pub enum TableError {
         path: PathBuf,
         /// Location in the file.
         place: Place,
-        /// Size, and limit.
+        /// Size found, and the limit.
         problem: String,
     },
     /// A column, a field or a topic that does not exist.
@@ -125,7 +125,7 @@ impl TableError {
     }
 }
 
-/// Location in a file: a byte, and the column, topic or record that contains it, if known.
+/// Location in a file: a byte offset, and the column, topic or record that contains it, if known.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Place {
@@ -152,7 +152,7 @@ impl Place {
         }
     }
 
-    /// This location, within the column, topic or record `name`.
+    /// The same location, within the column, topic or record `name`.
     pub(crate) fn in_name(self, name: &str) -> Place {
         Place {
             name: Some(name.to_owned()),
@@ -173,7 +173,7 @@ impl fmt::Display for Place {
     }
 }
 
-/// Name from a file, for messages: without control characters, at most 80 characters.
+/// Name from a file, for messages. Control characters are escaped, and the name is cut after 80 characters.
 pub(crate) fn shown(name: &str) -> String {
     match name.char_indices().nth(80) {
         Some((end, _)) => format!("{}…", core_shown(&name[..end])),
@@ -181,7 +181,7 @@ pub(crate) fn shown(name: &str) -> String {
     }
 }
 
-/// Names for a message: the first 40.
+/// Names for a message: at most the first 40.
 fn shown_list(names: &[String]) -> String {
     if names.is_empty() {
         return "none".to_owned();

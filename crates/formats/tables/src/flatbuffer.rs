@@ -1,14 +1,14 @@
-//! FlatBuffers tables (<https://flatbuffers.dev/internals>), limited to the features that Arrow metadata uses. Offsets beyond the end of the buffer
+//! Reader of FlatBuffers tables (<https://flatbuffers.dev/internals>), limited to the features that Arrow metadata uses. Offsets beyond the end of the buffer
 //! give `None`.
 
-/// A FlatBuffers table. A list of offsets (vtable) locates its fields.
+/// FlatBuffers table. A list of offsets (vtable) locates its fields.
 #[derive(Clone, Copy)]
 pub(crate) struct Table<'b> {
     bytes: &'b [u8],
     at: usize,
 }
 
-/// A vector of tables.
+/// Vector of tables.
 #[derive(Clone, Copy)]
 pub(crate) struct Tables<'b> {
     bytes: &'b [u8],
@@ -23,7 +23,7 @@ impl<'b> Table<'b> {
         Some(Table { bytes, at })
     }
 
-    /// Offset of field `number`.
+    /// Offset of field `number`; `None` if the field is missing.
     fn field(self, number: usize) -> Option<usize> {
         let back = unsigned(self.bytes, self.at)?;
         let back = i32::from_le_bytes(u32::try_from(back).ok()?.to_le_bytes());
@@ -46,13 +46,13 @@ impl<'b> Table<'b> {
         short(self.bytes, self.field(number)?)
     }
 
-    /// An integer field of 4 bytes.
+    /// Integer field of 4 bytes.
     pub(crate) fn integer(self, number: usize) -> Option<i32> {
         let own = self.bytes.get(self.field(number)?..)?;
         own.first_chunk().copied().map(i32::from_le_bytes)
     }
 
-    /// An integer field of 8 bytes.
+    /// Integer field of 8 bytes.
     pub(crate) fn long(self, number: usize) -> Option<i64> {
         let own = self.bytes.get(self.field(number)?..)?;
         own.first_chunk().copied().map(i64::from_le_bytes)

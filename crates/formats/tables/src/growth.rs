@@ -1,8 +1,8 @@
-//! Unpacked size of chunks, compared with their size in the file.
+//! Compares the unpacked size of chunks with their size in the file.
 
 use crate::limits;
 
-/// Bytes unpacked in one pass over a file.
+/// Number of bytes unpacked in one pass over a file.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Growth {
     packed: u64,
@@ -13,7 +13,7 @@ impl Growth {
     /// Counts a chunk before it is unpacked.
     ///
     /// # Errors
-    /// A message if the file expands too much: its chunks grow more than in any recording, so reading would take hours.
+    /// Error message if the chunks expand more than those of any recording, because reading would then take hours.
     pub(crate) fn take(&mut self, packed: u64, unpacked: u64) -> Result<(), String> {
         self.packed = self.packed.saturating_add(packed);
         self.unpacked = self.unpacked.saturating_add(unpacked);
@@ -33,7 +33,6 @@ impl Growth {
 mod tests {
     use super::*;
 
-    /// K5.
     #[test]
     fn chunks_that_become_far_more_than_they_are_end_a_pass_and_others_do_not() {
         let mut bomb = Growth::default();

@@ -1,4 +1,4 @@
-//! Folders of LeRobot datasets.
+//! LeRobot datasets, each a folder.
 
 mod depth;
 mod episodes;
@@ -32,10 +32,10 @@ pub use self::stats::FeatureStats;
 pub use self::video::VideoFrames;
 pub use self::writer::LeRobotWriter;
 
-/// A LeRobot dataset, version 2.1 or 3.0, as one table: the rows of all its data files in sequence.
+/// LeRobot dataset, version 2.1 or 3.0, as one table with the rows of all its data files in sequence.
 ///
-/// Columns have the names in the data files; `task` is the text of `task_index`. Videos are not decoded; the table gives the file and frame of each
-/// row.
+/// Columns have the names in the data files; `task` is the text of `task_index`. Videos are not decoded. [`video`](LeRobot::video) returns the file and frame
+/// of each row.
 ///
 /// ```
 /// use taceva_tables::{Cell, LeRobot};
@@ -69,8 +69,8 @@ impl LeRobot {
     /// Opens the dataset in `folder`. Reads its metadata, and the footers of all data files.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] for another version, or files outside the folder. [`TableError::Damaged`] if the number of rows of an episode
-    /// differs from its description, or an episode has two takes. Otherwise as [`ParquetTable::open`].
+    /// [`TableError::Unsupported`] for another version, or files outside the folder. [`TableError::Damaged`] if an episode has two takes, or a number of rows
+    /// that contradicts its description. Otherwise errors of [`ParquetTable::open`].
     pub fn open(folder: &Path) -> Result<LeRobot, TableError> {
         let (source, json) = json_file(folder, "meta/info.json")?;
         let info = info::parse(&source, &json)?;
@@ -159,10 +159,10 @@ impl LeRobot {
         &self.info.features
     }
 
-    /// Cells of the column `name`, row by row, as in [`ParquetTable::column`].
+    /// Cells of the column `name`, row by row, like those of [`ParquetTable::column`].
     ///
     /// # Errors
-    /// As [`ParquetTable::column`]; the limit applies to all files together.
+    /// Errors of [`ParquetTable::column`]; the limit applies to all files together.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         if name == "task" && !self.tasks.is_empty() {
             let indices = self.column("task_index")?;
@@ -190,10 +190,10 @@ impl LeRobot {
         Ok(cells)
     }
 
-    /// Kind of the cells of the column `name`, from the first data file.
+    /// Kind of the cells of the column `name`, according to the first data file.
     ///
     /// # Errors
-    /// As [`ParquetTable::kind`].
+    /// Errors of [`ParquetTable::kind`].
     ///
     /// ```
     /// use taceva_tables::{ColumnKind, LeRobot};
@@ -212,11 +212,11 @@ impl LeRobot {
         first.open()?.kind(name)
     }
 
-    /// Calls `each` with the pictures of a feature with dtype `image`, or the bytes of another column, in the rows `sorted`, as
+    /// Calls `each` with the rows `sorted` and their pictures of a feature with dtype `image`, or their bytes in another column. See
     /// [`ParquetTable::visit_bytes`].
     ///
     /// # Errors
-    /// As [`ParquetTable::visit_bytes`].
+    /// Errors of [`ParquetTable::visit_bytes`].
     pub fn visit_bytes<E: From<TableError>>(
         &self,
         name: &str,
@@ -248,12 +248,12 @@ impl LeRobot {
         Ok(())
     }
 
-    /// Frame of each row in the video `key`, a feature with dtype `video`. The frame is found by the time stamp of the row, relative to the start of
-    /// its episode in the file.
+    /// Frame of each row in the video `key`, a feature with dtype `video`. The time stamp of the row, relative to the start of its episode in the file,
+    /// determines the frame.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if no video has this name. [`TableError::Damaged`] if an episode is in no file, or a time stamp is more than a quarter
-    /// of a frame from the nearest frame.
+    /// [`TableError::Missing`] if no video has this name. [`TableError::Damaged`] if no file contains an episode, or a time stamp is more than a quarter of a
+    /// frame from the nearest frame.
     pub fn video(&self, key: &str) -> Result<VideoFrames, TableError> {
         video::frames(self, key)
     }

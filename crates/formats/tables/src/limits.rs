@@ -1,42 +1,42 @@
 //! Memory limits. Larger files are rejected before memory is allocated for them. No file takes 512 MiB of memory, even if it states false sizes
 //! (`tests/hostile.rs`).
 
-/// Maximum metadata, bytes: the footer of a Parquet file, the summary of an MCAP file.
+/// Maximum size of metadata, bytes: the footer of a Parquet file, or the summary of an MCAP file.
 pub(crate) const DESCRIPTION_BYTES: u64 = 32 << 20;
-/// Maximum JSON file of LeRobot or JSON message, bytes. It takes several times as much memory.
+/// Maximum size of a JSON file of LeRobot or of a JSON message, bytes. Parsing takes several times as much memory.
 pub(crate) const JSON_BYTES: u64 = 16 << 20;
-/// Maximum page of a Parquet file that is decoded as a whole, or chunk of an MCAP file, bytes, packed or unpacked.
+/// Maximum size of a Parquet page that is decoded as a whole, or of an MCAP chunk, packed or unpacked, bytes.
 pub(crate) const PAGE_BYTES: u64 = 128 << 20;
-/// Maximum size of a picture, or of another cell of bytes.
+/// Maximum size of a picture, or of another cell of bytes, in bytes.
 pub(crate) const CELL_BYTES: u64 = 256 << 20;
 /// Maximum memory of the cells of one request, bytes.
 pub(crate) const COLUMN_BYTES: u64 = 320 << 20;
-/// Maximum numbers in one row of a column of lists.
+/// Maximum number of values in one row of a column of lists.
 pub(crate) const ROW_LEVELS: u64 = 1 << 24;
-/// Maximum rows of a table.
+/// Maximum number of rows of a table.
 pub(crate) const ROWS: u64 = 1 << 28;
-/// Maximum nesting of lists and structures.
+/// Maximum nesting depth of lists and structures.
 pub(crate) const DEPTH: usize = 32;
-/// Maximum columns, fields or topics.
+/// Maximum number of columns, fields or topics.
 pub(crate) const NAMES: usize = 1 << 16;
-/// Maximum messages of one topic. The time and location of each are kept in memory.
+/// Maximum number of messages of one topic. The time and location of each message are kept in memory.
 pub(crate) const MESSAGES: usize = 1 << 23;
-/// Maximum list elements that become cells, per message.
+/// Maximum number of list elements that become cells, per message.
 pub(crate) const MESSAGE_CELLS: usize = 1 << 20;
 
-/// Unpacked size that any small file may reach, bytes. A larger file may reach a multiple of its stored size.
+/// Unpacked size that any small file may have, bytes. The limit for a larger file is a multiple of its stored size.
 const UNPACKED_BYTES: u64 = 128 << 20;
 const UNPACKED_RATIO: u64 = 200;
-/// The same limit for the cells of one request.
+/// Memory that the cells of one request may take for any small file, bytes.
 const LEAST_COLUMN_BYTES: u64 = 96 << 20;
 const COLUMN_RATIO: u64 = 64;
 
-/// Maximum unpacked size of `stored` bytes.
+/// Maximum unpacked size of content stored in `stored` bytes, bytes.
 pub(crate) fn unpacked_bytes(stored: u64) -> u64 {
     stored.saturating_mul(UNPACKED_RATIO).max(UNPACKED_BYTES)
 }
 
-/// Maximum memory of the cells of one request, for a file of `stored` bytes.
+/// Maximum memory of the cells of one request, bytes, for a file of `stored` bytes.
 pub(crate) fn column_bytes(stored: u64) -> u64 {
     let own = stored.saturating_mul(COLUMN_RATIO);
     own.clamp(LEAST_COLUMN_BYTES, COLUMN_BYTES)

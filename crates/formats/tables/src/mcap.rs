@@ -19,13 +19,13 @@ use crate::source::Source;
 /// First and last eight bytes of a file.
 pub(crate) use self::record::MAGIC;
 
-/// An MCAP file, described by its summary, or by reading all records if it has none.
+/// MCAP file, described by its summary, or by all its records if the summary is missing.
 #[derive(Debug)]
 pub(crate) struct McapFile {
     source: Source,
     contents: Contents,
     channels: BTreeMap<u32, Channel>,
-    /// End of the complete records, if the file was cut.
+    /// Offset of the end of the complete records, if the file was truncated.
     cut_at: Option<u64>,
 }
 
@@ -33,14 +33,14 @@ impl McapFile {
     /// Opens the recording of `source`.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if it is no MCAP file or has a wrong checksum, [`TableError::Cut`] if it is truncated or was not closed,
+    /// [`TableError::Damaged`] if the file is no MCAP file or has a wrong checksum; [`TableError::Cut`] if the file is truncated or was not closed;
     /// [`TableError::TooLarge`] if its summary exceeds the limit.
     pub(crate) fn open(source: Source) -> Result<McapFile, TableError> {
         let contents = contents::read(&source)?;
         Ok(McapFile::of(source, contents, None))
     }
 
-    /// The complete chunks and messages of the recording in `source`, which was cut.
+    /// Opens the complete chunks and messages of the truncated recording in `source`.
     ///
     /// # Errors
     /// [`TableError::Damaged`] for a chunk with a wrong checksum.
@@ -99,7 +99,7 @@ impl MessageStore for McapFile {
     }
 }
 
-/// Reader of the messages of a file, with one cursor.
+/// Reader of messages with its own cursor in the file.
 struct Records<'a> {
     source: &'a Source,
     chunks: Chunks<'a>,

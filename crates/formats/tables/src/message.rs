@@ -8,7 +8,7 @@ use std::sync::Arc;
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Schema of messages.
+/// Schema of the messages of a channel.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Schema {
     pub(crate) name: String,
@@ -16,7 +16,7 @@ pub(crate) struct Schema {
     pub(crate) text: Vec<u8>,
 }
 
-/// Common properties of messages of one topic from one writer.
+/// Common properties of the messages that one writer sent on one topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Channel {
     pub(crate) topic: String,
@@ -26,7 +26,7 @@ pub(crate) struct Channel {
     pub(crate) count: u64,
 }
 
-/// Location of a message: its time, its chunk or page (`None` for the file itself), and the range in it.
+/// Location of a message: its time, its chunk or page (`None` if directly in the file), and the byte range.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Entry {
     pub(crate) log_time: u64,
@@ -34,7 +34,7 @@ pub(crate) struct Entry {
     pub(crate) at: u64,
 }
 
-/// A message: channel, log and publish times in ns, and content.
+/// Message: channel, log and publish times in ns, and content.
 #[derive(Clone, Debug)]
 pub(crate) struct Message {
     pub(crate) channel: u32,
@@ -45,7 +45,7 @@ pub(crate) struct Message {
 }
 
 impl Message {
-    /// Message of `channel` at `range` of the shared bytes `held`.
+    /// Message of `channel` whose content is the range `range` of the shared bytes `held`.
     pub(crate) fn new(
         channel: u32,
         log_time: u64,
@@ -67,24 +67,24 @@ impl Message {
     }
 }
 
-/// A file of messages.
+/// File format that stores messages.
 pub(crate) trait MessageStore: fmt::Debug + Send + Sync {
     fn source(&self) -> &Source;
 
     /// Channels, by number.
     fn channels(&self) -> &BTreeMap<u32, Channel>;
 
-    /// End of the complete records of a file that was cut, byte; `None` for a whole one.
+    /// Offset of the end of the complete records of a truncated file; `None` for a complete file.
     fn cut_at(&self) -> Option<u64>;
 
-    /// All messages of `channels`, by time; at equal times in the order of the file.
+    /// All messages of `channels`, sorted by time, then by position in the file.
     fn index(&self, channels: &BTreeSet<u32>) -> Result<Vec<Entry>, TableError>;
 
-    /// Opens a reader of messages with a separate cursor.
+    /// Opens a reader of messages with its own cursor.
     fn reader(&self) -> Result<Box<dyn MessageReader + '_>, TableError>;
 }
 
-/// Reader of messages with one cursor.
+/// Reader of messages with its own cursor.
 pub(crate) trait MessageReader {
     /// Reads the message at `entry`.
     fn message(&mut self, entry: &Entry) -> Result<Message, TableError>;

@@ -36,10 +36,10 @@ pub use self::writer::ParquetWriter;
 /// Number of rows decoded at once.
 const ROWS_AT_ONCE: usize = 256;
 
-/// A table in a Parquet file: columns of numbers, texts, bytes, lists and structures, by any writer.
+/// Table in a Parquet file, by any writer: columns of numbers, texts, bytes, lists and structures.
 ///
-/// Opening reads only the footer. Pages may be compressed by snappy, gzip, LZ4, brotli or Zstandard. Checksums are verified if present. Threads may
-/// share a table, because every call has its own cursor.
+/// Opening reads only the footer. Pages may be compressed with snappy, gzip, LZ4, brotli or Zstandard. Checksums are verified if present. Threads may share a
+/// table, because every call has its own cursor.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable};
@@ -102,7 +102,7 @@ impl ParquetTable {
         })
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         self.source.path()
     }
@@ -112,12 +112,12 @@ impl ParquetTable {
         self.rows
     }
 
-    /// Columns in the order of the schema. A structure is replaced by its members, such as `pose.x`.
+    /// Columns in the order of the schema. Members replace a structure, such as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
 
-    /// Metadata of the table under `key`, such as `huggingface`, whose JSON contains the names of classes.
+    /// Metadata of the table under `key`, such as `huggingface`, whose JSON contains the names of classes; `None` without this key.
     ///
     /// ```
     /// # use taceva_tables::ParquetTable;
@@ -132,7 +132,7 @@ impl ParquetTable {
     /// Kind of the cells of the column `name`, which may be a structure or an element of lists.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column.
+    /// [`TableError::Missing`] if the column does not exist.
     pub fn kind(&self, name: &str) -> Result<ColumnKind, TableError> {
         let kind = Found::new(&self.source, &self.columns, name)?.kind();
         kind.ok_or_else(|| self.source.missing(name, self.names()))
@@ -142,16 +142,15 @@ impl ParquetTable {
     /// `ft[2,0]`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such column. [`TableError::Mismatch`] if a list is too short for `name` in some row.
-    /// [`TableError::TooLarge`] if the cells exceed a limit of 96 to 320 MiB, which depends on the size of the file. [`TableError::Damaged`] for an
-    /// invalid page.
+    /// [`TableError::Missing`] if the column does not exist. [`TableError::Mismatch`] if a list is too short for `name` in some row. [`TableError::TooLarge`]
+    /// if the cells exceed a limit of 96 to 320 MiB, which depends on the size of the file. [`TableError::Damaged`] for an invalid page.
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         let mut cells = Vec::new();
         self.read_column(name, &mut 0, &mut cells)?;
         Ok(cells)
     }
 
-    /// Appends the column `name` to `cells`. `bytes` counts their memory.
+    /// Appends the cells of the column `name` to `cells`. `bytes` counts their memory.
     pub(crate) fn read_column(
         &self,
         name: &str,
@@ -186,13 +185,13 @@ impl ParquetTable {
         Ok(())
     }
 
-    /// Calls `each` with each row of `sorted` and its bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory holds
-    /// one cell and its decoder. For pages in encodings other than plain, it holds one page.
+    /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory contains one cell
+    /// and its decoder, or one page if its encoding is not plain.
     ///
-    /// `sorted` must ascend; a row listed twice is passed twice.
+    /// `sorted` must be ascending. A row listed twice is passed twice.
     ///
     /// # Errors
-    /// As [`column`](Self::column). [`TableError::Mismatch`] if the column has no bytes, or if `sorted` does not ascend or names a row that does not
+    /// Errors of [`column`](Self::column). [`TableError::Mismatch`] if the column has no bytes, or if `sorted` is not ascending or contains a row that does not
     /// exist. Also the errors of `each`.
     pub fn visit_bytes<E: From<TableError>>(
         &self,
@@ -228,19 +227,19 @@ impl ParquetTable {
     }
 }
 
-/// Metadata under `key` in the footer.
+/// Metadata in the footer under `key`.
 fn written<'m>(metadata: &'m ParquetMetaData, key: &str) -> Option<&'m str> {
     let all = metadata.file_metadata().key_value_metadata()?;
     let found = all.iter().find(|entry| entry.key == key)?;
     found.value.as_deref()
 }
 
-/// Number of rows of a group. The sum over all groups was checked on opening.
+/// Number of rows of a group. The sum over all groups was checked when the file was opened.
 fn rows_of(group: &RowGroupMetaData) -> usize {
     usize::try_from(group.num_rows()).unwrap_or(0)
 }
 
-/// Checks the last 8 bytes: the length of the footer, within the file and the limit, and the magic bytes.
+/// Checks the last 8 bytes: the length of the footer must fit the file and the limit, and the magic bytes must follow.
 fn check_footer(source: &Source, file: &mut std::fs::File) -> Result<(), TableError> {
     let Some(at) = source.length().checked_sub(8) else {
         let problem = format!("{} bytes are too few for a Parquet file", source.length());

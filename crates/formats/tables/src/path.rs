@@ -1,6 +1,6 @@
-//! Paths inside cells: `pose.x`, `ft[2]`, `ft[2,0]`.
+//! Paths to values inside cells: `pose.x`, `ft[2]`, `ft[2,0]`.
 
-/// Index of the longest of `names` that begins `text`, and the rest of `text`. A name may contain dots and brackets.
+/// Index of the longest of `names` with which `text` begins, and the rest of `text`. A name may contain dots and brackets.
 ///
 /// The rest begins with a bracket, or follows the dot before a member.
 pub(crate) fn longest<'a, 'n>(

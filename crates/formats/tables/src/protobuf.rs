@@ -1,17 +1,17 @@
-//! Foxglove pictures in protobuf, with their published schemas: <https://docs.foxglove.dev/docs/sdk/schemas>.
+//! Pictures of Foxglove in protobuf messages with published schemas: <https://docs.foxglove.dev/docs/sdk/schemas>.
 
 use crate::bytes::Bytes;
 use crate::cell::Cell;
 use crate::ros::{self, Picture, RawPicture};
 
-/// Supported message.
+/// Description of a supported message.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct ProtobufMessage {
     name: &'static str,
     fields: &'static [Field],
 }
 
-/// Field: its name and its number.
+/// Field of a message: its name and its number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Field {
     name: &'static str,
@@ -28,7 +28,7 @@ enum Kind {
     Bytes,
 }
 
-/// Column: a field. The flag is true for a time in nanoseconds.
+/// Column, read from a field. The flag is true for a time in nanoseconds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Column {
     field: Field,
@@ -64,7 +64,7 @@ static KNOWN: [ProtobufMessage; 2] = [
     },
 ];
 
-/// Message `name`; `None` if it is not supported.
+/// Supported message called `name`; `None` if it is not supported.
 pub(crate) fn known(name: &str) -> Option<&'static ProtobufMessage> {
     KNOWN.iter().find(|message| message.name == name)
 }
@@ -81,7 +81,7 @@ impl ProtobufMessage {
         names.map(|field| field.name.to_owned()).collect()
     }
 
-    /// Columns `names`. The error is the first unknown name.
+    /// Columns called `names`. The error is the first unknown name.
     pub(crate) fn fields<'n>(&self, names: &[&'n str]) -> Result<Vec<Column>, &'n str> {
         let column = |name: &&'n str| {
             let (base, is_in_nanoseconds) = match name.strip_suffix(".ns") {
@@ -101,7 +101,7 @@ impl ProtobufMessage {
         names.iter().map(column).collect()
     }
 
-    /// Cells of one message, one for each column. The error is a message.
+    /// Cells of one message, one for each column, or an error message.
     pub(crate) fn read(&self, columns: &[Column], message: &[u8]) -> Result<Vec<Cell>, String> {
         let values = self.values(message)?;
         let cell = |column: &Column| {
@@ -122,7 +122,7 @@ impl ProtobufMessage {
         }
     }
 
-    /// Picture of a message. The error is a message.
+    /// Picture in a message, or an error message.
     pub(crate) fn picture(&self, message: &[u8]) -> Result<Picture, String> {
         let values = self.values(message)?;
         let value = |name: &str| {
@@ -151,7 +151,7 @@ impl ProtobufMessage {
         raw.samples().map(Picture::Samples)
     }
 
-    /// Last value of each field in `message`. Skips unknown fields.
+    /// Last value of each field in `message`. Unknown fields are skipped.
     fn values<'m>(&self, message: &'m [u8]) -> Result<Vec<Value<'m>>, String> {
         let mut values = vec![Value::Absent; self.fields.len()];
         let mut bytes = Bytes::new(message);
@@ -178,7 +178,7 @@ impl ProtobufMessage {
     }
 }
 
-/// Value of a field. A missing value is 0 or empty.
+/// Value of a field; 0 or empty if the message omits it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Value<'m> {
     Absent,

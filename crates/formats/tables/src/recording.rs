@@ -19,11 +19,11 @@ use crate::sqlite;
 
 pub use self::table::TopicTable;
 
-/// Recording of messages. Each topic is a table of its messages.
+/// Recording of messages by topic. Each topic is a table of its messages.
 ///
-/// The first bytes determine the format: an MCAP file, a rosbag2 database (`.db3`) or a ROS 1 bag (`.bag`). Opening reads the summary.
-/// If there is no summary, it reads the records. Checksums are verified if present; attachments are ignored. Chunks may be compressed
-/// by LZ4 or Zstandard, messages of rosbag2 by Zstandard.
+/// The first bytes determine the format: an MCAP file, a rosbag2 database (`.db3`) or a ROS 1 bag (`.bag`). Opening reads the summary, or all records if the
+/// summary is missing. Checksums are verified if present; attachments are ignored. Chunks may be compressed with LZ4 or Zstandard, messages of rosbag2 with
+/// Zstandard.
 ///
 /// ```
 /// use taceva_tables::Recording;
@@ -45,7 +45,7 @@ pub struct Recording {
 pub struct Topic {
     /// Name, such as `/ft/wrench`.
     pub name: String,
-    /// Name of the message schema, such as `geometry_msgs/msg/WrenchStamped`; empty if there is none.
+    /// Name of the message schema, such as `geometry_msgs/msg/WrenchStamped`; empty without a schema.
     pub schema: String,
     /// Encoding of the messages, such as `cdr`.
     pub encoding: String,
@@ -54,23 +54,22 @@ pub struct Topic {
 }
 
 impl Recording {
-    /// Recording at `path`.
+    /// Opens the recording at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read, [`TableError::Damaged`] if it is no recording or has a wrong checksum.
-    /// [`TableError::Cut`] if it is truncated or was not closed.
-    /// [`TableError::Unsupported`] if it is of a later version, compressed as a whole, or has messages in a separate log.
-    /// [`TableError::TooLarge`] if its summary exceeds the limit.
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if the file is no recording or has a wrong checksum. [`TableError::Cut`] if the
+    /// recording is truncated or was not closed. [`TableError::Unsupported`] if the recording has a later version, is compressed as a whole, or has messages in
+    /// a separate log. [`TableError::TooLarge`] if its summary exceeds the limit.
     pub fn open(path: &Path) -> Result<Recording, TableError> {
         Ok(Recording::of_store(store(Source::new(path)?, false)?))
     }
 
-    /// As [`open`](Self::open), but of a recording that was cut, or not closed, the complete messages before the cut.
+    /// Opens the recording at `path` like [`open`](Self::open), but reads the complete messages of a recording that was truncated or not closed.
     ///
-    /// Messages of an incomplete chunk are read if it is a plain chunk of a ROS 1 bag. Whole recordings are read by their index.
+    /// Messages of an incomplete chunk are read only from an uncompressed chunk of a ROS 1 bag. Complete recordings are read by their index.
     ///
     /// # Errors
-    /// As [`open`](Self::open); [`TableError::Cut`] only if no message is complete.
+    /// Errors of [`open`](Self::open); [`TableError::Cut`] only if no message is complete.
     ///
     /// ```
     /// use taceva_tables::{Recording, TableError};
@@ -105,26 +104,26 @@ impl Recording {
         Recording { store, topics }
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         self.store.source().path()
     }
 
-    /// End of the complete records of a recording that was cut, as a byte offset; `None` for a whole recording.
+    /// Offset of the end of the complete records of a truncated recording, bytes; `None` for a complete recording.
     pub fn cut_at(&self) -> Option<u64> {
         self.store.cut_at()
     }
 
-    /// The topics, by name.
+    /// Topics of the recording, sorted by name.
     pub fn topics(&self) -> &[Topic] {
         &self.topics
     }
 
-    /// Messages of the topic `name`.
+    /// Table of the messages of the topic `name`.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such topic. [`TableError::Unsupported`] for an incomplete schema or an unsupported encoding
-    /// (not ROS 1 or 2, JSON or Foxglove pictures). [`TableError::Damaged`] if the messages in the file differ from its index.
+    /// [`TableError::Missing`] if the topic does not exist. [`TableError::Unsupported`] for an incomplete schema or an unsupported encoding (not ROS 1 or 2,
+    /// JSON or Foxglove pictures). [`TableError::Damaged`] if the messages in the file differ from the index.
     pub fn table(&self, name: &str) -> Result<TopicTable, TableError> {
         match self.topics.iter().find(|topic| topic.name == name) {
             Some(topic) => TopicTable::new(&self.store, topic.clone()),
@@ -135,14 +134,14 @@ impl Recording {
         }
     }
 
-    /// Reason why the messages of the topic `name` cannot be read; `None` if they can. Reads no message.
+    /// Reason why the messages of the topic `name` cannot be read; `None` if they can. Does not read messages.
     pub fn why_unread(&self, name: &str) -> Option<String> {
         let topic = self.topics.iter().find(|topic| topic.name == name)?;
         language::of_topic(&*self.store, topic).err()
     }
 }
 
-/// Opens a file, or its part before a cut if that is requested and has a message.
+/// Opens a file. If requested, opens the readable part of a truncated file that has at least one complete message.
 fn opened<S: MessageStore + 'static>(
     source: Source,
     is_to_cut: bool,
@@ -156,7 +155,7 @@ fn opened<S: MessageStore + 'static>(
     Ok(Arc::new(store))
 }
 
-/// Opens the reader of the format that the first bytes of the file indicate, of a file that was cut up to the cut if requested.
+/// Opens the reader of the format that the first bytes indicate. With `is_to_cut`, a truncated file is read up to its end.
 fn store(source: Source, is_to_cut: bool) -> Result<Arc<dyn MessageStore>, TableError> {
     const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let mut file = source.open()?;

@@ -25,17 +25,17 @@ pub(crate) const MAGIC: [u8; 13] = *b"#ROSBAG V2.0\n";
 pub(crate) struct Rosbag1 {
     source: Source,
     channels: BTreeMap<u32, Channel>,
-    /// Offset of each message index of a connection, with the offset of its chunk.
+    /// Offset of each message index of a connection, and the offset of its chunk.
     indices: BTreeMap<u32, Vec<(u64, u64)>>,
-    /// Messages before a cut, in place of the indices.
+    /// Messages of a truncated bag, in place of the indices; `None` for a complete bag.
     before_cut: Option<Walk>,
 }
 
 impl Rosbag1 {
-    /// Recording in `source`. Reads the heads of all its records, but no chunk.
+    /// Opens the recording in `source`. Reads the heads of all records, but no chunk.
     ///
     /// # Errors
-    /// [`TableError::Cut`] if it is truncated or was not closed, [`TableError::Damaged`] if it has other records than it announces.
+    /// [`TableError::Cut`] if the bag is truncated or was not closed; [`TableError::Damaged`] if its records differ from its stated counts.
     pub(crate) fn open(source: Source) -> Result<Rosbag1, TableError> {
         let mut records = Records::new(&source)?;
         let mut bag = Rosbag1 {
@@ -126,7 +126,7 @@ impl Rosbag1 {
         Ok(bag)
     }
 
-    /// Messages before the cut of the bag in `source`.
+    /// Opens the readable messages of the truncated bag in `source`.
     ///
     /// # Errors
     /// [`TableError::Damaged`] for a chunk that cannot be unpacked, [`TableError::TooLarge`] for too many messages.
@@ -225,7 +225,7 @@ impl MessageStore for Rosbag1 {
     }
 }
 
-/// Reader of the records of a bag with one cursor. Caches the last chunk.
+/// Reader of the records of a bag with its own cursor. Caches the last chunk.
 struct Records<'a> {
     source: &'a Source,
     file: File,
@@ -243,7 +243,7 @@ impl<'a> Records<'a> {
         })
     }
 
-    /// Head of the record at `at`. Its data must end within the file.
+    /// Head of the record at `at`. The data of the record must end within the file.
     fn head(&mut self, at: u64) -> Result<Head, TableError> {
         match self.head_within(at)? {
             Ok(head) => Ok(head),
@@ -254,7 +254,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// Head of the record at `at`, or a message if the file ends before the record does.
+    /// Head of the record at `at`, or an error message if the file ends before the record.
     fn head_within(&mut self, at: u64) -> Result<Result<Head, String>, TableError> {
         let mut four = |at: u64| {
             let bytes = self.source.bytes(&mut self.file, at, 4, 4).ok()?;
@@ -292,14 +292,14 @@ impl<'a> Records<'a> {
             .bytes(&mut self.file, head.data_at, length, limits::PAGE_BYTES)
     }
 
-    /// The record at `at` with this head, from its first byte.
+    /// Bytes of the whole record at `at` with this head.
     fn whole(&mut self, at: u64, head: &Head) -> Result<Vec<u8>, TableError> {
         let length = head.end - at;
         self.source
             .bytes(&mut self.file, at, length, limits::PAGE_BYTES)
     }
 
-    /// The unpacked records of the chunk at `at`; of a plain chunk that is cut, those before the cut.
+    /// Unpacked records of the chunk at `at`. Of a truncated uncompressed chunk, the records before its end.
     fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, bytes)) = &self.kept
             && *kept == at

@@ -38,7 +38,7 @@ pub(crate) struct Rosbag2 {
     channels: BTreeMap<u32, Channel>,
 }
 
-/// Columns of a message, in the order of requests.
+/// Positions of the columns of a message, in the order of requests.
 #[derive(Clone, Copy, Debug)]
 struct Columns {
     topic: usize,
@@ -47,11 +47,11 @@ struct Columns {
 }
 
 impl Rosbag2 {
-    /// Recording in `source`.
+    /// Opens the recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] for a later schema or no recording; [`TableError::Damaged`] for an invalid page or row;
-    /// [`TableError::Cut`] if pages are missing at its end.
+    /// [`TableError::Unsupported`] for a later schema, or if the database is no recording; [`TableError::Damaged`] for an invalid page or row;
+    /// [`TableError::Cut`] if pages are missing at the end.
     pub(crate) fn open(source: Source) -> Result<Rosbag2, TableError> {
         let database = Database::open(source)?;
         if database.cut_at().is_none() {
@@ -72,10 +72,10 @@ impl Rosbag2 {
         })
     }
 
-    /// The complete messages in the pages of the database in `source`, which was cut.
+    /// Opens the complete messages in the pages of the truncated database in `source`.
     ///
     /// # Errors
-    /// As [`open`](Self::open).
+    /// Errors of [`open`](Self::open).
     pub(crate) fn open_to_cut(source: Source) -> Result<Rosbag2, TableError> {
         Rosbag2::of(Database::open(source)?)
     }
@@ -116,7 +116,7 @@ impl Rosbag2 {
         }
     }
 
-    /// Calls `each` with the topic and the location of every message, by row number.
+    /// Calls `each` with the topic and the location of every message, in the order of row numbers.
     fn each_message(
         &self,
         each: &mut dyn FnMut(u32, Entry) -> Result<(), TableError>,
@@ -202,7 +202,7 @@ impl MessageStore for Rosbag2 {
     }
 }
 
-/// Reader of the messages of a database with one cursor.
+/// Reader of the messages of a database with its own cursor.
 struct Rows<'a> {
     bag: &'a Rosbag2,
     pages: Pages<'a>,
@@ -231,7 +231,7 @@ impl MessageReader for Rows<'_> {
     }
 }
 
-/// Rejects a database of a later rosbag2, or one that is not a recording.
+/// Rejects a database of a later rosbag2, or a database that is no recording.
 fn check_schema(database: &Database) -> Result<(), TableError> {
     let source = database.source();
     let names: Vec<&str> = database
@@ -272,7 +272,7 @@ fn check_schema(database: &Database) -> Result<(), TableError> {
     })
 }
 
-/// Table `name`. It must have the first `least` of the columns `known`, and no columns outside `known`.
+/// Table `name`. The table must have the first `least` of the columns `known`, and no columns outside `known`.
 fn table<'d>(
     database: &'d Database,
     name: &str,
@@ -306,7 +306,7 @@ fn table<'d>(
     Err(source.unsupported(Place::of(name), problem))
 }
 
-/// Topics, with the definitions of their messages if the file or ROS 2 itself has them.
+/// Topics, with the definitions of their messages if the file contains them or ROS 2 defines them.
 fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     let source = database.source();
     let definitions = definitions(database)?;
@@ -363,7 +363,7 @@ fn channels(database: &Database) -> Result<BTreeMap<u32, Channel>, TableError> {
     Ok(channels)
 }
 
-/// Definitions of messages in the file, by type; empty for a recording from before ROS 2 Iron.
+/// Definitions of messages in the file, by type; empty for a recording older than ROS 2 Iron.
 fn definitions(database: &Database) -> Result<BTreeMap<String, Arc<Schema>>, TableError> {
     let mut found = BTreeMap::new();
     let Some(table) = database

@@ -1,9 +1,9 @@
-//! Requested rows.
+//! Checks of requested rows.
 
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Checks that `sorted` ascends and that its rows are below `rows`.
+/// Checks that `sorted` is ascending and that its rows are below `rows`.
 pub(crate) fn check_sorted(
     source: &Source,
     name: &str,

@@ -2,7 +2,7 @@
 
 use crate::cell::Cell;
 
-/// `value` / 10^`scale`, rounded once: parses the decimal text as a number.
+/// Computes `value` / 10^`scale`, rounded once, by parsing the decimal text.
 pub(crate) fn decimal(value: i128, scale: i32) -> Cell {
     let text = format!("{value}e-{scale}");
     Cell::Number(
@@ -11,7 +11,7 @@ pub(crate) fn decimal(value: i128, scale: i32) -> Cell {
     )
 }
 
-/// Nanoseconds of a time unit. A 64-bit count of the longest unit, days, fits into 128 bits.
+/// Number of nanoseconds in a time unit. A 64-bit count of the longest unit, days, fits into 128 bits.
 pub(crate) fn nanoseconds_in(unit: &str) -> i128 {
     match unit {
         "ns" => 1,

@@ -1,7 +1,7 @@
 //! Streaming decoder of the snappy block format.
 //!
-//! A block is a length, then elements. An element is a literal or a copy of earlier output. Compressors split their input into pieces of
-//! 64 KiB and copy within a piece. A window of that size is therefore sufficient. A copy from further back is rejected.
+//! A block is a length, then elements. An element is a literal or a copy of earlier output. Compressors split their input into pieces of 64 KiB and copy only
+//! within a piece. A window of that size is therefore sufficient. A copy from further back is rejected.
 
 use std::io::{self, BufRead, Read};
 
@@ -11,7 +11,7 @@ const WINDOW: usize = 1 << 16;
 /// Streaming decoder of a block.
 pub(crate) struct SnappyStream<R> {
     packed: R,
-    /// Last output, with the position up to which it was returned. Trimmed to a window regularly.
+    /// Last output, and the position up to which it was returned. The output is trimmed to the size of a window regularly.
     window: Vec<u8>,
     handed: usize,
     /// Number of bytes to unpack.
@@ -27,7 +27,7 @@ enum Element {
 }
 
 impl<R: BufRead> SnappyStream<R> {
-    /// Decoder of a block that announces `size` bytes.
+    /// Decoder of a block with the stated unpacked size `size`, bytes.
     pub(crate) fn new(mut packed: R, size: u32) -> Result<SnappyStream<R>, String> {
         let mut announced = 0_u64;
         for shift in (0..35).step_by(7) {
@@ -100,7 +100,7 @@ impl<R: BufRead> SnappyStream<R> {
         Ok(())
     }
 
-    /// Unpacks the complete elements of the input buffer. True if there was an element.
+    /// Unpacks the complete elements of the input buffer. Returns true if there was an element.
     fn fill_from_buffer(&mut self) -> io::Result<bool> {
         let (packed, window) = (self.packed.fill_buf()?, &mut self.window);
         let (mut at, mut left) = (0, self.left);
@@ -147,7 +147,7 @@ impl<R: BufRead> Read for SnappyStream<R> {
     }
 }
 
-/// Appends a copy of `length` bytes from `from` bytes back, at most `left`.
+/// Appends a copy of `length` bytes that begin `from` bytes back. Fails if `length` exceeds `left`.
 fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Result<()> {
     let begin = window.len().checked_sub(from).filter(|_| from > 0);
     let Some(begin) = begin.filter(|_| length <= left) else {
@@ -164,7 +164,7 @@ fn copy(window: &mut Vec<u8>, from: usize, length: usize, left: usize) -> io::Re
     Ok(())
 }
 
-/// Element at `at`, and the offset after its numbers; `None` if `packed` ends before them.
+/// Element at `at`, and the offset after its length and offset bytes; `None` if `packed` ends before.
 fn element(packed: &[u8], at: usize) -> Option<(Element, usize)> {
     let tag = *packed.get(at)?;
     let high = usize::from(tag >> 2);

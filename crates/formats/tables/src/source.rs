@@ -1,4 +1,4 @@
-//! Untrusted file. Each reader opens it separately, so that threads do not share a cursor.
+//! Untrusted file. Each reader opens the file separately, so that threads do not share a cursor.
 
 use std::fs::{self, File};
 use std::io::{Read, Seek, SeekFrom};
@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::error::{Place, TableError};
 
-/// Regular file, with its length at first opening.
+/// Regular file, with its length when first opened.
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
     path: PathBuf,
@@ -14,7 +14,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Regular file at `path`. The kind is checked before opening, because opening a FIFO blocks.
+    /// Regular file at `path`. The kind of file is checked before opening, because opening a FIFO blocks.
     pub(crate) fn new(path: &Path) -> Result<Source, TableError> {
         let metadata = fs::metadata(path).map_err(|source| TableError::Io {
             path: path.to_owned(),
@@ -39,7 +39,7 @@ impl Source {
         self.length
     }
 
-    /// Opens the file with its own cursor.
+    /// Opens the file with a separate cursor.
     pub(crate) fn open(&self) -> Result<File, TableError> {
         let file = File::open(&self.path).map_err(|source| self.io(source))?;
         let length = file.metadata().map_err(|source| self.io(source))?.len();
@@ -55,7 +55,7 @@ impl Source {
         }
     }
 
-    /// `count` bytes from `at`. Allocates nothing beyond the end of the file or above `limit`.
+    /// Reads `count` bytes from `at`. Allocates no memory beyond the end of the file or above `limit`.
     pub(crate) fn bytes(
         &self,
         file: &mut File,

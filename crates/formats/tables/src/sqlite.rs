@@ -1,6 +1,6 @@
 //! Read-only access to tables of an SQLite 3 database: <https://www.sqlite.org/fileformat2.html>.
 //!
-//! Only B-trees of tables are read. Indices, triggers and views are ignored; there is no search.
+//! Only B-trees of tables are read. Indices, triggers and views are ignored, so rows cannot be searched by value.
 
 mod columns;
 mod page;
@@ -34,7 +34,7 @@ pub(crate) struct Database {
     usable: u32,
     /// Number of pages in the file.
     pages: u32,
-    /// Number of pages that its header announces.
+    /// Number of pages that the header of the file states.
     announced: u32,
     tables: Vec<SqliteTable>,
 }
@@ -46,11 +46,11 @@ pub(crate) struct SqliteTable {
     root: u32,
     /// Names of the columns.
     pub(crate) columns: Vec<String>,
-    /// Column that is an alias of the row number.
+    /// Position of the column that is an alias of the row number.
     id: Option<usize>,
 }
 
-/// Location of a row: its page, and the index of its cell.
+/// Location of a row: its page, and the index of its cell in the page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct RowPlace {
     pub(crate) page: u32,
@@ -58,10 +58,10 @@ pub(crate) struct RowPlace {
 }
 
 impl Database {
-    /// Database in `source`.
+    /// Opens the database in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if a log beside it has pending changes; [`TableError::Damaged`] if it is no database.
+    /// [`TableError::Unsupported`] if a log beside the database has pending changes; [`TableError::Damaged`] if the file is no database.
     pub(crate) fn open(source: Source) -> Result<Database, TableError> {
         check_logs(&source)?;
         let mut file = source.open()?;
@@ -126,12 +126,12 @@ impl Database {
         &self.source
     }
 
-    /// End of the last page of a file that has fewer pages than it announces; `None` for a whole one.
+    /// Offset of the end of the last page of a file that has fewer pages than its header states; `None` for a complete file.
     pub(crate) fn cut_at(&self) -> Option<u64> {
         (self.pages < self.announced).then(|| u64::from(self.pages) * u64::from(self.page_bytes))
     }
 
-    /// Size of the file before a cut, bytes.
+    /// Size of the file before truncation, bytes, as its header states.
     fn announced_bytes(&self) -> u64 {
         let announced = u64::from(self.announced) * u64::from(self.page_bytes);
         self.source.length().max(announced)
@@ -147,7 +147,7 @@ impl Database {
         )
     }
 
-    /// The tables, in the order of creation.
+    /// Tables of the database, in the order of creation.
     pub(crate) fn tables(&self) -> &[SqliteTable] {
         &self.tables
     }
@@ -220,7 +220,7 @@ fn beside(path: &Path, ending: &str) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Rejects a database with a log of messages that are not in it yet, or of changes to be rolled back.
+/// Rejects a database with a log of changes that are not yet in the database, or that must be rolled back.
 fn check_logs(source: &Source) -> Result<(), TableError> {
     let refuse = |log: &Path, what: &str| {
         let name = log

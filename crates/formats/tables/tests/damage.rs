@@ -1,6 +1,6 @@
-//! Tests with damaged copies of every file. Each gives a result or a typed error that names the file.
+//! Tests with damaged copies of every file. Each copy gives a result or a typed error that names the file.
 //!
-//! Our code does not panic, and uses little memory and time.
+//! The code of this crate does not panic, and uses little memory and time.
 
 mod recordings;
 
@@ -28,7 +28,7 @@ fn check_memory() {
     }
 }
 
-/// Reads all rows of two columns of bytes one at a time, like pictures.
+/// Reads all rows of two columns of bytes, one row at a time, as for pictures.
 fn every_picture(path: &Path) -> Result<usize, TableError> {
     let table = ParquetTable::open(path)?;
     let rows: Vec<u64> = (0..table.rows()).collect();

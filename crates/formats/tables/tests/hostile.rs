@@ -1,4 +1,4 @@
-//! Tests with malicious files and files of another format under a familiar name. They are rejected by a typed error, in little memory.
+//! Tests with malicious files, and with files whose extension contradicts their format. They are rejected with a typed error and little memory.
 
 mod recordings;
 
@@ -10,7 +10,7 @@ use recordings::damage::peak_bytes;
 use recordings::parquet_file::parquet_file;
 use taceva_tables::{Cell, ParquetTable, Recording, TableError};
 
-/// Writes `bytes` into a folder that lasts as long as the returned value.
+/// Writes `bytes` into a folder that exists as long as the returned value.
 fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
@@ -90,7 +90,7 @@ fn mcap(records: &[Vec<u8>]) -> Vec<u8> {
     [magic, &header, &records.concat(), &end, magic].concat()
 }
 
-/// First error of reading all of `/x`.
+/// First error of reading all messages of `/x`.
 fn problem(records: &[Vec<u8>]) -> String {
     let (_folder, path) = file("x.mcap", &mcap(records));
     let result = Recording::open(&path).and_then(|recording| {

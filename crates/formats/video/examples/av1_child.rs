@@ -1,4 +1,4 @@
-//! Complete program that decodes AV1 for its parent, for use as `Decoders::av1`.
+//! Complete program that decodes AV1 for a parent process, for use as `Decoders::av1`.
 
 use std::process::ExitCode;
 

@@ -1,7 +1,6 @@
-//! AVI files. Reads the chunks to find the packets of the video stream. Checks the indices if there are any.
+//! AVI files. The chunks are read to find the packets of the video stream, and checked against the indices if there are any.
 //!
-//! Chunks state their kind and size. A file without an index is therefore readable too. An index that contradicts the chunks is an error,
-//! because either can be wrong.
+//! Chunks state their kind and size, so a file without an index is readable too. An index that contradicts the chunks is an error, because either can be wrong.
 
 mod chunk;
 mod header;
@@ -20,10 +19,10 @@ use index::Index;
 #[derive(Debug)]
 pub(crate) struct Avi {
     pub(crate) stream: StreamHeader,
-    /// Packets in file and presentation order. An empty packet marks a frame that was lost in recording. It is skipped, as in other readers.
-    /// The times of the other packets show the gap.
+    /// Packets in the order of file and presentation. An empty packet marks a frame that was lost in recording, and is skipped as in other readers. The times
+    /// of the other packets show the gap.
     pub(crate) packets: Vec<Packet>,
-    /// Time of each packet, in frames of the stream.
+    /// Time of each packet, in frame periods of the stream.
     places: Vec<u64>,
 }
 
@@ -74,7 +73,7 @@ impl Avi {
         )
     }
 
-    /// Name of the codec, or its four letters. Uncompressed video has zeros there.
+    /// Name of the codec, or its four letters. Uncompressed video has zeros in place of letters.
     pub(crate) fn codec(&self) -> String {
         let letters = self.stream.codec;
         let name = match letters.to_ascii_uppercase().as_slice() {
@@ -100,7 +99,7 @@ impl Avi {
     }
 }
 
-/// State of the reading of the chunks.
+/// State while the chunks are read.
 struct Walk<'a> {
     source: &'a Source,
     stream: Option<StreamHeader>,
@@ -123,7 +122,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Reads one RIFF part of the file: `AVI `, then `AVIX` for each further GiB approximately.
+    /// Reads one RIFF part of the file. The first part is `AVI `; `AVIX` parts follow after about each GiB.
     fn part(&mut self, part: &Chunk) -> Result<(), VideoError> {
         if part.size == 0 {
             return Err(self.source.damaged(
@@ -159,7 +158,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Reads the packets of a list. `is_whole` is false for a record within the list of all packets.
+    /// Reads the packets of a list. `is_whole` is false for a record inside the list of all packets.
     fn movie(&mut self, list: &Chunk, is_whole: bool) -> Result<(), VideoError> {
         let Some(number) = self.stream.as_ref().map(|stream| stream.number) else {
             return Err(self

@@ -1,6 +1,6 @@
-//! Properties of a clip, and its frames.
+//! Properties of a clip, and pictures of its frames.
 
-/// Properties of a clip, known without decoding it.
+/// Properties of a clip, known before its frames are decoded.
 ///
 /// # Units
 /// Sizes are in pixels, times in seconds from the beginning of the presentation.
@@ -33,7 +33,7 @@ pub struct VideoInfo {
     pub times_s: Option<Vec<f64>>,
     /// True for a lossy codec; `None` for a codec with lossy and lossless modes.
     pub lossy: Option<bool>,
-    /// Decoder of the frames, with its version if known; `None` if frames are the packets of the clip.
+    /// Decoder of the frames, with its version if known; `None` if the packets of the clip are returned undecoded.
     pub decoder: Option<String>,
 }
 
@@ -55,15 +55,15 @@ pub struct VideoInfo {
 pub enum Colours {
     /// Luma plane as stored.
     Luma,
-    /// Red, green and blue of 8 bits, converted with the matrix and range of the stream and the nearest chroma sample. The default is
-    /// BT.601 in the limited range. Streams of more than 8 bits are reduced to their upper 8 bits.
+    /// Red, green and blue of 8 bits, converted with the matrix and range of the stream and the nearest chroma sample. The default is BT.601 in the limited
+    /// range. Samples of more than 8 bits are reduced to their upper 8 bits.
     Rgb,
 }
 
-/// Frame of a clip.
+/// Picture of one frame of a clip.
 ///
 /// # Shapes
-/// Samples are row by row: `[height, width]`, with three colours `[height, width, 3]`.
+/// Samples are row by row, in the shape `[height, width]`, or `[height, width, 3]` for three colours.
 ///
 /// ```
 /// use taceva_video::Picture;
@@ -78,10 +78,10 @@ pub enum Colours {
 #[derive(Clone, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Picture {
-    /// JPEG file with the bytes in the clip, for any requested [`Colours`]. Some Motion JPEG has no Huffman tables. The standard tables are
-    /// then inserted before the scan, so that other programs can read it.
+    /// JPEG file with the bytes in the clip, for any requested [`Colours`]. Some Motion JPEG has no Huffman tables. The standard tables are then inserted
+    /// before the scan, so that other programs can read the file.
     Jpeg(Vec<u8>),
-    /// Pixels of 8 bits a sample.
+    /// Pixels of 8 bits per sample.
     Pixels {
         /// Width, pixels.
         width: u32,
@@ -90,7 +90,7 @@ pub enum Picture {
         /// Samples row by row: one for each pixel with [`Colours::Luma`], or red, green and blue with [`Colours::Rgb`].
         samples: Vec<u8>,
     },
-    /// Luma plane of a clip of more than 8 bits a sample.
+    /// Luma plane of a clip of more than 8 bits per sample.
     Deep {
         /// Width, pixels.
         width: u32,

@@ -1,4 +1,4 @@
-//! Conversion of luma and chroma to red, green and blue, in integers.
+//! Conversion of luma and chroma to red, green and blue, with integer arithmetic.
 
 use std::path::Path;
 
@@ -7,25 +7,25 @@ use crate::error::VideoError;
 /// Colour coding of luma and chroma.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct YuvCoding {
-    /// Matrix number of ITU-T H.273, if the stream states one.
+    /// Matrix number of ITU-T H.273; `None` if the stream states none.
     pub(crate) matrix: Option<u16>,
-    /// True for samples from 0 to 255. False for 16 to 235 (luma) and 16 to 240 (chroma).
+    /// True for samples from 0 to 255. False for luma from 16 to 235 and chroma from 16 to 240.
     pub(crate) is_full_range: bool,
 }
 
-/// Planes of a frame of 8 bits a sample.
+/// Planes of a frame of 8 bits per sample.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Planes<'a> {
     width: usize,
     height: usize,
     luma: &'a [u8],
-    /// Blue and red chroma, if present.
+    /// Planes of blue and red chroma; `None` for gray.
     chroma: Option<[&'a [u8]; 2]>,
-    /// Pixels for each chroma sample as powers of two, along a row and along a column.
+    /// Number of pixels per chroma sample as powers of two, along a row and along a column.
     shifts: [u32; 2],
 }
 
-/// Unsupported matrix.
+/// Matrix number that is not supported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct UnknownMatrix(u16);
 
@@ -39,10 +39,10 @@ impl UnknownMatrix {
 }
 
 impl<'a> Planes<'a> {
-    /// Planes without padding in their rows. Each chroma sample covers `1 << shifts[0]` by `1 << shifts[1]` pixels.
+    /// Planes without padding in the rows. Each chroma sample covers `1 << shifts[0]` by `1 << shifts[1]` pixels.
     ///
     /// # Panics
-    /// If a plane is too small. Decoders check this before.
+    /// Panics if a plane is too small. Decoders check the sizes before.
     pub(crate) fn new(
         width: u32,
         height: u32,
@@ -65,7 +65,7 @@ impl<'a> Planes<'a> {
         }
     }
 
-    /// Converts each pixel to red, green and blue with the nearest chroma sample. Uses fixed-point arithmetic with 8 fractional bits.
+    /// Converts each pixel to red, green and blue with the nearest chroma sample, in fixed-point arithmetic with 8 fractional bits.
     ///
     /// # Errors
     /// [`UnknownMatrix`] for a matrix other than BT.601, BT.709, FCC, SMPTE 240M and BT.2020.
@@ -108,10 +108,10 @@ fn shifted(length: usize, shift: u32) -> usize {
     (length + (1 << shift) - 1) >> shift
 }
 
-/// Factors of samples, in 256ths.
+/// Conversion factors of samples, in units of 1/256.
 struct Factors {
     luma: i32,
-    /// Luma of black.
+    /// Luma value of black.
     offset: i32,
     red_of_red: i32,
     green_of_blue: i32,
@@ -120,9 +120,9 @@ struct Factors {
 }
 
 impl Factors {
-    /// Calculates the factors from the weights K_r and K_b of red and blue in luma.
+    /// Computes the factors from the weights K_r and K_b of red and blue in luma.
     ///
-    /// R = Y + 2 (1 − K_r) V, B = Y + 2 (1 − K_b) U, and G from the sum.
+    /// The formulas are R = Y + 2 (1 − K_r) V and B = Y + 2 (1 − K_b) U. G follows from the sum.
     fn of(coding: YuvCoding) -> Result<Factors, UnknownMatrix> {
         // Unspecified means BT.601, as in other decoders.
         let (of_red, of_blue) = match coding.matrix.unwrap_or(2) {

@@ -15,24 +15,24 @@ use taceva_core::shown;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum VideoError {
-    /// The file, or a program that reads it, could not be used.
+    /// The file, or a program that reads the file, could not be used.
     #[error("cannot {doing} {}: {source}", shown(path))]
     Io {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
-        /// Failed action, as a verb.
+        /// Failed operation, as a verb.
         doing: &'static str,
-        /// System error.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// Bytes contradict the format of the container or of the stream.
     #[error("{} is damaged at byte {offset}: {problem}", shown(path))]
     Damaged {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
         /// Byte offset in the file.
         offset: u64,
-        /// Found value and expected value.
+        /// Value found, and value expected.
         problem: String,
     },
     /// The index of the container contradicts its frames.
@@ -41,23 +41,23 @@ pub enum VideoError {
         shown(path)
     )]
     Index {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
         /// Byte offset of the index entry in the file.
         offset: u64,
-        /// Value of the index and found value.
+        /// Value in the index, and value found.
         problem: String,
     },
-    /// A size exceeds its limit. Nothing was allocated for it.
+    /// A size exceeds its limit. No memory was allocated.
     #[error("{}: {what}: {found}, at most {limit} are accepted", shown(path))]
     TooLarge {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
-        /// Counted quantity.
+        /// Limited quantity.
         what: &'static str,
         /// Stated size.
         found: u64,
-        /// Maximum accepted size.
+        /// Maximum accepted value.
         limit: u64,
     },
     /// The clip has no frame with the requested index.
@@ -66,24 +66,24 @@ pub enum VideoError {
         shown(path)
     )]
     NoFrame {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
         /// Requested frame, from 0.
         index: u64,
         /// Number of frames.
         frames: u64,
     },
-    /// Requested frames are not strictly ascending.
+    /// The requested frames are not strictly ascending.
     #[error(
         "{}: frame {index} is requested after frame {after}, expected ascending numbers",
         shown(path)
     )]
     Unsorted {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
-        /// Frame out of order.
+        /// Index of the frame that is out of order.
         index: u64,
-        /// Frame before it.
+        /// Index of the frame requested before.
         after: u64,
     },
     /// The size of a frame differs from the size of the first frame.
@@ -92,19 +92,19 @@ pub enum VideoError {
         shown(path)
     )]
     ChangedSize {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
-        /// Frame, from 0.
+        /// Index of the frame, from 0.
         frame: u64,
         /// Size of the frame, `width×height` in pixels.
         found: String,
-        /// Size of the clip.
+        /// Size of the first frame, `width×height` in pixels.
         expected: String,
     },
     /// No available decoder supports the clip.
     #[error("{}: no available decoder supports {codec}: {remedy}", shown(path))]
     NoDecoder {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
         /// Codec, with the unsupported profile or pixel format.
         codec: String,
@@ -117,7 +117,7 @@ pub enum VideoError {
         shown(path)
     )]
     NoLuma {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
         /// Pixel format.
         pixel_format: String,
@@ -128,7 +128,7 @@ pub enum VideoError {
         shown(path)
     )]
     Colours {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
         /// Matrix number of ITU-T H.273.
         matrix: u16,
@@ -136,9 +136,9 @@ pub enum VideoError {
     /// The decoder rejected the stream.
     #[error("{}: {decoder} does not decode frame {frame}: {problem}", shown(path))]
     Decoder {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
-        /// Library or program.
+        /// Name of the decoder library or program.
         decoder: &'static str,
         /// First missing frame, from 0 in presentation order.
         frame: u64,
@@ -148,11 +148,11 @@ pub enum VideoError {
     /// A decoder program was killed, ended early, was too slow or broke the protocol.
     #[error("{}: {program}: {problem}", shown(path))]
     Process {
-        /// Clip.
+        /// Path of the clip.
         path: PathBuf,
-        /// Program.
+        /// Name of the program.
         program: String,
-        /// Reason.
+        /// Reason for the failure.
         problem: String,
     },
 }
@@ -193,7 +193,7 @@ pub enum VisitError<E> {
     /// The clip could not be read or decoded.
     #[error(transparent)]
     Video(#[from] VideoError),
-    /// Error of the caller. It ended the visit.
+    /// Error of the caller, which ended the visit.
     #[error("{0}")]
     Caller(E),
 }

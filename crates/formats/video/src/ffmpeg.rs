@@ -1,8 +1,8 @@
-//! Clips decoded by an external ffmpeg, in any container and codec that it supports.
+//! Clips decoded by the external program ffmpeg, in any container and codec that ffmpeg supports.
 //!
-//! When a clip is opened, ffmpeg decodes all of it once. This gives the number of frames and their times, and finds damage and changes of
-//! size. A visit decodes it again up to the last requested frame. ffmpeg converts no pixels. Raw frames arrive in the format of the codec,
-//! and the luma is extracted here. The clip is the standard input of ffmpeg. It therefore sees no file name, and may open only files.
+//! When a clip is opened, ffmpeg decodes all of it once. This gives the number of frames and their times, and detects damage and changes of size. A visit
+//! decodes the clip again up to the last requested frame. ffmpeg converts no pixels; raw frames arrive in the format of the codec, and this module extracts the
+//! luma. The clip is the standard input of ffmpeg, so ffmpeg receives no file name. It may open only files.
 
 mod command;
 mod format;
@@ -40,7 +40,7 @@ pub(crate) struct ForeignClip {
 pub(crate) struct Known {
     container: Option<&'static str>,
     codec: Option<String>,
-    /// Reason why it is not decoded in this process. It follows the name of the codec. Empty if the codec is the reason.
+    /// Reason why this process cannot decode the clip, to be appended to the name of the codec. Empty if the codec itself is the reason.
     why: String,
 }
 
@@ -53,7 +53,7 @@ impl Known {
         }
     }
 
-    /// Codec with the reason.
+    /// Name of the codec, followed by the reason.
     fn codec(&self) -> String {
         let codec = self
             .codec
@@ -73,7 +73,7 @@ impl Known {
 }
 
 impl ForeignClip {
-    /// Runs ffmpeg over the clip at `path` with the properties `known`.
+    /// Runs ffmpeg over the clip at `path` with the properties `known`, to find its frames.
     pub(crate) fn open(
         path: &Path,
         program: &Path,
@@ -162,7 +162,7 @@ impl ForeignClip {
         Ok((info, clip))
     }
 
-    /// Calls `each` with the frames in `sorted`. All must exist.
+    /// Calls `each` with the frames whose indices are in `sorted`. All must exist.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],

@@ -1,4 +1,4 @@
-//! Visits of dependent frames. Decodes from the key frame before each requested frame. Shows frames in presentation order.
+//! Visits of frames that depend on other frames. Decoding begins at the key frame before each requested frame. Frames are returned in presentation order.
 
 use std::ops::ControlFlow;
 
@@ -7,9 +7,9 @@ use crate::error::VideoError;
 use crate::presentation_order::Reorder;
 use crate::source::Source;
 
-/// Decoder of samples in file order.
+/// Decoder of the samples of a clip, in file order.
 pub(crate) trait SampleDecoder {
-    /// Decoder error.
+    /// Error type of the decoder.
     type Refusal: From<VideoError>;
 
     /// True if decoding can begin at this sample.
@@ -18,20 +18,20 @@ pub(crate) trait SampleDecoder {
     /// Resets the decoder before the next sample.
     fn restart(&mut self);
 
-    /// Decodes a sample on the way to `towards`. Returns the picture if it is that sample.
+    /// Decodes a sample that precedes or equals `towards`. Returns the picture if it is the wanted sample.
     fn decode(&mut self, sample: usize, towards: Wanted) -> Result<Option<Picture>, Self::Refusal>;
 }
 
 /// Requested frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Wanted {
-    /// Index in decoding order.
+    /// Index of the sample in decoding order.
     pub(crate) sample: usize,
-    /// Index in presentation order.
+    /// Index of the frame in presentation order.
     pub(crate) frame: u64,
 }
 
-/// Calls `each` with the frames in `sorted`. `presented` holds sample indices in presentation order.
+/// Calls `each` with the frames whose indices are in `sorted`. `presented` contains sample indices in presentation order.
 pub(crate) fn visit<D: SampleDecoder>(
     decoder: &mut D,
     source: &Source,

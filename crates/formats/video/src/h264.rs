@@ -1,6 +1,6 @@
-//! H.264 of 8 bits and 4:2:0 in MP4. Decodes sample by sample, from the key frame before the requested frame.
+//! H.264 of 8 bits and 4:2:0 in MP4. Samples are decoded one by one, from the key frame before the requested frame.
 //!
-//! Frames follow the presentation order of the container. Therefore only frames that wait for an earlier one are kept.
+//! Frames follow the presentation order of the container, so only frames that wait for an earlier frame are kept in memory.
 
 mod bits;
 mod parameters;
@@ -40,11 +40,11 @@ pub(crate) struct H264Clip {
 /// Reason why a frame was not decoded.
 pub(crate) enum Refusal {
     Video(VideoError),
-    /// The stream needs an unsupported tool of the codec. The text follows the name of the codec.
+    /// Tool of the codec that the decoder does not support. The text is appended to the name of the codec.
     Tool(String),
 }
 
-/// Decoded picture: rows without padding, chroma with half the width and height.
+/// Decoded picture, with rows without padding, and chroma planes with half the width and height.
 struct Decoded {
     width: usize,
     height: usize,
@@ -59,7 +59,7 @@ impl From<VideoError> for Refusal {
 }
 
 impl H264Clip {
-    /// Opens the clip of a track. Also returns the reason if this process cannot decode it.
+    /// Opens the clip of a track. Also returns the reason if this process cannot decode the clip.
     pub(crate) fn open(
         source: Source,
         track: Track,
@@ -107,7 +107,7 @@ impl H264Clip {
         (self.sequence.width, self.sequence.height)
     }
 
-    /// Calls `each` with the frames in `sorted`.
+    /// Calls `each` with the frames whose indices are in `sorted`.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
@@ -122,7 +122,7 @@ impl H264Clip {
         gop::visit(&mut session, &self.source, &self.presented, sorted, each)
     }
 
-    /// Checks a parameter set within the stream against the first one.
+    /// Checks a sequence parameter set within the stream against the first one.
     fn check_sequence(&self, unit: &[u8], offset: u64, frame: u64) -> Result<(), Refusal> {
         let Some(sequence) = Sequence::read(unit) else {
             return Err(self
@@ -198,7 +198,7 @@ impl H264Clip {
     }
 }
 
-/// Visit of a clip.
+/// Visit of a clip, with its decoder.
 struct Session<'a> {
     clip: &'a H264Clip,
     colours: Colours,
@@ -287,7 +287,7 @@ impl SampleDecoder for Session<'_> {
     }
 }
 
-/// First sequence parameter set of a stream. Its container has none.
+/// First sequence parameter set in the samples of a stream whose container states none.
 fn first_sequence(
     source: &Source,
     settings: &Settings,

@@ -1,4 +1,4 @@
-//! Headers of a JPEG, and the Huffman tables that Motion JPEG may omit.
+//! Parser of JPEG headers, and the Huffman tables that Motion JPEG may omit.
 
 /// Contents of the headers of a JPEG.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -7,14 +7,14 @@ pub(crate) struct JpegHeader {
     pub(crate) height: u32,
     /// Pixel format as FFmpeg names it.
     pub(crate) pixel_format: &'static str,
-    /// Offset for the standard Huffman tables, if the file has none.
+    /// Offset at which the standard Huffman tables must be inserted; `None` if the file has tables.
     tables_missing_at: Option<usize>,
 }
 
 /// Parses the headers of the JPEG `bytes`, up to its first scan.
 ///
 /// # Errors
-/// Byte offset and fault.
+/// Byte offset of the fault, and its description.
 pub(crate) fn read_header(bytes: &[u8]) -> Result<JpegHeader, (usize, String)> {
     if bytes.get(..2) != Some(&[0xff, 0xd8]) {
         return Err((0, "expected the start of a JPEG".to_owned()));
@@ -97,7 +97,7 @@ fn read_frame(segment: &[u8]) -> Option<(u32, u32, &'static str)> {
     Some((width, height, pixel_format))
 }
 
-/// Completes a packet with the standard Huffman tables if it has none.
+/// Inserts the standard Huffman tables into a packet that has none.
 pub(crate) fn with_tables(packet: Vec<u8>, header: &JpegHeader) -> Vec<u8> {
     let Some(at) = header.tables_missing_at else {
         return packet;
@@ -110,7 +110,7 @@ pub(crate) fn with_tables(packet: Vec<u8>, header: &JpegHeader) -> Vec<u8> {
     whole
 }
 
-/// Tables K.3 to K.6 of ITU-T T.81. Each is its class and number, its counts of codes by length, and its values.
+/// Tables K.3 to K.6 of ITU-T T.81. Each consists of its class and number, its counts of codes by length, and its values.
 #[rustfmt::skip]
 const STANDARD_TABLES: [u8; 416] = [
     0x00, 0x00, 0x01, 0x05, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02,
@@ -140,7 +140,7 @@ const STANDARD_TABLES: [u8; 416] = [
 mod tests {
     use super::*;
 
-    /// Header of 32×16 pixels with the segments `tables`, and the start of a scan.
+    /// JPEG header of 32×16 pixels with the segments `tables`, and the start of a scan.
     fn jpeg(tables: &[u8], sampling: [u8; 3]) -> Vec<u8> {
         let mut bytes = vec![0xff, 0xd8, 0xff, 0xe0, 0, 4, b'A', b'V'];
         bytes.extend([0xff, 0xc0, 0, 17, 8, 0, 16, 0, 32, 3]);

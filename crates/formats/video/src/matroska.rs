@@ -1,4 +1,4 @@
-//! Codec name of a Matroska or WebM file, for the error without a decoder.
+//! Codec name of a Matroska or WebM file, for the error if no decoder is available.
 
 use crate::error::VideoError;
 use crate::source::Source;
@@ -97,7 +97,7 @@ impl<'a> Elements<'a> {
         }
     }
 
-    /// Continues with the children of `element`, the last returned element.
+    /// Descends into `element`, the last returned element, so that its children are returned next.
     fn enter(&mut self, element: &Element) {
         self.at = element.body;
     }
@@ -130,8 +130,7 @@ impl<'a> Elements<'a> {
         }))
     }
 
-    /// Variable-length number and its length in bytes. The leading zeros of the first byte give the length. `is_size` removes the length
-    /// marker.
+    /// Variable-length number, and its length in bytes, which the leading zeros of the first byte state. `is_size` removes the length marker.
     fn number(&self, at: u64, is_size: bool) -> Result<Option<(u64, u64)>, VideoError> {
         let mut first = [0];
         if at >= self.end {

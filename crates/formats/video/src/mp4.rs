@@ -1,7 +1,7 @@
 //! MP4 and QuickTime files: the first video track, with its samples in decoding and presentation order.
 //!
-//! All values are checked against the length of the file and against other tables. ffmpeg reads encrypted files and files with several
-//! edits or descriptions.
+//! All values are checked against the length of the file and against other tables. Encrypted files, and files with several edits or descriptions, are left to
+//! ffmpeg.
 
 mod boxes;
 mod edits;
@@ -35,7 +35,7 @@ pub(crate) struct Track {
 #[derive(Debug)]
 pub(crate) enum Found {
     Track(Track),
-    /// Track that only ffmpeg reads: its codec and the reason.
+    /// Track that only ffmpeg can read: its codec and the reason.
     Elsewhere {
         codec: String,
         why: &'static str,
@@ -162,7 +162,7 @@ fn track_number(source: &Source, header: &BoxAt) -> Result<u32, VideoError> {
     fields.u32(source)
 }
 
-/// Indices and times (in s) of the samples that the edit presents, ordered by time.
+/// Sample indices and times, s, of the samples that the edit presents, ordered by time.
 fn present(
     samples: &[Sample],
     edit: Edit,

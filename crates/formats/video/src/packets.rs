@@ -1,4 +1,4 @@
-//! Clips with JPEG files as packets. Each packet is a whole frame, returned unchanged.
+//! Clips whose packets are JPEG files. Each packet is a whole frame, which is returned unchanged.
 
 use std::ops::ControlFlow;
 
@@ -27,7 +27,7 @@ pub(crate) struct JpegClip {
 }
 
 impl JpegClip {
-    /// Calls `each` with the frames in `sorted`.
+    /// Calls `each` with the frames whose indices are in `sorted`.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],

@@ -8,10 +8,10 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// Buffer of decoded frames that wait for earlier ones.
+/// Buffer of decoded frames that wait for earlier frames.
 pub(crate) struct Reorder<'a> {
     source: &'a Source,
-    /// Frames to show, in order.
+    /// Indices of the frames to return, in order.
     wanted: std::slice::Iter<'a, u64>,
     held: BTreeMap<u64, Picture>,
     held_bytes: u64,
@@ -27,7 +27,7 @@ impl<'a> Reorder<'a> {
         }
     }
 
-    /// Shows the frame and the frames that waited for it, or keeps it.
+    /// Returns the frame and the frames that waited for it, or keeps it until earlier frames arrive.
     ///
     /// # Errors
     /// [`VideoError::TooLarge`] if the buffer exceeds its limit.

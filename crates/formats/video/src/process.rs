@@ -1,5 +1,4 @@
-//! Decoder program. Its output arrives in pieces of limited size. It is killed after a timeout without output, or when it is no longer
-//! needed.
+//! Decoder program. Its output arrives in pieces of limited size. The program is killed after a timeout without output, or when it is no longer needed.
 
 use std::io::{self, BufRead, BufReader, Read};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -11,7 +10,7 @@ use std::time::Duration;
 pub(crate) const SILENCE: Duration = Duration::from_secs(60);
 /// Maximum length of a line, bytes. Longer lines are split.
 const LINE_BYTES: u64 = 1 << 16;
-/// Queue length of pieces. Limits the memory.
+/// Number of queued pieces, which limits the memory.
 const WAITING: usize = 4;
 
 /// Piece of output.
@@ -23,10 +22,10 @@ pub(crate) enum Piece {
     Block(Vec<u8>),
 }
 
-/// Callback that reads the next block of standard output. An empty block ends it.
+/// Callback that reads the next block of standard output. An empty block means the end of the output.
 pub(crate) type Take = Box<dyn FnMut(&mut dyn Read) -> io::Result<Vec<u8>> + Send>;
 
-/// Reads blocks of `size` bytes. The last one may be shorter.
+/// Reads blocks of `size` bytes. The last block may be shorter.
 pub(crate) fn blocks_of(size: usize) -> Take {
     Box::new(move |output| {
         let mut block = Vec::with_capacity(size);
@@ -35,7 +34,7 @@ pub(crate) fn blocks_of(size: usize) -> Take {
     })
 }
 
-/// Program that runs until it ends or this is dropped.
+/// Program that runs until it exits or this value is dropped.
 #[derive(Debug)]
 pub(crate) struct Running {
     child: Child,
@@ -45,19 +44,19 @@ pub(crate) struct Running {
 /// Reason why no further piece arrives.
 #[derive(Debug)]
 pub(crate) enum Ended {
-    /// The program ended.
+    /// The program exited with this status.
     By(ExitStatus),
-    /// No output for [`SILENCE`]. The program was killed.
+    /// The program wrote no output for [`SILENCE`] and was killed.
     Silent,
-    /// Waiting for its exit failed.
+    /// Waiting for the exit of the program failed.
     Unknown(io::Error),
 }
 
 impl Running {
-    /// Starts `command`. `take` reads its standard output. Without `take` the output is discarded.
+    /// Starts `command`. `take` reads the standard output; without `take` the output is discarded.
     ///
     /// # Errors
-    /// System error if it does not start.
+    /// Error of the operating system if the program cannot be started.
     pub(crate) fn start(mut command: Command, take: Option<Take>) -> io::Result<Running> {
         command.stderr(Stdio::piped());
         command.stdout(match take {

@@ -1,11 +1,11 @@
-//! File of a clip. Reads are checked against its length.
+//! File of a clip. Every read is checked against the length of the file.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use crate::error::VideoError;
 
-/// Regular file that stays open. Threads may share it.
+/// Regular file, open as long as this value exists. Threads may share it.
 #[derive(Debug)]
 pub(crate) struct Source {
     path: PathBuf,
@@ -14,7 +14,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Opens a regular file. Checks the kind first, because opening a FIFO would block.
+    /// Opens a regular file. The kind of file is checked first, because opening a FIFO would block.
     pub(crate) fn open(path: &Path) -> Result<Source, VideoError> {
         let metadata = fs::metadata(path).map_err(VideoError::io("read", path))?;
         if !metadata.is_file() {
@@ -41,7 +41,7 @@ impl Source {
         VideoError::damaged(&self.path, offset, problem)
     }
 
-    /// Fills `into` from `offset`.
+    /// Fills `into` with the bytes from `offset`.
     pub(crate) fn read_into(&self, offset: u64, into: &mut [u8]) -> Result<(), VideoError> {
         let end = offset.checked_add(into.len() as u64);
         if end.is_none_or(|end| end > self.length) {
@@ -55,7 +55,7 @@ impl Source {
         read_exact_at(&self.file, into, offset).map_err(VideoError::io("read", &self.path))
     }
 
-    /// Reads `size` bytes at `offset`. An error for more than `limit` bytes calls them `what`.
+    /// Reads `size` bytes at `offset`. The error for more than `limit` bytes names the quantity `what`.
     pub(crate) fn read(
         &self,
         offset: u64,

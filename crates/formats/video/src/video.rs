@@ -33,13 +33,13 @@ use crate::packets::JpegClip;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Decoders {
-    /// Program ffmpeg. It decodes every other codec and container.
+    /// Path of the program ffmpeg, which decodes all other codecs and containers.
     pub ffmpeg: Option<PathBuf>,
-    /// Program and its arguments that run `taceva_video::av1::serve` between standard input and output, for AV1.
+    /// Program for AV1 and its arguments. It must run `taceva_video::av1::serve` between standard input and output.
     pub av1: Option<Vec<OsString>>,
 }
 
-/// Clip. Its frames are read by their index in presentation order.
+/// Clip whose frames are read by their index in presentation order.
 ///
 /// ```
 /// use taceva_video::{Colours, Decoders, Video};
@@ -66,7 +66,7 @@ pub(crate) enum Frames {
     Jpeg(JpegClip),
     H264 {
         clip: Box<H264Clip>,
-        /// ffmpeg, for unsupported tools of the codec that appear only when a frame is decoded.
+        /// Path of ffmpeg, for streams whose unsupported tools of the codec are detected only when a frame is decoded.
         else_by: Option<PathBuf>,
     },
     Av1(Box<Av1Clip>),
@@ -77,7 +77,7 @@ impl Video {
     /// Opens the clip at `path`. Parses its container and chooses a decoder.
     ///
     /// # Errors
-    /// [`VideoError`] for a fault of the file. [`VideoError::NoDecoder`] if no available decoder supports its codec.
+    /// [`VideoError`] for a fault of the file. [`VideoError::NoDecoder`] if no available decoder supports the codec.
     pub fn open(path: &Path, decoders: &Decoders) -> Result<Video, VideoError> {
         let (info, frames) = decoder_choice::open(path, decoders)?;
         Ok(Video {
@@ -92,10 +92,10 @@ impl Video {
         &self.info
     }
 
-    /// Calls `each` with the frames in `sorted` and their indices, which must strictly ascend, from 0 in presentation order.
+    /// Calls `each` with the frames in `sorted` and their indices. The indices count from 0 in presentation order and must be strictly ascending.
     ///
-    /// Decodes only from the key frame before a frame up to that frame. Memory holds one picture, and the pictures that the codec needs
-    /// later. Threads may share the clip, each with its own visit.
+    /// Decodes only from the key frame before a frame up to that frame. Memory contains one picture, and the pictures that the codec needs later. Threads may
+    /// share the clip, each with a separate visit.
     ///
     /// # Errors
     /// [`VisitError::Video`] if a frame cannot be read. [`VisitError::Caller`] for an error of `each`.
@@ -134,7 +134,7 @@ impl Video {
         refused.map_or(Ok(()), |error| Err(VisitError::Caller(error)))
     }
 
-    /// Visits the frames of `rest` with ffmpeg, because the stream needs a `tool` that this process does not support.
+    /// Visits the frames of `rest` with ffmpeg, because the stream needs the codec feature `tool`, which this process does not support.
     fn go_on(
         &self,
         program: Option<&Path>,
@@ -165,7 +165,7 @@ impl Video {
         clip.visit(rest, colours, show)
     }
 
-    /// Checks that the frames exist and are strictly ascending.
+    /// Checks that the requested frames exist and are strictly ascending.
     fn check(&self, sorted: &[u64]) -> Result<(), VideoError> {
         if let Some(pair) = sorted.windows(2).find(|pair| pair[0] >= pair[1]) {
             return Err(VideoError::Unsorted {

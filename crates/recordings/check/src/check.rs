@@ -8,7 +8,7 @@ use crate::finding::CheckReport;
 use crate::run::{CheckRequest, check_seen};
 use crate::views::check_views;
 
-/// Checks `dataset` for defects. With several pictures per sample, checks the pictures of each view.
+/// Checks `dataset` for defects. If samples have several pictures, checks the pictures of each view.
 ///
 /// # Errors
 /// [`EvaluateError`] if a code does not exist, the split cannot be made, or a frame is damaged.

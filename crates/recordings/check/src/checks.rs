@@ -1,4 +1,4 @@
-//! All checks, one per file. Each is a pure function of the [`Evidence`](crate::Evidence) with a stable code.
+//! All checks, one per file. Each check has a stable code and is a pure function of the [`Evidence`](crate::Evidence).
 
 mod angle_jumps;
 pub(crate) mod blank;

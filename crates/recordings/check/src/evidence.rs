@@ -11,28 +11,28 @@ use taceva_dataset::RecordedSessions;
 /// Data of a recording that checks read.
 #[derive(Debug)]
 pub struct Evidence<'a> {
-    /// The header of the recording.
+    /// Header of the recording.
     pub header: &'a Header,
     /// Labels of the recording.
     pub table: &'a Table,
-    /// Division of the recording into parts, if any.
+    /// Division of the recording into parts; `None` without a split.
     pub divided: Option<&'a Divided>,
     /// Division whose test part an evaluation scores: all folds of the default split, or `divided`.
     pub scored: Option<&'a Divided>,
-    /// Statistics of each row's frame; empty if no check reads frames.
+    /// Statistics of the frame of each row; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],
     /// Statistics of the frame without contact.
     pub reference: Option<&'a FrameFacts>,
-    /// Statistics of every taxel; `None` if there is none, or no check reads signals.
+    /// Statistics of every taxel; `None` without taxels, or if no check reads signals.
     pub signals: Option<&'a SignalFacts>,
-    /// Rows whose pictures can be decoded although they are damaged, with the damage.
+    /// Rows whose pictures can be decoded although they are damaged, with a description of the damage.
     pub damaged: &'a [(usize, String)],
-    /// Sessions on a real rig that made the recording, if any.
+    /// Sessions on a real rig that made the recording; `None` without a table of sessions.
     pub sessions: Option<&'a RecordedSessions>,
 }
 
 impl Evidence<'_> {
-    /// Index of the load channel: the normal force, otherwise the depth.
+    /// Index of the load channel: the normal force, otherwise the depth. `None` if both are missing.
     pub(crate) fn load(&self) -> Option<usize> {
         let channels = self.table.channels();
         ["Fz", "Pz"]
@@ -62,20 +62,20 @@ impl Evidence<'_> {
 /// Statistics of one frame.
 ///
 /// # Units
-/// Shares of the full scale of the pixel format, 0 to 1.
+/// Values are fractions of the full scale of the pixel format, 0 to 1.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameFacts {
-    /// Mean of red, green and blue; for gray the same value three times.
+    /// Means of red, green and blue; for gray, three equal values.
     pub mean: [f64; 3],
-    /// Share of values at full scale.
+    /// Fraction of values at full scale.
     pub full: f64,
-    /// Share of values at zero.
+    /// Fraction of values at zero.
     pub zero: f64,
     /// True if all pixels are equal.
     pub is_flat: bool,
-    /// Mean absolute difference from the frame without contact, if there is one of the same size.
+    /// Mean absolute difference from the frame without contact; `None` without a frame of the same size.
     pub distance: Option<f64>,
-    /// Mean brightness of square tiles, an eighth of the width wide.
+    /// Mean brightness of square tiles, each an eighth of the width wide.
     pub tiles: Tiles,
 }
 
@@ -90,7 +90,7 @@ impl FrameFacts {
     }
 }
 
-/// Statistics of 8-bit frames from a histogram: one pass, without arithmetic for each pixel.
+/// Statistics of 8-bit frames from a histogram, in one pass without arithmetic for each pixel.
 fn facts_of_bytes(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
     let depth = frame.info().format.samples();
     let mut histograms = vec![[0_u64; 256]; depth];

@@ -29,31 +29,31 @@ impl fmt::Display for Severity {
     }
 }
 
-/// One check. The code never changes its meaning.
+/// Check for one kind of defect. The code never changes its meaning.
 #[derive(Debug)]
 pub struct Check {
     /// Stable code for scripts, such as `TAC001`.
     pub code: &'static str,
     /// Name of the check, such as `units-by-magnitude`.
     pub name: &'static str,
-    /// The defect, in one line.
+    /// Defect that the check detects, in one line.
     pub looks_for: &'static str,
     /// Remedy for a finding.
     pub hint: &'static str,
     /// Field that the check reads besides labels: frames, signals, or none.
     pub reads: Option<Field>,
-    /// Runs the check.
+    /// Function that runs the check.
     pub(crate) find: fn(&Evidence<'_>) -> Vec<Found>,
 }
 
-/// Finding of a check, before the code of the check is added.
+/// Finding of a check, to which the code of the check is added later.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Found {
     pub(crate) severity: Severity,
     pub(crate) message: String,
     pub(crate) samples: Vec<String>,
     pub(crate) count: usize,
-    /// False if there is nothing to fix.
+    /// False if nothing needs to be fixed.
     pub(crate) has_hint: bool,
 }
 
@@ -61,7 +61,7 @@ impl Found {
     /// Maximum number of samples named in a finding; the others are counted.
     const NAMED: usize = 5;
 
-    /// A finding about the recording as a whole.
+    /// Finding about the recording as a whole.
     pub(crate) fn overall(severity: Severity, message: String) -> Found {
         Found {
             severity,
@@ -82,7 +82,7 @@ impl Found {
 }
 
 impl Evidence<'_> {
-    /// A finding about the samples in `rows`.
+    /// Finding about the samples in `rows`.
     pub(crate) fn found(&self, severity: Severity, message: String, rows: &[usize]) -> Found {
         let named = rows.iter().take(Found::NAMED);
         Found {
@@ -97,22 +97,22 @@ impl Evidence<'_> {
     }
 }
 
-/// One finding.
+/// Finding of a check.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Finding {
-    /// The code of the check.
+    /// Code of the check.
     pub code: &'static str,
-    /// The name of the check.
+    /// Name of the check.
     pub name: &'static str,
     /// Severity of the finding.
     pub severity: Severity,
-    /// Text of the finding, with the deciding numbers.
+    /// Text of the finding, with the numbers on which it is based.
     pub message: String,
     /// Names of the first few affected samples.
     pub samples: Vec<String>,
-    /// Number of affected samples; 0 for the recording as a whole.
+    /// Number of affected samples; 0 for a finding about the recording as a whole.
     pub count: usize,
-    /// Remedy; empty if there is nothing to fix.
+    /// Remedy; empty if nothing needs to be fixed.
     pub hint: &'static str,
 }
 
@@ -133,7 +133,7 @@ impl Finding {
 /// All findings in one recording.
 #[derive(Clone, Debug, Serialize)]
 pub struct CheckReport {
-    /// Schema of this report.
+    /// Identifier of the schema of this report.
     pub schema: &'static str,
     /// Digest of the dataset.
     pub dataset: String,
@@ -143,15 +143,15 @@ pub struct CheckReport {
     pub frames_decoded: u64,
     /// Codes of the checks that ran.
     pub looked_for: Vec<&'static str>,
-    /// Findings, worst first.
+    /// Findings, the worst first.
     pub findings: Vec<Finding>,
-    /// Checks that could not run, with reasons.
+    /// Checks that could not run, each with the reason.
     #[serde(serialize_with = "taceva_evaluate::skipped")]
     pub skipped: Vec<Skipped>,
 }
 
 impl CheckReport {
-    /// Worst severity of all findings.
+    /// Worst severity of all findings; `None` without findings.
     pub fn worst(&self) -> Option<Severity> {
         self.findings.iter().map(|finding| finding.severity).max()
     }

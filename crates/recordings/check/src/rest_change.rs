@@ -2,27 +2,27 @@
 
 use crate::tiles::Tiles;
 
-/// Reported change of the untouched picture, as a share of the change by contact. Both are means over all tiles.
+/// Change of the untouched picture above which it is reported, as a fraction of the change by contact. Both are means over all tiles.
 const THIRD: f64 = 1.0 / 3.0;
 
-/// Change of the untouched picture since the reference, beside the change by contact.
+/// Change of the untouched picture since the reference, and the change by contact for comparison.
 ///
 /// # Units
-/// Shares of the full scale of the pixel format.
+/// Values are fractions of the full scale of the pixel format.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RestChange {
     /// Mean change over all tiles.
     pub mean: f64,
-    /// Greatest change of one tile.
+    /// Maximum change of a single tile.
     pub greatest: f64,
     /// Median of the mean changes by contact.
     pub contact_mean: f64,
-    /// Median of the greatest changes by contact.
+    /// Median of the maximum changes of a tile by contact.
     pub contact_greatest: f64,
 }
 
 impl RestChange {
-    /// Change from `reference` to `rest`, beside the change from `rest` to the `pressed` pictures. `None` without a change by contact, or for
+    /// Compares the change from `reference` to `rest` with the changes from `rest` to the `pressed` pictures. `None` without a change by contact, or for
     /// pictures of different sizes.
     pub fn of(reference: &Tiles, rest: &Tiles, pressed: &[&Tiles]) -> Option<RestChange> {
         let found = RestChange {
@@ -36,12 +36,12 @@ impl RestChange {
         (is_known && has_contact).then_some(found)
     }
 
-    /// True if the mean change is more than a third of that by contact.
+    /// True if the mean change exceeds a third of the mean change by contact.
     pub fn is_overall(&self) -> bool {
         self.mean > THIRD * self.contact_mean
     }
 
-    /// True if one tile changed by more than the greatest change by contact.
+    /// True if the maximum change of a tile exceeds the maximum change by contact.
     pub fn is_local(&self) -> bool {
         self.greatest > self.contact_greatest
     }

@@ -1,4 +1,4 @@
-//! Runs the checks: gathers the evidence, applies every check, and builds the report.
+//! Runs the checks: collects the evidence, applies every check, and builds the report.
 
 use std::num::NonZeroUsize;
 use taceva_core::shown;
@@ -19,7 +19,7 @@ use taceva_evaluate::{Divided, require_samples, scored_by_default};
 pub struct CheckRequest {
     /// Codes or names of the checks to run; empty for all.
     pub only: Vec<String>,
-    /// The split to check for leakage, in text form.
+    /// Split to check for leakage, in text form; `None` for the default split.
     pub split: Option<String>,
     /// Seed of the split.
     pub seed: u64,
@@ -27,7 +27,7 @@ pub struct CheckRequest {
     pub jobs: NonZeroUsize,
 }
 
-/// Steps of [`check`](fn@crate::check). Reads no frame.
+/// Planned steps of [`check`](fn@crate::check). Reads no frame.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a code that does not exist.
@@ -71,7 +71,7 @@ pub fn check_plan(dataset: &Dataset, request: &CheckRequest) -> Result<Plan, Eva
     Ok(plan)
 }
 
-/// Checks `dataset` for defects, in the pictures of its current view.
+/// Checks `dataset` for defects, using the pictures of the selected view.
 ///
 /// # Errors
 /// [`EvaluateError`] if a code does not exist, the split cannot be made, or a frame is damaged.
@@ -198,7 +198,7 @@ fn wanted(dataset: &Dataset, only: &[String]) -> Result<Wanted, EvaluateError> {
     Ok((kept, skipped))
 }
 
-/// Rows whose pictures can be decoded although they are damaged, with the damage.
+/// Rows whose pictures can be decoded although they are damaged, with a description of the damage.
 fn damaged(
     dataset: &Dataset,
     jobs: NonZeroUsize,

@@ -1,4 +1,4 @@
-//! Statistics of every taxel, gathered in one pass over a recording.
+//! Statistics of every taxel, computed in one pass over a recording.
 
 use std::num::NonZeroUsize;
 use taceva_core::random::{FNV_OFFSET, fnv_1a_after};
@@ -15,17 +15,17 @@ use crate::count::count;
 pub struct SignalFacts {
     /// Grid and unit of the taxels.
     pub info: SignalInfo,
-    /// Names of the values, place first.
+    /// Names of the values, taxel by taxel.
     pub names: Vec<String>,
-    /// Statistics of each value, place first.
+    /// Statistics of each value, taxel by taxel.
     pub taxels: Vec<TaxelFacts>,
     /// Number of samples read.
     pub samples: u64,
-    /// Rows whose values are all exactly 0, if other rows are not.
+    /// Rows with only zeros; empty if there are no other rows.
     pub zero_rows: Vec<usize>,
     /// Rows declared as without contact.
     pub rest_rows: Vec<usize>,
-    /// Mean over the rows without contact; `None` without such rows.
+    /// Mean over the rows without contact; `None` if no row is declared so.
     pub rest: Option<Signals>,
     /// Mean absolute difference of each row from `rest`, in the unit of the signals; empty without `rest`.
     pub distance: Vec<f64>,
@@ -51,18 +51,18 @@ pub struct ValueCount {
 /// Statistics of one taxel.
 ///
 /// # Units
-/// Unit of the signals.
+/// Values are in the unit of the signals.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TaxelFacts {
-    /// Least value, and its count.
+    /// Least value, and the number of samples with it.
     pub least: ValueCount,
-    /// Second least value, and its count.
+    /// Second least value, and the number of samples with it; `None` if all values are equal.
     pub above_least: Option<ValueCount>,
-    /// Greatest value, and its count.
+    /// Greatest value, and the number of samples with it.
     pub greatest: ValueCount,
-    /// Second greatest value, and its count.
+    /// Second greatest value, and the number of samples with it; `None` if all values are equal.
     pub below_greatest: Option<ValueCount>,
-    /// Digest of all values in order; equal for equal taxels.
+    /// Digest of all values in order. Taxels with equal values have equal digests.
     pub series: u64,
 }
 
@@ -157,13 +157,13 @@ impl TaxelFacts {
     }
 }
 
-/// Digest of a series after one more value; −0 counts as 0.
+/// Digest of a series after one more value, in which −0 counts as 0.
 fn next_in_series(series: u64, value: f32) -> u64 {
     let value = if value.abs() <= 0.0 { 0.0 } else { value };
     fnv_1a_after(series, &value.to_bits().to_le_bytes())
 }
 
-/// Counts `value` if it is the extreme value or the second one. `beyond` returns true if its first argument is more extreme.
+/// Counts `value` if it is the extreme or the second most extreme value. `beyond` returns true if its first argument is more extreme.
 fn extend(
     value: f32,
     end: &mut ValueCount,

@@ -1,4 +1,4 @@
-//! Consecutive rows in time, such as the frames of a stream.
+//! Pairs of rows that are consecutive in time, such as the frames of a stream.
 
 use std::collections::BTreeMap;
 
@@ -7,20 +7,20 @@ use taceva_metrics::STREAM_S;
 
 use crate::evidence::Evidence;
 
-/// Minimum number of samples for any statement about steps.
+/// Minimum number of samples for a statement about steps.
 const LEAST: usize = 10;
 
 /// Step from one row to the next row of the same contact, sensor and table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Step {
-    /// Row before the step. With several units in one table, not always the previous row.
+    /// Row before the step. If a table has several units, this is not always the previous row.
     pub(super) from: usize,
     /// Row after the step.
     pub(super) to: usize,
     pub(super) seconds: f64,
 }
 
-/// Steps of a stream.
+/// Steps of a stream of frames.
 #[derive(Debug)]
 pub(super) struct Stream {
     pub(super) steps: Vec<Step>,
@@ -58,7 +58,7 @@ impl Stream {
         (forward.len() >= LEAST && usual_s <= STREAM_S).then_some(Stream { steps, usual_s })
     }
 
-    /// Runs of adjacent steps.
+    /// Sequences of adjacent steps.
     pub(super) fn runs(&self) -> Vec<Vec<Step>> {
         let mut runs: Vec<Vec<Step>> = Vec::new();
         let mut ends: BTreeMap<usize, usize> = BTreeMap::new();
@@ -73,7 +73,7 @@ impl Stream {
         runs
     }
 
-    /// Stream of one run with these steps, s.
+    /// Stream of one run whose steps have these lengths, s.
     #[cfg(test)]
     pub(super) fn of_seconds(seconds: &[f64]) -> Stream {
         let steps = seconds.iter().zip(0..);
@@ -92,7 +92,7 @@ pub(super) fn is_of_presses(evidence: &Evidence<'_>) -> bool {
     header.stream.is_none() && header.presses.values().any(|count| *count > 0)
 }
 
-/// Pairs of consecutive rows of one clock among `rows`. Every unit of a sensor and every table has its own clock.
+/// Pairs of consecutive rows of one clock among `rows`. Every unit of a sensor and every table has a separate clock.
 pub(super) fn by_clock(table: &Table, rows: impl Iterator<Item = usize>) -> Vec<(usize, usize)> {
     let (units, tables) = (table.unit_id(), table.source_table());
     let mut last: BTreeMap<(Option<&str>, Option<&str>), usize> = BTreeMap::new();
@@ -120,7 +120,7 @@ pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// Rows with the same time as the previous row of their clock, if more than one in ten. The stamps are then whole seconds, or the clock has
+/// Rows with the same time as the previous row of their clock; `None` unless they are more than one in ten. The clock then counts whole seconds, or has
 /// stopped.
 pub(super) fn repeated(table: &Table) -> Option<Vec<usize>> {
     const SHARE: usize = 10;

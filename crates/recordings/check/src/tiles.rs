@@ -7,7 +7,7 @@ use crate::count::count;
 /// Number of tiles across the width of a picture.
 const ACROSS: usize = 8;
 
-/// Mean brightness of square tiles, row by row, as shares of full scale.
+/// Mean brightness of square tiles, row by row, as fractions of full scale.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tiles {
     /// Number of tiles per row.
@@ -16,7 +16,7 @@ pub struct Tiles {
 }
 
 impl Tiles {
-    /// Tiles of `frame`, each an eighth of its width, averaged over all colours.
+    /// Tiles of `frame`, each an eighth of the frame width wide, averaged over all colours.
     pub(crate) fn of(frame: &Frame) -> Tiles {
         let info = frame.info();
         let (width, height) = (info.width as usize, info.height as usize);
@@ -59,7 +59,7 @@ impl Tiles {
         }
     }
 
-    /// Mean tiles of several pictures; `None` for no picture, or different sizes.
+    /// Mean of each tile over several pictures; `None` for no picture, or for different sizes.
     pub(crate) fn mean<'a>(all: impl IntoIterator<Item = &'a Tiles>) -> Option<Tiles> {
         let mut all = all.into_iter();
         let first = all.next()?;
@@ -80,7 +80,7 @@ impl Tiles {
         })
     }
 
-    /// Mean absolute difference of the tiles, as a share of full scale; infinite if the numbers of tiles differ.
+    /// Mean absolute difference of the tiles, as a fraction of full scale; infinite if the numbers of tiles differ.
     pub(crate) fn distance(&self, other: &Tiles) -> f64 {
         if !self.is_like(other) {
             return f64::INFINITY;
@@ -89,7 +89,7 @@ impl Tiles {
         sum / count(self.means.len().max(1))
     }
 
-    /// Greatest absolute difference of two tiles at one place, as a share of full scale; infinite if the numbers of tiles differ.
+    /// Maximum absolute difference of two tiles at one place, as a fraction of full scale; infinite if the numbers of tiles differ.
     pub(crate) fn greatest(&self, other: &Tiles) -> f64 {
         if !self.is_like(other) {
             return f64::INFINITY;

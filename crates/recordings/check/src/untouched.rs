@@ -1,11 +1,11 @@
-//! Finds pictures of an untouched gel by their content, whatever their labels are.
+//! Finds pictures of an untouched gel by their content, without regard to their labels.
 
 use crate::evidence::Evidence;
 use crate::tiles::Tiles;
 
-/// Share of the greatest load up to which a picture may show an untouched gel.
+/// Fraction of the greatest load up to which a picture may show an untouched gel.
 const LOW: f64 = 0.1;
-/// Maximum number of candidate centres of the densest group, and of pictures compared with each.
+/// Maximum number of candidate centres of the densest group, and of pictures compared with each candidate.
 const CANDIDATES: usize = 200;
 const BESIDE: usize = 1000;
 /// Minimum number of pictures in the group. `SHARE` is their minimum frequency.
@@ -13,14 +13,14 @@ const LEAST: usize = 8;
 const SHARE: usize = 20;
 /// Radius of the group, in core radii.
 const REACH: f64 = 2.5;
-/// Maximum share of all pictures in the group. In a larger group, pictures do not show contact.
+/// Maximum fraction of all pictures in the group. In a larger group, pictures do not depend on contact.
 const MOST: f64 = 0.75;
-/// Minimum number of separate visits to the group, because a single held contact is not rest.
+/// Minimum number of separate visits to the group. A single held contact is not rest.
 const VISITS: usize = 4;
 
-/// Rows of the densest group of similar pictures around a picture with a low load; empty without such a group.
+/// Rows of the densest group of similar pictures, whose centre is a picture with a low load; empty without such a group.
 ///
-/// Labels only select the candidates. After a force was zeroed again, some untouched pictures have a load and still belong to the group.
+/// Labels only select the candidates. After a force was zeroed again, some untouched pictures have a load but still belong to the group.
 pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
     let Some(load) = evidence.load() else {
         return Vec::new();

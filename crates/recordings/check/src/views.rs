@@ -9,7 +9,7 @@ use crate::run::{CheckRequest, check_seen};
 
 /// Checks the labels of `dataset`, and the pictures of each of its views.
 ///
-/// A finding that occurs without pictures and in every view concerns labels and is reported once. Any other finding names its views.
+/// A finding that occurs without pictures and in every view concerns labels, and is reported once. Any other finding names its views.
 pub(crate) fn check_views(
     dataset: &Dataset,
     request: &CheckRequest,

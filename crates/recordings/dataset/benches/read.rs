@@ -12,7 +12,7 @@ fn main() {
     divan::main();
 }
 
-/// A recording of 64 smooth frames of 640×480 with noise in the last bits.
+/// Recording of 64 smooth frames of 640×480 pixels, with noise in the lowest bits.
 fn recording() -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("recording");

@@ -1,6 +1,6 @@
 //! Records synthetic samples: `record FOLDER COUNT`. Prints `ACK n` once sample `n` is durable.
 //!
-//! The process may be killed at any moment; the next run continues the recording.
+//! The process may be killed at any moment. The next run continues the recording.
 #![expect(
     clippy::print_stdout,
     reason = "the parent process reads the acknowledgements"
@@ -55,7 +55,7 @@ fn spec() -> Result<RecordingSpec, Box<dyn Error>> {
     ))
 }
 
-/// Sample `number`, the same each time.
+/// Sample `number`, which is the same in each run.
 fn sample(number: u16) -> Result<Sample, Box<dyn Error>> {
     let info = FrameInfo {
         width: 16,

@@ -1,9 +1,9 @@
 //! Compares the cost of recording a stream with writing and hashing the same bytes: `stream_cost RECORDING FOLDER [ROUNDS]`.
 //!
-//! RECORDING was made by `taceva capture` from a camera that sends files; FOLDER is a new folder on the measured disk. The frames are recorded
-//! again as by a capture, 8 at a time and without pauses. For comparison the same bytes are written to one file and hashed frame by frame: synced
-//! after every 8 frames, and synced only at the end. Decoding is not timed, because a capture decodes while the camera exposes the next frame.
-//! The shortest time of ROUNDS rounds is printed, by default of 3.
+//! RECORDING was made by `taceva capture` from a camera that sends files; FOLDER is a new folder on the measured disk. The frames are recorded again as by a
+//! capture, 8 at a time and without pauses. For comparison the same bytes are written to one file and hashed frame by frame: synced after every 8 frames, and
+//! synced only at the end. Decoding is not timed, because a capture decodes while the camera exposes the next frame. The shortest time of ROUNDS rounds
+//! (default 3) is printed.
 #![expect(clippy::print_stdout, reason = "an example talks to a person")]
 
 use std::error::Error;
@@ -21,7 +21,7 @@ use taceva_dataset::{
 /// Number of frames synced at once, as in a capture.
 const TOGETHER: usize = 8;
 
-/// Time taken by a recording.
+/// Times taken by the steps of a recording.
 #[derive(Debug)]
 struct Recorded {
     /// Time to check that each file is complete.
@@ -105,7 +105,7 @@ fn print(least: &Least, frames: usize, bytes: usize) {
     }
 }
 
-/// Original file of the frame of a row.
+/// Original file of the frame of a row, as the camera sent it.
 fn sent(dataset: &Dataset, row: usize) -> Result<Vec<u8>, Box<dyn Error>> {
     let entry = dataset.table().frames()[row].as_ref();
     Ok(dataset.frame_bytes(entry.ok_or("a sample without a frame")?)?)
@@ -152,7 +152,7 @@ fn recorded(dataset: &Dataset, place: &Path) -> Result<Recorded, Box<dyn Error>>
     })
 }
 
-/// Writes and hashes the same bytes, synced after every `together` frames. Returns the time and the number of bytes.
+/// Writes and hashes the same bytes, with a sync after every `together` frames. Returns the time and the number of bytes.
 fn written(
     dataset: &Dataset,
     place: &Path,

@@ -60,7 +60,7 @@ fn datasets(path: &Path) -> Vec<String> {
     names
 }
 
-/// A path quoted for a shell.
+/// Path as one shell word, quoted if necessary.
 pub fn quoted(path: &Path) -> String {
     shell_word(&shown_path(path))
 }

@@ -94,7 +94,7 @@ impl Dataset {
     /// Frame of a row as an array, verified and decoded; `None` if the row has no frame.
     ///
     /// # Errors
-    /// As [`frame`](Dataset::frame).
+    /// Errors of [`frame`](Dataset::frame).
     ///
     /// ```
     /// use taceva_dataset::{Dataset, FrameArray};
@@ -112,11 +112,10 @@ impl Dataset {
         Ok(self.frame(row)?.map(FrameArray::from))
     }
 
-    /// Frames of the rows of `pass` as one array, in the same order, verified and decoded on several threads. All frames must fit into memory.
+    /// Frames of the rows of `pass` as one array, in the order of `pass`, verified and decoded on several threads. All frames must fit into memory.
     ///
     /// # Errors
-    /// As [`map_frames`](Dataset::map_frames), also for the first row without a frame; [`DatasetError::Request`] if the dataset has no
-    /// frames.
+    /// Errors of [`map_frames`](Dataset::map_frames), also for the first row without a frame; [`DatasetError::Request`] if the dataset has no frames.
     ///
     /// ```
     /// use std::num::NonZeroUsize;
@@ -158,12 +157,12 @@ fn shape(info: FrameInfo) -> [usize; 3] {
     [height, width, info.format.samples()]
 }
 
-/// Array of this shape with `values` in order; empty if the number of values does not fit.
+/// Array of this shape with `values` in order; empty if their number does not match the shape.
 fn of_len<T: Clone + Default>(shape: [usize; 3], values: Vec<T>) -> Array3<T> {
     Array3::from_shape_vec(shape, values).unwrap_or_default()
 }
 
-/// Pixel values of consecutive frames of the same size.
+/// Pixel values of consecutive frames of the same size and format.
 struct Pixels {
     info: FrameInfo,
     frames: usize,

@@ -71,8 +71,8 @@ impl Dataset {
     /// Opens the recording at `path`. Verifies and loads the table; frames are verified when read.
     ///
     /// # Errors
-    /// [`DatasetError::NoDataset`] if there is none or the recording was not closed; [`DatasetError::Version`] if its format is newer;
-    /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if it was changed; [`DatasetError::Io`].
+    /// [`DatasetError::NoDataset`] if the folder contains no dataset or the recording was not closed; [`DatasetError::Version`] if the format is newer;
+    /// [`DatasetError::Digest`] or [`DatasetError::Damaged`] if a file was changed; [`DatasetError::Io`].
     pub fn open(path: &Path) -> Result<Dataset, DatasetError> {
         let folder = HeldFolder::open(path)?;
         if !folder.has(layout::HEADER) {
@@ -93,7 +93,7 @@ impl Dataset {
         Ok(dataset)
     }
 
-    /// Single recording without a selected view, before any of its files is read.
+    /// Dataset of a single recording without a selected view. Reads no file.
     fn of(folder: HeldFolder, header: Header, table: Table) -> Dataset {
         Dataset {
             folder,

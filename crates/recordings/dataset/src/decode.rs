@@ -67,7 +67,7 @@ const JPEG_END: &[u8] = b"\xff\xd9";
 const TIFF_SIGNATURES: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 
 impl ImageKind {
-    /// Format by the signature of `bytes`. The file name is ignored.
+    /// Format that the signature of `bytes` identifies; `None` for an unknown signature. The file name is ignored.
     pub fn of(bytes: &[u8]) -> Option<ImageKind> {
         if bytes.starts_with(PNG_SIGNATURE) {
             Some(ImageKind::Png)
@@ -104,8 +104,8 @@ impl ImageKind {
 
 /// Decodes the image file `bytes`, whose colours are stored in `order`.
 ///
-/// Keeps 8 and 16 bits, gray and RGB. PNG palettes and fewer bits become 8-bit RGB or gray. An alpha channel is dropped if opaque everywhere,
-/// otherwise rejected. A file without its end marker is rejected as truncated, even if a decoder would fill the rest with gray.
+/// Keeps 8 and 16 bits, gray and RGB. PNG palettes and lower bit depths become 8-bit RGB or gray. An alpha channel is dropped if opaque everywhere, otherwise
+/// rejected. A file without its end marker is rejected as truncated, although decoders fill the missing part with gray.
 pub fn decode(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
     let kind = kind_of_whole(bytes)?;
     let (info, pixels) = guarded(|| match kind {
@@ -198,7 +198,7 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// Error message for a pixel or colour type that is neither gray nor RGB.
+/// Error message for a pixel or colour type other than gray and RGB.
 fn unsupported(what: &str, found: &dyn std::fmt::Debug) -> String {
     format!("unsupported {what} type {found:?}; convert to gray or RGB")
 }
@@ -262,7 +262,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// Decodes a JPEG with one scan for each colour, which `zune-jpeg` decodes wrongly without an error.
+/// Decodes a JPEG with one scan for each colour. `zune-jpeg` decodes this file wrongly without an error.
 fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let text = |error: jpeg_decoder::Error| error.to_string();
     let mut decoder = Decoder::new(bytes);
@@ -294,7 +294,7 @@ fn most_of(file: &[u8]) -> usize {
 /// Decoded size of the image in `file`, bytes.
 ///
 /// # Errors
-/// A message if it exceeds [`most_of`] the file.
+/// Error message if the decoded size exceeds [`most_of`] of `file`.
 fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
     let length = usize::try_from(bytes).map_err(|_| "an image larger than the address space")?;
     match length <= most_of(file) {
@@ -328,7 +328,7 @@ fn without_alpha<const PIXEL: usize, const ALPHA: usize>(pixels: &[u8]) -> Resul
     Ok(colours)
 }
 
-/// Pixels with their colours in standard order, or an error message if `order` does not fit.
+/// Pixels with their colours in standard order, or an error message if `order` contradicts the number of colours.
 fn in_order(info: FrameInfo, mut pixels: Vec<u8>, order: ChannelOrder) -> Result<Vec<u8>, String> {
     let is_gray = info.format.samples() == 1;
     if is_gray != (order == ChannelOrder::Gray) {

@@ -1,10 +1,10 @@
-//! Differences between frames, whose equal parts become zero and compress well.
+//! Differences between frames. Equal parts become zero and compress well.
 
 use taceva_core::{Frame, FrameError};
 
 use crate::digest::{Digest, PartsDigest};
 
-/// `frame` minus `first`, value by value, wrapping. Both must have the same size and format.
+/// Subtracts `first` from `frame`, value by value with wrapping. Both must have the same size and format.
 pub(crate) fn less(frame: &Frame, first: &Frame) -> Result<Frame, FrameError> {
     mixed(frame, first, u8::wrapping_sub, u16::wrapping_sub)
 }
@@ -34,8 +34,7 @@ fn mixed(
     Frame::new(frame.info(), mixed)
 }
 
-/// Digest of a difference stored as `bytes`, relative to the frame with digest `first`. The same bytes with another first frame are another
-/// picture.
+/// Digest of a difference stored as `bytes`, relative to the frame with digest `first`. The same bytes relative to another first frame are a different picture.
 pub(crate) fn digest(first: Digest, bytes: &[u8]) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.difference/1");

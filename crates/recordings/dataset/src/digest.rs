@@ -53,7 +53,7 @@ impl Digest {
     }
 }
 
-/// Digest of a sequence of parts with their lengths, so that different sequences give different digests.
+/// Digest of a sequence of parts and their lengths. Different sequences give different digests.
 #[derive(Clone, Debug, Default)]
 #[doc(hidden)]
 pub struct PartsDigest(Sha256);

@@ -48,7 +48,7 @@ pub enum DatasetError {
         /// Fault, and the accepted form.
         problem: String,
     },
-    /// Path that may not be followed.
+    /// Path that TacEva must not follow.
     #[error("`{}`: {problem}", shown(written))]
     Path {
         /// Path as written.
@@ -56,7 +56,7 @@ pub enum DatasetError {
         /// Reason why it is rejected.
         problem: String,
     },
-    /// Image, or array of images, that is damaged, too large or unlike the others.
+    /// Image or array of images that is damaged, too large, or differs in size or format from the others.
     #[error("{}: {problem}", shown_path(path))]
     Image {
         /// Path of the image.
@@ -87,7 +87,7 @@ pub enum DatasetError {
         /// Missing part of a dataset.
         problem: String,
     },
-    /// Dataset of a format that this version cannot read.
+    /// Dataset in a format version that this build cannot read.
     #[error("{}: format {found} {}", shown_path(path), unreadable(*found))]
     Version {
         /// Path of the header.
@@ -147,7 +147,7 @@ pub enum DatasetError {
         /// Request, and the available alternatives.
         problem: String,
     },
-    /// View that does not exist, or no view although samples have several pictures.
+    /// Requested view that does not exist, or a missing selection although samples have several pictures.
     #[error("{}: {}", shown_path(path), wanted_view(asked.as_deref(), known))]
     View {
         /// Path of the dataset.

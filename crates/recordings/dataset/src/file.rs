@@ -10,7 +10,7 @@ use taceva_files::sync_folder;
 use crate::absence::quoted;
 use crate::error::DatasetError;
 
-/// Opens the regular file at `path`, of at most `cap` bytes, and returns its size too.
+/// Opens the regular file at `path`, of at most `cap` bytes. Returns the file and its size, bytes.
 ///
 /// The file type is checked before opening, because opening a FIFO would block.
 pub fn open_regular(path: &Path, cap: u64) -> Result<(File, u64), DatasetError> {
@@ -54,7 +54,7 @@ pub fn read_capped(path: &Path, cap: u64) -> Result<Vec<u8>, DatasetError> {
     Ok(bytes)
 }
 
-/// Checks that a relative path stays inside its folder.
+/// Checks that a relative path does not lead out of its folder.
 pub fn check_relative(written: &str) -> Result<(), &'static str> {
     if written.is_empty() {
         return Err("empty, expected a path relative to the folder");
@@ -86,7 +86,7 @@ pub(crate) fn create_anew(path: &Path) -> Result<File, DatasetError> {
     created.map_err(DatasetError::io("create", path))
 }
 
-/// Rejects a symbolic link in place of a file of a recording, because its target would be written, cut or read instead.
+/// Rejects a symbolic link in place of a file of a recording, because its target would be written, truncated or read instead.
 pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
     let Ok(target) = fs::read_link(path) else {
         return Ok(());

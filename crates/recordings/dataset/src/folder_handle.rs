@@ -1,4 +1,4 @@
-//! Open folder of a dataset, which keeps reading the same files even if the folder is renamed.
+//! Handle of a dataset folder. Reads the same files even after the folder was renamed.
 
 use std::fs::{File, TryLockError};
 use std::io::{self, Read};
@@ -12,11 +12,11 @@ use crate::file::is_same;
 use crate::layout;
 use crate::replacement::settle;
 
-/// Number of attempts to open a folder while it is replaced, `PAUSE` apart.
+/// Number of attempts to open a folder that another process is replacing, `PAUSE` apart.
 const ATTEMPTS: u32 = 200;
 const PAUSE: Duration = Duration::from_millis(1);
 
-/// Folder with a shared lock. A process that replaces the dataset keeps the old one until the lock is released.
+/// Folder with a shared lock. A process that replaces the dataset keeps the old folder until the lock is released.
 #[derive(Debug)]
 pub(crate) struct HeldFolder {
     path: PathBuf,
@@ -25,7 +25,7 @@ pub(crate) struct HeldFolder {
 }
 
 impl HeldFolder {
-    /// Opens and locks the folder at `path`, if any, after cleaning up an interrupted replacement.
+    /// Opens and locks the folder at `path`, if it exists, after completing an interrupted replacement.
     pub(crate) fn open(path: &Path) -> Result<HeldFolder, DatasetError> {
         settle(path)?;
         for attempt in 0..ATTEMPTS {
@@ -65,7 +65,7 @@ impl HeldFolder {
         unreachable!("the last attempt returns")
     }
 
-    /// The same path without access to files, for joined recordings, which have their own handles.
+    /// Copy with the same path but without a handle, for joined recordings, whose files are read through the handles of the parts.
     pub(crate) fn without_files(&self) -> HeldFolder {
         HeldFolder {
             path: self.path.clone(),
@@ -93,7 +93,7 @@ impl HeldFolder {
         handle.is_some_and(|handle| is_there(handle, name))
     }
 
-    /// Opens the regular file `relative` in this folder, of at most `cap` bytes, and returns its size too.
+    /// Opens the regular file `relative` in this folder, of at most `cap` bytes. Returns the file and its size, bytes.
     pub(crate) fn file(&self, relative: &str, cap: u64) -> Result<(File, u64), DatasetError> {
         let path = self.path.join(relative);
         let wrong = DatasetError::io("open", &path);
@@ -118,7 +118,7 @@ impl HeldFolder {
     }
 }
 
-/// Opens a file for reading without waiting for the writer of a FIFO.
+/// Opens a file for reading. Does not block on a FIFO without a writer.
 fn open_in(folder: &File, relative: &str) -> io::Result<File> {
     let flags = OFlags::RDONLY | OFlags::CLOEXEC | OFlags::NONBLOCK;
     Ok(File::from(openat(folder, relative, flags, Mode::empty())?))

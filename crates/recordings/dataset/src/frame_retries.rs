@@ -24,12 +24,12 @@ pub fn add_frozen_frames(path: &Path, count: u64) -> io::Result<()> {
     add(&place(path, FROZEN), count)
 }
 
-/// Number of retried frames of the recording at `path`; 0 without a stored count, as for a moved recording.
+/// Number of retried frames of the recording at `path`; 0 if no count is stored, as after the recording was moved.
 pub fn frame_retries(path: &Path) -> u64 {
     read(&place(path, RETRIED))
 }
 
-/// Number of frozen frames of the recording at `path`, each of which broke off a press; 0 without a stored count.
+/// Number of frozen frames of the recording at `path`, each of which ended a press early; 0 if no count is stored.
 pub fn frozen_frames(path: &Path) -> u64 {
     read(&place(path, FROZEN))
 }

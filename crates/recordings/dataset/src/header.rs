@@ -107,11 +107,11 @@ pub struct Header {
     pub format: Version,
     /// Origin of the samples: measured, simulated or synthetic.
     pub source: Source,
-    /// Clock that stamped the samples, which defines the origin of `t_s`.
+    /// Clock that stamped the samples. Defines the origin of `t_s`.
     pub clock: Clock,
     /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
     pub recorded_on: Option<Date>,
-    /// UTC day of its last session, if that is another one. Joined recordings have the first and the last day of all.
+    /// UTC day of the last session, if different from `recorded_on`. For joined recordings, the last day of all recordings; `recorded_on` is then the first.
     pub recorded_until: Option<Date>,
     /// Facts about the sensor.
     pub sensor: SensorFacts,
@@ -125,7 +125,7 @@ pub struct Header {
     pub channels: Channels,
     /// Names of the text columns kept for splits.
     pub attributes: Vec<String>,
-    /// Columns of the imported table that the map does not name; empty for a recording.
+    /// Columns of the imported table that the import map does not name; empty for a recording.
     pub unmentioned_columns: Vec<String>,
     /// Source column of each label, from all imports; empty for a recording.
     pub columns: Vec<MappedColumn>,
@@ -135,7 +135,7 @@ pub struct Header {
     pub pictures: Vec<MappedPictures>,
     /// Closed lists of classes, from all imports; empty for a recording.
     pub classes: Vec<MappedClass>,
-    /// Channels that together are one rotation: a rotation vector x, y, z or a quaternion x, y, z, w.
+    /// Channels that together form one rotation: a rotation vector x, y, z or a quaternion x, y, z, w.
     pub rotations: Vec<Vec<String>>,
     /// Data that the import left out; empty for a recording.
     pub left_out: LeftOut,
@@ -159,13 +159,13 @@ pub struct Header {
     pub sources: Option<SourcesInfo>,
     /// Number of rows and digests of `samples.parquet`.
     pub table: TableInfo,
-    /// Digest of the dataset: of its table, frames and signals.
+    /// Digest of the table, frames and signals of the dataset.
     pub digest: Digest,
-    /// State of the seal, with accepted edits of the header.
+    /// State of the seal, with the accepted edits of the header.
     pub seal: Opened,
 }
 
-/// The header in the order of TOML: plain keys before tables.
+/// Header in the key order of TOML: plain keys before tables.
 #[derive(Serialize, Deserialize)]
 struct Written {
     format: Version,

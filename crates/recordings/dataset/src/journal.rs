@@ -1,11 +1,11 @@
-//! Journal of a recording. Once an append has returned, the record survives a power cut.
+//! Journal of a recording. A record survives a power cut once its append has returned.
 //!
-//! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers little-endian. The
-//! header check is the beginning of a SHA-256 over the 13 bytes before it, so that a length is verified before it is used. The chain is the
-//! SHA-256 of the previous chain, the header and the payload. It detects missing, changed or moved records.
+//! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers little-endian. The header check is the
+//! beginning of the SHA-256 of the preceding 13 bytes. It verifies the length before use. The chain is the SHA-256 of the previous chain, the header and the
+//! payload. It detects missing, changed or moved records.
 //!
-//! Each record is durable before the next begins, so only the last can be torn. A torn tail is cut when the journal is opened. Damage before later
-//! records is an error, because those were acknowledged.
+//! Each record is durable before the next begins, so only the last can be torn. A torn last record is cut when the journal is opened. Damage before later
+//! records is an error, because the later records were acknowledged.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Read, Write};
@@ -25,7 +25,7 @@ const CHAIN: usize = 32;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub(crate) enum RecordKind {
-    /// Facts about the recording: always and only the first record.
+    /// Facts about the recording. Always the first record, and never a later one.
     Start = 1,
     /// Single sample.
     Sample = 2,
@@ -51,7 +51,7 @@ impl RecordKind {
     }
 }
 
-/// One complete record.
+/// Complete record of a journal.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct JournalRecord {
     pub(crate) kind: RecordKind,
@@ -68,7 +68,7 @@ pub(crate) struct Journal {
     has_failed: bool,
 }
 
-/// Records found when opening a journal.
+/// Records found when a journal was opened.
 #[derive(Debug, Default)]
 pub(crate) struct Recovered {
     pub(crate) records: Vec<JournalRecord>,
@@ -136,7 +136,7 @@ impl Journal {
 
     /// Appends a record and returns its sequence number once it is durable.
     ///
-    /// After an error, the state of the file is unknown until it is reopened, so every later append fails too.
+    /// After an error, the state of the file is unknown until the journal is reopened. Every later append therefore fails too.
     pub(crate) fn append(&mut self, kind: RecordKind, payload: &[u8]) -> Result<u64, DatasetError> {
         if self.has_failed {
             let earlier = io::Error::other("an earlier write failed; reopen the recording");
@@ -191,7 +191,7 @@ fn chained(before: &[u8; CHAIN], header: &[u8; HEADER], payload: &[u8]) -> [u8; 
         .into()
 }
 
-/// Complete records of a journal, and their size in bytes.
+/// Complete records of a journal, and their total size, bytes.
 struct Scanned {
     records: Vec<JournalRecord>,
     chain: [u8; CHAIN],
@@ -247,7 +247,7 @@ fn scan(bytes: &[u8]) -> Result<Scanned, (usize, &'static str)> {
     Ok(scanned)
 }
 
-/// Header at `at` with the payload length, if its check matches.
+/// Header at offset `at` and the length of its payload, bytes; `None` if the header check does not match.
 fn header_at(bytes: &[u8], at: usize) -> Option<([u8; HEADER], usize)> {
     let found: [u8; HEADER] = bytes.get(at..at + HEADER)?.try_into().ok()?;
     let length = u32::from_le_bytes(found[..4].try_into().ok()?);
@@ -256,7 +256,7 @@ fn header_at(bytes: &[u8], at: usize) -> Option<([u8; HEADER], usize)> {
     holds.then_some((found, length as usize))
 }
 
-/// True if there is a record header anywhere after `from`. The bytes before it are then damaged, not a torn tail.
+/// True if a valid record header follows anywhere after `from`. The bytes before that header are then damaged, not a torn last record.
 fn has_record_behind(bytes: &[u8], from: usize) -> bool {
     (from..bytes.len()).any(|at| {
         // Cheap tests first: the check is a SHA-256.

@@ -29,7 +29,7 @@ pub fn frame_folder(number: usize) -> String {
     format!("{FRAMES}/{:04}", number / FRAMES_A_FOLDER)
 }
 
-/// `path`, a file or folder of frames, inside the folder of the view; `path` itself without a view.
+/// Path of a file or folder of frames inside the folder of `view`; `path` itself without a view.
 pub fn in_view(view: Option<&str>, path: &str) -> String {
     match (view, path.strip_prefix(FRAMES)) {
         (Some(view), Some(rest)) => format!("{FRAMES}/{view}{rest}"),
@@ -58,7 +58,7 @@ pub fn reference_path(extension: &str) -> String {
     format!("{FRAMES}/reference.{extension}")
 }
 
-/// File of the next frame without contact after `before` earlier frames, relative to the dataset.
+/// File of a further frame without contact, recorded after `before` others, relative to the dataset.
 pub fn reference_path_anew(before: usize, extension: &str) -> String {
     match before {
         0 => reference_path(extension),

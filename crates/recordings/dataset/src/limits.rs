@@ -16,7 +16,7 @@ pub const PACK_BYTES: u64 = 1 << 30;
 pub const IMAGE_SIDE: u32 = 16_384;
 /// Maximum size of a decoded image, bytes.
 pub const DECODED_BYTES: u64 = 256 << 20;
-/// Decoded size that is allowed for every image, bytes. A larger image may take [`DECODED_RATIO`] times the size of its file.
+/// Decoded size that is allowed for every image, bytes. An image with a larger decoded size is limited to [`DECODED_RATIO`] times its file size.
 const DECODED_LEAST: u64 = 32 << 20;
 /// Maximum ratio of decoded size to file size.
 const DECODED_RATIO: u64 = 200;

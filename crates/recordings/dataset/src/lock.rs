@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use crate::error::DatasetError;
 
-/// Number of attempts to lock a folder. A newly forked process holds the locks of its parent until it executes its own program.
+/// Number of attempts to lock a folder. A newly forked process keeps the locks of its parent until it executes another program.
 const ATTEMPTS: u32 = 20;
 const PAUSE: Duration = Duration::from_millis(5);
 

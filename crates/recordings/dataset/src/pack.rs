@@ -1,8 +1,8 @@
-//! Packs: consecutive frames of a recording in a few files, each found by its offset.
+//! Packs: files with consecutive frames of a recording, each frame at a known offset.
 //!
-//! Each entry of a pack is a complete image file, readable with its offset and length. The picture is the frame or, if that is smaller, its
-//! difference to the first frame of the pack, number by number and wrapping. Static parts of the pictures are thus stored once. A pack only
-//! grows. Bytes after the last frame in the journal were never acknowledged, and are cut when the recording is resumed.
+//! Each entry of a pack is a complete image file, readable with its offset and length. The picture is the frame or, if that is smaller, its difference to the
+//! first frame of the pack, number by number with wrapping. Static parts of the pictures are thus stored once. A pack only grows. Bytes after the last frame in
+//! the journal were never acknowledged, and are cut when the recording is resumed.
 
 use std::fmt;
 use std::fs::{self, File, OpenOptions};
@@ -101,7 +101,7 @@ pub(crate) struct PackEnd {
 }
 
 impl PackEnd {
-    /// Position after a frame at `path`, if the frame is in a pack and behind this position.
+    /// Position after the frame at `path`; unchanged if the frame is not in a pack or lies before this position.
     pub(crate) fn behind(self, path: &str, span: Option<Span>) -> PackEnd {
         let found = layout::pack_number(path).zip(span);
         found.map_or(self, |(number, span)| {
@@ -144,7 +144,7 @@ impl PackWriter {
         })
     }
 
-    /// Appends the image file `bytes`; durable after [`sync`](PackWriter::sync).
+    /// Appends the image file `bytes`, which is durable after [`sync`](PackWriter::sync).
     pub(crate) fn append(
         &mut self,
         bytes: &[u8],
@@ -169,7 +169,7 @@ impl PackWriter {
         Ok((path, span))
     }
 
-    /// Starts another pack if this one is full.
+    /// Starts a new pack if this pack is full.
     pub(crate) fn roll(&mut self) -> Result<(), DatasetError> {
         if self.end.length >= limits::PACK_BYTES {
             self.sync()?;
@@ -196,7 +196,7 @@ impl PackWriter {
     }
 }
 
-/// Cuts unacknowledged bytes behind `end` in the packs of the dataset at `folder`.
+/// Cuts unacknowledged bytes after `end` in the packs of the dataset at `folder`.
 pub(crate) fn cut_behind(folder: &Path, end: PackEnd) -> Result<(), DatasetError> {
     let path = folder.join(layout::pack_path(end.number));
     refuse_link(&path)?;

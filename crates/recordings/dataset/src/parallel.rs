@@ -5,7 +5,7 @@ use std::sync::mpsc::{channel, sync_channel};
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Number of results that a worker may compute before they are taken.
+/// Number of results that a worker may compute ahead of the calling thread.
 const AHEAD: usize = 4;
 
 /// Number of cores of this machine.
@@ -15,8 +15,8 @@ pub fn all_cores() -> NonZeroUsize {
 
 /// Calls `work` on `0..count` from `jobs` threads, and `take` with each result in order on the calling thread.
 ///
-/// Worker `k` computes items `k`, `k + jobs`, … and returns them through its own bounded queue, so no sorting is needed. The first error in order
-/// is returned, for any number of threads. If fewer threads than `jobs` start, they do all the work; without any, the calling thread does.
+/// Worker `k` computes items `k`, `k + jobs`, … and returns them through its own bounded queue, so no sorting is needed. The first error in order is returned,
+/// for any number of threads. If fewer than `jobs` threads start, these do all the work; if none starts, the calling thread does.
 pub fn ordered_map<T: Send, E>(
     count: usize,
     jobs: NonZeroUsize,
@@ -60,7 +60,7 @@ pub fn ordered_map<T: Send, E>(
     })
 }
 
-/// Calls `work` on each part in its own thread, or in the calling thread if none can be started. Results have the order of the parts.
+/// Calls `work` on each part in a separate thread, or in the calling thread if no thread can be started. Results have the order of the parts.
 pub fn each_part<P: Send, T: Send>(parts: Vec<P>, work: impl Fn(P) -> T + Sync) -> Vec<T> {
     let work = &work;
     let parts: Vec<_> = parts

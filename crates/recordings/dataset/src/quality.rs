@@ -1,4 +1,4 @@
-//! Columns of a table that rate its rows.
+//! Columns of a table with quality ratings of its rows.
 
 /// Words in the name of a column that may mark bad rows.
 const WORDS: [&str; 9] = [

@@ -1,4 +1,4 @@
-//! Recorder, which acknowledges each sample only when it is durable.
+//! Recorder that acknowledges each sample only when the sample is durable.
 
 use std::collections::{BTreeMap, HashSet};
 use std::fs::{self, File};
@@ -50,9 +50,9 @@ pub use stream::Streamed;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RecordingSpec {
-    /// Facts about sensor, clock, source and footprint.
+    /// Channels of the labels of each sample.
     pub facts: RecordingFacts,
-    /// Channels of the truth of each sample.
+    /// Taxels of the sensor; `None` for a sensor without taxels. With taxels, every sample must have signals.
     pub channels: Channels,
     /// Taxels of the sensor; if any, every sample must have their signals.
     pub signals: Option<SignalsSpec>,
@@ -61,7 +61,7 @@ pub struct RecordingSpec {
 }
 
 impl RecordingSpec {
-    /// Recording with `facts`, whose samples have a truth for each of `channels`.
+    /// Recording of a sensor with taxels. Every sample must have signals.
     pub fn new(facts: RecordingFacts, channels: Channels) -> RecordingSpec {
         RecordingSpec {
             facts,
@@ -71,7 +71,7 @@ impl RecordingSpec {
         }
     }
 
-    /// The same recording for a sensor with taxels. Every sample must have their signals.
+    /// Recording whose frames are reduced before they are recorded.
     #[must_use]
     pub fn with_signals(self, signals: SignalsSpec) -> RecordingSpec {
         RecordingSpec {
@@ -80,7 +80,7 @@ impl RecordingSpec {
         }
     }
 
-    /// The same recording for frames that differ from those of the camera.
+    /// The same recording for frames that differ from the frames of the camera.
     #[must_use]
     pub fn with_reduced(self, reduced: ReducedFrames) -> RecordingSpec {
         RecordingSpec {
@@ -90,7 +90,7 @@ impl RecordingSpec {
     }
 }
 
-/// Writes samples as they arrive. A killed process or a power cut loses at most the unacknowledged sample.
+/// Writes samples as they arrive. An ended process or a power cut loses at most the unacknowledged sample.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -125,7 +125,7 @@ pub struct Recorder {
     cut_bytes: u64,
     /// Pack for new frames; `None` before the first frame.
     pack: Option<PackWriter>,
-    /// End of the last frame that the journal names.
+    /// Position after the last frame that the journal names.
     pack_end: PackEnd,
     /// First frame of the pack, and its digest.
     first: Option<(Digest, Frame)>,
@@ -139,8 +139,7 @@ impl Recorder {
     /// Begins a recording in a new folder at `path`.
     ///
     /// # Errors
-    /// [`DatasetError::TargetExists`] if anything was recorded there; [`DatasetError::Busy`] if another process writes there;
-    /// [`DatasetError::Io`].
+    /// [`DatasetError::TargetExists`] if `path` already contains a recording; [`DatasetError::Busy`] if another process writes there; [`DatasetError::Io`].
     pub fn create(path: &Path, spec: &RecordingSpec) -> Result<Recorder, DatasetError> {
         let lock = empty_folder(path)?;
         let frames = path.join(layout::FRAMES);
@@ -154,9 +153,9 @@ impl Recorder {
     /// Resumes a recording that was not closed. A torn last record is cut.
     ///
     /// # Errors
-    /// [`DatasetError::NoDataset`] if nothing was recorded there; [`DatasetError::TargetExists`] if it was closed;
-    /// [`DatasetError::Busy`] if another process writes there; [`DatasetError::Journal`] if the journal is damaged before its
-    /// end; [`DatasetError::Damaged`] for a symbolic link in it; [`DatasetError::Io`].
+    /// [`DatasetError::NoDataset`] if `path` contains no recording; [`DatasetError::TargetExists`] if the recording was closed; [`DatasetError::Busy`] if
+    /// another process writes there; [`DatasetError::Journal`] if the journal is damaged before its end; [`DatasetError::Damaged`] for a symbolic link in the
+    /// recording; [`DatasetError::Io`].
     pub fn resume(path: &Path) -> Result<Recorder, DatasetError> {
         let journal_path = path.join(layout::JOURNAL);
         let lock = unclosed_folder(path)?;
@@ -185,10 +184,10 @@ impl Recorder {
         Ok(recorder)
     }
 
-    /// Resumes the recording at `path`, or begins it if nothing was recorded there.
+    /// Resumes the recording at `path`, or begins a new recording if there is none.
     ///
     /// # Errors
-    /// As [`create`](Recorder::create) and [`resume`](Recorder::resume); [`DatasetError::Request`] if the recording differs from `spec`.
+    /// Errors of [`create`](Recorder::create) and [`resume`](Recorder::resume); [`DatasetError::Request`] if the recording differs from `spec`.
     pub fn open(path: &Path, spec: &RecordingSpec) -> Result<Recorder, DatasetError> {
         if !path.exists() {
             return Recorder::create(path, spec);
@@ -254,7 +253,7 @@ impl Recorder {
         })
     }
 
-    /// True if a sample with this name is recorded.
+    /// True if a sample called `id` is recorded.
     pub fn has(&self, id: &str) -> bool {
         self.finished.contains(id)
     }
@@ -269,11 +268,11 @@ impl Recorder {
         self.cut_bytes
     }
 
-    /// Records a sample and returns its number in the journal, from 1, once it is durable. Predictions are not recorded.
+    /// Records a sample. Returns its number in the journal, from 1, once the sample is durable. Predictions are not recorded.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if the name is empty or taken, a number is not finite, there are more values than channels, the signals do not
-    /// match the taxels, or the frame is unlike the first. [`DatasetError::Io`], after which the recording must be resumed.
+    /// [`DatasetError::Sample`] if the name is empty or taken, a number is not finite, there are more values than channels, the signals do not match the
+    /// taxels, or the frame differs in size or format from the first. [`DatasetError::Io`], after which the recording must be resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
         let entries = self.write_frames(std::slice::from_ref(sample))?;
@@ -289,10 +288,10 @@ impl Recorder {
         self.reference.is_some()
     }
 
-    /// Records a frame without contact. The last one recorded is used.
+    /// Records a frame without contact. The last recorded frame without contact is used.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if the frame is unlike the other frames; [`DatasetError::Io`].
+    /// [`DatasetError::Sample`] if the frame differs in size or format from the other frames; [`DatasetError::Io`].
     pub fn append_reference(&mut self, frame: &Frame) -> Result<u64, DatasetError> {
         self.check_frame("reference", frame)?;
         // The previous one keeps its file: the journal names it until this one is durable.

@@ -1,4 +1,4 @@
-//! `samples.parquet`: the table as a file, with one column per table column.
+//! `samples.parquet`: file form of the table, with one column per table column.
 
 mod read;
 mod rows;

@@ -1,4 +1,4 @@
-//! Sensor facts in a separate file, for tables of numbers, which lack them.
+//! Facts about a sensor in a separate file, for tables of numbers, which contain no such facts.
 
 use std::path::Path;
 
@@ -8,7 +8,7 @@ use crate::error::DatasetError;
 use crate::header::{Footprint, Known};
 use crate::toml_file::{parse_toml, read_toml_text, toml_error};
 
-/// Content of a sensor file; all of it is optional.
+/// Content of a sensor file; every key is optional.
 ///
 /// ```toml
 /// model = "DIGIT"
@@ -40,7 +40,7 @@ pub struct SensorFile {
     pub gel: Option<String>,
     /// True if ambient light cannot reach the camera.
     pub opaque: Option<bool>,
-    /// Light scene that others are compared with.
+    /// Light scene with which the other scenes are compared.
     pub reference_scene: Option<String>,
     /// Sensing area of the sensor.
     pub footprint: Option<taceva_core::Footprint>,

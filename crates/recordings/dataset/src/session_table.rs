@@ -8,17 +8,17 @@ use serde::{Deserialize, Serialize};
 
 use crate::error::{DatasetError, Place};
 
-/// Start of a session, one row of the table. Lengths are in mm and forces in N, in the frame of the sensor.
+/// Start of a session, one row of the table. Lengths are in mm and forces in N, in the coordinate frame of the sensor.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Session {
     /// Boot id of the machine whose clock stamps the samples; empty if unknown.
     pub boot_id: String,
-    /// Time of the session start on that clock, s.
+    /// Start of the session on that clock, s.
     pub begun_s: f64,
     /// Name of the sensor unit.
     pub unit: String,
-    /// The specimen of the gentle touch.
+    /// Name of the specimen of the gentle touch, a test before the first press.
     pub specimen: String,
     /// Height at which the gel surface was found, mm.
     pub height_mm: f64,
@@ -27,29 +27,29 @@ pub struct Session {
     /// Normal force of the gentle touch, N.
     #[serde(rename = "Fz_N")]
     pub fz_n: f64,
-    /// Load at rest along x, N.
+    /// Force reading at rest along x, N.
     #[serde(rename = "zero_Fx_N")]
     pub zero_fx_n: f64,
-    /// Load at rest along y, N.
+    /// Force reading at rest along y, N.
     #[serde(rename = "zero_Fy_N")]
     pub zero_fy_n: f64,
-    /// Load at rest along z, N.
+    /// Force reading at rest along z, N.
     #[serde(rename = "zero_Fz_N")]
     pub zero_fz_n: f64,
-    /// True if a push along x was measured.
+    /// True if the transducer measured a push along x.
     pub x_felt: bool,
-    /// True if a push along y was measured.
+    /// True if the transducer measured a push along y.
     pub y_felt: bool,
     /// True if the touch changed the picture.
     pub picture_changed: bool,
-    /// Time from a force to the halt of the robot, ms.
+    /// Delay between the force reading and the halt of the robot, ms.
     pub reaction_ms: f64,
     /// Travel of the tip after the halt, mm.
     pub overshoot_mm: f64,
-    /// Standard uncertainty of `height_mm`, mm; `None` in sessions of builds that did not state it.
+    /// Standard uncertainty of `height_mm`, mm; `None` in sessions of builds that did not store it.
     #[serde(default)]
     pub height_u_mm: Option<f64>,
-    /// Standard uncertainty of `fz_n` at its depth, N; `None` as above.
+    /// Standard uncertainty of `fz_n` at `depth_mm`, N; `None` in sessions of builds that did not store it.
     #[serde(default, rename = "Fz_u_N")]
     pub fz_u_n: Option<f64>,
 }
@@ -108,13 +108,13 @@ impl SessionTable {
     }
 }
 
-/// Sessions on a real rig that made a recording.
+/// Summary of the sessions on a real rig that made a recording.
 #[doc(hidden)]
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RecordedSessions {
-    /// Number of boots of the machine that stamped its samples; each restarts the clock.
+    /// Number of boots of the machine that stamped the samples. Each boot restarts the clock.
     pub boots: usize,
-    /// Sentence for reports.
+    /// Sentence about the sessions, for reports.
     pub note: String,
 }
 
@@ -133,7 +133,7 @@ impl RecordedSessions {
     }
 }
 
-/// Sentence for reports; `None` without rows, as for a recording that was moved without its table.
+/// Sentence about the sessions for reports; `None` without rows, as after a recording was moved without its table.
 fn note(rows: &[Session]) -> Option<String> {
     let first = rows.first()?;
     let spread = |of: fn(&Session) -> f64| {

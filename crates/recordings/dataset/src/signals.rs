@@ -1,4 +1,4 @@
-//! `signals.parquet`: taxel values in one FLOAT column per value of a sample, beside the table of labels.
+//! `signals.parquet`: taxel values beside the table of labels, with one FLOAT column for each value of a sample.
 
 mod read;
 mod spec;
@@ -11,7 +11,7 @@ pub(crate) use spec::WrittenSignals;
 pub use spec::{SignalsInfo, SignalsSpec};
 pub use write::SignalsWriter;
 
-/// Number of values in a row group: 4 MiB, for any number of taxels.
+/// Number of values in a row group, for any number of taxels; 4 MiB.
 const GROUP_VALUES: usize = 1 << 20;
 
 /// Number of rows in a row group, for samples of `length` values.

@@ -1,4 +1,4 @@
-//! Folder that appears under its final name in one step.
+//! Staging folder, which gets its final name in one step.
 
 use std::fs;
 use std::io;
@@ -11,7 +11,7 @@ use crate::file::make_names_durable;
 use crate::replacement;
 use crate::text::shown;
 
-/// Content that a target may have.
+/// Permitted content at a target.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[doc(hidden)]
 pub enum Place {
@@ -52,7 +52,7 @@ impl StagedFolder {
         }
     }
 
-    /// Path to write to.
+    /// Path of the staged folder, to which content is written.
     pub fn path(&self) -> &Path {
         self.staged.path()
     }
@@ -75,8 +75,8 @@ impl StagedFolder {
         }
     }
 
-    /// Makes the names in this folder and in the given ones durable, then renames it to its target. This is atomic, with or without an
-    /// existing target, if the file system can exchange names.
+    /// Syncs the names in this folder and in `folders`, then renames the folder to its target. The rename is atomic if the target is free or the file system
+    /// can exchange names.
     pub fn put_in_place(self, folders: &[String]) -> Result<(), DatasetError> {
         for folder in folders {
             make_names_durable(&self.path().join(folder))?;
@@ -89,7 +89,7 @@ impl StagedFolder {
     }
 }
 
-/// Checks that the content of `target` may be replaced. Only complete datasets without other files are replaced.
+/// Checks that the content of `target` may be replaced. Only complete datasets without foreign files may be replaced.
 pub fn check_place(target: &Path, place: Place) -> Result<(), DatasetError> {
     let refused = |problem: String| Err(DatasetError::request(target, problem));
     if fs::symlink_metadata(target).is_err() {

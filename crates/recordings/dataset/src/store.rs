@@ -1,4 +1,4 @@
-//! Final step of writing a dataset: its table, and its header with the digests of table, frames and signals.
+//! Final step of writing a dataset. Writes the table, and the header with the digests of table, frames and signals.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -18,7 +18,7 @@ use crate::table::Table;
 use crate::version::Version;
 use taceva_files::seal::{Edit, Opened};
 
-/// Further content of a header, about the origin of the recording.
+/// Header content besides the recording facts: origin of the rows, omissions and separate files.
 #[derive(Debug, Default)]
 #[doc(hidden)]
 pub struct Beside {
@@ -48,7 +48,7 @@ pub struct Beside {
     pub history: Vec<Edit>,
 }
 
-/// Writes the table and the header to the given files and syncs them, but not their names.
+/// Writes the table and the header to the given files. Syncs the content of the files, but not their names.
 pub fn write_table_and_header(
     samples: &Path,
     header: &Path,

@@ -58,7 +58,7 @@ pub struct Table {
     attribute_names: Vec<String>,
     attributes: Vec<Vec<Option<String>>>,
     frames: Vec<Option<FrameEntry>>,
-    /// Pictures of rows with several pictures.
+    /// Pictures of each view, if rows have several pictures.
     views: Vec<ViewFrames>,
 }
 
@@ -85,7 +85,7 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// If the row does not have one value for each channel, one text for each attribute and one picture for each view.
+    /// Panics if the row does not have one value for each channel, one text for each attribute and one picture for each view.
     pub fn push(&mut self, row: Row) {
         assert_eq!(row.truth.len(), self.truth.len(), "a value a channel");
         assert_eq!(
@@ -126,7 +126,7 @@ impl Table {
     /// Adds an attribute column.
     ///
     /// # Panics
-    /// If there is not one text for each row.
+    /// Panics if the number of texts differs from the number of rows.
     pub fn push_attribute(&mut self, name: String, texts: Vec<Option<String>>) {
         assert_eq!(texts.len(), self.rows(), "a text a row");
         self.attribute_names.push(name);
@@ -138,7 +138,7 @@ impl Table {
         self.sample.len()
     }
 
-    /// Channels of the truth.
+    /// Channels of the labels.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
@@ -168,7 +168,7 @@ impl Table {
         &self.scene
     }
 
-    /// Depth step of each row within its point.
+    /// Depth step of each row within its contact point.
     pub fn depth_step(&self) -> &[Option<u32>] {
         &self.depth_step
     }
@@ -198,7 +198,7 @@ impl Table {
         &self.source_table
     }
 
-    /// Row number of each sample in that table, from 0.
+    /// Row number of each sample in `source_table`, from 0.
     pub fn source_row(&self) -> &[Option<u32>] {
         &self.source_row
     }
@@ -208,12 +208,12 @@ impl Table {
         &self.source_frame
     }
 
-    /// Part of each row, as declared by the recording.
+    /// Part of each row in a split that the recording declares.
     pub fn part(&self) -> &[Option<String>] {
         &self.part
     }
 
-    /// Time of each row, s.
+    /// Time of each row on the clock of the recording, s.
     pub fn t_s(&self) -> &[Option<f64>] {
         &self.t_s
     }
@@ -223,7 +223,7 @@ impl Table {
         &self.kind
     }
 
-    /// Spacing of that grating.
+    /// Spacing of the grating touched in each row.
     pub fn spacing(&self) -> &[Option<Nanometre>] {
         &self.spacing
     }
@@ -261,7 +261,7 @@ impl Table {
         Some((0..self.rows()).map(|row| named.cells.text(row)).collect())
     }
 
-    /// Fields of at least one row.
+    /// Fields that at least one row has.
     pub fn fields(&self) -> FieldSet {
         let carried = [
             (Field::Frame, self.frames.iter().any(Option::is_some)),
@@ -354,7 +354,7 @@ impl Table {
         self.intensity[row] = Some(intensity);
     }
 
-    /// All columns with a value, in the order for digests, storage and export.
+    /// All columns with at least one value, in the order for digests, storage and export.
     pub fn columns(&self) -> Vec<NamedColumn<'_>> {
         let named = |name, cells| NamedColumn { name, cells };
         let mut columns = vec![

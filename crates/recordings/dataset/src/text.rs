@@ -17,14 +17,14 @@ pub fn shown_path(path: &Path) -> String {
     taceva_core::shown(path).to_string()
 }
 
-/// List of names for a message; only the first few, then the number of the others.
+/// List of names for a message: the first few names, then the number of the others.
 pub fn listed(names: &[String]) -> String {
     const LISTED: usize = 64;
     let shown: Vec<String> = names.iter().map(|name| shown(name)).collect();
     first_names(&shown, LISTED)
 }
 
-/// First `most` of `names`, unchanged, then the number of the others.
+/// First `most` of `names`, unchanged, then the number of the remaining names.
 pub fn first_names(names: &[impl AsRef<str>], most: usize) -> String {
     let first: Vec<&str> = names.iter().take(most).map(AsRef::as_ref).collect();
     let first = first.join(", ");

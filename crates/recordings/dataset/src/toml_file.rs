@@ -13,8 +13,8 @@ use taceva_core::nearest;
 /// Parses the TOML file at `path` as `T`.
 ///
 /// # Errors
-/// [`DatasetError::Text`] with the line, if the file is invalid TOML or `T` rejects it; [`DatasetError::Path`] if it is not a regular file or
-/// exceeds 1 MiB; [`DatasetError::Io`].
+/// [`DatasetError::Text`] with the line, if the file is invalid TOML or `T` rejects the content; [`DatasetError::Path`] if the file is not regular or exceeds 1
+/// MiB; [`DatasetError::Io`].
 pub fn read_toml<T: DeserializeOwned>(path: &Path) -> Result<T, DatasetError> {
     parse_toml(path, &read_toml_text(path)?)
 }
@@ -59,7 +59,7 @@ pub fn line_of(text: &[u8], offset: usize) -> u64 {
     1 + before.iter().filter(|byte| **byte == b'\n').count() as u64
 }
 
-/// The parser's message with a hint: the nearest key, or that `unknown` is accepted.
+/// Message of the parser with a hint: the nearest key, or that the value `unknown` is accepted.
 fn explained(message: &str) -> String {
     let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
     match quoted.as_slice() {

@@ -1,4 +1,4 @@
-//! Version of the disk format, and its compatibility.
+//! Versions of the dataset format, and their compatibility.
 
 use std::fmt;
 use std::str::FromStr;
@@ -27,18 +27,18 @@ pub struct Version {
 }
 
 impl Version {
-    /// Newest version, which this crate writes.
+    /// Newest format version. This crate writes it.
     pub const CURRENT: Version = Version { major: 1, minor: 0 };
 
     /// Last minor version before release 0.2.0, which restarted at 1.0.
     const LAST_BEFORE_RELEASE: u32 = 10;
 
-    /// True if this crate can read the version.
+    /// True if this crate can read datasets of this version.
     pub fn is_readable(self) -> bool {
         self.major == Version::CURRENT.major && !self.is_earlier()
     }
 
-    /// True if the version is older than release 0.2.0.
+    /// True if this version precedes release 0.2.0.
     pub fn is_earlier(self) -> bool {
         self.major == 1 && (1..=Version::LAST_BEFORE_RELEASE).contains(&self.minor)
     }

@@ -1,11 +1,11 @@
-//! Names of views: several in one text, and messages about missing views.
+//! Names of views: several names in one text, and messages about missing views.
 
 use crate::text::shown;
 
 /// Separator between the names of views placed side by side.
 pub(crate) const BESIDE: char = '+';
 
-/// Error message for a view that does not exist, or for a missing choice of view.
+/// Error message for a view that does not exist, or for a missing selection.
 pub(crate) fn wanted_view(asked: Option<&str>, known: &[String]) -> String {
     let quoted = |name: &String| format!("`{}`", shown(name));
     let names: Vec<String> = known.iter().map(quoted).collect();

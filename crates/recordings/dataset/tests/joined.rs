@@ -1,4 +1,4 @@
-//! Several recordings read as one: assignment of rows, frames and signals.
+//! Tests of several recordings read as one: assignment of rows, frames and signals.
 
 use std::path::{Path, PathBuf};
 
@@ -11,12 +11,12 @@ use taceva_dataset::{
     Source,
 };
 
-/// A recording of three samples with frames and signals whose numbers begin at `first`; the first row is without contact.
+/// Recording of three samples with frames and signals, in which numbers begin at `first`. The first row is without contact.
 fn record(folder: &Path, name: &str, first: u8, clock: Clock) -> PathBuf {
     record_with(folder, name, (first, 0.0), clock)
 }
 
-/// The same with labels larger by `more`.
+/// Recording like that of [`record`], with labels larger by `more`.
 fn record_with(folder: &Path, name: &str, (first, more): (u8, f64), clock: Clock) -> PathBuf {
     let path = folder.join(name);
     let facts = RecordingFacts::new(Source::Synthetic, clock, SensorFacts::new("drawn"));

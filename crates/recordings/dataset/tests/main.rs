@@ -1,4 +1,4 @@
-//! Recordings are written, survive damage and interruption, and are read back.
+//! Tests that recordings are written, survive damage and interruption, and are read back.
 
 mod joined;
 mod presses;

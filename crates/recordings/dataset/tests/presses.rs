@@ -1,4 +1,4 @@
-//! A press is recorded as a whole: an interruption keeps all of its samples or none.
+//! Tests that a press is recorded as a whole. An interruption keeps all of its samples or none.
 
 use std::fs;
 use std::path::Path;

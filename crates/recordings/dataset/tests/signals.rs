@@ -1,4 +1,4 @@
-//! Signals of taxels beside the table of labels: recorded, resumed, read on request, and verified.
+//! Tests of taxel signals beside the table of labels: recorded, resumed, read on request, and verified.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -49,7 +49,7 @@ fn recorded(path: &Path, rows: u16) -> Header {
     recorder.close().expect("closed")
 }
 
-/// Sink that requests these fields and stores the signals.
+/// Sink that requests these fields and keeps the signals.
 struct Keep(FieldSet, Vec<Option<Signals>>);
 
 impl SampleSink for Keep {

@@ -1,4 +1,4 @@
-//! A stream is recorded some frames at a time: files of a camera are stored unchanged, and lost frames are counted in the header.
+//! Tests that a stream is recorded several frames at a time. Files of a camera are stored unchanged, and lost frames are counted in the header.
 
 use std::fs;
 use std::path::Path;

@@ -1,11 +1,11 @@
-//! Random numbers and contents of folders for the tests of recordings.
+//! Random numbers, and contents of folders, for the tests of recordings.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use taceva_core::random::SplitMix64;
 
-/// Everything below a folder: relative paths in order, with their bytes.
+/// Relative paths of all files below a folder, sorted, with their content.
 pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut found = Vec::new();
     let mut folders = vec![folder.to_owned()];
@@ -24,7 +24,7 @@ pub(crate) fn contents(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     found
 }
 
-/// Random numbers that are the same each time.
+/// Random numbers that are the same in each run.
 pub(crate) struct Random(SplitMix64);
 
 impl Random {
@@ -36,7 +36,7 @@ impl Random {
         usize::try_from(self.0.next_u64() % limit as u64).expect("below a usize")
     }
 
-    /// `bytes` with a few random changes: overwritten, cut, doubled or removed.
+    /// Copy of `bytes` with a few random changes: overwritten, truncated, doubled or removed parts.
     pub(crate) fn mutated(&mut self, bytes: &[u8]) -> Vec<u8> {
         let mut changed = bytes.to_vec();
         for _ in 0..=self.below(4) {

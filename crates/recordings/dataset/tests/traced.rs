@@ -1,4 +1,4 @@
-//! Instruments and certificates of a recording, in its journal, its header and in joined recordings.
+//! Tests of instruments and certificates of a recording, in its journal, its header and in joined recordings.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use taceva_dataset::{
     Dataset, DatasetError, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
 };
 
-/// A transducer with the certificate of this number.
+/// Transducer with the certificate of this number.
 fn traced(number: &str) -> Traceability {
     let day = |text: &str| text.parse().expect("a day");
     let amount = |text: &str| text.parse().expect("an amount");

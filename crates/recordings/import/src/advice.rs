@@ -1,4 +1,4 @@
-//! The command that imports a folder which is no dataset yet.
+//! Suggested command for the import of a folder that is not yet a dataset.
 
 use std::fs;
 use std::path::Path;
@@ -7,8 +7,8 @@ use taceva_dataset::internal::{is_foreign_folder, quoted};
 
 use crate::layouts::Preset;
 
-/// Returns the command that begins the import of the folder at `path`: by its known layout, or by a map to write first.
-/// `None` for a dataset, a run, a folder of datasets and an empty folder.
+/// Returns the command that begins the import of the folder at `path`: with the preset of its layout, or with a map to write first. `None` for a dataset, a
+/// run, a folder of datasets and an empty folder.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;

@@ -1,4 +1,4 @@
-//! Text table read whole into memory. Columns are parsed on request.
+//! Text table that is completely in memory. Columns are parsed on request.
 
 mod cells;
 mod columns;
@@ -46,43 +46,43 @@ pub struct CsvTable {
     text: String,
     blocks: Vec<Block>,
     rows: usize,
-    /// Line of each row if quoted cells may hold line ends; `None` if lines are counted in the text.
+    /// Line of each row if quoted cells may contain line ends; `None` if lines are counted in the text.
     lines: Option<Vec<u64>>,
     /// Cache of the lines counted in the text, filled on the first request.
     counted: OnceLock<Vec<u64>>,
-    /// Number of lines in the text but not in the file: the column names of a headerless file.
+    /// Number of lines in the text that are not in the file: the generated header of a headerless file.
     added_lines: u64,
-    /// Number of lines in the file but not in the text: the rows before a part.
+    /// Number of lines in the file that are not in the text: the rows before a part.
     left_out_lines: u64,
 }
 
 impl CsvTable {
-    /// Limit of the text read at once, bytes. [`CsvParts`](crate::CsvParts) reads tables of any length.
+    /// Maximum size of a text in memory, bytes. [`CsvParts`](crate::CsvParts) reads tables of any length.
     pub const MOST_BYTES: u64 = limits::TABLE_BYTES;
 
     /// Reads the file at `path` on all cores.
     ///
     /// # Errors
-    /// [`ImportError::Table`] naming the line if rows have different lengths, names repeat, a quote is not closed, or the text is
-    /// not UTF-8; [`ImportError::Dataset`] if it is no regular file, is above 4 GiB or cannot be read.
+    /// [`ImportError::Table`] naming the line if rows have different lengths, names repeat, a quote is not closed, or the text is not UTF-8;
+    /// [`ImportError::Dataset`] if the file is not regular, exceeds 4 GiB or cannot be read.
     pub fn read(path: &Path) -> Result<CsvTable, ImportError> {
         CsvTable::read_with(path, all_cores())
     }
 
-    /// Reads the file at `path` on `jobs` threads; the result is the same for any number.
+    /// Reads the file at `path` on `jobs` threads. The result does not depend on the number of threads.
     ///
     /// # Errors
-    /// As [`read`](CsvTable::read).
+    /// Errors of [`read`](CsvTable::read).
     pub fn read_with(path: &Path, jobs: NonZeroUsize) -> Result<CsvTable, ImportError> {
         let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
         let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
         CsvTable::of_text(path, text, delimiter, jobs)
     }
 
-    /// Reads the headerless file at `path`. Columns are named by their position, from `0`.
+    /// Reads the headerless file at `path`. The column names are the positions, from `0`.
     ///
     /// # Errors
-    /// As [`read`](CsvTable::read).
+    /// Errors of [`read`](CsvTable::read).
     pub(crate) fn read_headerless(path: &Path) -> Result<CsvTable, ImportError> {
         let text = as_text(path, read_capped(path, limits::TABLE_BYTES)?)?;
         let delimiter = delimiter_of(text.lines().next().unwrap_or(""));
@@ -122,7 +122,7 @@ impl CsvTable {
         Digest::of(self.text.as_bytes())
     }
 
-    /// Names of the columns.
+    /// Names of the columns, in file order.
     pub fn names(&self) -> &[String] {
         &self.names
     }
@@ -137,10 +137,10 @@ impl CsvTable {
         self.names.iter().any(|known| known == name)
     }
 
-    /// Position of the column called `name`.
+    /// Position of the column called `name`, from 0.
     ///
     /// # Errors
-    /// [`ImportError::Table`], listing the columns there are and suggesting the nearest.
+    /// [`ImportError::Table`] if the column does not exist, with the existing columns and the nearest name.
     pub fn position(&self, name: &str) -> Result<usize, ImportError> {
         self.names
             .iter()
@@ -163,26 +163,26 @@ impl CsvTable {
     /// The cell of a row (from 0) and a column (by position), without surrounding blanks.
     ///
     /// # Panics
-    /// If there is no such row or column.
+    /// Panics if the row or column does not exist.
     pub fn cell(&self, row: usize, column: usize) -> &str {
         self.text[self.block_of(row).cell(row, column)].trim()
     }
 
-    /// The finite number in a cell, or `None` if it is empty.
+    /// Finite number in a cell; `None` if the cell is empty.
     ///
     /// # Errors
-    /// [`ImportError::Table`], naming the place, if it holds something else.
+    /// [`ImportError::Table`] naming the place, if the cell contains something else.
     /// # Panics
-    /// If there is no such row or column.
+    /// Panics if the row or column does not exist.
     pub fn number(&self, row: usize, column: usize) -> Result<Option<f64>, ImportError> {
         parse_number(&self.text, self.block_of(row).cell(row, column))
             .ok_or_else(|| self.not_a_number(row, column))
     }
 
-    /// Error for a cell that holds something other than `expected`.
+    /// Error for a cell that contains something other than `expected`.
     ///
     /// # Panics
-    /// If there is no such row or column.
+    /// Panics if the row or column does not exist.
     pub fn refuse(&self, row: usize, column: usize, expected: &str) -> ImportError {
         table_error!(
             self.place(row, column),
@@ -222,10 +222,10 @@ impl CsvTable {
         .collect()
     }
 
-    /// The block that holds `row`.
+    /// Block that contains `row`.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if the row does not exist.
     fn block_of(&self, row: usize) -> &Block {
         let position = self.blocks.partition_point(|block| block.rows.end <= row);
         &self.blocks[position]
@@ -300,7 +300,7 @@ fn line_at(text: &[u8], offset: usize) -> u64 {
     1 + text[..offset].iter().filter(|byte| **byte == b'\n').count() as u64
 }
 
-/// Number of cells in the first row of `text`; 1 if it cannot be read.
+/// Number of cells in the first row of `text`; 1 if the row cannot be parsed.
 fn cells_of_first_row(text: &str, delimiter: u8) -> usize {
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(delimiter)
@@ -314,7 +314,7 @@ fn cells_of_first_row(text: &str, delimiter: u8) -> usize {
     }
 }
 
-/// The most frequent separator in the header; a comma if it has none.
+/// Most frequent separator in the header; a comma if the header contains no separator.
 fn delimiter_of(header: &str) -> u8 {
     let count = |delimiter: u8| header.bytes().filter(|byte| *byte == delimiter).count();
     let mut best = b',';

@@ -1,4 +1,4 @@
-//! Drafts a first map for an undescribed folder: certain lines, guesses, and gaps that only the lab can fill.
+//! Drafts a map for an undescribed folder: certain lines, guesses, and gaps that only the lab can fill.
 
 mod channels;
 mod clips;
@@ -23,10 +23,10 @@ use clips::OnlyClip;
 use survey::FileGroup;
 use tables::SeenTable;
 
-/// Limit of tables read for a draft.
+/// Maximum number of tables read for a draft.
 const TABLES: usize = 64;
 
-/// Import map with gaps to fill in, each `"?"`, such as unstated units and ambiguous columns. An import rejects them and names the line.
+/// Import map with gaps to fill in, each `"?"`, such as unstated units and ambiguous columns. An import rejects a map with gaps and names the line.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -41,8 +41,8 @@ pub struct MapDraft {
 }
 
 impl MapDraft {
-    /// Examines the files in a folder: names, headers, 200 rows of each kind of table, the first picture of each array. If `path` is a
-    /// file, examines that file, and the pictures and clips in its folder; the map is one for that folder.
+    /// Examines the files in a folder: names, headers, 200 rows of each kind of table, the first picture of each array. If `path` is a file, examines that file
+    /// and the pictures and clips in its folder. The map is then for that folder.
     ///
     /// # Errors
     /// [`ImportError::Dataset`] if the folder cannot be read, or contains neither a table nor a picture.
@@ -186,7 +186,7 @@ fn known_layout(folder: &Path, draft: &str) -> Option<&'static str> {
     fits.then(|| preset.name())
 }
 
-/// True if the pictures are the samples and `table` only accompanies them, such as a mean background.
+/// True if the pictures are the samples and `table` only accompanies them, as an array with a mean background does.
 fn are_beside(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -205,7 +205,7 @@ fn are_beside(
         && table.rows != pictures.paths.len()
 }
 
-/// Number of channels; 0 for a text of numbers without names, which may be the matrix of a camera.
+/// Number of channels; 0 for a text of numbers without names, because it may be the matrix of a camera.
 fn stated_channels(table: &SeenTable<'_>) -> usize {
     match table.has_guessed_channels && table.group.ending == "txt" {
         true => 0,
@@ -213,8 +213,8 @@ fn stated_channels(table: &SeenTable<'_>) -> usize {
     }
 }
 
-/// Table whose rows are the samples. Prefers tables that name pictures, then taxels, then as many rows as the clip has frames, then the most
-/// channels.
+/// Finds the table whose rows are the samples. Preferred are tables that name pictures, then tables with taxels, then with as many rows as the clip has frames,
+/// then with the most channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
     groups: &[FileGroup],

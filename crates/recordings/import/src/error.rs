@@ -8,7 +8,7 @@ use taceva_dataset::DatasetError;
 
 pub use taceva_dataset::Place;
 
-/// An [`ImportError::Table`] at a file or a place in it, with a formatted problem.
+/// Creates an [`ImportError::Table`] at a file or a place in a file, with a formatted problem.
 macro_rules! table_error {
     ($place:expr, $($problem:tt)+) => {
         $crate::error::ImportError::table($place, format!($($problem)+))
@@ -31,21 +31,21 @@ pub(crate) use table_error;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportError {
-    /// An error of a dataset, of the map or of a source file.
+    /// Error of a dataset, of the map or of a source file.
     #[error(transparent)]
     Dataset(#[from] DatasetError),
-    /// An error of a path or an image, with the location that names it.
+    /// Error of a path or an image, with the location where it is named.
     #[error("{}", named(place, error))]
     Named {
-        /// Location of the name.
+        /// Location where the path or image is named.
         place: Box<Place>,
         /// Error of the path or image.
         error: Box<DatasetError>,
     },
-    /// A table of labels that cannot be read or contradicts its map.
+    /// Table of labels that cannot be read or contradicts its map.
     #[error("{place}: {problem}")]
     Table {
-        /// Location.
+        /// Location of the fault.
         place: Place,
         /// The fault, and the accepted form.
         problem: String,
@@ -59,7 +59,7 @@ impl ImportError {
             .map_or(ErrorKind::Protocol, DatasetError::kind)
     }
 
-    /// The error of the dataset, the map or the source file, unless a table is at fault.
+    /// Error of the dataset, the map or the source file; `None` for a fault of a table.
     pub fn dataset(&self) -> Option<&DatasetError> {
         match self {
             ImportError::Table { .. } => None,
@@ -92,7 +92,7 @@ impl ImportError {
         move |source| error(source).into()
     }
 
-    /// The same error with its line decremented, for a table to which a header was added.
+    /// The same error with its line number decremented by one, for a table to which a header line was added.
     pub(crate) fn a_line_above(mut self) -> ImportError {
         if let ImportError::Table { place, .. } = &mut self
             && let Some(line) = &mut place.line
@@ -102,7 +102,7 @@ impl ImportError {
         self
     }
 
-    /// The same error with its line increased by `lines`, for a part of a table with only its header before it.
+    /// The same error with its line number increased by `lines`, for a part of a table whose text lacks these lines.
     pub(crate) fn lines_below(mut self, lines: u64) -> ImportError {
         if let ImportError::Table { place, .. } = &mut self
             && let Some(line) = &mut place.line
@@ -113,7 +113,7 @@ impl ImportError {
         self
     }
 
-    /// The same error with the location that names the image or path.
+    /// The same error with the location where the image or path is named.
     pub(crate) fn named_at(self, place: Place) -> ImportError {
         let error = match self {
             ImportError::Dataset(
@@ -128,7 +128,7 @@ impl ImportError {
         }
     }
 
-    /// The same error with mapped paths: `path` maps each path, and `text` each message.
+    /// The same error after `path` has mapped each path and `text` each message.
     pub(crate) fn with_paths(
         mut self,
         path: &dyn Fn(&Path) -> PathBuf,
@@ -167,7 +167,7 @@ impl ImportError {
     }
 }
 
-/// Message of `error` after the place that names its path or image. A file that both name appears once.
+/// Message of `error` after the place where its path or image is named. A file in both is written once.
 fn named(place: &Place, error: &DatasetError) -> String {
     match error {
         DatasetError::Image { path, problem } if *path == place.path => {

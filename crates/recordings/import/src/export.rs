@@ -1,4 +1,4 @@
-//! Exports a dataset for other programs: its table as CSV, or the whole dataset with a map that imports it again.
+//! Export of a dataset for other programs: its table as CSV, or the whole dataset with an import map.
 
 mod cells;
 mod content;
@@ -56,19 +56,19 @@ const MAP: &str = "map.toml";
 pub struct ExportReport {
     /// Number of samples.
     pub samples: u64,
-    /// Number of pictures over all views; a sample may lack one.
+    /// Number of pictures in all views; some samples may have no picture.
     pub pictures: u64,
-    /// Number of pictures that were re-encoded. Their bytes differ from the dataset, their pixels are equal.
+    /// Number of pictures that were encoded again. Their bytes differ from the dataset, but their pixels are equal.
     pub encoded_anew: u64,
-    /// Facts of the dataset that the map of the export cannot hold, in words.
+    /// Facts of the dataset that the map of the export cannot state, in words.
     pub left_out: Vec<String>,
-    /// True if the map imports the export again. False if some samples have a picture and others none.
+    /// True if TacEva can import the export with its map. False if only some samples have a picture.
     pub is_importable: bool,
-    /// Path of the map that imports the export.
+    /// Path of the map for importing the export.
     pub map: PathBuf,
 }
 
-/// Export of a dataset that has samples.
+/// Export of a dataset that has at least one sample.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Readings, Sample};
@@ -101,10 +101,10 @@ pub struct ExportPlan<'a> {
 }
 
 impl<'a> ExportPlan<'a> {
-    /// An export of `dataset` in `form`.
+    /// Plans an export of `dataset` in `form`.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] if there is no sample.
+    /// [`ImportError::Dataset`] if the dataset has no sample.
     pub fn new(dataset: &'a Dataset, form: ExportForm) -> Result<ExportPlan<'a>, ImportError> {
         match dataset.table().rows() {
             0 => Err(ImportError::request(
@@ -115,15 +115,15 @@ impl<'a> ExportPlan<'a> {
         }
     }
 
-    /// Writes the new folder `target` on `jobs` threads, with a `map.toml`. An import by that map restores samples, labels, times, signals,
-    /// the origin of each row, and pictures of the same pixels. Equal datasets give equal bytes on any number of threads.
+    /// Writes the new folder `target` on `jobs` threads, with a `map.toml`. An import with that map restores samples, labels, times, signals, the origin of
+    /// each row, and pictures with equal pixels. Equal datasets give equal bytes on any number of threads.
     ///
     /// # Units
-    /// Each channel in the unit of the dataset, stated in the map.
+    /// Each channel has the unit of the dataset, which the map states.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] with `TargetExists`; `Sample` if the form cannot hold one as it is; `Image` and `Digest` of a picture that
-    /// is damaged; `Cancelled`; `Io`. After any of them `target` is absent.
+    /// [`ImportError::Dataset`] with `TargetExists`; `Sample` if the form cannot represent a sample; `Image` or `Digest` for a damaged picture; `Cancelled`;
+    /// `Io`. After an error `target` does not exist.
     pub fn run(
         self,
         target: &Path,
@@ -182,10 +182,10 @@ impl<'a> ExportPlan<'a> {
     }
 }
 
-/// Writes the labels of `dataset` as CSV: one row per sample, bare channel names, an empty cell for an absent value.
+/// Writes the labels of `dataset` as CSV: one row per sample, channel names without units, an empty cell for a missing value.
 ///
-/// Numbers are in the shortest form that reads back to the same binary64; the units are those of the header. The column
-/// `frame` is relative to the folder of the dataset.
+/// Numbers have the shortest form that parses back to the same binary64; the header of the dataset states the units. The column `frame` is relative to the
+/// folder of the dataset.
 ///
 /// # Errors
 /// Errors of `writer`.

@@ -1,4 +1,4 @@
-//! Tables of other programs: rows of cells, read by column name.
+//! Tables of other programs: rows of cells, accessed by column name.
 
 mod arrays;
 mod byte_pictures;
@@ -46,7 +46,7 @@ pub(crate) use messages::{Topics, is_recording};
 pub(crate) use pictures::{Picture, Pictures};
 pub(crate) use table_form::TableForm;
 
-/// Table of any form.
+/// Table in any supported form.
 #[derive(Debug)]
 pub(crate) enum ForeignTable {
     Delimited(DelimitedTable),
@@ -55,7 +55,7 @@ pub(crate) enum ForeignTable {
     Columns(ColumnTable),
 }
 
-/// Error message about the file at `path`, without the path, which the outer error names.
+/// Error message about the file at `path`, without the path, because the outer error names it.
 pub(crate) fn said(path: &Path, error: &impl fmt::Display) -> String {
     let text = error.to_string();
     let rest = text.strip_prefix(&format!("{}: ", path.display()));
@@ -68,7 +68,7 @@ impl ForeignTable {
         ForeignTable::read_by(path, form, &Decoders::default())
     }
 
-    /// Reads the table at `path`; `decoders` read the times of a clip.
+    /// Reads the table at `path`. `decoders` are programs that read the times of a clip.
     pub(crate) fn read_by(
         path: &Path,
         form: &TableForm,
@@ -145,7 +145,7 @@ impl ForeignTable {
     /// Cell of a row (from 0) in the column called `name`, without surrounding blanks; empty if absent.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if no row has such a column.
+    /// [`ImportError::Table`] if no row has the column.
     pub(crate) fn cell(&self, row: usize, name: &str) -> Result<Cow<'_, str>, ImportError> {
         match self {
             ForeignTable::Delimited(table) => table.cell(row, name),
@@ -157,7 +157,7 @@ impl ForeignTable {
         }
     }
 
-    /// Unit of a time column as stated by the file, such as `us`; `None` for other columns. The cells are converted to seconds.
+    /// Unit of a time column as stated by the file, such as `us`; `None` for other columns. The cells are already converted to seconds.
     pub(crate) fn time_unit(&self, name: &str) -> Option<&'static str> {
         match self {
             ForeignTable::Columns(table) => table.time_unit(name),
@@ -165,7 +165,7 @@ impl ForeignTable {
         }
     }
 
-    /// Attributes that the file states for a column, one entry for each differing group.
+    /// Attributes that the file states for a column, one entry for each different set among the groups.
     pub(crate) fn stated(&self, name: &str) -> Vec<Stated> {
         match self {
             ForeignTable::Columns(table) => table.stated(name),
@@ -174,8 +174,8 @@ impl ForeignTable {
         }
     }
 
-    /// Names that may contain the unit of `name`, a number in the column `base`: the element's own name, then the column name. For the column
-    /// `value` the name of the file is used.
+    /// Names that may contain the unit of `name`, a number in the column `base`: first the name of the element, then the column name. For the column `value`,
+    /// also the name of the file.
     pub(crate) fn names_with_units(&self, name: &str, base: &str) -> Vec<String> {
         let at = name.strip_prefix(base).unwrap_or_default();
         let at: Option<usize> = at.trim_matches(['[', ']']).parse().ok();
@@ -191,7 +191,7 @@ impl ForeignTable {
         names
     }
 
-    /// Example cell whose point may group digits, with the number of such cells in the column.
+    /// Example of a cell whose decimal point may be a digit separator, with the number of these cells in the column.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         match self {
             ForeignTable::Delimited(table) => table.grouped_digits(name),
@@ -199,7 +199,7 @@ impl ForeignTable {
         }
     }
 
-    /// True if the file states that a column holds integers or lists of integers.
+    /// True if the file states that a column contains integers or lists of integers.
     pub(crate) fn holds_integers(&self, name: &str) -> bool {
         match self {
             ForeignTable::Columns(table) => table.holds_integers(name),
@@ -208,7 +208,7 @@ impl ForeignTable {
         }
     }
 
-    /// Name of a row, if rows have names, as the members of a JSON object.
+    /// Name of a row; `None` if rows have no names. Rows that are members of a JSON object have names.
     pub(crate) fn key(&self, row: usize) -> Option<&str> {
         match self {
             ForeignTable::Json(table) => table.key(row),
@@ -228,7 +228,7 @@ impl ForeignTable {
         }
     }
 
-    /// Names of all columns, where the table lists them.
+    /// Names of all columns; empty if the form of the table does not list them.
     pub(crate) fn names(&self) -> Vec<String> {
         match self {
             ForeignTable::Delimited(table) => table.names().to_vec(),
@@ -246,7 +246,7 @@ impl ForeignTable {
         }
     }
 
-    /// Distances of the codes of `key`, if it is a depth map.
+    /// Distance for each code of `key`; `None` if it is not a depth map.
     pub(crate) fn depth(&self, key: &str) -> Option<DepthCodes> {
         match self {
             ForeignTable::Columns(table) => table.depth(key),
@@ -294,7 +294,7 @@ impl ForeignTable {
         }
     }
 
-    /// Names of the numbers in a column, as the file states them; empty if it does not.
+    /// Names of the numbers in a column; empty if the file does not state them.
     pub(crate) fn element_names(&self, column: &str) -> Vec<String> {
         match self {
             ForeignTable::Columns(table) => table.element_names(column),
@@ -310,7 +310,7 @@ impl ForeignTable {
         }
     }
 
-    /// Columns that seem to hold pictures.
+    /// Columns that seem to contain pictures.
     pub(crate) fn picture_columns(&self) -> Vec<PictureColumn> {
         match self {
             ForeignTable::Columns(table) => table.picture_columns(),
@@ -330,7 +330,7 @@ impl ForeignTable {
         }
     }
 
-    /// Error for a missing column `name`. Lists the existing ones.
+    /// Error for a missing column `name`. Lists the existing columns.
     pub(crate) fn no_column(&self, name: &str) -> ImportError {
         if let ForeignTable::Columns(table) = self
             && let Some(problem) = table.why_absent(name)

@@ -2,10 +2,10 @@
 
 use taceva_dataset::ChannelOrder;
 
-/// Attribute that names the frame without contact of a row, if rows name different ones.
+/// Attribute that names the frame without contact of a row, if the frames differ between rows.
 const REFERENCE_ATTRIBUTE: &str = "reference";
 
-/// Attribute that names the frame without contact of `view` in a row, if rows name different ones.
+/// Attribute that names the frame without contact of `view` in a row, if the frames differ between rows.
 pub(crate) fn reference_attribute(view: Option<&str>) -> String {
     match view {
         None => REFERENCE_ATTRIBUTE.to_owned(),
@@ -13,7 +13,7 @@ pub(crate) fn reference_attribute(view: Option<&str>) -> String {
     }
 }
 
-/// Index of a picture if the map names no column: the row number within its table.
+/// Description of the picture index if the map names no index column.
 pub(crate) const OWN_ROW: &str = "the row of its table";
 
 /// Location and colour order of the frames of one view.
@@ -38,15 +38,15 @@ pub struct FrameMap {
     pub channel_order: ChannelOrder,
     /// Frame without contact, relative to the source folder; `None` if unknown.
     pub reference: Option<String>,
-    /// Column that names the frame without contact of each row, relative to `folder`. If all rows name the same frame, it becomes that of
-    /// the recording; otherwise the attribute `reference`.
+    /// Column that names the frame without contact of each row, relative to `folder`. If all rows name the same frame, it becomes the frame without contact of
+    /// the recording. Otherwise the names become the attribute `reference`.
     pub reference_column: Option<String>,
-    /// Number of the frame without contact, from 0, in the only clip or array that holds the frames.
+    /// Number of the frame without contact, from 0, in the only clip or array that contains the frames.
     pub reference_frame: Option<u64>,
 }
 
 impl FrameMap {
-    /// Frames in files relative to the folder of the table, in `channel_order`, without a frame without contact.
+    /// Frames in files relative to the folder of the table, in `channel_order`, with an unknown frame without contact.
     pub fn new(names: FrameNames, channel_order: ChannelOrder) -> FrameMap {
         FrameMap {
             view: None,
@@ -72,9 +72,9 @@ impl FrameMap {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum FrameNames {
-    /// Column with the path.
+    /// Column with the path of the frame.
     Column(String),
-    /// Path in which `{column}` is replaced by the cell of that column.
+    /// Path pattern in which `{column}` is replaced by the cell of that column.
     Pattern(String),
     /// Frames in one array.
     Array(ArrayFrames),
@@ -106,13 +106,13 @@ impl FrameNames {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ArrayFrames {
-    /// File relative to the source folder, in which `{column}` is replaced by the cell of that column; `None` for the file of the table.
+    /// File relative to the source folder, with `{column}` replaced by the cell of that column; `None` for the file of the table.
     pub file: Option<String>,
-    /// Array in the file; `None` if it holds only one.
+    /// Array in the file; `None` if the file contains only one array.
     pub path: Option<String>,
     /// Column with the position in the array, from 0; `row` is the row number.
     pub index: String,
-    /// Axis order; `None` if the lengths decide.
+    /// Axis order; `None` to infer it from the axis lengths.
     pub layout: Option<ArrayLayout>,
     /// Values of black and full scale, with the bits per stored pixel; `None` for integers of 8 or 16 bits.
     pub range: Option<PixelRange>,
@@ -148,7 +148,7 @@ impl ArrayLayout {
     }
 }
 
-/// Linear mapping from numbers to pixels of 8 or 16 bits: `black` becomes 0, `full` the greatest value. Results are rounded.
+/// Linear mapping from numbers to pixels of 8 or 16 bits. `black` becomes 0 and `full` becomes the greatest pixel value. Results are rounded.
 ///
 /// ```
 /// use taceva_import::PixelRange;
@@ -165,7 +165,7 @@ pub struct PixelRange {
 }
 
 impl PixelRange {
-    /// Range from black to full scale in 8 or 16 bits; `None` if it is empty or not finite, or for other bits.
+    /// Range from black to full scale; `bits` must be 8 or 16. `None` for other bits, and if the range is empty or not finite.
     pub fn new([black, full]: [f64; 2], bits: u8) -> Option<PixelRange> {
         let is_range = black.is_finite() && full.is_finite() && (full - black).abs() > 0.0;
         (is_range && matches!(bits, 8 | 16)).then_some(PixelRange { black, full, bits })
@@ -181,7 +181,7 @@ impl PixelRange {
         [self.black, self.full]
     }
 
-    /// Pixel of `number`; `None` outside the range.
+    /// Pixel of `number`; `None` if the number is outside the range.
     pub fn pixel(&self, number: f64) -> Option<u16> {
         let share = (number - self.black) / (self.full - self.black);
         let most = if self.bits == 8 { 255.0 } else { 65_535.0 };
@@ -196,7 +196,7 @@ impl PixelRange {
 }
 
 impl ArrayFrames {
-    /// Frames of `file`, which holds a single array, such as a `.npy` file. The column `index` holds the position in the array.
+    /// Frames of `file`, which contains a single array, such as a `.npy` file. The column `index` contains the position in the array.
     pub fn new(file: impl Into<String>, index: impl Into<String>) -> ArrayFrames {
         ArrayFrames {
             file: Some(file.into()),
@@ -219,8 +219,7 @@ impl ArrayFrames {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct VideoFrames {
-    /// Clip relative to the source folder, in which `{column}` is replaced by the cell of that column. For a LeRobot dataset: the name of
-    /// the feature.
+    /// Clip relative to the source folder, with `{column}` replaced by the cell of that column. For a LeRobot dataset, the name of the feature.
     pub file: String,
     /// Column with the frame number in display order, from 0; `row` is the row number.
     pub index: String,
@@ -229,7 +228,7 @@ pub struct VideoFrames {
 }
 
 impl VideoFrames {
-    /// Frames of the clip `file`. The column `index` holds the frame number.
+    /// Frames of the clip `file`. The column `index` contains the frame number.
     pub fn new(file: impl Into<String>, index: impl Into<String>) -> VideoFrames {
         VideoFrames {
             file: file.into(),

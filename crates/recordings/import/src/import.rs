@@ -1,4 +1,4 @@
-//! Imports the folder of a lab as a dataset, by a map of its columns.
+//! Imports the folder of a lab as a dataset, according to an import map.
 
 mod archive;
 mod copy;

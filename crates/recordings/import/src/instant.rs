@@ -7,18 +7,18 @@ use taceva_core::Date;
 pub(crate) struct TextInstant {
     /// Days since 1 January 1970; `None` for a time of day.
     day: Option<i64>,
-    /// Seconds since midnight of that day.
+    /// Whole seconds since midnight of that day.
     second: i64,
-    /// Digits of the fraction of a second.
+    /// Digits of the fraction of the second.
     fraction: String,
-    /// UTC offset, s, positive ahead of UTC; `None` if the text has no zone.
+    /// UTC offset, s, positive east of Greenwich; `None` if the text has no time zone.
     zone_s: Option<i64>,
 }
 
 const DAY_S: i64 = 86_400;
 
 impl TextInstant {
-    /// Parses the instant in `cell`: `2024-10-27 02:59:59.000`, `2024-10-27T02:59:59+01:00`, `20241027T025959Z`, `2024/10/27 02:59:59,5`,
+    /// Parses the instant in `cell`, such as `2024-10-27 02:59:59.000`, `2024-10-27T02:59:59+01:00`, `20241027T025959Z`, `2024/10/27 02:59:59,5` or
     /// `03:21:28.429`.
     pub(crate) fn parse(cell: &str) -> Option<TextInstant> {
         let cell = cell.trim().trim_matches('"');
@@ -77,7 +77,7 @@ impl TextInstant {
         self.second
     }
 
-    /// Seconds since 1970 as decimal text. For a time of day: seconds since midnight, plus `days` days. `zone_s` replaces a missing zone.
+    /// Seconds since 1970 as decimal text. For a time of day: seconds since midnight, plus `days` days. `zone_s` replaces a missing time zone.
     pub(crate) fn seconds(&self, zone_s: Option<i64>, days: i64) -> String {
         let zone_s = match self.day {
             Some(_) => self.zone_s.or(zone_s).unwrap_or_default(),
@@ -98,7 +98,7 @@ impl TextInstant {
     }
 }
 
-/// UTC offset of `zone`, s: `Z`, `+02:00`, `-0530`, `+01`.
+/// UTC offset of `zone` (`Z`, `+02:00`, `-0530`, `+01`), s.
 pub(crate) fn zone_seconds(zone: &str) -> Option<i64> {
     if matches!(zone, "Z" | "z" | "UTC") {
         return Some(0);
@@ -118,7 +118,7 @@ pub(crate) fn zone_seconds(zone: &str) -> Option<i64> {
     (hours <= 14 && minutes < 60).then_some(sign * (hours * 3_600 + minutes * 60))
 }
 
-/// Splits the zone off a time.
+/// Splits a time into the time and its UTC offset.
 fn zoned(time: &str) -> Option<(&str, Option<i64>)> {
     let time = time.trim_end();
     let at = time.find(['Z', 'z', '+', '-']).or_else(|| time.find("UTC"));
@@ -128,7 +128,7 @@ fn zoned(time: &str) -> Option<(&str, Option<i64>)> {
     }
 }
 
-/// Days from 1 January 1970 to a date: `2024-10-27`, `2024/10/27`, `20241027`.
+/// Days from 1 January 1970 to a date, such as `2024-10-27`, `2024/10/27` or `20241027`.
 fn day_of(date: &str) -> Option<i64> {
     let parts: Vec<&str> = match (date.contains('-'), date.contains('/'), date.len()) {
         (true, false, _) => date.split('-').collect(),

@@ -1,4 +1,4 @@
-//! Layouts known by name: their files, the data read, and the gaps.
+//! Layouts with a name: required files, data read, and facts left open.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -17,7 +17,7 @@ macro_rules! files {
     };
 }
 
-/// Preset files by name, in recognition order. Each holds the map, followed by its `[preset]` section.
+/// Preset files by name, in the order of recognition. Each contains the map, followed by its `[preset]` section.
 const FILES: &[(&str, &str)] = files![
     "bristol",
     "py3dcal",
@@ -37,19 +37,19 @@ const FILES: &[(&str, &str)] = files![
     "diffusion-zarr",
 ];
 
-/// Header of the preset section, behind the map.
+/// Header of the preset section, which follows the map.
 const SECTION: &str = "[preset]\n";
 
 /// File or folder that a layout requires.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Need {
-    /// Alternatives relative to the folder, with `*` for any characters within a name. The map names the first; the existing one is read.
+    /// Alternative paths relative to the folder, with `*` for any characters within a name. The map names the first; an existing one is read.
     pub(crate) any_of: Vec<String>,
     pub(crate) what: String,
 }
 
-/// Replacements in the map, applied if no file matches `absent`.
+/// Replacements in the map if no file matches `absent`.
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Instead {
@@ -57,13 +57,13 @@ pub(crate) struct Instead {
     pub(crate) replace: Vec<[String; 2]>,
 }
 
-/// Adaptation of the map to a folder by its own function.
+/// Function that adapts the map to a folder.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 pub(crate) enum Fit {
     Bristol,
     DiffusionZarr,
-    /// Uses a draft of the folder as the map, in the layout's units.
+    /// Drafts a map for the folder, with the units of the layout.
     Draft,
     Poseit,
     ToolForce,
@@ -77,19 +77,19 @@ pub(crate) enum Fit {
 pub(crate) struct Layout {
     #[serde(skip)]
     name: &'static str,
-    /// Map, or its leading comments if the map is drafted.
+    /// Text of the map, or only its leading comments if the map is drafted.
     #[serde(skip)]
     pub(crate) map: &'static str,
     layout: String,
     reads: String,
     leaves_open: String,
     pub(crate) needs: Vec<Need>,
-    /// Pattern that other folders lack, for a layout whose required files are common.
+    /// Pattern of a file that other folders lack, for a layout whose required files are common.
     mark: Option<String>,
     #[serde(default)]
     pub(crate) instead: Vec<Instead>,
     pub(crate) fit: Option<Fit>,
-    /// True if map lines for columns absent from the first table are dropped.
+    /// True if map lines for columns that the first table lacks are removed.
     #[serde(default)]
     pub(crate) drops_absent_columns: bool,
 }
@@ -131,7 +131,7 @@ impl Preset {
         layouts.iter().map(Preset)
     }
 
-    /// True if its map is a draft of the folder.
+    /// True if the map of the preset is a draft of the folder.
     pub(crate) fn is_drafted(self) -> bool {
         self.facts().fit == Some(Fit::Draft)
     }
@@ -145,7 +145,7 @@ impl Preset {
         self.0.name
     }
 
-    /// Files of the layout and their place in the folder.
+    /// Files of the layout and their places in the folder.
     ///
     /// ```
     /// assert!(taceva_import::Preset::from_name("py3dcal").is_some_and(|preset| preset.layout().contains("annotations/probe_data.csv")));
@@ -163,7 +163,7 @@ impl Preset {
         &self.0.reads
     }
 
-    /// Facts that the layout leaves open, and data that is not read.
+    /// Facts that the layout does not determine, and data that is not read.
     ///
     /// ```
     /// assert!(taceva_import::Preset::from_name("gelsight-live").is_some_and(|preset| preset.leaves_open().contains("force")));
@@ -188,7 +188,7 @@ impl Preset {
         })
     }
 
-    /// Checks that the folder has everything the layout requires.
+    /// Checks that the folder has all files and folders that the layout requires.
     ///
     /// # Errors
     /// [`ImportError::Dataset`] naming the missing file or folder and its place.

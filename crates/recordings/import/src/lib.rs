@@ -33,7 +33,7 @@ pub use layouts::Preset;
 pub use source_sums::{SourceDifference, SourceSums};
 pub use taceva_video::Decoders;
 
-/// Parts that the program `taceva` shares with the importer. Their interface is not stable.
+/// Parts that the program `taceva` shares with the importer. The interface is not stable.
 #[doc(hidden)]
 pub mod internal {
     pub use crate::open_places::{OPEN, code, open_places};

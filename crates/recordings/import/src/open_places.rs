@@ -1,9 +1,9 @@
-//! Places that a draft of a map leaves open.
+//! Gaps of a drafted map.
 
-/// A value that a draft leaves open.
+/// Mark for a value that a draft leaves to the lab.
 pub const OPEN: &str = "\"?\"";
 
-/// `line` without its comment; a `#` within quotes begins none.
+/// Returns `line` without its comment. A `#` within quotes does not begin a comment.
 pub fn code(line: &str) -> &str {
     let (mut is_quoted, mut is_escaped) = (false, false);
     let end = line.char_indices().find(|(_, letter)| {
@@ -14,7 +14,7 @@ pub fn code(line: &str) -> &str {
     end.map_or(line, |(at, _)| &line[..at])
 }
 
-/// Number of open places in `map`, without its comments.
+/// Number of gaps in `map`, not counting comments.
 pub fn open_places(map: &str) -> usize {
     map.lines()
         .map(|line| code(line).matches(OPEN).count())

@@ -13,10 +13,10 @@ use crate::source_folder::SourceFolder;
 use crate::layouts::{Fit, Preset};
 
 impl Preset {
-    /// Map for the folder at `source`, as `import --preset` uses it. Its comments state the verified facts. It may be printed and adapted.
+    /// Map for the folder at `source`, as `import --preset` uses it. The comments of the map state the verified facts. The text may be saved and adapted.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the expected file if the folder has another layout; errors of reading the first table.
+    /// [`ImportError::Dataset`] naming the expected file if the folder has a different layout; errors of reading the first table.
     ///
     /// ```
     /// use taceva_import::Preset;
@@ -38,10 +38,10 @@ impl Preset {
         }
     }
 
-    /// Parsed map for the folder at `source`, fitted to its columns, image folder and colours.
+    /// Parsed map for the folder at `source`, adapted to its columns, image folder and colours.
     ///
     /// # Errors
-    /// As [`text`](Preset::text).
+    /// Errors of [`text`](Preset::text).
     pub fn map(self, source: &Path) -> Result<ImportMap, ImportError> {
         let name = format!("the map of preset {}", self.name());
         ImportMap::parse(name.as_ref(), &self.text(source)?)

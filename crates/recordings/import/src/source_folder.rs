@@ -1,4 +1,4 @@
-//! Source folder of an import, which confines all paths.
+//! Source folder of an import. Paths outside the folder are rejected.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,14 +9,14 @@ use taceva_dataset::internal::{check_relative, layout, limits};
 
 use crate::error::ImportError;
 
-/// Foreign folder. Paths that leave it are rejected.
+/// Source folder. Paths that lead out of the folder are rejected.
 #[derive(Clone, Debug)]
 pub(crate) struct SourceFolder {
     /// Path as the caller wrote it, for messages.
     given: PathBuf,
     /// Path without links, for comparison.
     canonical: PathBuf,
-    /// Paths requested through any clone of this folder.
+    /// Paths requested through this handle or any clone of it.
     named: Arc<Mutex<BTreeSet<PathBuf>>>,
 }
 
@@ -34,7 +34,7 @@ impl SourceFolder {
         &self.given
     }
 
-    /// Path relative to the folder, followed by `part`, with `/` on every system.
+    /// Path relative to the folder, followed by `part`, with `/` on every operating system.
     pub(crate) fn inside(&self, path: &Path, part: &str) -> String {
         let inside = path.strip_prefix(&self.given).unwrap_or(path);
         let file = inside.to_string_lossy().replace('\\', "/");
@@ -44,7 +44,7 @@ impl SourceFolder {
         }
     }
 
-    /// Path of the file `relative` to `base`, a folder inside this one.
+    /// Path of the file `relative` to `base`, a folder inside the source folder.
     pub(crate) fn file(&self, base: &Path, relative: &str) -> Result<PathBuf, ImportError> {
         let refused = |problem: &str| ImportError::path(relative, problem);
         if relative.is_empty() {
@@ -82,7 +82,7 @@ impl SourceFolder {
     }
 }
 
-/// The files below `folder`, in the order of their names; links to folders are not followed.
+/// Files below `folder`, sorted by name. Does not follow links to folders.
 pub(crate) fn files_below(folder: &Path) -> Vec<PathBuf> {
     let mut files = Vec::new();
     let mut folders = vec![folder.to_owned()];

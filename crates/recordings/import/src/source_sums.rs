@@ -1,4 +1,4 @@
-//! Digests of the files of a lab's folder in the form of `sha256sum`, and differences from them.
+//! Digests of the source files in the format of `sha256sum`, and files that differ from them.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -12,10 +12,10 @@ use taceva_dataset::{Dataset, DatasetError, Digest};
 use crate::error::{ImportError, table_error};
 use crate::source_folder::{SourceFolder, files_below};
 
-/// Limit of differences named in a message.
+/// Maximum number of differences named in a message.
 const NAMED: usize = 8;
 
-/// Digests of files by name: of one folder, or of several from which rows were added.
+/// Digests of files by name, for one source folder or for several from which rows were added.
 ///
 /// ```
 /// use taceva_import::SourceSums;
@@ -48,21 +48,21 @@ pub struct SourceSums {
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum SourceDifference {
-    /// The digest of its bytes differs.
+    /// File whose bytes have a different digest.
     Changed {
         /// Name within the folder.
         name: String,
         /// Digest in the list.
         expected: Digest,
-        /// Digest of its bytes.
+        /// Digest of the present bytes.
         found: Digest,
     },
-    /// The file is in the list, but not in the folder.
+    /// File that is in the list, but not in the folder.
     Absent {
         /// Name within the folder.
         name: String,
     },
-    /// The file is in the folder, but not in the list.
+    /// File that is in the folder, but not in the list.
     Unnamed {
         /// Name within the folder.
         name: String,
@@ -90,7 +90,7 @@ impl fmt::Display for SourceDifference {
 }
 
 impl SourceSums {
-    /// Reads a list in the form of `sha256sum`.
+    /// Reads a list in the format of `sha256sum`.
     ///
     /// # Errors
     /// [`ImportError::Table`] naming the invalid line; [`ImportError::Dataset`] if the list cannot be read.
@@ -100,7 +100,7 @@ impl SourceSums {
         SourceSums::parse(list, &text)
     }
 
-    /// Digests of the source files stored in the dataset; `None` if there are none.
+    /// Digests of the source files that the dataset stores; `None` if it stores none.
     ///
     /// # Errors
     /// Errors of [`Dataset::source_sums`].
@@ -135,10 +135,10 @@ impl SourceSums {
         })
     }
 
-    /// Differences of the named files in `folder`. If rows were added from several folders, compares with the most similar one.
+    /// Differences between the listed files and the files in `folder`. For rows added from several folders, compares with the most similar list.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] if a file cannot be read, or the work was cancelled.
+    /// [`ImportError::Dataset`] if a file cannot be read, or the work is cancelled.
     pub fn differences(
         &self,
         folder: &Path,
@@ -168,10 +168,11 @@ impl SourceSums {
         Ok(of_each.min_by_key(Vec::len).unwrap_or_default())
     }
 
-    /// As [`differences`](SourceSums::differences), with every unlisted file below `folder`, except the list itself and datasets made there.
+    /// Differences like those of [`differences`](SourceSums::differences), plus every unlisted file below `folder`, except the list itself and datasets in
+    /// `folder`.
     ///
     /// # Errors
-    /// As [`differences`](SourceSums::differences).
+    /// Errors of [`differences`](SourceSums::differences).
     pub fn differences_of_all(
         &self,
         folder: &Path,
@@ -191,10 +192,10 @@ impl SourceSums {
         Ok(differences)
     }
 
-    /// Checks that the files in `folder` equal the list.
+    /// Checks that the files in `folder` match the list.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the files that differ; otherwise as [`differences_of_all`](SourceSums::differences_of_all).
+    /// [`ImportError::Dataset`] naming the files that differ; otherwise errors of [`differences_of_all`](SourceSums::differences_of_all).
     pub fn verify(
         &self,
         folder: &Path,
@@ -229,7 +230,7 @@ impl SourceSums {
     }
 }
 
-/// List of the files read in `folder`. Names that do not fit on a line are left out.
+/// List of the files read in `folder`. Files whose path is not valid UTF-8 are left out.
 pub(crate) fn list_of(
     folder: &SourceFolder,
     jobs: NonZeroUsize,
@@ -249,7 +250,7 @@ pub(crate) fn list_of(
     Ok(lines.collect())
 }
 
-/// The name and the digest on a line.
+/// Name and digest on a line; `None` for an invalid line.
 fn entry(line: &str) -> Option<(String, Digest)> {
     let (line, is_escaped) = match line.strip_prefix('\\') {
         Some(line) => (line, true),
@@ -268,7 +269,7 @@ fn entry(line: &str) -> Option<(String, Digest)> {
     Some((name, digest.parse().ok()?))
 }
 
-/// Digest of each path; `None` if it is not a file.
+/// Digest of each path; `None` if the path is not a file.
 fn digests(
     paths: &[PathBuf],
     jobs: NonZeroUsize,

@@ -4,7 +4,7 @@ use taceva_core::{SourceUnit, Unit};
 
 /// Unit in the name of a column, in brackets or after a separator.
 ///
-/// Lower-case spellings may be ambiguous: `torque_nm` is in N·m, `depth_nm` in nanometres.
+/// Lower-case spellings may be ambiguous: `torque_nm` means N·m, `depth_nm` means nanometres.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct UnitSuffix {
     /// Unit text in the name.
@@ -168,7 +168,7 @@ const QUALIFIERS: [&str; 18] = [
 ];
 
 impl UnitSuffix {
-    /// Finds the unit in `name`. Names with parts, such as `pose_mm.x` and `/Fz/mN`, are searched from their end.
+    /// Finds the unit in `name`. Names with several parts, such as `pose_mm.x` and `/Fz/mN`, are searched from the last part.
     pub(crate) fn of(name: &str) -> Option<UnitSuffix> {
         if let Some(found) = in_brackets(name) {
             return Some(found);
@@ -195,13 +195,13 @@ impl UnitSuffix {
         &self.written
     }
 
-    /// Unit of the given quantity, if the name may mean one.
+    /// Unit of the quantity `quantity` that the name may mean; `None` if the name cannot mean one.
     pub(crate) fn of_quantity(&self, quantity: Unit) -> Option<SourceUnit> {
         let mut units = self.units.iter();
         units.find(|unit| unit.unit() == quantity).copied()
     }
 
-    /// Unit of the name, if it is unambiguous.
+    /// Unit in the name; `None` if it is ambiguous.
     pub(crate) fn any_unit(&self) -> Option<SourceUnit> {
         match self.units.as_slice() {
             [only] => Some(*only),
@@ -215,8 +215,8 @@ impl UnitSuffix {
         self.units.iter().all(is_raw)
     }
 
-    /// Contradiction between the name and a map that states `unit`. `None` if they agree, or if the name states a different quantity: an array
-    /// `ft [N]` also contains torques.
+    /// Contradiction between the name and a map that states `unit`. `None` if both agree, or if the name states a different quantity, because an array `ft [N]`
+    /// also contains torques.
     pub(crate) fn contradiction(&self, unit: &SourceUnit) -> Option<String> {
         let is_same = |own: &SourceUnit| {
             own.unit() == unit.unit() && own.convert(1.0).to_bits() == unit.convert(1.0).to_bits()
@@ -250,7 +250,7 @@ impl UnitSuffix {
     }
 }
 
-/// Possible units of `text`; empty if it is no unit.
+/// Possible units of `text`; empty if `text` is no unit.
 fn units_of(text: &str) -> Vec<SourceUnit> {
     let text = text.trim();
     if text.is_empty()
@@ -291,7 +291,7 @@ fn units_of(text: &str) -> Vec<SourceUnit> {
         .collect()
 }
 
-/// Unit in the last brackets of `name` that contain one.
+/// Unit in the last brackets of `name` that contain a unit.
 fn in_brackets(name: &str) -> Option<UnitSuffix> {
     let mut end = name.len();
     while let Some(close) = name[..end].rfind([')', ']', '}', '>']) {
@@ -318,7 +318,7 @@ fn in_brackets(name: &str) -> Option<UnitSuffix> {
     None
 }
 
-/// Unit after `_`, `-`, a comma or a space. With `is_alone`, the unit may be the whole part.
+/// Unit after `_`, `-`, a comma or a space. With `is_alone`, the whole part may be the unit.
 fn behind_separator(part: &str, is_alone: bool) -> Option<UnitSuffix> {
     let separators = ['_', '-', ' ', ','];
     let mut tokens: Vec<(usize, &str)> = Vec::new();

@@ -1,4 +1,4 @@
-//! Damaged, too large, misplaced or unequal pictures are refused with a message, and nothing is written.
+//! Tests that damaged, too large, misplaced or unequal pictures are rejected with a message, and that nothing is written.
 
 use std::fs;
 
@@ -88,7 +88,7 @@ fn a_small_picture_that_becomes_very_many_pixels_is_refused_and_a_flat_one_of_a_
     assert_eq!(frame.info().width, 3_840);
 }
 
-/// A black picture.
+/// Black picture of this size.
 fn flat(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = std::io::Cursor::new(Vec::new());
     let picture = image::GrayImage::new(width, height);
@@ -97,7 +97,7 @@ fn flat(width: u32, height: u32) -> Vec<u8> {
     bytes.into_inner()
 }
 
-/// A PNG that declares many pixels in few bytes.
+/// PNG that declares many pixels in few bytes.
 fn bomb(width: u32, height: u32) -> Vec<u8> {
     let mut bytes = png(8, 6, 0);
     bytes[16..20].copy_from_slice(&width.to_be_bytes());

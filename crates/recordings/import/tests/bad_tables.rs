@@ -1,4 +1,4 @@
-//! Incomplete or contradictory tables, maps and folders are refused with a message, and nothing is written.
+//! Tests that incomplete or contradictory tables, maps and folders are rejected with a message, and that nothing is written.
 
 use std::fs;
 

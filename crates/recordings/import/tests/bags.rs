@@ -1,4 +1,4 @@
-//! Recordings of ROS in databases and bags, and pictures of Foxglove, drafted and imported by preset.
+//! Tests of ROS recordings in databases and bags, and of Foxglove pictures, drafted and imported by preset.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -14,7 +14,7 @@ fn data(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// A folder with the recording `name`; a rosbag2 recording has the layout of `ros2 bag record`.
+/// Folder with the recording `name`. A rosbag2 recording has the layout of `ros2 bag record`.
 fn lab(name: &str) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let file = Path::new(name).file_name().expect("a name");
@@ -155,7 +155,7 @@ fn a_bag_whose_frames_change_and_one_that_is_cut_are_refused_with_the_remedy() {
     assert!(open.contains("`cut = \"?\"`, expected \"keep\""), "{open}");
 }
 
-/// The plan of an import of the forces in `none.bag`, with these keys of its table.
+/// Plan of an import of the forces in `none.bag`, with these keys of its table.
 fn of_ft(folder: &Path, keys: &str) -> Result<ImportPlan, ImportError> {
     let map = format!(
         "map_version = 2\ntable = {{ file = \"none.bag\", {keys} }}\n[columns]\nFz = {{ from = \"wrench.force.z\", unit = \"N\" }}\n\

@@ -1,4 +1,4 @@
-//! A damaged dataset is never read as an intact one, and no input makes the readers panic or hang.
+//! Tests that a damaged dataset is never read as an intact one, and that no input makes the readers panic or hang.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use crate::support::{Random, contents};
 use taceva_dataset::Dataset;
 use taceva_import::{CsvTable, ImportMap};
 
-/// The digest and every frame of the dataset at `set`; `None` if anything is refused.
+/// Digest and all frames of the dataset at `set`; `None` if anything is rejected.
 fn whole(lab: &Lab) -> Option<Vec<Vec<u8>>> {
     let dataset = Dataset::open(&lab.path("set")).ok()?;
     let mut all = vec![dataset.digest().as_bytes().to_vec()];

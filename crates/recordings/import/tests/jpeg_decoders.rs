@@ -1,4 +1,4 @@
-//! Compares pixels of our JPEG decoder with libjpeg, the most common decoder, on pictures of every kind.
+//! Compares pixels of the JPEG decoder of TacEva with libjpeg, the most common decoder, on pictures of every kind.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -10,10 +10,10 @@ use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 use taceva_needs::{Need, skip};
 
-/// Limit of the difference that `docs/your-recording.md` states, of 255 levels.
+/// Maximum difference that `docs/your-recording.md` states, out of 255 levels.
 const MOST: u8 = 3;
 
-/// Pixels of the picture at `path` from our decoder.
+/// Pixels of the picture at `path` from the decoder of TacEva.
 fn ours(path: &Path, order: &str) -> Vec<u8> {
     let folder = tempfile::tempdir().expect("a folder");
     fs::copy(path, folder.path().join("1.jpg")).expect("copied");
@@ -31,7 +31,7 @@ fn ours(path: &Path, order: &str) -> Vec<u8> {
     frame.bytes().to_vec()
 }
 
-/// Pixels of the same picture from libjpeg's own program; `None` if it is not installed.
+/// Pixels of the same picture from the program of libjpeg; `None` if it is not installed.
 fn libjpegs(path: &Path) -> Option<Vec<u8>> {
     let output = Command::new("djpeg")
         .args(["-dct", "int", "-pnm"])
@@ -44,7 +44,7 @@ fn libjpegs(path: &Path) -> Option<Vec<u8>> {
     Some(bytes[header + 1..].to_vec())
 }
 
-/// The greatest and the mean difference, levels.
+/// Maximum and mean difference, levels.
 fn difference(ours: &[u8], theirs: &[u8]) -> (u8, f64) {
     assert_eq!(ours.len(), theirs.len());
     let each = ours.iter().zip(theirs).map(|(a, b)| a.abs_diff(*b));

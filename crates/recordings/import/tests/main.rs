@@ -1,4 +1,4 @@
-//! Folders of labs become datasets and datasets become files of other programs.
+//! Tests that folders of labs become datasets, and datasets become files of other programs.
 
 mod bad_forms;
 mod bad_images;

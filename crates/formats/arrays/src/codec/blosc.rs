@@ -1,13 +1,13 @@
-//! Chunks of Blosc 1.
+//! Decompressor of chunks of Blosc 1.
 //!
-//! A chunk has blocks. A block has one stream, or one stream for each byte of an element. Another codec compresses each stream.
+//! A chunk consists of blocks. A block is one stream, or one stream for each byte of an element. Each stream is compressed by another codec.
 
 use super::shuffle::{unshuffled_bits, unshuffled_bytes};
 use super::{lz4, zlib, zstd};
 use crate::error::Problem;
 
 const HEADER_BYTES: usize = 16;
-/// Maximum number of streams. Elements of more bytes and blocks of fewer elements are not split.
+/// Maximum number of streams of a block. Blocks of larger elements or fewer elements are not split into streams.
 const MOST_STREAMS: usize = 16;
 const LEAST_ELEMENTS: usize = 128;
 

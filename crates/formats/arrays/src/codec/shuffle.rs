@@ -1,6 +1,6 @@
-//! Reversal of byte and bit shuffling.
+//! Inverse of byte and bit shuffling.
 
-/// Reverses byte shuffling: all first bytes of the elements, then all second bytes, and so on. An incomplete element stays at the end.
+/// Reverses byte shuffling, which stores all first bytes of the elements, then all second bytes, and so on. An incomplete element at the end is not shuffled.
 pub(crate) fn unshuffled_bytes(block: &mut [u8], element: usize) {
     let count = block.len() / element;
     let shuffled = block[..count * element].to_vec();
@@ -11,7 +11,7 @@ pub(crate) fn unshuffled_bytes(block: &mut [u8], element: usize) {
     }
 }
 
-/// Reverses bit shuffling: first bits of all elements, then second bits, and so on. Only a multiple of eight elements is shuffled.
+/// Reverses bit shuffling, which stores the first bits of all elements, then the second bits, and so on. Only a multiple of eight elements is shuffled.
 pub(crate) fn unshuffled_bits(block: &mut [u8], element: usize) {
     let count = block.len() / element;
     if !count.is_multiple_of(8) {

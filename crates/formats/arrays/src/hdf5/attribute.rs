@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use hdf5_pure::{AttrValue, File};
 
-/// Attribute `name` of `owner` as text; `None` if it is missing or has no text form.
+/// Attribute `name` of `owner` as text; `None` if the attribute is missing or has no text form.
 pub(crate) fn read(file: &File, owner: &str, name: &str) -> Option<String> {
     text(all(file, owner)?.remove(name)?)
 }

@@ -1,6 +1,6 @@
-//! Index of the chunks of a dataset, checked against its grid and its extent.
+//! Index of the chunks of a dataset, checked against the chunk grid and the extent.
 //!
-//! The library skips a chunk with a damaged key. Its elements would silently become the fill value.
+//! `hdf5-pure` skips a chunk with a damaged key, and its elements would become the fill value without an error.
 
 use std::collections::BTreeSet;
 
@@ -10,7 +10,7 @@ use super::problem;
 use crate::error::Problem;
 use crate::store::chunks_of;
 
-/// Content of an index.
+/// Result of reading an index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ChunkIndex {
     /// Number of written chunks.
@@ -20,7 +20,7 @@ pub(super) struct ChunkIndex {
 }
 
 impl ChunkIndex {
-    /// Reads the index of `dataset` with chunks of the lengths `chunk`; `None` for the one kind of index that is not supported.
+    /// Reads the index of `dataset` with chunks of the lengths `chunk`; `None` for the only unsupported kind of index.
     ///
     /// # Errors
     /// [`Problem::Damaged`] for a chunk off the grid, outside the extent or duplicate. [`Problem::Structure`] for an invalid index.

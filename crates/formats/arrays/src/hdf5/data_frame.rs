@@ -1,4 +1,4 @@
-//! Data frames that pandas stores in its fixed format. Blocks of columns of one type become one array for each column.
+//! Data frames in the fixed format of pandas, which stores blocks of columns of one type. Each column becomes an array.
 //!
 //! `/run` with `block0_items`, `block0_values` and `axis1` becomes `/run/Fz`, `/run/obj` and `/run/index`. A block of texts is a pickle.
 
@@ -20,7 +20,7 @@ pub(crate) struct DataFrames {
     refused: Vec<(String, Problem)>,
 }
 
-/// Exposed array.
+/// Array that readers of the file see.
 #[derive(Debug)]
 struct Shown {
     name: String,
@@ -28,14 +28,14 @@ struct Shown {
     content: Content,
 }
 
-/// Location of the elements of an array.
+/// Location of the elements of a shown array.
 #[derive(Debug)]
 enum Content {
     /// Whole array of the file, by its index.
     Array(usize),
     /// Column of a block of numbers.
     Numbers(BlockColumn),
-    /// Column of a block of texts, which is pickled.
+    /// Column of a block of texts, which is stored as a pickle.
     Texts(BlockColumn),
 }
 
@@ -51,7 +51,7 @@ struct BlockColumn {
 const REMEDY: &str =
     "write it with `df.to_parquet(path)`, or with `df.to_hdf(path, key=\"run\", format=\"table\")`";
 
-/// Store of a file. If it has data frames, these are columns.
+/// Store of a file. Data frames, if any, are replaced by their columns.
 pub(crate) fn store(hdf5: Hdf5) -> Box<dyn Store> {
     let arrays = hdf5.arrays();
     let is_of_frame = |name: &String| {
@@ -99,7 +99,7 @@ pub(crate) fn store(hdf5: Hdf5) -> Box<dyn Store> {
     })
 }
 
-/// Columns of the data frame in `group`, the index first.
+/// Columns of the data frame in `group`, beginning with the index.
 fn columns(hdf5: &Hdf5, arrays: &Arrays, group: &str) -> Result<Vec<Shown>, Problem> {
     let find = |name: &str| {
         let path = format!("{group}/{name}");
@@ -193,7 +193,7 @@ fn unlike(group: &str, block: usize) -> Problem {
     )
 }
 
-/// Names of columns, which may be numbers.
+/// Column names as texts. Stored names may be numbers.
 fn texts(values: ArrayValues) -> Vec<String> {
     match values {
         ArrayValues::Text(texts) => texts,
@@ -206,7 +206,7 @@ fn texts(values: ArrayValues) -> Vec<String> {
 }
 
 impl DataFrames {
-    /// Rows of a column of texts. Unpickles the whole block.
+    /// Rows of a column of texts. Parses the pickle of the whole block.
     fn texts(&self, own: BlockColumn, rows: Range<u64>) -> Result<ArrayValues, Problem> {
         let block = self.hdf5.read(own.array, 0..1)?.values;
         let ArrayValues::Bytes(mut block) = block else {
@@ -298,7 +298,7 @@ impl Store for DataFrames {
 }
 
 impl DataFrames {
-    /// Stored name of the array `owner`.
+    /// Name under which the file stores the array `owner`.
     fn stored(&self, owner: &str) -> String {
         let own = self.shown.iter().find(|shown| shown.name == owner);
         let stored = own.and_then(|own| {

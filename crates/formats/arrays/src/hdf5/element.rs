@@ -1,4 +1,4 @@
-//! Stored HDF5 types.
+//! Converts stored HDF5 types to layouts of elements.
 
 use hdf5_pure::{Datatype, DatatypeByteOrder, FloatingPointLayout, StringPadding};
 

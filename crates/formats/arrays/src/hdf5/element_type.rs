@@ -1,4 +1,4 @@
-//! Types of written elements.
+//! Types of elements that the writer supports.
 
 /// Type of the elements of a written array, little-endian.
 ///
@@ -9,9 +9,9 @@
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum WrittenElement {
-    /// Whole numbers from 0, of 8 bits.
+    /// Whole numbers without a sign, of 8 bits.
     U8,
-    /// Whole numbers from 0, of 16 bits.
+    /// Whole numbers without a sign, of 16 bits.
     U16,
     /// Whole numbers with a sign, of 64 bits.
     I64,
@@ -21,7 +21,7 @@ pub enum WrittenElement {
     F64,
     /// UTF-8 texts of at most this many bytes, padded with zeros.
     Text {
-        /// Size, bytes, at least 1.
+        /// Size of one text, bytes, at least 1.
         bytes: u32,
     },
 }
@@ -38,7 +38,7 @@ impl WrittenElement {
         }
     }
 
-    /// Datatype message.
+    /// Datatype message of the type.
     pub(super) fn message(self) -> Vec<u8> {
         let size = self.bytes();
         let bits = u16::try_from(size.saturating_mul(8)).unwrap_or(u16::MAX);

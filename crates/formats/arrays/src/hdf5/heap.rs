@@ -1,4 +1,4 @@
-//! Variable-length texts and bytes in the collections of the global heap.
+//! Variable-length texts and bytes in collections of the global heap.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -21,11 +21,11 @@ pub(crate) struct GlobalHeap {
     collections: Mutex<Cache<u64, Collection>>,
 }
 
-/// Collection of objects.
+/// Collection of objects in the heap.
 #[derive(Debug)]
 struct Collection {
     bytes: Vec<u8>,
-    /// Range of each object, by its number.
+    /// Byte range of each object, by its number.
     objects: BTreeMap<u32, Range<usize>>,
 }
 
@@ -45,7 +45,7 @@ impl GlobalHeap {
         }
     }
 
-    /// Resolves references. Each has a length (4 bytes), the address of the collection, and the number of the object (4 bytes).
+    /// Resolves references. Each reference is a length (4 bytes), the address of a collection, and the number of an object (4 bytes).
     pub(crate) fn values(&self, references: &[u8], is_text: bool) -> Result<ArrayValues, Problem> {
         let mut all = Vec::with_capacity(references.len() / (8 + self.offset_bytes));
         let mut held = 0_u64;
@@ -134,7 +134,7 @@ impl GlobalHeap {
         Ok(collection)
     }
 
-    /// Parses objects: number (2 bytes), reference count (2), padding (4), length, then data padded to 8 bytes. Number 0 is free space.
+    /// Parses objects: number (2 bytes), reference count (2), padding (4), length, then data padded to 8 bytes. Number 0 marks free space.
     fn objects(&self, collection: &[u8]) -> BTreeMap<u32, Range<usize>> {
         let mut objects = BTreeMap::new();
         let mut at = 8 + self.length_bytes;

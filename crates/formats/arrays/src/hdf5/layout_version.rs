@@ -1,12 +1,12 @@
-//! Data layout version 5. HDF5 2.0 writes it for filtered chunks. `hdf5-pure` does not support it, so it is read as version 4.
+//! Patch for data layout version 5, which HDF5 2.0 writes for filtered chunks. `hdf5-pure` does not support this version, so it is read as version 4.
 //!
-//! Both versions have the same message. They differ in the width of chunk sizes in an index. The header of the index states this width.
+//! Both versions have the same message. They differ only in the width of chunk sizes in an index, which the header of the index states.
 
 use super::lookup3::lookup3;
 
 /// Type of the data layout message.
 const DATA_LAYOUT: u8 = 8;
-/// Highest message type in the format specification of HDF5 4.0.
+/// Greatest message type in the format specification of HDF5 4.0.
 const LAST_MESSAGE: u8 = 0x18;
 /// Flags of an object header: order of creation, attribute thresholds, times.
 const ORDERED: u8 = 4;
@@ -15,8 +15,8 @@ const TIMES: u8 = 32;
 /// Size of the checksum at the end of a block, bytes.
 const CHECKSUM: usize = 4;
 
-/// Rewrites the layout messages of one complete block of an object header, and its checksum. Other bytes do not change. A block with a
-/// wrong checksum does not change.
+/// Changes the version of the layout messages in one complete block of an object header, and the checksum of the block. A block with a wrong checksum is
+/// unchanged.
 pub(super) fn lower(block: &mut [u8]) {
     let places = layouts(block);
     let Some(end) = block
@@ -52,7 +52,7 @@ fn layouts(block: &[u8]) -> Vec<usize> {
     }
 }
 
-/// Offsets for messages that begin at `start`, each after a head of `head` bytes; `None` if they do not fill the block.
+/// Offsets of the version bytes among messages that begin at `start`, each after a head of `head` bytes. `None` if the messages do not fill the block exactly.
 fn walk(block: &[u8], start: usize, head: usize) -> Option<Vec<usize>> {
     let end = block.len().checked_sub(CHECKSUM)?;
     let (mut at, mut places) = (start, Vec::new());
@@ -75,7 +75,7 @@ mod tests {
     use super::super::structures::header;
     use super::*;
 
-    /// Continuation block of these messages, with heads of `head` bytes.
+    /// Continuation block with these messages, each with a head of `head` bytes.
     fn continuation(messages: &[(u8, Vec<u8>)], head: usize) -> Vec<u8> {
         let mut block = b"OCHK".to_vec();
         for (number, body) in messages {

@@ -1,7 +1,7 @@
-//! Error messages for names that are links, to another file or within this one.
+//! Error messages for names that are links to another file or within the same file.
 //!
-//! Groups in the newer format store their links as messages (format specification of HDF5 3.0, IV.A.2.g), which `hdf5-pure` skips.
-//! A search for their bytes finds them, only after a name was not found.
+//! Groups in the newer format store their links as messages (format specification of HDF5 3.0, IV.A.2.g), which `hdf5-pure` skips. After a name was not found,
+//! the bytes of the file are searched for these messages.
 
 use crate::error::Problem;
 use crate::source::{ByteSource, FileBytes, bytes_of};
@@ -9,7 +9,7 @@ use crate::source::{ByteSource, FileBytes, bytes_of};
 /// Types of links.
 const SOFT: u8 = 1;
 const EXTERNAL: u8 = 64;
-/// Search limit in a file, and search block, bytes.
+/// Search limit in a file, and size of a searched block, bytes.
 const FURTHEST: u64 = 64 << 20;
 const BLOCK: u64 = 1 << 20;
 /// Maximum length of a supported message, bytes.
@@ -36,7 +36,7 @@ pub(super) fn of(file: &FileBytes, name: &str) -> Option<Problem> {
     None
 }
 
-/// Type and value of the link message with the length of its name at `place`.
+/// Type and value of the link message whose name has its length at `place`; `None` for other bytes.
 fn message(bytes: &[u8], place: usize, length: usize) -> Option<(u8, Vec<u8>)> {
     // Before the name: version 1, flags, the type, and by the flags the creation order and the character set.
     let is_head = |before: usize| {

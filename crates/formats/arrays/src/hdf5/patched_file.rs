@@ -1,4 +1,4 @@
-//! Bytes of a file with patches for the crate. Soft links become hard links, and layouts get a version that the crate supports.
+//! File bytes with patches for `hdf5-pure`. Soft links become hard links, and layouts get a version that the crate supports.
 
 use std::sync::Arc;
 

@@ -1,8 +1,8 @@
-//! Soft links of groups in symbol tables, the default of HDF5.
+//! Soft links of groups with symbol tables, the default of HDF5.
 //!
-//! `hdf5-pure` treats them as damage. They therefore become hard links to their targets, in the read bytes and not in the file.
+//! `hdf5-pure` treats soft links as damage. They are therefore replaced by hard links to their targets, in the bytes that are read and not in the file.
 //!
-//! Format specification of HDF5 3.0, III.A, C and D: a group has a B-tree of symbol nodes and a local heap with their names.
+//! A group has a B-tree of symbol nodes, and a local heap with names. The format specification of HDF5 3.0 describes both in III.A, C and D.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ const DEPTH: usize = 16;
 /// Cache types of a symbol node entry: a group with its tree and heap, or a soft link with its target.
 const GROUP: u32 = 1;
 const SOFT_LINK: u32 = 2;
-/// Size of an entry, bytes: offset of its name, address of its header, cache type, and 16 bytes of scratch space.
+/// Size of an entry, bytes: offset of the name, address of the header, cache type, and 16 bytes of scratch space.
 const ENTRY: usize = 40;
 
 /// Maximum size of a patch, bytes.
@@ -27,16 +27,16 @@ pub(super) type Patches = BTreeMap<u64, Vec<u8>>;
 /// Result of resolving the soft links of a file.
 #[derive(Default)]
 pub(super) struct Followed {
-    /// Links as hard links. Dead links are removed.
+    /// Patches that replace soft links by hard links, and remove dead links.
     pub(super) patches: Patches,
     /// Dead and circular links, each with its error.
     pub(super) nowhere: Vec<(String, Problem)>,
 }
 
-/// Resolves the soft links of a file to hard links. Empty if it has no symbol tables or no such links.
+/// Resolves the soft links of a file to hard links. Empty if the file has no symbol tables or no soft links in them.
 ///
 /// # Errors
-/// [`Problem`] for an unreadable structure.
+/// [`Problem`] for a structure that cannot be read.
 pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
     let mut found = Found {
         file,
@@ -61,7 +61,7 @@ pub(super) fn followed(file: &FileBytes) -> Result<Followed, Problem> {
 struct Found<'f> {
     file: &'f FileBytes,
     base: u64,
-    /// Address of the header of each object with a hard link, by path.
+    /// Address of the object header of each object with a hard link, by path.
     headers: BTreeMap<String, u64>,
     /// Soft links by path, with the location of the entry and the target.
     links: BTreeMap<String, SoftLink>,
@@ -70,12 +70,12 @@ struct Found<'f> {
 
 struct SoftLink {
     node: Node,
-    /// Index of the entry in the node.
+    /// Index of the entry in its node.
     position: usize,
     target: String,
 }
 
-/// Symbol node: consecutive entries of a group.
+/// Symbol node, which contains consecutive entries of a group.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Node {
     address: u64,
@@ -87,7 +87,7 @@ impl Found<'_> {
         bytes_of(self.file, self.base.saturating_add(address), length)
     }
 
-    /// Visits the group of `entry`, if the entry states its tree and heap.
+    /// Visits the group of `entry`, if the entry states a tree and a heap.
     fn group(&mut self, entry: &[u8], path: &str, depth: usize) -> Result<(), Problem> {
         if number32(&entry[16..]) != GROUP || depth == DEPTH {
             return Ok(());
@@ -175,7 +175,7 @@ impl Found<'_> {
         Ok(followed)
     }
 
-    /// Entries of a node with its links as hard links. A dead link is removed, and later entries move up.
+    /// Entries of a node after links became hard links. A dead link is removed, and later entries move up.
     fn patch(
         &self,
         node: Node,
@@ -207,7 +207,7 @@ impl Found<'_> {
         Ok(())
     }
 
-    /// Header of the object at `path`, also through other links.
+    /// Address of the object header at `path`, also through other links. `None` if the path leads to no object.
     fn header(&self, path: &str, hops: usize) -> Option<u64> {
         if let Some(header) = self.headers.get(path) {
             return Some(*header);
@@ -243,7 +243,7 @@ fn absolute(path: &str, target: &str) -> String {
     format!("/{}", parts.join("/"))
 }
 
-/// Zero-terminated text at an offset of a heap.
+/// Zero-terminated text at the offset `at` of a heap.
 fn text(heap: &[u8], at: u64) -> Option<String> {
     let rest = heap.get(usize::try_from(at).ok()?..)?;
     let end = rest.iter().position(|byte| *byte == 0)?;

@@ -1,20 +1,20 @@
-//! Structures of a written HDF5 file, as bytes: superblock 2, object headers 2, and their messages.
+//! Structures of an HDF5 file as bytes, for the writer: superblock 2, object headers 2, and their messages.
 
 use super::element_type::WrittenElement;
 use super::lookup3::lookup3;
 
-/// Size of the superblock, bytes. The first array follows it.
+/// Size of the superblock, bytes. The first array follows the superblock.
 pub(super) const SUPERBLOCK_BYTES: usize = 48;
-/// Undefined address.
+/// Address that HDF5 defines as undefined.
 pub(super) const NOWHERE: u64 = u64::MAX;
 
-/// Layout message of contiguous elements: `bytes` bytes at `at`.
+/// Layout message of `bytes` bytes of contiguous elements at the offset `at`.
 pub(super) fn contiguous(at: u64, bytes: u64) -> Vec<u8> {
     let at = if bytes == 0 { NOWHERE } else { at };
     [&[3, 1][..], &at.to_le_bytes(), &bytes.to_le_bytes()].concat()
 }
 
-/// Dataspace message of a fixed shape. No axes mean one element.
+/// Dataspace message of a fixed shape. An empty shape means one element.
 pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     let rank = u8::try_from(shape.len()).unwrap_or(u8::MAX);
     let mut message = vec![2, rank, 0, u8::from(rank > 0)];
@@ -22,14 +22,14 @@ pub(super) fn dataspace(shape: &[u64]) -> Vec<u8> {
     message
 }
 
-/// Texts of attributes in a collection of the global heap. Every library then reads them as texts, not as bytes.
+/// Texts of attributes in a collection of the global heap. Libraries then read the attributes as texts and not as bytes.
 #[derive(Debug, Default)]
 pub(super) struct Heap {
     objects: Vec<u8>,
     pub(super) count: u16,
 }
 
-/// Size of the header of a collection, and of the header of an object in it, bytes.
+/// Size of the header of a collection, and of the header of an object in a collection, bytes.
 const HEAP_HEADER: usize = 16;
 /// Minimum size of a collection, bytes.
 const HEAP_LEAST: usize = 4096;
@@ -48,7 +48,7 @@ impl Heap {
         self.count
     }
 
-    /// Collection. The rest of it is an object without a number.
+    /// Bytes of the collection. Its free space is an object with number 0.
     pub(super) fn collection(mut self) -> Vec<u8> {
         let used = HEAP_HEADER + self.objects.len();
         let size = (used + HEAP_HEADER).max(HEAP_LEAST);
@@ -62,7 +62,7 @@ impl Heap {
     }
 }
 
-/// Attribute message of a text of `bytes` bytes: object `object` in the heap at `heap`.
+/// Attribute message of a text of `bytes` bytes, which is the object `object` in the heap at `heap`.
 pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8, Vec<u8>) {
     // Variable-length UTF-8 text: a length, and a reference; base type bytes.
     let mut kind = vec![0x19, 0x01, 0x01, 0, 16, 0, 0, 0];
@@ -85,7 +85,7 @@ pub(super) fn attribute(key: &str, bytes: usize, heap: u64, object: u16) -> (u8,
     (0x0c, message)
 }
 
-/// Link message to the object header at `at`, with its name in UTF-8.
+/// Link message to the object header at `at`, with the name in UTF-8.
 pub(super) fn link(name: &str, at: u64) -> Vec<u8> {
     let length = u8::try_from(name.len()).unwrap_or(u8::MAX);
     let mut message = vec![1, 0x10, 1, length];
@@ -94,7 +94,7 @@ pub(super) fn link(name: &str, at: u64) -> Vec<u8> {
     message
 }
 
-/// Object header of these messages, each with its type.
+/// Object header with `messages`, each with its type.
 pub(super) fn header(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
     let mut body = Vec::new();
     for (number, message) in messages {
@@ -115,7 +115,7 @@ pub(super) fn header(messages: &[(u8, Vec<u8>)]) -> Vec<u8> {
     header
 }
 
-/// Superblock of a file of `end` bytes with its root at `root`.
+/// Superblock of a file of `end` bytes whose root group is at `root`.
 pub(super) fn superblock(end: u64, root: u64) -> Vec<u8> {
     // Version 2. Addresses and lengths have eight bytes.
     let mut block = b"\x89HDF\r\n\x1a\n\x02\x08\x08\x00".to_vec();

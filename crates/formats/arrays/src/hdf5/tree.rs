@@ -1,5 +1,4 @@
-//! Groups and datasets of a file. Hard links are followed; soft and external links are not. Links back to a parent group end at a depth
-//! of 16.
+//! Groups and datasets of a file. Hard links are followed, but not soft and external links. Recursion through links to a parent group ends at a depth of 16.
 
 use hdf5_pure::{Dataset, File, Group};
 

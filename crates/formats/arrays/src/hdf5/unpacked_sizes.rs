@@ -14,7 +14,7 @@ impl UnpackedSizes {
     /// Adds the unpacked size `bytes` of the dataset `index`, in a file of `stored` bytes.
     ///
     /// # Errors
-    /// [`Problem::TooLarge`] for a file that would exhaust memory or time. Nothing was unpacked for it.
+    /// [`Problem::TooLarge`] for a file that would exhaust memory or time. Nothing was unpacked.
     pub(super) fn take(&self, index: usize, bytes: u64, stored: u64) -> Result<(), Problem> {
         let mut each = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         each.insert(index, bytes);

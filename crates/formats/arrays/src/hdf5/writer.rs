@@ -1,8 +1,8 @@
-//! Writer of HDF5 files, one contiguous array after another. Rows go to the disk as they arrive. The metadata follows at the end.
+//! Writer of HDF5 files with contiguous arrays, one after another. Rows are written to the disk as they arrive. The metadata follows at the end.
 //!
-//! `hdf5-pure` reads here and does not write. It takes an array of several axes only from memory, and a recording of pictures is larger.
-//! The output is the minimum of the format: superblock 2, object headers 2 with checksums, and links in the header of the root group
-//! (HDF5 File Format Specification, version 3). Every library since 1.8 reads it.
+//! `hdf5-pure` is used for reading only. Its writer accepts an array of several axes only in memory, and a recording of pictures is larger. The output is the
+//! minimum of HDF5 File Format Specification, version 3: superblock 2, object headers 2 with checksums, and links in the header of the root group. Every HDF5
+//! library since 1.8 reads this format.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -14,7 +14,7 @@ use super::structures::{
 };
 use crate::error::{ArrayError, Problem};
 
-/// Maximum text of an attribute, bytes.
+/// Maximum size of the text of an attribute, bytes.
 const TEXT_BYTES: usize = 1 << 20;
 
 /// Writer of an HDF5 file.
@@ -41,11 +41,11 @@ pub struct Hdf5Writer {
     path: PathBuf,
     file: BufWriter<File>,
     at: u64,
-    /// Written arrays. The last one may be incomplete.
+    /// Written arrays. The last array may be incomplete.
     arrays: Vec<Written>,
 }
 
-/// Array of the file.
+/// Array in the written file.
 #[derive(Debug)]
 struct Written {
     name: String,
@@ -77,11 +77,11 @@ impl Hdf5Writer {
         })
     }
 
-    /// Begins the array `name` with texts as its attributes. The previous array must be complete.
+    /// Begins the array `name`, with texts as its attributes. The previous array must be complete.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the previous array is incomplete. [`Problem::Unsupported`] for a name that is empty, taken or contains `/`, a
-    /// shape above 64 bits, or an attribute above 1 MiB. [`Problem::Io`].
+    /// [`Problem::Damaged`] if the previous array is incomplete. [`Problem::Unsupported`] for a name that is empty, taken or contains `/`, a shape above 64
+    /// bits, or an attribute above 1 MiB. [`Problem::Io`] if the file cannot be written.
     pub fn begin(
         &mut self,
         name: &str,
@@ -133,7 +133,7 @@ impl Hdf5Writer {
     /// Writes the next elements of the current array, little-endian and in C order.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if they exceed the shape. [`Problem::Io`].
+    /// [`Problem::Damaged`] if there are more elements than the shape allows. [`Problem::Io`] if the file cannot be written.
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), ArrayError> {
         let left = self.left();
         if bytes.len() as u64 > left {
@@ -145,10 +145,10 @@ impl Hdf5Writer {
         Ok(())
     }
 
-    /// Ends the file, with texts as attributes of its root. Waits until its bytes are on the disk. The directory entry is not synced.
+    /// Ends the file, with texts as attributes of the root group. Syncs the content to the disk, but not the name of the file.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the last array is incomplete. [`Problem::Io`].
+    /// [`Problem::Damaged`] if the last array is incomplete. [`Problem::Io`] if the file cannot be written.
     pub fn finish(mut self, attributes: &[(&str, &str)]) -> Result<(), ArrayError> {
         self.check_whole()?;
         let path = self.path.clone();
@@ -208,7 +208,7 @@ impl Hdf5Writer {
         file.sync_all()
     }
 
-    /// Pads to a multiple of eight bytes.
+    /// Pads the file to a multiple of eight bytes.
     fn pad(&mut self) -> io::Result<()> {
         let padding = usize::try_from(self.at.next_multiple_of(8) - self.at).unwrap_or(0);
         self.put(&[0; 8][..padding])

@@ -15,7 +15,7 @@ use crate::source::ByteSource;
 const IS_COMPLEX: u32 = 0x800;
 const IS_LOGICAL: u32 = 0x200;
 
-/// Matrix of numbers, not read yet.
+/// Matrix of numbers, whose elements are not read yet.
 pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Variable, Problem> {
     let element = match matrix.class {
         _ if matrix.flags & IS_COMPLEX != 0 => {
@@ -84,7 +84,7 @@ pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Va
     Ok(Variable::Numbers { element, block })
 }
 
-/// Matrix of letters, stored column by column. Each line is a text.
+/// Matrix of letters, which are stored column by column. Each line becomes a text.
 pub(crate) fn text(source: &dyn ByteSource, matrix: &Matrix) -> Result<Variable, Problem> {
     let lines_count = matrix.shape.first().copied().unwrap_or(0);
     let width = product(matrix.shape.get(1..).unwrap_or(&[])).unwrap_or(u64::MAX);

@@ -9,7 +9,7 @@ pub(crate) const TYPE_UTF_16: u32 = 17;
 pub(crate) const TYPE_MATRIX: u32 = 14;
 pub(crate) const TYPE_COMPRESSED: u32 = 15;
 
-/// Offset of an element, with the byte order of its file.
+/// Offset of an element, and the byte order of the file.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Place {
     pub(crate) at: u64,
@@ -21,13 +21,13 @@ pub(crate) struct Place {
 pub(crate) struct Tag {
     pub(crate) kind: u32,
     pub(crate) data_at: u64,
-    /// Offset after the last byte, before the padding.
+    /// Offset after the last byte of content, before the padding.
     pub(crate) end: u64,
     /// Offset of the next element.
     pub(crate) next: u64,
 }
 
-/// Two numbers of a tag.
+/// Both numbers of a tag.
 pub(crate) fn words(bytes: [u8; 8], is_big_endian: bool) -> (u32, u32) {
     let [a, b, c, d, e, f, g, h] = bytes;
     let word = if is_big_endian {

@@ -13,13 +13,13 @@ pub(crate) struct Matrix {
     pub(crate) flags: u32,
     pub(crate) shape: Vec<u64>,
     pub(crate) name: String,
-    /// Offset of the start of its content, and offset of the end.
+    /// Offset of the start of the content, and offset of its end.
     pub(crate) content: Place,
     pub(crate) end: u64,
     pub(crate) next: u64,
 }
 
-/// Parses flags, lengths and name of the matrix at `place`.
+/// Parses the flags, lengths and name of the matrix at `place`.
 pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Problem> {
     let big = place.is_big_endian;
     let whole = tag(source, place)?;
@@ -107,7 +107,7 @@ pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Pr
     })
 }
 
-/// Number of elements of a shape; `None` above 64 bits.
+/// Number of elements of a shape; `None` if it exceeds 64 bits.
 pub(crate) fn product(sides: &[u64]) -> Option<u64> {
     sides
         .iter()
@@ -125,7 +125,7 @@ pub(crate) fn number(bytes: &[u8], is_big_endian: bool) -> Option<u64> {
     u64::try_from(number).ok()
 }
 
-/// Name up to its zero padding.
+/// Name before its zero padding.
 pub(crate) fn text_of(bytes: &[u8]) -> String {
     let end = bytes
         .iter()

@@ -12,11 +12,11 @@ use crate::values::{ArrayData, ArrayValues};
 /// Readable variable.
 #[derive(Debug)]
 pub(crate) enum Variable {
-    /// Numbers. MATLAB stores them in the narrowest type that fits.
+    /// Numbers. MATLAB stores them in the narrowest type that can represent them.
     Numbers { element: Element, block: Block },
     /// Lines of a matrix of letters.
     Text { shape: Vec<u64>, lines: Vec<String> },
-    /// One variable for each cell, all of the same shape and type, row by row.
+    /// One variable for each cell, row by row. All have the same shape and type.
     Cells {
         shape: Vec<u64>,
         element: Element,
@@ -74,8 +74,7 @@ impl Variable {
     }
 }
 
-/// Joins cells of the same shape and type to one array. The axes of the cells follow the axes of the cell matrix. Cells of one number or
-/// one line have no axes.
+/// Joins cells of the same shape and type to one array, whose first axes are the axes of the cell matrix. Cells of one number or one line add no axes.
 pub(crate) fn cells_of(shape: &[u64], cells: Vec<Variable>) -> Result<Variable, Problem> {
     let Some(first) = cells.first() else {
         return Err(Problem::unsupported(

@@ -28,7 +28,7 @@ impl Found {
         (self.variables.len() + self.refused.len()) as u64
     }
 
-    /// Adds the matrix at `place`. `within` is the name of its parent structure.
+    /// Adds the matrix at `place`. `within` is the name of the structure that contains it.
     pub(crate) fn matrix(
         &mut self,
         source: &Arc<dyn ByteSource>,
@@ -62,7 +62,7 @@ impl Found {
         Ok(())
     }
 
-    /// Adds the fields of a structure, one array each. Fields of several structures become cells.
+    /// Adds the fields of a structure, each as an array. The fields of an array of structures become cells.
     fn structure(
         &mut self,
         source: &Arc<dyn ByteSource>,

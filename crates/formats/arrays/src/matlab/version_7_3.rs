@@ -1,4 +1,4 @@
-//! MATLAB files of version 7.3: HDF5 with reversed axes. The class of each variable is an attribute.
+//! MATLAB files of version 7.3: HDF5 with reversed axes. An attribute states the class of each variable.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -38,7 +38,7 @@ struct DatasetBytes {
     length: u64,
 }
 
-/// Internal groups of MATLAB: the content of cells and objects.
+/// Groups that MATLAB uses for the content of cells and objects.
 const OWN: [&str; 2] = ["/#refs#", "/#subsystem#"];
 
 impl Matlab73 {
@@ -168,7 +168,7 @@ impl Store for Matlab73 {
     }
 }
 
-/// Text lines from codes of letters.
+/// Converts character codes to lines of text.
 fn lines(codes: ArrayValues, count: u64) -> Result<ArrayValues, Problem> {
     let wrong = || Problem::unsupported("a text that is not Unicode", "save it as UTF-8");
     let ArrayValues::U16(codes) = codes else {

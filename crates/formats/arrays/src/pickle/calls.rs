@@ -1,4 +1,4 @@
-//! Values built instead of calls: arrays, their types, numbers, bytes of texts.
+//! Values constructed in place of the calls of a pickle: arrays, their types, numbers, bytes of texts.
 
 use std::sync::Arc;
 

@@ -26,15 +26,15 @@ pub(crate) enum Cells {
     Plain { element: Element, ids: Vec<Id> },
 }
 
-/// Values of a pickle, with a limit on visits.
+/// Values of a pickle, with a limited number of visits.
 pub(crate) struct Values<'a> {
     pub(crate) values: &'a [Value],
-    /// Number of visits left. Nested lists may repeat one another exponentially.
+    /// Number of visits left. Nested lists could otherwise repeat one another exponentially.
     left: u64,
     text: &'a dyn Fn(&Bytes) -> Option<String>,
 }
 
-/// Columns, and values that are not columns, each with the reason.
+/// Columns, and the values that are not columns, each with the reason.
 pub(crate) type Found = (Vec<Column>, Vec<(String, Problem)>);
 
 impl<'a> Values<'a> {
@@ -126,7 +126,7 @@ impl<'a> Values<'a> {
         Ok(())
     }
 
-    /// Last entry of each key, in the order of first occurrence.
+    /// Value of each key, in the order of first occurrence. Of several entries with the same key, the last is used.
     fn entries(&mut self, entries: &[(Id, Id)]) -> Result<Vec<(String, Id)>, Problem> {
         let mut named: Vec<(String, Id)> = Vec::new();
         let mut places = std::collections::BTreeMap::new();
@@ -172,7 +172,7 @@ impl<'a> Values<'a> {
                 .all(|row| matches!(self.value(*row), Value::Dictionary(_)))
     }
 
-    /// Adds one column for each key of the first dictionary in a list. All dictionaries must have it.
+    /// Adds one column for each key of the first dictionary in a list. All dictionaries of the list must have the key.
     fn table(&mut self, rows: &[Id], name: &str, found: &mut Found) -> Result<(), Problem> {
         let mut columns: Vec<(String, Vec<Id>)> = Vec::new();
         for (row, id) in rows.iter().enumerate() {
@@ -250,7 +250,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Values of one kind, or lists of such values with equal lengths.
+    /// Shape and cells of values of one kind, or of lists of these values with equal lengths.
     fn list(&mut self, values: &[Id]) -> Result<(Vec<u64>, Cells), Problem> {
         self.look_at(values.len())?;
         let arrays = values.iter().map_while(|id| match self.value(*id) {
@@ -315,7 +315,7 @@ impl<'a> Values<'a> {
         }
     }
 
-    /// Common type of some values. Whole numbers mixed with others become floating point.
+    /// Common type of the values. Whole numbers mixed with floating-point numbers become floating point.
     fn element(&self, ids: &[Id]) -> Result<Element, Problem> {
         let mut common = None;
         for id in ids {
@@ -349,7 +349,7 @@ impl<'a> Values<'a> {
     }
 }
 
-/// Bytes as a separate source.
+/// Bytes in memory as a separate source; `None` for bytes in the file.
 pub(crate) fn held(bytes: &Bytes) -> Option<Arc<Vec<u8>>> {
     match bytes {
         Bytes::Held(bytes) => Some(Arc::clone(bytes)),

@@ -1,11 +1,11 @@
-//! Sequential reader of a pickle, some kilobytes at a time. Long bytes are skipped.
+//! Sequential reader of a pickle that reads some kilobytes at a time and skips long bytes.
 
 use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 
 const WINDOW_BYTES: u64 = 64 << 10;
 
-/// Reader with its position.
+/// Reader with its position in the source.
 #[derive(Debug)]
 pub(crate) struct Cursor<'a> {
     source: &'a dyn ByteSource,
@@ -56,7 +56,7 @@ impl<'a> Cursor<'a> {
         Ok(bytes)
     }
 
-    /// Reads a little-endian length of `N` bytes.
+    /// Reads a little-endian length that has `N` bytes.
     pub(crate) fn length<const N: usize>(&mut self) -> Result<u64, Problem> {
         let bytes = self.few::<N>()?;
         Ok(bytes
@@ -65,7 +65,7 @@ impl<'a> Cursor<'a> {
             .fold(0, |number, byte| number << 8 | u64::from(*byte)))
     }
 
-    /// Skips `count` bytes. Returns their offset.
+    /// Skips `count` bytes. Returns the offset of the first skipped byte.
     pub(crate) fn pass(&mut self, count: u64) -> Result<u64, Problem> {
         let at = self.at;
         let end = at
@@ -79,7 +79,7 @@ impl<'a> Cursor<'a> {
         Ok(at)
     }
 
-    /// Reads a line of at most `most` bytes, without its end.
+    /// Reads a line of at most `most` bytes, without the line end.
     pub(crate) fn line(&mut self, most: usize) -> Result<String, Problem> {
         let start = self.at;
         let mut line = Vec::new();

@@ -1,9 +1,9 @@
-//! Names that a pickle may use. None is ever called. Each is a value that is built here.
+//! Names that a pickle may use. The reader never calls them, but constructs their values itself.
 
 use crate::error::Problem;
 use crate::scalar::shown;
 
-/// Module, name, and internal name.
+/// Module, name, and internal name of each known global.
 const KNOWN: &[(&str, &str, &str)] = &[
     ("numpy", "ndarray", "ndarray"),
     ("numpy", "dtype", "dtype"),
@@ -19,7 +19,7 @@ const KNOWN: &[(&str, &str, &str)] = &[
     ("collections", "OrderedDict", "OrderedDict"),
 ];
 
-/// Internal name of a global. Rejects unknown globals by name.
+/// Internal name of a global. Returns an error with the name for an unknown global.
 pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, Problem> {
     let found = KNOWN
         .iter()
@@ -33,7 +33,7 @@ pub(crate) fn known(module: &str, name: &str, at: u64) -> Result<&'static str, P
         })
 }
 
-/// Remedy in the program that wrote the object.
+/// Remedy for the program that wrote the object of this module.
 fn mend(module: &str) -> &'static str {
     match module.split('.').next() {
         Some("pandas") => {

@@ -15,7 +15,7 @@ use crate::source::{ByteSource, bytes_of};
 pub(crate) struct Machine<'a> {
     pub(crate) source: &'a dyn ByteSource,
     pub(crate) values: Vec<Value>,
-    /// Number of bytes made from texts. The length of the file limits it.
+    /// Number of bytes converted from texts. The length of the file limits this number.
     pub(crate) held_bytes: u64,
     stack: Vec<Id>,
     /// Heights of the stack at which groups begin.
@@ -23,7 +23,7 @@ pub(crate) struct Machine<'a> {
     memo: BTreeMap<u32, Id>,
 }
 
-/// Maximum name of a module or of a global, bytes.
+/// Maximum length of the name of a module or a global, bytes.
 const NAME_BYTES: usize = 1_024;
 
 /// Runs the pickle that begins at `at`. Returns its values and the id of the result.
@@ -148,7 +148,7 @@ impl Machine<'_> {
         &self.values[id as usize]
     }
 
-    /// Short text.
+    /// Content of a short text; `None` for other values.
     pub(crate) fn text(&self, id: Id) -> Option<String> {
         match self.value(id) {
             Value::Text(bytes) if bytes.length() <= NAME_BYTES as u64 => {
@@ -190,7 +190,7 @@ impl Machine<'_> {
         self.push(Value::Global(global))
     }
 
-    /// Pushes bytes or text of `length` bytes. They stay in the file.
+    /// Pushes bytes or text of `length` bytes, which are left in the file.
     fn long(&mut self, length: u64, is_text: bool, cursor: &mut Cursor<'_>) -> Result<(), Problem> {
         let bytes = Bytes::InFile {
             at: cursor.pass(length)?,
@@ -365,7 +365,7 @@ pub(crate) fn read(source: &dyn ByteSource, bytes: &Bytes) -> Result<Vec<u8>, Pr
     }
 }
 
-/// Passes a value to a function, so that each operation is one line.
+/// Function call in postfix form, so that each operation is one line.
 trait Pipe: Sized {
     fn pipe<T>(self, next: impl FnOnce(Self) -> T) -> T {
         next(self)

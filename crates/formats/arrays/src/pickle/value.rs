@@ -1,19 +1,19 @@
-//! Values of a pickle. They refer to one another by number and own none. No depth of nesting therefore causes recursion.
+//! Values of a pickle. Values refer to one another by number and own no other values, so deep nesting causes no recursion.
 
 use std::sync::Arc;
 
 use crate::fields::Item;
 use crate::scalar::Scalar;
 
-/// Number of a value.
+/// Number that identifies a value.
 pub(crate) type Id = u32;
 
 /// Bytes of a pickle.
 #[derive(Clone, Debug)]
 pub(crate) enum Bytes {
-    /// Not read yet.
+    /// Bytes in the file, which are not read yet.
     InFile { at: u64, length: u64 },
-    /// Bytes from protocol 2, which writes bytes as text.
+    /// Bytes in memory, from protocol 2, which writes bytes as text.
     Held(Arc<Vec<u8>>),
 }
 
@@ -37,20 +37,20 @@ pub(crate) struct PickledArray {
 /// Elements of an array.
 #[derive(Clone, Debug)]
 pub(crate) enum Content {
-    /// Under construction.
+    /// No elements yet, because the array is under construction.
     Nothing,
     Numbers {
         item: Item,
         bytes: Bytes,
     },
-    /// Python values, as the number of the list.
+    /// Python values, as the number of their list.
     Objects(Id),
 }
 
 /// Type of an array, possibly under construction.
 #[derive(Clone, Debug)]
 pub(crate) enum DType {
-    /// Type without the byte order, such as `f8`.
+    /// Name of a type without its byte order, such as `f8`.
     Named(String),
     Known(Scalar),
     Objects,
@@ -68,7 +68,7 @@ pub(crate) enum Value {
     List(Vec<Id>),
     Tuple(Vec<Id>),
     Dictionary(Vec<(Id, Id)>),
-    /// Known global.
+    /// Internal name of a known global.
     Global(&'static str),
     DType(DType),
     Array(PickledArray),

@@ -1,11 +1,11 @@
-//! Decoder of the bytes of a file.
+//! Decoder of stored bytes to values.
 
 use super::{Filler, Kind, Scalar};
 use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 use crate::values::ArrayValues;
 
-/// Size of the pieces in which numbers are read, bytes. A piece fits the processor cache, and the whole is not allocated twice.
+/// Number of bytes decoded at once. They fit the processor cache, and memory is not allocated twice for the whole.
 const PIECE_BYTES: usize = 128 << 10;
 
 impl Scalar {
@@ -69,7 +69,7 @@ impl Scalar {
 
     /// Appends the numbers in `raw`.
     fn extend(self, values: &mut ArrayValues, raw: &[u8]) -> Result<(), Problem> {
-        /// Appends elements of `N` bytes. One of the two functions converts each element, and is inlined into the loop.
+        /// Appends elements of `N` bytes, each converted by one of the two functions, which is inlined into the loop.
         fn each<const N: usize, T>(
             all: &mut Vec<T>,
             raw: &[u8],
@@ -113,7 +113,7 @@ impl Scalar {
         Ok(())
     }
 
-    /// Fields of equal length as texts, or as bytes if one of them is not text. h5py writes JPEG files of a recording in this way.
+    /// Fields of equal length as texts, or as bytes if any field is not text. h5py writes the JPEG files of a recording in this form.
     fn texts_or_bytes(self, raw: &[u8], count: usize, filler: Filler) -> ArrayValues {
         let fields = (0..count).map(|place| {
             let bytes = &raw[place * self.bytes..(place + 1) * self.bytes];

@@ -24,7 +24,7 @@ impl ArrayValues {
         }
     }
 
-    /// Appends elements of the same type. Ignores others.
+    /// Appends elements of the same type. Elements of other types are ignored.
     pub(crate) fn append(&mut self, more: ArrayValues) {
         match (self, more) {
             (ArrayValues::Bool(all), ArrayValues::Bool(more)) => all.extend(more),
@@ -44,7 +44,7 @@ impl ArrayValues {
         }
     }
 
-    /// Same numbers as elements of another type. The type must hold them.
+    /// The same numbers as elements of another type, which must be able to represent them.
     pub(crate) fn converted(self, element: Element) -> Result<ArrayValues, Problem> {
         let wrong =
             || Problem::unsupported(format!("numbers that are not {element}"), "save them again");
@@ -72,7 +72,7 @@ impl ArrayValues {
         })
     }
 
-    /// Type of the elements. Floating point of 16 bits is already widened.
+    /// Type of the elements. Floating-point numbers of 16 bits were already converted to 32 bits.
     fn element(&self) -> Element {
         match self {
             ArrayValues::Bool(_) => Element::Bool,

@@ -1,4 +1,4 @@
-//! Chunked array, in either version.
+//! Chunked array of zarr, in either version.
 
 use serde_json::Value;
 
@@ -10,15 +10,15 @@ use crate::limits;
 /// Chunked array.
 #[derive(Debug)]
 pub(crate) struct ZarrArray {
-    /// Full name.
+    /// Full name of the array.
     pub(crate) name: String,
     pub(crate) shape: Vec<u64>,
-    /// Lengths of a chunk. Chunks at an edge are stored whole.
+    /// Lengths of the axes of a chunk. Chunks at an edge are stored in full size.
     pub(crate) chunk: Vec<u64>,
     pub(crate) item: Item,
-    /// One element of the fill value.
+    /// Bytes of one element of the fill value; `None` if there is none.
     pub(crate) fill: Option<Vec<u8>>,
-    /// Codecs of a chunk, in the order of writing.
+    /// Codecs of a chunk, in the order in which a writer applies them.
     pub(crate) codecs: Vec<Codec>,
     /// Prefix of the name of a chunk.
     pub(crate) prefix: &'static str,
@@ -26,7 +26,7 @@ pub(crate) struct ZarrArray {
 }
 
 impl ZarrArray {
-    /// File name of a chunk.
+    /// File name of the chunk at `place`.
     pub(crate) fn key(&self, place: &[u64]) -> String {
         let numbers: Vec<String> = place.iter().map(u64::to_string).collect();
         let numbers = numbers.join(&self.separator.to_string());
@@ -38,7 +38,7 @@ impl ZarrArray {
         }
     }
 
-    /// True if `name` is the name of a chunk within the shape.
+    /// True if `name` is the file name of a chunk within the shape.
     pub(crate) fn is_key(&self, name: &str) -> bool {
         let numbers = name.strip_prefix(self.prefix).unwrap_or(name);
         let numbers = numbers.trim_start_matches(self.separator);
@@ -60,7 +60,7 @@ impl ZarrArray {
         })
     }
 
-    /// Unpacked size of a chunk, bytes.
+    /// Unpacked size of a chunk, bytes; `None` on overflow.
     pub(crate) fn chunk_bytes(&self) -> Option<u64> {
         let bytes = self
             .chunk
@@ -99,7 +99,7 @@ impl ZarrArray {
         Ok(self)
     }
 
-    /// Reverses the codecs of a chunk.
+    /// Reverses the codecs of a chunk, the last codec first.
     pub(crate) fn unpack(&self, packed: Vec<u8>) -> Result<Vec<u8>, Problem> {
         let bytes = usize::try_from(self.chunk_bytes().unwrap_or(0)).unwrap_or(0);
         let mut chunk = packed;

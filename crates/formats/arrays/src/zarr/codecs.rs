@@ -1,4 +1,4 @@
-//! Codecs of chunks, and their reversal.
+//! Codecs of chunks, and the inverse of each.
 
 use crate::codec::{blosc, gzip, lz4_with_length, zlib, zstd};
 use crate::error::Problem;
@@ -7,7 +7,7 @@ use crate::scalar::shown;
 
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Codec {
-    /// Axes in this order.
+    /// Transposition of the axes to this order.
     Transposed(Vec<usize>),
     Gzip,
     Zlib,
@@ -34,12 +34,12 @@ impl Codec {
         }
     }
 
-    /// True if only the chunk itself gives the output length.
+    /// True if only the compressed chunk itself determines the output length.
     pub(crate) fn is_packing(&self) -> bool {
         !matches!(self, Codec::Transposed(_) | Codec::Crc32c)
     }
 
-    /// Reverses the codec for a chunk with these sides and elements. Rejects more than `most` bytes.
+    /// Reverses the codec for a chunk with these sides and elements. Rejects an output of more than `most` bytes.
     pub(crate) fn undo(
         &self,
         chunk: Vec<u8>,
@@ -59,7 +59,7 @@ impl Codec {
     }
 }
 
-/// Removes and checks the checksum (CRC-32C, little-endian) after the bytes.
+/// Verifies and removes the checksum (CRC-32C, little-endian) after the bytes.
 fn without_sum(mut chunk: Vec<u8>) -> Result<Vec<u8>, Problem> {
     let at = chunk.len() as u64;
     let Some((bytes, sum)) = chunk.split_last_chunk::<4>() else {

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::fields::Item;
 
-/// Bytes of one element; `None` if the value is of an unknown kind.
+/// Bytes of one element with this fill value; `None` if the value is of an unknown kind.
 pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
     let zero = || Some(vec![0; item.bytes]);
     let scalar = match item.fields.as_slice() {
@@ -27,7 +27,7 @@ pub(crate) fn fill(value: &Value, item: &Item) -> Option<Vec<u8>> {
     }
 }
 
-/// Numbers that JSON cannot express.
+/// Floating-point number that JSON cannot express, by its name.
 fn float(text: &str) -> Option<f64> {
     match text {
         "NaN" => Some(f64::NAN),
@@ -37,7 +37,7 @@ fn float(text: &str) -> Option<f64> {
     }
 }
 
-/// Decodes base64. Version 2 writes texts and records in base64.
+/// Decodes base64, in which version 2 writes texts and records.
 fn bytes(text: &str, item: &Item) -> Option<Vec<u8>> {
     let bytes = BASE64_STANDARD.decode(text).ok()?;
     (bytes.len() == item.bytes).then_some(bytes)

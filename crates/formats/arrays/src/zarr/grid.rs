@@ -1,4 +1,4 @@
-//! Chunks that contain requested rows, and the part of each.
+//! Chunks that contain requested rows, and the requested part of each chunk.
 
 use std::ops::Range;
 
@@ -47,7 +47,7 @@ impl Grid {
         &self.shape
     }
 
-    /// Range of chunk numbers of each axis.
+    /// Range of chunk indices along each axis.
     fn ranges(&self) -> impl Iterator<Item = Range<u64>> {
         self.wanted.iter().zip(&self.chunk).map(|(wanted, side)| {
             if wanted.is_empty() {
@@ -58,7 +58,7 @@ impl Grid {
         })
     }
 
-    /// All rows, with the fill value.
+    /// Buffer for all requested rows, filled with the fill value.
     pub(crate) fn filled(&self, array: &ZarrArray) -> Result<Vec<u8>, Problem> {
         let bytes = self
             .shape
@@ -88,7 +88,7 @@ impl Grid {
         Ok(raw)
     }
 
-    /// Positions of the chunks, with the last axis fastest.
+    /// Positions of the chunks in the grid, with the last axis fastest.
     pub(crate) fn places(&self) -> Vec<Vec<u64>> {
         let mut places = vec![Vec::new()];
         for range in self.ranges() {
@@ -104,7 +104,7 @@ impl Grid {
         places
     }
 
-    /// Copies the requested part of the chunk at `place`.
+    /// Copies the requested part of the chunk at `place` to `raw`.
     pub(crate) fn copy(&self, place: &[u64], chunk: &[u8], raw: &mut [u8]) {
         let axes = self.wanted.len();
         // Per axis: start of the part in the rows and in the chunk, its length, and the strides.
@@ -125,7 +125,7 @@ impl Grid {
     }
 }
 
-/// Copies a block, axis after axis. The last axis is contiguous.
+/// Copies a block, axis by axis. The last axis is contiguous.
 fn block(
     raw: &mut [u8],
     chunk: &[u8],

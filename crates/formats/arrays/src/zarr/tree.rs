@@ -22,7 +22,7 @@ pub(crate) enum Tree {
 #[derive(Clone, Debug)]
 pub(crate) struct Archive {
     file: Arc<FileBytes>,
-    /// Members by path. Of several members with the same path the last counts, as in appended ZIP archives.
+    /// Members by path. Of several members with the same path the last is used, as in appended ZIP archives.
     members: Arc<BTreeMap<String, Packed>>,
     /// Path of the folder with a trailing `/`; empty for the root.
     folder: String,
@@ -48,7 +48,7 @@ impl Tree {
         Ok(Tree::Archive(archive))
     }
 
-    /// Folder `name` within this one.
+    /// Subfolder `name`.
     pub(crate) fn join(&self, name: &str) -> Tree {
         match self {
             Tree::Folder(path) => Tree::Folder(path.join(name)),
@@ -59,7 +59,7 @@ impl Tree {
         }
     }
 
-    /// Bytes of the file `name` within this folder, at most `most`; `None` if there is no such file. Errors call it `what`.
+    /// Bytes of the file `name` in this folder, at most `most`; `None` if the file does not exist. Errors name the file `what`.
     pub(crate) fn bytes(
         &self,
         name: &str,
@@ -102,7 +102,7 @@ impl Tree {
         }
     }
 
-    /// Names of the folders within this one, sorted. Links on disk are excluded, because they may lead outside.
+    /// Names of the subfolders, sorted. Links on disk are excluded, because they may lead out of the store.
     pub(crate) fn folders(&self) -> Result<Vec<String>, Problem> {
         let mut names = BTreeSet::new();
         match self {
@@ -124,7 +124,7 @@ impl Tree {
         Ok(names.into_iter().collect())
     }
 
-    /// Size of the file `name` within this folder, bytes.
+    /// Size of the file `name` in this folder, bytes.
     pub(crate) fn file_bytes(&self, name: &str) -> Result<u64, Problem> {
         match self {
             Tree::Folder(folder) => {
@@ -139,7 +139,7 @@ impl Tree {
         }
     }
 
-    /// Names of the files within this folder.
+    /// Names of the files in this folder.
     pub(crate) fn files(&self) -> Result<Vec<String>, Problem> {
         match self {
             Tree::Folder(folder) => {
@@ -162,14 +162,14 @@ impl Tree {
 }
 
 impl Archive {
-    /// Paths of the members below this folder, relative to it.
+    /// Paths of the members below this folder, relative to the folder.
     fn below(&self) -> impl Iterator<Item = &str> {
         let from = self.members.range(self.folder.clone()..);
         from.map_while(|(path, _)| path.strip_prefix(&self.folder))
     }
 }
 
-/// Root of the store: the archive itself, or its only folder if it contains nothing else.
+/// Path of the root of the store: the archive itself, or its only folder if the archive contains nothing else.
 fn outermost(members: &BTreeMap<String, Packed>) -> String {
     let is_described = ["zarr.json", ".zgroup", ".zarray"]
         .iter()

@@ -61,7 +61,7 @@ pub(crate) fn array(metadata: &Value) -> Result<ZarrArray, Problem> {
     .check()
 }
 
-/// Type as NumPy writes it.
+/// Type in the form in which NumPy writes it.
 fn literal(value: &Value, depth: usize) -> Result<Literal, Problem> {
     let wrong = || Problem::damaged(0, format!("`dtype`: {value}"), "a type of NumPy");
     match value {

@@ -1,4 +1,4 @@
-//! Tests with truncated files and flipped bits. Each gives a typed error or a result, never a panic, a hang or a large allocation.
+//! Tests with truncated files and flipped bits. Each file gives a typed error or a result, never a panic, a hang or a large allocation.
 
 use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -56,7 +56,7 @@ fn files(folder: &Path, into: &mut Vec<PathBuf>) {
     }
 }
 
-/// Damages `bytes` in each way and passes each result to `look`.
+/// Damages `bytes` in several ways and passes each result to `look`.
 pub(crate) fn damaged(bytes: &[u8], seed: u64, mut look: impl FnMut(&str, &[u8])) {
     for sixth in 0..6 {
         look(

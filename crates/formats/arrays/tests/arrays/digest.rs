@@ -24,12 +24,12 @@ pub(crate) const SHARED: [&str; 15] = [
     "zarr-v3",
 ];
 
-/// Folder of the files of only these tests.
+/// Folder of the files that only these tests use.
 pub(crate) fn data() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data")
 }
 
-/// File or folder of these tests, or else of the shared recordings.
+/// File or folder of these tests or, if it does not exist, of the shared recordings.
 pub(crate) fn at(name: impl AsRef<Path>) -> PathBuf {
     let own = data().join(&name);
     match own.exists() {
@@ -84,7 +84,7 @@ pub(crate) fn digest(values: &ArrayValues) -> String {
     hex(sum)
 }
 
-/// Digest of an array, read `step` rows at a time.
+/// Digest of an array that is read `step` rows at a time.
 pub(crate) fn by_rows(file: &ArrayFile, name: &str, step: u64) -> String {
     let rows = file.info(name).expect("listed").rows();
     let mut sum = Sha256::new();

@@ -60,7 +60,7 @@ fn attributes_of_every_kind_are_the_shortest_text() {
     assert_eq!(file.attribute("/no/such", "x"), None);
 }
 
-/// File with another layout version and a corrected checksum. Version 5 becomes 6 in the file.
+/// File with layout version `version` in place of version 5, and unchanged checksums.
 fn with_layout_of(version: u8) -> Vec<u8> {
     let mut bytes = fs::read(at("hdf5/latest.h5")).expect("readable");
     let found = bytes

@@ -1,4 +1,4 @@
-//! Tests that HDF5 files of this writer are read here. h5py reads them in the tests of `taceva-import`.
+//! Tests that HDF5 files of the writer can be read by this crate. h5py reads them in the tests of `taceva-import`.
 
 use std::fs;
 

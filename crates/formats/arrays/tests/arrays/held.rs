@@ -7,7 +7,7 @@ use taceva_arrays::{ArrayData, ArrayError, ArrayFile, ArrayFormat};
 
 use crate::digest::at;
 
-/// Copy of `bytes` in a folder that lasts as long as the returned value.
+/// Writes `bytes` into a folder that exists as long as the returned value.
 fn file(name: &str, bytes: &[u8]) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join(name);
@@ -38,7 +38,6 @@ fn read(path: &Path, format: ArrayFormat) -> Result<(Vec<ArrayData>, u64), Array
     Ok((all, absent))
 }
 
-/// K1.
 #[test]
 fn a_flip_in_any_member_that_is_read_is_refused_by_its_sum() {
     for (name, members) in [
@@ -78,7 +77,7 @@ fn a_flip_in_any_member_that_is_read_is_refused_by_its_sum() {
     }
 }
 
-/// K1, for part of the labels.
+/// Damage that affects only part of the labels.
 #[test]
 fn the_first_rows_of_a_damaged_member_are_refused_too() {
     let whole = fs::read(at("npz-stored/run.npz")).expect("readable");
@@ -97,7 +96,6 @@ fn the_first_rows_of_a_damaged_member_are_refused_too() {
     }
 }
 
-/// K2.
 #[cfg(feature = "hdf5")]
 #[test]
 fn no_flip_in_an_index_of_chunks_makes_a_chunk_vanish() {
@@ -139,7 +137,7 @@ fn no_flip_in_an_index_of_chunks_makes_a_chunk_vanish() {
     }
 }
 
-/// K2, as h5py rejects it.
+/// Compares with h5py, which rejects the file.
 #[cfg(feature = "hdf5")]
 #[test]
 fn a_chunk_whose_key_lies_off_the_grid_is_named() {
@@ -162,7 +160,6 @@ fn a_chunk_whose_key_lies_off_the_grid_is_named() {
     }
 }
 
-/// K5.
 #[cfg(feature = "hdf5")]
 #[test]
 fn a_small_file_of_hdf5_that_becomes_large_is_refused_before_anything_is_unpacked() {
@@ -177,7 +174,6 @@ fn a_small_file_of_hdf5_that_becomes_large_is_refused_before_anything_is_unpacke
     }
 }
 
-/// K5.
 #[test]
 fn a_small_store_of_zarr_that_becomes_large_is_refused() {
     let describe = |chunk: &str| {

@@ -1,4 +1,4 @@
-//! Tests of content that MATLAB writes and no Python library does, and of errors.
+//! Tests of content that only MATLAB writes and no Python library, and of errors.
 
 use std::fs;
 

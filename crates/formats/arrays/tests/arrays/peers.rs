@@ -1,4 +1,4 @@
-//! Tests that every array of every file equals the reading of the library of that format.
+//! Tests that every array of every file equals what the library of the format reads.
 
 use std::collections::BTreeMap;
 use std::fs;

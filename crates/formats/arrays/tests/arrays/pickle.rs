@@ -1,4 +1,4 @@
-//! Tests of the accepted content of pickles, and of code that is never run.
+//! Tests of the accepted content of pickles, and of code that must not be run.
 
 use std::fs;
 use std::path::PathBuf;
@@ -148,7 +148,7 @@ fn a_text_that_is_encoded_again_and_again_is_refused() {
     );
 }
 
-/// An `.npy` file of objects with this pickle as its elements.
+/// Creates an `.npy` file of objects whose elements are this pickle.
 fn of_objects(pickle: &[u8]) -> Vec<u8> {
     let mut header = b"{'descr': '|O', 'fortran_order': False, 'shape': (1,), }".to_vec();
     header.resize(117, b' ');

@@ -1,4 +1,4 @@
-//! Tests of one open file that several threads read at once.
+//! Tests of one open file that several threads read at the same time.
 
 use taceva_arrays::{ArrayFile, ArrayFormat};
 

@@ -14,7 +14,7 @@ pub(super) const RECORDS: u8 = 3;
 /// Marker before the length of a message, since Arrow 0.15.
 const CONTINUED: u32 = u32::MAX;
 
-/// A message: its metadata, and the location of its body.
+/// Message: its metadata, and the location of its body.
 pub(super) struct Message {
     /// Offset of the first byte in the file.
     pub(super) at: u64,
@@ -83,13 +83,13 @@ impl Message {
     }
 }
 
-/// A record batch: rows stored column by column.
+/// Record batch: rows stored column by column.
 #[derive(Debug)]
 pub(super) struct Batch {
     /// Number of the first row in the table.
     pub(super) first: u64,
     pub(super) rows: u64,
-    /// Offsets of buffers in the file, and their lengths.
+    /// Offset in the file and length of each buffer, bytes.
     pub(super) buffers: Vec<Buffer>,
     pub(super) codec: Option<Codec>,
 }

@@ -5,7 +5,7 @@ use crate::limits;
 use crate::parquet::{ColumnKind, LeafForm, Node, NodeKind};
 use crate::path::longest;
 
-/// Used part of the schema.
+/// Parts of the schema that the reader uses.
 pub(super) struct Schema {
     pub(super) fields: Vec<Field>,
     /// Metadata of the schema, by key.
@@ -14,11 +14,11 @@ pub(super) struct Schema {
     pub(super) buffers: usize,
 }
 
-/// A column or a part of one.
+/// Column, or part of a column.
 #[derive(Clone, Debug)]
 pub(super) struct Field {
     pub(super) name: String,
-    /// Index of its first buffer: the validity buffer, if it has one.
+    /// Index of its first buffer, which is the validity buffer if the field has one.
     pub(super) buffer: usize,
     pub(super) kind: FieldKind,
 }
@@ -53,7 +53,7 @@ pub(super) enum Number {
     Float,
     Decimal(i32),
     Time(&'static str),
-    /// Plain bytes without a number.
+    /// Bytes that are not a number.
     Opaque,
 }
 
@@ -63,7 +63,7 @@ const UNITS: [&str; 4] = ["s", "ms", "us", "ns"];
 const REMEDY: &str = "write Parquet: `ds.to_parquet(\"table.parquet\")` of datasets, `pyarrow.parquet.write_table(table, \
     \"table.parquet\")`";
 
-/// Parses the schema in the header of a message. The error names the unsupported part, with the remedy.
+/// Parses the schema in the header of a message. The error names the unsupported part and the remedy.
 pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     if header.short(0).is_some_and(|order| order != 0) {
         return Err(format!(
@@ -138,7 +138,7 @@ impl Made {
         Ok(Field { name, buffer, kind })
     }
 
-    /// Kind of a field without its children, and number of its own buffers.
+    /// Kind of a field without its children, and number of buffers that belong to the field itself.
     fn kind(&self, field: Table<'_>, name: &str) -> Result<(Flat, usize), String> {
         let own = field.table(3);
         let short = |number, otherwise| own.and_then(|own| own.short(number)).unwrap_or(otherwise);

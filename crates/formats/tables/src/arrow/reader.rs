@@ -157,7 +157,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Ends of `count` entries from entry `begin` on, relative to the start of the first.
+    /// End offsets of `count` entries from entry `begin` on, relative to the start of the first entry.
     fn offsets(
         &mut self,
         index: usize,
@@ -174,7 +174,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// The bits of `count` entries from entry `begin` on.
+    /// Bits of `count` entries from entry `begin` on.
     fn bits(&mut self, index: usize, begin: u64, count: u64) -> Result<Vec<bool>, TableError> {
         let (first, end) = (begin / 8, (begin + count).div_ceil(8));
         let bytes = self.buffer(index, first, end - first)?;
@@ -249,7 +249,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// Unpacks a compressed buffer: its length, −1 for no compression, then its bytes.
+/// Unpacks a compressed buffer. The buffer contains its unpacked length (−1 if uncompressed), then the bytes.
 fn unpacked(codec: codec::Codec, packed: &[u8]) -> Result<Vec<u8>, String> {
     let Some((length, rest)) = packed.split_first_chunk() else {
         return Err(format!(
@@ -273,7 +273,7 @@ fn unpacked(codec: codec::Codec, packed: &[u8]) -> Result<Vec<u8>, String> {
     }
 }
 
-/// A number of up to 16 bytes as a cell; bytes of any length for opaque types.
+/// Number of up to 16 bytes as a cell. Opaque types may have any length.
 fn cell(raw: &[u8], number: Number) -> Cell {
     match number {
         Number::Signed => Cell::Integer(signed(raw)),
@@ -299,7 +299,7 @@ fn signed(raw: &[u8]) -> i128 {
     bytes.fold(sign, |value: i128, byte| (value << 8) | i128::from(*byte))
 }
 
-/// The number in up to 8 bytes.
+/// Little-endian number in up to 8 bytes.
 fn unsigned(raw: &[u8]) -> u64 {
     let bytes = raw.iter().rev();
     bytes.fold(0, |value: u64, byte| (value << 8) | u64::from(*byte))

@@ -2,16 +2,16 @@
 
 use serde_json::Value;
 
-/// Last of the 12-bit codes of a depth map.
+/// Greatest 12-bit code of a depth map.
 const LAST_CODE: u16 = 4095;
-/// Keys of the parameters. The key for logarithmic codes is separate.
+/// Keys of the parameters, except the key for logarithmic codes.
 const PARAMETERS: [&str; 3] = ["video.depth_min", "video.depth_max", "video.shift"];
 const LOGARITHMIC: &str = "video.use_log";
 
 /// Distances of the codes 0 to 4095 of a depth map.
 ///
 /// # Units
-/// Millimetres from the camera. LeRobot states its parameters in metres, for any recorded unit.
+/// Distances are in millimetres from the camera. LeRobot states its parameters in metres, for any recorded unit.
 ///
 /// ```
 /// use taceva_tables::DepthCodes;
@@ -30,8 +30,8 @@ pub struct DepthCodes {
 }
 
 impl DepthCodes {
-    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in the logarithm of the distance plus `shift_m`, m. `None` if the
-    /// range is empty or has no logarithm.
+    /// Codes of distances in the range `ends_m`, m. Logarithmic codes are linear in the logarithm of the distance plus `shift_m`, m. `None` if the range is
+    /// empty or the logarithm undefined.
     pub fn new(ends_m: [f64; 2], shift_m: f64, is_logarithmic: bool) -> Option<DepthCodes> {
         let [least_m, greatest_m] = ends_m;
         let are_finite = ends_m
@@ -48,7 +48,7 @@ impl DepthCodes {
         })
     }
 
-    /// Distance of a code, mm; `None` above 4095.
+    /// Distance of a code, mm; `None` if the code exceeds 4095.
     pub fn millimetres(&self, code: u16) -> Option<f64> {
         if code > LAST_CODE {
             return None;
@@ -71,12 +71,12 @@ impl DepthCodes {
         Some(metres * 1000.0)
     }
 
-    /// First and last distance, mm.
+    /// Distance of the first and of the last code, mm.
     pub fn ends_mm(&self) -> [f64; 2] {
         [self.least_m * 1000.0, self.greatest_m * 1000.0]
     }
 
-    /// True if some neighbouring codes differ by less than a millimetre.
+    /// True if the distances of some neighbouring codes differ by less than a millimetre.
     pub fn is_finer_than_millimetres(&self) -> bool {
         // Logarithmic codes are densest at the start.
         let first = self.millimetres(0).zip(self.millimetres(1));
@@ -84,7 +84,7 @@ impl DepthCodes {
     }
 }
 
-/// Codes of a feature, from its `info`. The error names the missing key.
+/// Codes of a depth feature, from its key `info`. The error names the missing key.
 pub(super) fn codes(feature: &Value) -> Result<DepthCodes, String> {
     let own = |key: &str| {
         ["info", "video_info"]

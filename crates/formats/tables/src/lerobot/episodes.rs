@@ -15,16 +15,16 @@ use crate::source::Source;
 /// Path of the episode descriptions in version 3.
 const EPISODES: &str = "meta/episodes/chunk-{chunk_index:03d}/file-{file_index:03d}.parquet";
 
-/// Clip of a video with one episode.
+/// Part of a video file that contains one episode.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Clip {
     pub(super) chunk: u64,
     pub(super) file: u64,
-    /// Start in seconds from the beginning of the file.
+    /// Start of the episode in the file, s.
     pub(super) from: f64,
 }
 
-/// Episode indices of version 2.1, in the order of their lines.
+/// Indices of the episodes in version 2.1, in the order of the lines.
 pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
     let (source, lines) = json_lines(folder, "meta/episodes.jsonl")?;
     lines
@@ -38,7 +38,7 @@ pub(super) fn of_lines(folder: &Path) -> Result<Vec<u64>, TableError> {
         .collect()
 }
 
-/// Number of rows of each episode, if stated, with the path of its description.
+/// Number of rows of each episode, if stated, and the path of the file that states it.
 pub(super) fn lengths(
     folder: &Path,
     is_in_lines: bool,

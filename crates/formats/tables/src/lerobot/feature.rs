@@ -1,10 +1,10 @@
-//! Features of a written dataset.
+//! Features of a dataset to be written.
 
 use serde_json::{Value, json};
 
 use crate::parquet::{WrittenColumn, WrittenKind};
 
-/// A feature of a written dataset.
+/// Feature of a dataset to be written.
 ///
 /// ```
 /// use taceva_tables::{WrittenColumn, WrittenFeature, WrittenKind};
@@ -17,16 +17,16 @@ use crate::parquet::{WrittenColumn, WrittenKind};
 pub struct WrittenFeature {
     /// Name, without `/`, and kind of the cells.
     pub column: WrittenColumn,
-    /// Shape in one row. For a picture: height, width and colours.
+    /// Shape of the feature in one row. For a picture: height, width and colours.
     pub shape: Vec<u64>,
     /// Names of the elements, or of the axes of a picture.
     pub names: Option<Vec<String>>,
-    /// Unit of the numbers, or several units in the order of the names. LeRobot ignores this key.
+    /// Unit of the numbers, or several units in the order of `names`. LeRobot ignores this key.
     pub unit: Option<String>,
 }
 
 impl WrittenFeature {
-    /// A feature of this shape with unnamed elements. A list of one number is written as a number, because LeRobot reads it so.
+    /// Feature of this shape with unnamed elements. A list of one number is written as a number, because LeRobot reads the list in that form.
     pub fn new(column: WrittenColumn, shape: impl IntoIterator<Item = u64>) -> WrittenFeature {
         WrittenFeature {
             column,

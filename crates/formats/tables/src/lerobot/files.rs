@@ -8,7 +8,7 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// Resolves `path` in `folder`. Rejects a link that leads outside.
+/// Resolves `path` in `folder`. Rejects a link that leads out of the folder.
 pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> {
     let whole = folder.join(path);
     let io = |source: std::io::Error| TableError::Io {
@@ -29,7 +29,7 @@ pub(super) fn inside(folder: &Path, path: &Path) -> Result<PathBuf, TableError> 
     }
 }
 
-/// Text of a metadata file.
+/// Content of a metadata file, bytes.
 fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableError> {
     let source = Source::new(&inside(folder, name.as_ref())?)?;
     let mut file = source.open()?;
@@ -37,7 +37,7 @@ fn description(folder: &Path, name: &str) -> Result<(Source, Vec<u8>), TableErro
     Ok((source, bytes))
 }
 
-/// Value of a JSON file.
+/// Parsed value of a JSON file.
 pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), TableError> {
     let (source, bytes) = description(folder, name)?;
     let json = serde_json::from_slice(&bytes);
@@ -46,7 +46,7 @@ pub(super) fn json_file(folder: &Path, name: &str) -> Result<(Source, Value), Ta
     Ok((source, json))
 }
 
-/// Values of a file of JSON lines, each with the byte offset of its line.
+/// Parsed values of a file of JSON lines, each with the byte offset of its line.
 pub(super) fn json_lines(
     folder: &Path,
     name: &str,

@@ -28,11 +28,11 @@ pub struct Feature {
     pub shape: Vec<u64>,
     /// Names of the numbers, in order; empty if not stated.
     pub names: Vec<String>,
-    /// Frame rate of a video, 1/s: its own if stated, else the rate of the dataset. For other features without a dataset rate: 0.
+    /// Frame rate of a video, 1/s: stated by the video, otherwise by the dataset. 0 for other features if the dataset states no rate.
     pub fps: f64,
     /// True for a depth map. Its 12-bit codes are distances, not brightness.
     pub is_depth: bool,
-    /// Distances of the codes; `None` if the feature does not state them, or is not a depth map.
+    /// Distances of the codes; `None` if the feature does not state them or is not a depth map.
     pub depth: Option<DepthCodes>,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Info {
     pub(super) unknown_depths: Vec<(String, String)>,
 }
 
-/// Parses the file of `source`.
+/// Parses `json`, the content of the file `source`.
 pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     let wrong = |name: &str, problem: String| source.damaged(Place::of(name), problem);
     let text = |name: &str| {

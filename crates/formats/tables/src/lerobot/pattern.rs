@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::error::shown;
 use crate::limits;
 
-/// A pattern: alternating texts and named fields.
+/// Path pattern: alternating texts and named fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Pattern {
     parts: Vec<Part>,
@@ -15,7 +15,7 @@ pub(super) struct Pattern {
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Part {
     Text(String),
-    /// A named field. A number has at least this many digits.
+    /// Named field. A number is padded to this many digits.
     Value {
         name: String,
         digits: usize,
@@ -30,7 +30,7 @@ pub(super) enum Value<'a> {
 }
 
 impl Pattern {
-    /// Parses `text`. The error is a message if it is not a pattern of relative paths.
+    /// Parses `text`. Returns an error message if the text is not a pattern of relative paths.
     pub(super) fn parse(text: &str) -> Result<Pattern, String> {
         let wrong = || {
             format!(
@@ -71,7 +71,7 @@ impl Pattern {
         }
     }
 
-    /// Path with values in place of names. The error is a message if a name has no value, or the path would leave the folder.
+    /// Path with `values` in place of the named fields. Returns an error message if a field has no value, or the path would lead out of the folder.
     pub(super) fn fill(&self, values: &[(&str, Value<'_>)]) -> Result<PathBuf, String> {
         let mut path = String::new();
         for part in &self.parts {
@@ -97,7 +97,7 @@ impl Pattern {
         }
     }
 
-    /// Files in `folder` that match the pattern, with numbers for all names, sorted by these numbers.
+    /// Files in `folder` that match the pattern, with a number for each field, sorted by these numbers.
     pub(super) fn files(&self, folder: &Path) -> Result<Vec<PathBuf>, std::io::Error> {
         let mut found = vec![(Vec::new(), PathBuf::new())];
         for component in self.components() {
@@ -150,7 +150,7 @@ impl Pattern {
     }
 }
 
-/// Numbers of `name` at the fields of `component`; `None` if it does not match.
+/// Numbers in `name` at the fields of `component`; `None` if the name does not match.
 fn matches(component: &[Part], name: &str) -> Option<Vec<u64>> {
     let mut rest = name;
     let mut numbers = Vec::new();

@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-/// Minimum, maximum, mean and standard deviation of each element of a feature, in its unit. Policies use them for normalisation. They are not scores,
-/// and rounding errors accumulate with each row.
+/// Minimum, maximum, mean and standard deviation of each element of a feature, in the unit of the feature. Policies use them for normalisation. They are not
+/// scores, and rounding errors accumulate with each row.
 ///
 /// ```
 /// use taceva_tables::FeatureStats;
@@ -26,12 +26,12 @@ struct Element {
     least: f64,
     greatest: f64,
     mean: f64,
-    /// Sum of squared differences from the mean (Welford 1962).
+    /// Sum of squared deviations from the mean (Welford 1962).
     squares: f64,
 }
 
 impl FeatureStats {
-    /// Empty statistics of a feature of `length` numbers in each row.
+    /// Empty statistics of a feature with `length` numbers in each row.
     pub fn new(length: usize) -> FeatureStats {
         let nothing = Element {
             count: 0.0,
@@ -60,7 +60,7 @@ impl FeatureStats {
         }
     }
 
-    /// Adds the pixels of a picture, with the elements of each pixel side by side. A picture counts as one row.
+    /// Adds the pixels of a picture, with the elements of each pixel in sequence. A picture counts as one row.
     pub fn add_picture(&mut self, numbers: impl IntoIterator<Item = f64>) {
         let length = self.elements.len().max(1);
         let rows = self.rows + 1;
@@ -79,12 +79,12 @@ impl FeatureStats {
         self.rows
     }
 
-    /// Mean of each element; 0 if it had no number.
+    /// Mean of each element; 0 for an element without a finite number.
     pub fn mean(&self) -> Vec<f64> {
         self.elements.iter().map(|element| element.mean).collect()
     }
 
-    /// Statistics in the form of `meta/stats.json`; `None` if an element had no number. Elements of a picture are lists of lists.
+    /// Statistics in the form of `meta/stats.json`; `None` if an element has no finite number. Elements of a picture are lists of lists.
     pub(super) fn json(&self, is_picture: bool) -> Option<Value> {
         let is_seen = self.elements.iter().all(|element| element.count > 0.0);
         if !is_seen || self.elements.is_empty() {

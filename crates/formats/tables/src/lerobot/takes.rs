@@ -1,4 +1,4 @@
-//! Check of the rows of each episode against its description. Two takes with one number would both get the pictures of the first.
+//! Checks the rows of each episode against its description. Of two takes with the same episode number, both would get the pictures of the first.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::source::Source;
 
-/// Rows of one episode in the data files.
+/// Rows of one take of an episode in the data files.
 #[derive(Clone, Copy)]
 struct Take {
     rows: u64,
     last_s: f64,
 }
 
-/// Checks that every episode is one take with the number of rows in its description. Datasets without episode numbers are not checked.
+/// Checks that every episode is one take, with the number of rows in its description. Datasets without episode numbers are not checked.
 pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
     let has = |name: &str| dataset.names.iter().any(|known| known == name);
     if !has("episode_index") {

@@ -19,7 +19,7 @@ pub struct VideoFrames {
 }
 
 impl VideoFrames {
-    /// File, relative to the folder of the dataset, and index of the frame in it, from 0; `None` beyond the last row.
+    /// File, relative to the folder of the dataset, and index of the frame in that file, from 0; `None` if the row does not exist.
     ///
     /// ```
     /// # use taceva_tables::LeRobot;
@@ -34,16 +34,16 @@ impl VideoFrames {
         Some((self.files.get(file as usize)?, frame))
     }
 
-    /// Files, in the order in which rows first need them.
+    /// Files, in the order in which the rows first use them.
     pub fn files(&self) -> &[PathBuf] {
         &self.files
     }
 }
 
-/// Maximum distance of a time stamp from the nearest frame, in frames.
+/// Maximum distance of a time stamp from the nearest frame, as a fraction of the frame period.
 const TOLERANCE: f64 = 0.25;
 
-/// Frames of `dataset` in the video `key`.
+/// File and frame in the video `key` for each row of `dataset`.
 pub(super) fn frames(dataset: &LeRobot, key: &str) -> Result<VideoFrames, TableError> {
     let videos = || {
         dataset
@@ -91,7 +91,7 @@ pub(super) fn frames(dataset: &LeRobot, key: &str) -> Result<VideoFrames, TableE
     })
 }
 
-/// Video files that rows need.
+/// Video files that the rows use.
 struct Files<'a> {
     key: &'a str,
     pattern: &'a Pattern,
@@ -99,7 +99,7 @@ struct Files<'a> {
     /// Clips of episodes in shared files; `None` if each episode has its own file.
     clips: Option<BTreeMap<u64, Clip>>,
     paths: Vec<PathBuf>,
-    /// File of each episode, and start of the episode in it, seconds.
+    /// File of each episode, and start of the episode in the file, s.
     places: BTreeMap<u64, (u32, f64)>,
 }
 
@@ -156,7 +156,7 @@ impl Files<'_> {
     }
 }
 
-/// Frame nearest to a position in frames; `None` if every frame is further than [`TOLERANCE`].
+/// Index of the frame nearest to `place`, in frames; `None` if it is further away than [`TOLERANCE`].
 fn frame_at(place: f64) -> Option<u64> {
     let nearest = place.round();
     let is_near = (place - nearest).abs() <= TOLERANCE && (0.0..9e15).contains(&nearest);

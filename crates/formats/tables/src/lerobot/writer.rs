@@ -18,7 +18,7 @@ use crate::parquet::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_feat
 const FILE_MB: u64 = 100;
 /// Number of data files in one folder.
 pub(super) const FILES_A_CHUNK: u64 = 1000;
-/// Columns of every LeRobot dataset, after its features.
+/// Columns that LeRobot defines, written after the features.
 const OWN: [(&str, WrittenKind, &str); 5] = [
     ("timestamp", WrittenKind::Single, "float32"),
     ("frame_index", WrittenKind::Integer, "int64"),
@@ -27,17 +27,17 @@ const OWN: [(&str, WrittenKind, &str); 5] = [
     ("task_index", WrittenKind::Integer, "int64"),
 ];
 
-/// A written episode.
+/// Written episode.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Episode {
     pub(super) task: usize,
     pub(super) first: u64,
     pub(super) end: u64,
-    /// Index of its data file, over all chunks.
+    /// Index of its data file over all chunks.
     pub(super) file: u64,
 }
 
-/// The current data file.
+/// Data file that is being written.
 #[derive(Debug)]
 struct DataFile {
     writer: ParquetWriter,
@@ -45,7 +45,7 @@ struct DataFile {
     number: u64,
 }
 
-/// A LeRobot folder during writing: `data`, then `meta`.
+/// LeRobot folder that is being written: `data`, then `meta`.
 ///
 /// ```
 /// use taceva_tables::{Cell, LeRobot, LeRobotWriter, WrittenColumn, WrittenFeature, WrittenKind};
@@ -86,8 +86,8 @@ impl LeRobotWriter {
     /// Creates a dataset in the empty folder `folder`, for the robot `robot`, with `rate_hz` frames per second.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if a feature has the name of a LeRobot column or a name with `/`, or if the rate is not above 0.
-    /// [`TableError::Write`].
+    /// [`TableError::Mismatch`] if a feature has a name that LeRobot defines or that contains `/`, or if the rate is not above 0. [`TableError::Write`] if a
+    /// file cannot be written.
     pub fn create(
         folder: &Path,
         robot: &str,
@@ -154,10 +154,10 @@ impl LeRobotWriter {
         })
     }
 
-    /// Begins an episode with the task `task`. This ends the previous episode.
+    /// Begins an episode with the task `task`, after ending the previous episode.
     ///
     /// # Errors
-    /// As [`ParquetWriter::create`] and [`ParquetWriter::finish`] if a data file is full.
+    /// Errors of [`ParquetWriter::create`] and [`ParquetWriter::finish`], if a data file is full.
     pub fn begin_episode(&mut self, task: &str) -> Result<(), TableError> {
         let task = match self.tasks.iter().position(|known| known == task) {
             Some(known) => known,
@@ -182,10 +182,10 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// Adds a row to the episode: one cell per feature, without LeRobot's own columns.
+    /// Adds a row to the episode: one cell per feature, without the columns that LeRobot defines.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if no episode was begun. Otherwise as [`ParquetWriter::push`].
+    /// [`TableError::Mismatch`] if no episode was begun. Otherwise errors of [`ParquetWriter::push`].
     pub fn push(&mut self, mut row: Vec<Cell>) -> Result<(), TableError> {
         let number = self.episodes.len();
         let (Some(data), Some(episode)) = (&mut self.data, self.episodes.last_mut()) else {
@@ -230,11 +230,11 @@ impl LeRobotWriter {
         Ok(())
     }
 
-    /// Ends the dataset and writes its metadata. `pictures` has the statistics of pictures by feature, for values from 0 to 1. Returns the subfolders
-    /// with files, so the caller can sync them.
+    /// Ends the dataset and writes its metadata. `pictures` contains the statistics of pictures by feature, for values from 0 to 1. Returns the subfolders with
+    /// files, so that the caller can sync them.
     ///
     /// # Errors
-    /// [`TableError::Write`].
+    /// [`TableError::Write`] if a file cannot be written.
     pub fn finish(
         mut self,
         pictures: &BTreeMap<String, FeatureStats>,
@@ -336,7 +336,7 @@ fn seconds(frame: u64, rate_hz: f64) -> f64 {
     frame as f64 / rate_hz
 }
 
-/// A rate as LeRobot writes it: an integer if it is whole.
+/// Rate as LeRobot writes it: whole rates as integers.
 #[expect(clippy::cast_possible_truncation, reason = "whole and below 2^53")]
 fn rate(rate_hz: f64) -> Value {
     match rate_hz.fract() == 0.0 && rate_hz < 9e15 {
@@ -345,7 +345,7 @@ fn rate(rate_hz: f64) -> Value {
     }
 }
 
-/// Number in a cell; NaN if there is none.
+/// Number in a cell; NaN if the cell contains no number.
 fn number(cell: &Cell) -> f64 {
     match cell {
         Cell::Number(number) => *number,

@@ -1,4 +1,4 @@
-//! Chunks of an MCAP file, unpacked one at a time, with verified checksums.
+//! Reader of the chunks of an MCAP file, which unpacks one chunk at a time and verifies checksums.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -11,10 +11,10 @@ use crate::growth::Growth;
 use crate::limits;
 use crate::source::Source;
 
-/// Number of unpacked chunks in the cache. Two are needed because the times of neighbours may overlap, if several threads wrote the file.
+/// Number of cached unpacked chunks. Two are needed because the times of neighbouring chunks may overlap, if several threads wrote the file.
 const KEPT: usize = 2;
 
-/// Reader of records by offset, with one cursor.
+/// Reader of records by offset, with its own cursor in the file.
 pub(super) struct Chunks<'a> {
     source: &'a Source,
     file: File,
@@ -53,7 +53,7 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// First `most` bytes of the fields of the record at `at`, which must have the code `expected`.
+    /// First `most` bytes of the fields of the record at `at`. The record must have the code `expected`.
     pub(super) fn fields(
         &mut self,
         at: u64,

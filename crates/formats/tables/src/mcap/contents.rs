@@ -1,4 +1,4 @@
-//! Contents of a file: from its summary if that is complete, else from all records.
+//! Contents of a file, from its summary if complete, otherwise from all records.
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -11,7 +11,7 @@ use crate::limits;
 use crate::message::Schema;
 use crate::source::Source;
 
-/// Message for a truncated record.
+/// Message for a record that is truncated.
 const CUT: &str = "a record is cut short";
 
 /// Schemas, channels and locations of messages.
@@ -28,7 +28,7 @@ pub(super) struct Contents {
     described: u64,
 }
 
-/// Reads the contents of the file of `source`. Verifies the checksums of its summary and data.
+/// Reads the contents of the file of `source`. Verifies the checksums of the summary and the data.
 pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     let mut chunks = Chunks::new(source)?;
     let footer_at = check_ends(source)?;
@@ -54,7 +54,7 @@ pub(super) fn read(source: &Source) -> Result<Contents, TableError> {
     walk(source)
 }
 
-/// Checks the magic bytes at both ends. Returns the offset of the footer.
+/// Checks the magic bytes at both ends of the file. Returns the offset of the footer.
 fn check_ends(source: &Source) -> Result<u64, TableError> {
     let mut file = source.open()?;
     let least = 2 * MAGIC.len() as u64 + FOOTER;
@@ -76,7 +76,7 @@ fn check_ends(source: &Source) -> Result<u64, TableError> {
     Ok(end - FOOTER)
 }
 
-/// Error for a file that was cut or not closed, with the number of messages before the cut.
+/// Error for a file that was truncated or not closed, with the number of readable messages.
 fn refusal(source: &Source, place: Place) -> TableError {
     match walk_to_cut(source) {
         Ok((contents, _)) => TableError::Cut {
@@ -91,7 +91,7 @@ fn refusal(source: &Source, place: Place) -> TableError {
     }
 }
 
-/// Checks the checksum over all data records, if it is stated.
+/// Verifies the checksum over all data records, if the file states it.
 fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result<(), TableError> {
     let Some(at) = data_end.checked_sub(HEAD + 4) else {
         return Ok(());
@@ -125,7 +125,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
     }
 }
 
-/// Contents from the summary; `None` if it is incomplete.
+/// Contents from the summary; `None` if the summary is incomplete.
 fn summary(
     source: &Source,
     begin: u64,
@@ -189,13 +189,13 @@ fn summary(
     Ok(is_whole.then_some(contents))
 }
 
-/// Contents from all records up to the end of the data. Every chunk is unpacked once.
+/// Contents from all records up to the end of the data. Unpacks every chunk once.
 pub(super) fn walk(source: &Source) -> Result<Contents, TableError> {
     let end = source.length() - MAGIC.len() as u64;
     walk_records(source, end, false).map(|(contents, _)| contents)
 }
 
-/// The contents from the complete records of a file that was cut, with the end of these records.
+/// Contents from the complete records of a truncated file, and the end offset of these records.
 pub(super) fn walk_to_cut(source: &Source) -> Result<(Contents, u64), TableError> {
     walk_records(source, source.length(), true)
 }

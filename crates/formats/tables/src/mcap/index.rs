@@ -11,9 +11,9 @@ use crate::limits;
 use crate::message::Entry;
 use crate::source::Source;
 
-/// All messages of `channels`, sorted by time; at equal times in file order.
+/// All messages of `channels`, sorted by time, then by position in the file.
 ///
-/// All records are read if the indices of the file have fewer messages than its statistics state.
+/// Reads all records if the indices of the file contain fewer messages than the statistics state.
 pub(super) fn index(
     source: &Source,
     contents: &Contents,

@@ -25,7 +25,7 @@ pub(super) mod code {
     pub(in crate::mcap) const DATA_END: u8 = 0x0f;
 }
 
-/// Common properties of messages of one topic from one writer.
+/// Common properties of the messages that one writer sent on one topic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Channel {
     pub(super) schema: u16,
@@ -33,7 +33,7 @@ pub(super) struct Channel {
     pub(super) encoding: String,
 }
 
-/// Fields before the bytes of a message.
+/// Fields that precede the content of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct MessageHead {
     pub(super) channel: u16,
@@ -41,7 +41,7 @@ pub(super) struct MessageHead {
     pub(super) publish_time: u64,
 }
 
-/// Fields before the bytes of a chunk.
+/// Fields that precede the content of a chunk.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ChunkHead {
     pub(super) unpacked: u64,
@@ -50,7 +50,7 @@ pub(super) struct ChunkHead {
     pub(super) packed: u64,
 }
 
-/// Location of a chunk, and of its message indices.
+/// Location of a chunk and of its message indices.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct ChunkIndex {
     pub(super) at: u64,
@@ -65,7 +65,7 @@ impl ChunkIndex {
     }
 }
 
-/// Counts of the contents.
+/// Statistics record: numbers of messages, schemas, channels and chunks.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Statistics {
     pub(super) messages: u64,
@@ -75,7 +75,7 @@ pub(super) struct Statistics {
     pub(super) of_channel: BTreeMap<u16, u64>,
 }
 
-/// Next record in `bytes`: its code and fields; `None` if it is truncated.
+/// Next record in `bytes`: its code and fields; `None` if the record is truncated.
 pub(super) fn next<'a>(bytes: &mut Bytes<'a>) -> Option<(u8, &'a [u8])> {
     let code = bytes.u8()?;
     let length = usize::try_from(bytes.u64()?).ok()?;
@@ -112,7 +112,7 @@ pub(super) fn channel(fields: &[u8]) -> Option<(u16, Channel)> {
     ))
 }
 
-/// Head of a message, and its bytes.
+/// Head and content of a message.
 pub(super) fn message(fields: &[u8]) -> Option<(MessageHead, &[u8])> {
     let mut bytes = Bytes::new(fields);
     let channel = bytes.u16()?;
@@ -125,7 +125,7 @@ pub(super) fn message(fields: &[u8]) -> Option<(MessageHead, &[u8])> {
     Some((head, bytes.rest()))
 }
 
-/// Head of a chunk, and its size in bytes.
+/// Head of a chunk, and size of the head in bytes.
 pub(super) fn chunk(fields: &[u8]) -> Option<(ChunkHead, usize)> {
     let mut bytes = Bytes::new(fields);
     let _times = (bytes.u64()?, bytes.u64()?);
@@ -163,7 +163,7 @@ pub(super) fn statistics(fields: &[u8]) -> Option<Statistics> {
     })
 }
 
-/// Message index of one channel in a chunk: the channel, and time and offset of each message.
+/// Message index of one channel in a chunk: the channel, and the time and offset of each message.
 pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     let mut bytes = Bytes::new(fields);
     let channel = bytes.u16()?;
@@ -176,7 +176,7 @@ pub(super) fn message_index(fields: &[u8]) -> Option<(u16, Vec<(u64, u64)>)> {
     Some((channel, places))
 }
 
-/// A footer: offset of the summary, and its checksum, each 0 if there is none.
+/// Footer: offset and checksum of the summary, each 0 if missing.
 pub(super) fn footer(fields: &[u8]) -> Option<(u64, u32)> {
     let mut bytes = Bytes::new(fields);
     let summary = bytes.u64()?;

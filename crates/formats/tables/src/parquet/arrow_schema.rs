@@ -18,7 +18,7 @@ const SCHEMA: u8 = 1;
 /// Maximum length of the schema text, bytes.
 const LONGEST: usize = 1 << 20;
 
-/// Sets the unit of those `columns` that are durations in `text`.
+/// Sets the unit of the `columns` that are durations according to `text`.
 pub(super) fn apply(text: &str, columns: &mut [Node]) {
     let Some(bytes) = (text.len() <= LONGEST)
         .then(|| BASE64_STANDARD.decode(text).ok())
@@ -38,7 +38,7 @@ pub(super) fn apply(text: &str, columns: &mut [Node]) {
     }
 }
 
-/// Columns and fields are trees of equal form and order.
+/// Sets the unit of a field and of its children. Columns and fields are trees of the same structure and order.
 fn name_units(field: Table<'_>, node: &mut Node) {
     let child = |position| field.tables(5)?.at(position);
     match &mut node.kind {
@@ -69,13 +69,13 @@ fn name_units(field: Table<'_>, node: &mut Node) {
     }
 }
 
-/// Unit of a duration field. Default: the unit of the format.
+/// Unit of a duration field; the default of the Arrow format if none is stated.
 fn duration(field: Table<'_>) -> Option<&'static str> {
     let unit = field.table(3)?.short(0).unwrap_or(1);
     ["s", "ms", "us", "ns"].get(usize::from(unit)).copied()
 }
 
-/// Table of a message after its length. Newer writers put a marker before the length.
+/// Table in the message that follows its length. Newer writers precede the length with a marker.
 fn message(bytes: &[u8]) -> Option<Table<'_>> {
     let begin = if bytes.get(..4)? == [0xff; 4] { 8 } else { 4 };
     Table::root(bytes.get(begin..)?)

@@ -8,7 +8,7 @@ use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::source::Source;
 
-/// A column in one row group: its tree, with a reader at each leaf.
+/// Column in one row group: its tree, with a reader at each leaf.
 pub(super) struct Assembly {
     root: Part,
 }
@@ -109,7 +109,7 @@ impl Part {
         }
     }
 
-    /// Leaf that gives the levels of this part. All leaves below it agree down to its own level.
+    /// Leaf whose levels apply to this part. All leaves below this part agree down to its level.
     fn first(&self) -> &Leaf {
         match &self.kind {
             PartKind::Leaf(leaf) => leaf,

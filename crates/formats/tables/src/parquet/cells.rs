@@ -1,4 +1,4 @@
-//! Cells of bytes in one row group, streamed from plain pages, else from decoded pages.
+//! Cells of bytes in one row group: streamed from plain pages, otherwise from decoded pages.
 
 use parquet::file::metadata::RowGroupMetaData;
 
@@ -9,7 +9,7 @@ use crate::cell::Cell;
 use crate::error::TableError;
 use crate::source::Source;
 
-/// Cells of bytes in one row group, in sequence.
+/// Cells of bytes in one row group, read in sequence.
 pub(super) enum Cells {
     Stream(Box<Stream>),
     Assembly(Assembly),

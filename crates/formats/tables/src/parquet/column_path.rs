@@ -1,4 +1,4 @@
-//! Columns by name: the part of the schema and the part of a cell that a name selects.
+//! Selection of columns by name: a part of the schema and a part of a cell.
 
 use super::kind::ColumnKind;
 use super::schema::{LeafForm, Node, NodeKind};
@@ -7,7 +7,7 @@ use crate::error::TableError;
 use crate::path::{indices, longest};
 use crate::source::Source;
 
-/// A column and the requested path in its cells.
+/// Column, and the requested path in its cells.
 pub(crate) struct Found {
     column: Node,
     name: String,
@@ -110,7 +110,7 @@ fn inside<'n>(node: &'n Node, rest: &str) -> Option<&'n Node> {
     Some(node)
 }
 
-/// `node` restricted to the members that `rest` selects; `None` if it selects none.
+/// Copy of `node` with only the members that `rest` selects; `None` if `rest` selects none.
 fn narrow(node: &Node, rest: &str) -> Option<Node> {
     if rest.is_empty() {
         return Some(node.clone());
@@ -154,7 +154,7 @@ fn narrow(node: &Node, rest: &str) -> Option<Node> {
     })
 }
 
-/// Names of all columns. A structure is replaced by its members.
+/// Names of all columns. Members replace a structure.
 pub(crate) fn names(columns: &[Node]) -> Vec<String> {
     let mut names = Vec::new();
     for node in columns {

@@ -1,4 +1,4 @@
-//! Columns of a written file, and the conversion of their cells to values and levels.
+//! Columns of a file to be written, and the conversion of their cells to values and levels.
 
 use std::fmt;
 use std::io::Write;
@@ -13,7 +13,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cell::Cell;
 
-/// A column of a written file. All its cells may be null.
+/// Column of a file to be written. All its cells may be null.
 ///
 /// ```
 /// use taceva_tables::{WrittenColumn, WrittenKind};
@@ -23,7 +23,7 @@ use crate::cell::Cell;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct WrittenColumn {
-    /// Name.
+    /// Name of the column.
     pub name: String,
     /// Kind of the cells.
     pub kind: WrittenKind,
@@ -47,13 +47,13 @@ pub enum WrittenKind {
     Single,
     /// Texts.
     Text,
-    /// Lists of numbers of double precision, of the given length if it is `Some`.
+    /// Lists of numbers of double precision; `Some` is the required length.
     Numbers(Option<usize>),
-    /// Lists of numbers of single precision, of the given length if it is `Some`.
+    /// Lists of numbers of single precision; `Some` is the required length.
     Singles(Option<usize>),
     /// Lists of texts.
     Texts,
-    /// Pictures as in the library `datasets`: structures of `bytes`, a PNG or JPEG file, and `path`, its name.
+    /// Pictures as in the library `datasets`: structures of `bytes`, the content of a PNG or JPEG file, and `path`, its name.
     Picture,
 }
 
@@ -182,7 +182,7 @@ impl fmt::Display for WrittenKind {
     }
 }
 
-/// Writes the next column of a row group. Its cells are of `kind`.
+/// Writes the next column of a row group, whose cells are of `kind`.
 pub(super) fn write_column<W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     kind: &WrittenKind,
@@ -225,8 +225,8 @@ fn write_leaf<T: DataType, W: Write + Send>(
     write::<T, W>(group, values, levels.collect(), None)
 }
 
-/// Writes one list per row. Definition level 0 is no list, 1 an empty list, 2 a null element, 3 a value. Repetition level 1 marks all elements except
-/// the first.
+/// Writes one list per row. Definition level 0 means no list, 1 an empty list, 2 a null element, 3 a value. Repetition level 1 marks all elements except the
+/// first.
 fn write_lists<T: DataType, W: Write + Send>(
     group: &mut SerializedRowGroupWriter<'_, W>,
     cells: &[Cell],

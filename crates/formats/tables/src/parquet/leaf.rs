@@ -1,4 +1,4 @@
-//! One leaf of a column: its values, and levels that assign them to rows and lists.
+//! Leaf of a column: its values, and the levels that assign them to rows and lists.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -15,7 +15,7 @@ use crate::error::{Place, TableError};
 use crate::scalar::{decimal, half, nanoseconds_in};
 use crate::source::Source;
 
-/// A leaf in one row group, read in batches of rows.
+/// Leaf in one row group, read in batches of rows.
 pub(super) struct Leaf {
     source: Source,
     name: String,
@@ -91,7 +91,7 @@ impl Leaf {
         })
     }
 
-    /// Reads the next `rows` rows. All earlier rows must have been taken.
+    /// Reads the next `rows` rows. All entries of earlier rows must have been taken.
     pub(super) fn read(&mut self, rows: usize) -> Result<(), TableError> {
         self.handed.store(0, Ordering::Relaxed);
         (self.at, self.next_value) = (0, 0);
@@ -164,7 +164,7 @@ impl Leaf {
         }
     }
 
-    /// Levels of the next entry: definition and repetition; `None` at the end of the rows read.
+    /// Definition and repetition level of the next entry; `None` at the end of the rows read.
     pub(super) fn peek(&self) -> Option<(i16, i16)> {
         let definition = *self.definitions.get(self.at)?;
         let repetition = match self.has_repetition {
@@ -174,7 +174,7 @@ impl Leaf {
         Some((definition, repetition))
     }
 
-    /// Takes the next entry: null if its definition level is not the highest.
+    /// Takes the next entry. It is null if its definition level is below the maximum.
     pub(super) fn take(&mut self) -> Result<Cell, TableError> {
         let Some((definition, _)) = self.peek() else {
             return Err(self.damaged("it has fewer entries than the other columns"));

@@ -11,9 +11,9 @@ pub(super) struct Levels {
 
 #[derive(Clone, Copy, Debug)]
 enum Run {
-    /// Number of repetitions left of one value.
+    /// Run of one value, and number of repetitions left.
     Same { left: u64, value: u32 },
-    /// Number of packed values left, and the bit offset of the next.
+    /// Number of packed values left, and the bit offset of the next value.
     Packed { left: u64, bit: u64 },
 }
 

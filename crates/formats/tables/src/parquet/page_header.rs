@@ -1,4 +1,4 @@
-//! Header of a page: a structure in the compact protocol of Thrift. Only the fields that a reader needs are kept.
+//! Header of a page: a structure in the compact protocol of Thrift. Only the fields that the reader needs are kept.
 //!
 //! Field and type numbers are from `parquet.thrift`, version 2.12. Statistics, which may contain two whole pictures, are skipped.
 
@@ -10,7 +10,7 @@ use crate::limits;
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct PageHeader {
     pub(super) kind: PageKind,
-    /// Size of the page in the file, and unpacked, bytes.
+    /// Size of the page in the file, bytes.
     pub(super) packed: u32,
     pub(super) unpacked: u32,
     /// CRC-32 of the bytes in the file.
@@ -20,7 +20,7 @@ pub(super) struct PageHeader {
     /// Version 1: encodings of the levels.
     pub(super) definition_encoding: i32,
     pub(super) repetition_encoding: i32,
-    /// Version 2: number of nulls; levels are uncompressed, with known sizes.
+    /// Version 2: number of nulls. The levels are uncompressed, with known sizes.
     pub(super) nulls: u32,
     pub(super) rows: u32,
     pub(super) definition_bytes: u32,
@@ -37,7 +37,7 @@ pub(super) enum PageKind {
     DataV2,
 }
 
-/// Reads a header and counts its bytes; the error is a message.
+/// Reads a header. Returns the header and its size in bytes, or an error message.
 pub(super) fn read_header(from: &mut impl BufRead) -> Result<(PageHeader, u64), String> {
     let mut thrift = Thrift { from, read: 0 };
     let mut header = PageHeader {
@@ -117,7 +117,7 @@ enum Form {
     Struct,
 }
 
-/// The number of the last field of a structure; the next one is relative to it.
+/// Number of the last field of a structure. The number of the next field is relative to it.
 #[derive(Default)]
 struct Fields {
     last: i32,
@@ -130,7 +130,7 @@ struct Thrift<'a, R> {
 }
 
 impl<R: BufRead> Thrift<'_, R> {
-    /// The next field of a structure; `None` at its end.
+    /// Next field of a structure; `None` at the end of the structure.
     fn field(&mut self, fields: &mut Fields) -> Result<Option<(i32, Form)>, String> {
         let byte = self.byte()?;
         if byte == 0 {
@@ -219,7 +219,7 @@ impl<R: BufRead> Thrift<'_, R> {
             .map_err(|_| format!("a page header states {number}, expected a number of 32 bits"))
     }
 
-    /// A zigzag number, with its sign in the lowest bit.
+    /// Zigzag number, with its sign in the lowest bit.
     fn int(&mut self) -> Result<i64, String> {
         let bits = self.varint()?;
         Ok((bits >> 1).cast_signed() ^ -((bits & 1).cast_signed()))

@@ -1,6 +1,6 @@
-//! Pages of a column chunk, checked and unpacked here, decoded by the `parquet` crate.
+//! Pages of a column chunk. This module checks and unpacks them, and the `parquet` crate decodes them.
 //!
-//! Our own page reader unpacks without C, verifies checksums, and compares sizes with the file before it allocates.
+//! The page reader of this crate unpacks without C code, verifies checksums, and compares sizes with the file before it allocates.
 
 use std::fs::File;
 use std::io::{BufRead, BufReader, Read, Seek, SeekFrom};
@@ -20,7 +20,7 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// The pages of one chunk, in the order of the file.
+/// Pages of one chunk, in the order of the file.
 pub(super) struct Pages {
     source: Source,
     name: String,
@@ -32,7 +32,7 @@ pub(super) struct Pages {
     values: ValueSize,
     has_nulls: bool,
     has_lists: bool,
-    /// Header that was peeked at, and the offset of its page.
+    /// Header that was read ahead, and the offset of its page.
     peeked: Option<(PageHeader, u64)>,
     /// Number of values of all pages returned since the shared counter was reset.
     handed: Arc<AtomicU64>,
@@ -107,7 +107,7 @@ impl Pages {
         })
     }
 
-    /// Next header and the offset of its page. The cursor of the file is there.
+    /// Next header, and the offset of its page, at which the cursor of the file is left.
     fn header(&mut self) -> Result<Option<&(PageHeader, u64)>, TableError> {
         if self.peeked.is_some() || self.at >= self.end {
             return Ok(self.peeked.as_ref());
@@ -134,7 +134,7 @@ impl Pages {
         Ok(self.peeked.as_ref())
     }
 
-    /// Skips the page of the peeked header.
+    /// Skips the page whose header was read ahead.
     fn pass(&mut self) {
         if let Some((header, begin)) = self.peeked.take() {
             self.at = begin + u64::from(header.packed);
@@ -226,7 +226,7 @@ impl Pages {
             .map_err(|problem| self.damaged(begin, problem))
     }
 
-    /// Unpacks a page; in version 2 uncompressed levels come first.
+    /// Unpacks a page. In version 2, uncompressed levels precede the packed bytes.
     fn unpacked(&self, header: &PageHeader, packed: Vec<u8>) -> Result<Vec<u8>, String> {
         let size = header.unpacked as usize;
         if header.kind != PageKind::DataV2 {
@@ -256,7 +256,7 @@ impl Pages {
         Ok(whole)
     }
 
-    /// Unpacks bytes; blocks of the older LZ4 codec have Hadoop frames, or none from some writers.
+    /// Unpacks bytes. Blocks of the older LZ4 codec have Hadoop frames; some writers omit the frames.
     fn unpack(&self, codec: Codec, packed: &[u8], size: usize) -> Result<Vec<u8>, String> {
         match (codec, unpack(codec, packed, size)) {
             (Codec::Lz4Hadoop, Err(problem)) => unpack(Codec::Lz4Frame, packed, size)
@@ -266,7 +266,7 @@ impl Pages {
         }
     }
 
-    /// Builds a page after a check that its counts fit its bytes.
+    /// Builds a page after a check that the stated counts fit its bytes.
     fn checked(&mut self, header: &PageHeader, bytes: Vec<u8>) -> Result<Page, String> {
         let encoding = encoding(header.encoding)?;
         let buf = Bytes::from(bytes);
@@ -330,7 +330,7 @@ impl Pages {
     }
 }
 
-/// Wraps an error of ours for the crate that requested a page.
+/// Wraps an error of this crate for the `parquet` crate, which requested the page.
 fn outer(error: TableError) -> ParquetError {
     ParquetError::External(Box::new(error))
 }

@@ -1,4 +1,4 @@
-//! Row ranges of a column, without the other rows in memory.
+//! Cells of a row range of a column. Other rows are not kept in memory.
 
 use std::ops::Range;
 
@@ -9,8 +9,8 @@ use crate::cell::Cell;
 use crate::error::TableError;
 
 impl ParquetTable {
-    /// Calls `each` with each cell of `rows` in the column `name`. Row groups outside `rows` are not read, and pages before the first row
-    /// are skipped. Memory holds a few hundred cells at a time.
+    /// Calls `each` with each cell of `rows` in the column `name`. Row groups outside `rows` are not read, and pages before the first row are skipped. Memory
+    /// contains a few hundred cells at a time.
     ///
     /// ```
     /// use taceva_tables::{Cell, ParquetTable};
@@ -26,7 +26,7 @@ impl ParquetTable {
     /// ```
     ///
     /// # Errors
-    /// As [`column`](Self::column). [`TableError::Mismatch`] for rows that do not exist. Errors of `each`.
+    /// Errors of [`column`](Self::column). [`TableError::Mismatch`] for rows that do not exist. Errors of `each`.
     pub fn visit_rows(
         &self,
         name: &str,

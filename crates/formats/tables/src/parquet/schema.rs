@@ -6,11 +6,11 @@ use parquet::schema::types::{SchemaDescriptor, Type};
 use super::kind::ColumnKind;
 use crate::limits;
 
-/// A column or a part of one.
+/// Column, or part of a column.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) name: String,
-    /// Definition level from which this is not null.
+    /// Definition level from which this part is not null.
     pub(crate) definition: i16,
     pub(crate) kind: NodeKind,
 }
@@ -24,7 +24,7 @@ pub(crate) enum NodeKind {
     },
     Struct(Vec<Node>),
     List {
-        /// Definition level from which there is an element, and repetition level of all elements except the first.
+        /// Definition level from which an element exists, and repetition level of all elements except the first.
         definition: i16,
         repetition: i16,
         element: Box<Node>,
@@ -34,7 +34,7 @@ pub(crate) enum NodeKind {
 /// Logical type of a leaf.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum LeafForm {
-    /// Same as the physical type.
+    /// Equal to the physical type.
     Plain,
     Text,
     Unsigned,
@@ -108,7 +108,7 @@ fn node(field: &Type, above: Levels, leaves: &mut usize, depth: usize) -> Result
     content(field, levels, leaves, depth)
 }
 
-/// The levels below an optional or a repeated field.
+/// Levels of a field below an optional or repeated field with the levels `above`.
 fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
     let step = i16::from(is_repeated);
     let more = |level: i16| {
@@ -122,7 +122,7 @@ fn deeper(above: Levels, is_repeated: bool) -> Result<Levels, String> {
     })
 }
 
-/// Content of a field. `levels` includes its own repetition.
+/// Content of a field. `levels` includes the repetition of the field itself.
 fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Result<Node, String> {
     let name = field.name().to_owned();
     let definition = levels.definition;
@@ -173,7 +173,7 @@ fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Re
 
 /// Element of a list. `repeated` is its repeated group.
 ///
-/// The element is the only field of the group. It is the group itself if the group has several fields or a name that older writers repeat.
+/// The element is the only field of the group. It is the group itself if the group has several fields, or a name that older writers repeat.
 fn element(
     list: &Type,
     repeated: &Type,

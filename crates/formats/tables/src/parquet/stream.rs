@@ -1,7 +1,7 @@
-//! Cells of bytes read one at a time from plain pages.
+//! Reader of cells of bytes, one at a time, from plain pages.
 //!
-//! Some writers put a thousand pictures into one page. Cells of plain pages are read directly from the file or from a streaming decoder.
-//! The whole page is not in memory. Only blocks of snappy and LZ4 are unpacked as a whole.
+//! Some writers put a thousand pictures into one page. Cells of plain pages are therefore read directly from the file or from a streaming decoder. The whole
+//! page is not in memory. Only blocks of snappy and LZ4 are unpacked as a whole.
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
@@ -18,11 +18,11 @@ use crate::error::{Place, TableError};
 use crate::limits;
 use crate::source::Source;
 
-/// The supported encodings, by their number in the format.
+/// Supported encodings, by their number in the format.
 const PLAIN: i32 = 0;
 const RLE: i32 = 3;
 
-/// Column chunk of bytes outside lists. All its data pages are plain.
+/// Column chunk of bytes outside lists, whose data pages are all plain.
 pub(super) struct Stream {
     source: Source,
     name: String,
@@ -31,24 +31,24 @@ pub(super) struct Stream {
     page: Option<Open>,
 }
 
-/// The current page.
+/// Page that is being read.
 struct Open {
     at: u64,
     body: Body,
     levels: Option<Levels>,
-    /// Number of entries and bytes left.
+    /// Number of entries left in the page.
     entries: u64,
     bytes: u64,
 }
 
 enum Body {
-    /// Directly in the file, so that cells can be skipped by seeking.
+    /// Values directly in the file, so that cells can be skipped by seeking.
     File(BufReader<File>),
     Unpacked(Box<dyn Read>),
 }
 
 impl Stream {
-    /// Cells of `chunk`; `None` if its pages are of another kind.
+    /// Cells of `chunk`; `None` if a page is not plain.
     pub(super) fn new(
         source: &Source,
         chunk: &ColumnChunkMetaData,
@@ -104,7 +104,7 @@ impl Stream {
         Ok(())
     }
 
-    /// Cell of the next row; `None` if it is null.
+    /// Cell of the next row; `None` if the cell is null.
     pub(super) fn next(&mut self) -> Result<Option<Vec<u8>>, TableError> {
         while self.page.as_ref().is_none_or(|page| page.entries == 0) {
             let (header, begin) = self.next_data()?;
@@ -146,7 +146,7 @@ impl Stream {
         })
     }
 
-    /// Opens the page at the cursor of `file`. Levels of version 2 are not packed. Levels of version 1 are packed, after their length.
+    /// Opens the page at the cursor of `file`. In version 2, the levels are not packed. In version 1, they are packed after their length.
     fn opened(
         &self,
         header: &PageHeader,
@@ -191,7 +191,7 @@ impl Stream {
     }
 }
 
-/// A reader of the values of a page.
+/// Reader of the values of a page.
 fn body(codec: Codec, file: BufReader<File>, packed: u32, unpacked: u32) -> Result<Body, String> {
     if codec == Codec::Plain {
         return match packed == unpacked {
@@ -218,7 +218,7 @@ impl Open {
         }
     }
 
-    /// Reads to the end after the last cell. Some codecs have a checksum there.
+    /// Reads to the end after the last cell, because some codecs store a checksum there.
     fn finish(&mut self) -> Result<(), String> {
         match &mut self.body {
             Body::Unpacked(reader) if self.bytes == 0 => reader
@@ -277,7 +277,7 @@ impl Open {
         }
     }
 
-    /// Subtracts `length` from the bytes left.
+    /// Subtracts `length` from the number of bytes left. Fails if fewer are left.
     fn announce(&mut self, length: u32) -> Result<(), String> {
         let left = self.bytes.checked_sub(length.into());
         self.bytes = left.ok_or_else(|| {
@@ -296,7 +296,7 @@ impl Open {
     }
 }
 
-/// Reads `length` bytes. Memory grows with the bytes present, not with the announced length.
+/// Reads `length` bytes. Memory grows with the bytes present, not with the stated length.
 fn read_exactly(reader: &mut impl Read, length: u64) -> Result<Vec<u8>, String> {
     let most = usize::try_from(length.min(1 << 20)).unwrap_or(0);
     let mut bytes = Vec::with_capacity(most);

@@ -1,4 +1,4 @@
-//! Encodings of values of a column, and checks of their number against the bytes.
+//! Encodings of values of a column, and checks of the number of values against the bytes.
 
 use parquet::basic::{Encoding, Type as Physical};
 use parquet::schema::types::ColumnDescriptor;
@@ -20,7 +20,7 @@ impl ValueSize {
         })
     }
 
-    /// Checks that a dictionary of `values` values fits its bytes, because memory is allocated for the announced number.
+    /// Checks that a dictionary of `values` values fits its bytes, because memory is allocated for the stated number.
     pub(super) fn check_dictionary(self, values: u32, bytes: usize) -> Result<(), String> {
         match self.0 {
             1 => Err("the dictionary has booleans".to_owned()),
@@ -56,7 +56,7 @@ pub(super) fn encoding(code: i32) -> Result<Encoding, String> {
     })
 }
 
-/// Encoding of levels with this code. If there are no levels, writers state any code.
+/// Encoding of levels with this code. Any code is accepted if there are no levels, because writers then state any code.
 pub(super) fn level_encoding(code: i32, are_there: bool) -> Result<Encoding, String> {
     match (code, are_there) {
         (3 | 4, _) => encoding(code),

@@ -16,12 +16,12 @@ use super::column_writer::{WrittenColumn, write_column};
 use crate::cell::Cell;
 use crate::error::TableError;
 
-/// Maximum rows of a row group. Reading one row reads its group.
+/// Maximum number of rows of a row group. To read one row, a reader must read its whole group.
 const GROUP_ROWS: usize = 1000;
-/// Memory of cells that ends a row group early, bytes.
+/// Memory of cells at which a row group ends early, bytes.
 const GROUP_BYTES: u64 = 16 << 20;
 
-/// Writer of a Parquet file. Memory holds one row group. Each group is compressed by snappy at its end. Equal rows give equal bytes.
+/// Writer of a Parquet file. Memory contains one row group, which is compressed with snappy when it is full. Equal rows give equal bytes.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};
@@ -46,13 +46,13 @@ pub struct ParquetWriter {
     path: PathBuf,
     columns: Vec<WrittenColumn>,
     writer: SerializedFileWriter<File>,
-    /// Cells of the rows that are in no group yet, per column.
+    /// Cells of the rows that are not yet in a group, by column.
     held: Vec<Vec<Cell>>,
     held_bytes: u64,
 }
 
 impl ParquetWriter {
-    /// Creates the file at `path`, with texts by key as its metadata.
+    /// Creates the file at `path`. `metadata` contains texts by key.
     ///
     /// # Errors
     /// [`TableError::Write`] if the file exists already or cannot be created. [`TableError::Mismatch`] if two columns have the same name.
@@ -103,8 +103,8 @@ impl ParquetWriter {
     /// Adds a row, one cell for each column.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if a cell has the wrong kind or the number of cells is wrong. The row is then not written.
-    /// [`TableError::Write`] if a row group cannot be written.
+    /// [`TableError::Mismatch`] if a cell has the wrong kind or the number of cells is wrong; the row is not written. [`TableError::Write`] if a row group
+    /// cannot be written.
     pub fn push(&mut self, row: Vec<Cell>) -> Result<(), TableError> {
         if row.len() != self.columns.len() {
             let problem = format!("{} cells for {} columns", row.len(), self.columns.len());
@@ -127,15 +127,15 @@ impl ParquetWriter {
         }
     }
 
-    /// Approximate size of the file, bytes: its content, and the uncompressed cells in memory.
+    /// Approximate size of the file, bytes: the written content plus the uncompressed cells in memory.
     pub fn size_bytes(&self) -> u64 {
         self.writer.bytes_written() as u64 + self.held_bytes
     }
 
-    /// Ends the file and waits until its bytes are on the disk. The directory entry is not synced.
+    /// Ends the file and syncs its content to the disk. The name of the file is not synced.
     ///
     /// # Errors
-    /// [`TableError::Write`].
+    /// [`TableError::Write`] if the file cannot be written.
     pub fn finish(mut self) -> Result<(), TableError> {
         if self.held.first().is_some_and(|cells| !cells.is_empty()) {
             self.write_group()?;
@@ -179,7 +179,7 @@ fn mismatch(path: &Path, name: &str, problem: String) -> TableError {
     }
 }
 
-/// Extracts the system error from the crate error.
+/// Extracts the error of the operating system from an error of the `parquet` crate.
 fn failed(path: &Path, error: ParquetError) -> TableError {
     let source = match error {
         ParquetError::External(source) => match source.downcast::<io::Error>() {

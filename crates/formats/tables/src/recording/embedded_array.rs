@@ -1,4 +1,4 @@
-//! NumPy arrays in JSON messages. An array is its type, its shape and its bytes as base64.
+//! NumPy arrays in JSON messages. An array is an object with its type, its shape, and its bytes as base64.
 
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
@@ -6,15 +6,15 @@ use serde_json::{Map, Value};
 
 use crate::cell::Cell;
 
-/// Names of the member with the bytes.
+/// Names of the member that contains the bytes.
 const BYTES: [&str; 3] = ["data_b64", "data_base64", "b64"];
-/// Maximum number of elements of an array as numbers. Larger arrays stay text.
+/// Maximum number of elements of an array that is converted to numbers. Larger arrays remain texts.
 const MOST_NUMBERS: u64 = 1 << 16;
 
 /// Numbers of an array object as nested lists of its shape; `None` for another object.
 ///
 /// # Errors
-/// A message if the bytes do not match the stated type and shape.
+/// Error message if the bytes do not match the stated type and shape.
 pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String> {
     let bytes = BYTES.iter().find_map(|name| members.get(*name)?.as_str());
     let (Some(bytes), Some(kind), Some(shape)) = (bytes, kind(members), shape(members)) else {
@@ -48,7 +48,7 @@ pub(super) fn cell(members: &Map<String, Value>) -> Result<Option<Cell>, String>
     })
 }
 
-/// True if a cell states the type and shape of an array but has none of its numbers.
+/// True if a cell states the type and shape of an array but contains no numbers.
 pub(super) fn is_summary(cell: &Cell) -> bool {
     let Cell::Struct(members) = cell else {
         return false;

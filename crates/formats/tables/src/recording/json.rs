@@ -6,7 +6,7 @@ use super::embedded_array;
 use crate::cell::Cell;
 use crate::limits;
 
-/// Parses a message to a cell. The error is a message. `serde_json` limits the depth to 128 levels.
+/// Parses a message to a cell, or returns an error message. `serde_json` limits the depth to 128 levels.
 pub(super) fn cell(message: &[u8]) -> Result<Cell, String> {
     if message.len() as u64 > limits::JSON_BYTES {
         return Err(format!("{} bytes of JSON", message.len()));
@@ -42,7 +42,7 @@ fn of_value(value: Value) -> Result<Cell, String> {
     })
 }
 
-/// Collects the names of members that state the shape of an array but have none of its numbers.
+/// Collects the names of members that state the shape of an array but contain no numbers.
 pub(super) fn add_absent_arrays(cell: &Cell, above: &str, into: &mut Vec<String>) {
     let Cell::Struct(members) = cell else { return };
     for (name, member) in members {

@@ -1,4 +1,4 @@
-//! Encodings of the messages of a topic.
+//! Encodings of messages, and readers for them.
 
 use std::borrow::Cow;
 use std::collections::BTreeSet;
@@ -14,7 +14,7 @@ use crate::message::MessageStore;
 use crate::protobuf::{self, ProtobufMessage};
 use crate::ros::{self, Dialect, Fields, Picture, PictureField, RosSchema};
 
-/// First bytes of rosbag2 messages that are compressed one by one. No CDR message begins with them.
+/// First bytes of rosbag2 messages that are compressed one by one. A CDR message never begins with these bytes.
 const ZSTANDARD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
 
 /// Encoding of messages.
@@ -56,7 +56,7 @@ impl Language {
         }
     }
 
-    /// Reader of the pictures in the field `name`. The error is a message if the field has no pictures.
+    /// Reader of the pictures in the field `name`. Returns an error message if the field contains no pictures.
     pub(super) fn pictures<'a>(&'a self, name: &str) -> Result<PictureReader<'a>, String> {
         match self {
             Language::Json => Err("pictures in JSON messages are not supported".to_owned()),
@@ -74,7 +74,7 @@ impl Language {
     }
 }
 
-/// ROS message. Unpacks it if the recorder compressed each message.
+/// Content of a ROS message, unpacked if the recorder compressed each message.
 fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     match message.starts_with(&ZSTANDARD) {
         false => Ok(Cow::Borrowed(message)),
@@ -82,7 +82,7 @@ fn unpacked(message: &[u8]) -> Result<Cow<'_, [u8]>, String> {
     }
 }
 
-/// Encoding of the messages of `topic`. All must have the same encoding and the same schema.
+/// Encoding of the messages of `topic`. All messages must have the same encoding and schema.
 pub(super) fn of_topic(store: &dyn MessageStore, topic: &Topic) -> Result<Language, String> {
     let channels = store.channels().values();
     let channels = channels.filter(|channel| channel.topic == topic.name);

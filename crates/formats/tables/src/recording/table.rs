@@ -1,4 +1,4 @@
-//! Messages of one topic as rows.
+//! Table of the messages of one topic, one row per message.
 
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::ros::{self, Picture};
 use crate::rows::check_sorted;
 use crate::source::Source;
 
-/// Messages of one topic by log time, and at equal times in the order of the file.
+/// Messages of one topic, sorted by log time, then by position in the file.
 ///
 /// Columns are the fields of the messages by dotted name (`wrench.force.x`, `position[2]`), and the times of each message.
 /// `log_time` and `publish_time` are in seconds, `log_time.ns` and `publish_time.ns` in whole nanoseconds. A time field is also one
@@ -65,12 +65,12 @@ impl TopicTable {
         self.store.source()
     }
 
-    /// The file.
+    /// Path of the file.
     pub fn path(&self) -> &Path {
         self.source().path()
     }
 
-    /// The topic.
+    /// Topic of the messages.
     pub fn topic(&self) -> &Topic {
         &self.topic
     }
@@ -80,10 +80,10 @@ impl TopicTable {
         self.entries.len() as u64
     }
 
-    /// Columns: the times, then the fields in the order of the schema. A list has one name. For JSON the fields are from the first message.
+    /// Columns: the times, then the fields in the order of the schema. A list has one name. For JSON, the first message determines the fields.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if the schema has too many fields. For JSON as [`columns`](Self::columns).
+    /// [`TableError::Unsupported`] if the schema has too many fields. For JSON, errors of [`columns`](Self::columns).
     pub fn names(&self) -> Result<Vec<String>, TableError> {
         let mut names: Vec<String> = TIMES.iter().map(|(name, _)| (*name).to_owned()).collect();
         let fields = language::names(&self.language);
@@ -99,10 +99,10 @@ impl TopicTable {
         Ok(names)
     }
 
-    /// Fields of the first JSON message that state the shape of an array but have none of its numbers.
+    /// Fields of the first JSON message that state the shape of an array but contain no numbers.
     ///
     /// # Errors
-    /// As [`names`](Self::names).
+    /// Errors of [`names`](Self::names).
     ///
     /// ```no_run
     /// # fn of(table: &taceva_tables::TopicTable) -> Result<(), taceva_tables::TableError> {
@@ -127,8 +127,8 @@ impl TopicTable {
     /// Cells of the columns `names`, column by column. The file is read once for all columns.
     ///
     /// # Errors
-    /// [`TableError::Missing`] if there is no such field. [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB of memory, depending
-    /// on the file size. [`TableError::Damaged`] if a chunk or a message cannot be parsed.
+    /// [`TableError::Missing`] if a field does not exist. [`TableError::TooLarge`] if the cells exceed 96 to 320 MiB of memory, depending on the file size.
+    /// [`TableError::Damaged`] if a chunk or a message cannot be parsed.
     pub fn columns(&self, names: &[&str]) -> Result<Vec<Vec<Cell>>, TableError> {
         let is_time = |name: &&str| TIMES.iter().any(|(time, _)| time == name);
         let of_message: Vec<&str> = names
@@ -188,19 +188,19 @@ impl TopicTable {
     /// Cells of the column `name`. See [`columns`](Self::columns).
     ///
     /// # Errors
-    /// As [`columns`](Self::columns).
+    /// Errors of [`columns`](Self::columns).
     pub fn column(&self, name: &str) -> Result<Vec<Cell>, TableError> {
         Ok(self.columns(&[name])?.pop().unwrap_or_default())
     }
 
-    /// Calls `each` with each row of `sorted` and its picture in the field `name`. An example is `data` of `sensor_msgs/Image` and
-    /// `sensor_msgs/CompressedImage`. Memory holds two chunks at a time.
+    /// Calls `each` with each row of `sorted` and the picture in the field `name`, such as `data` of `sensor_msgs/Image` and `sensor_msgs/CompressedImage`.
+    /// Memory contains two chunks at a time.
     ///
-    /// `sorted` must ascend. A row listed twice is passed twice.
+    /// `sorted` must be ascending. A row listed twice is passed twice.
     ///
     /// # Errors
-    /// [`TableError::Mismatch`] if the field has no bytes, or if `sorted` does not ascend or names a row that does not exist.
-    /// [`TableError::Damaged`] if a chunk or message cannot be parsed, or a picture is of an unsupported kind. Errors of `each`.
+    /// [`TableError::Mismatch`] if the field has no bytes, or if `sorted` is not ascending or contains a row that does not exist. [`TableError::Damaged`] if a
+    /// chunk or message cannot be parsed, or a picture is of an unsupported kind. Errors of `each`.
     pub fn visit_pictures<E: From<TableError>>(
         &self,
         name: &str,
@@ -233,7 +233,7 @@ impl TopicTable {
         }
     }
 
-    /// Calls `read` with the message at `entry`.
+    /// Calls `read` with the message at the location `entry`.
     fn message<T>(
         &self,
         reader: &mut dyn MessageReader,
@@ -261,7 +261,7 @@ impl TopicTable {
     }
 }
 
-/// Value of a column of message times.
+/// Function that returns the value of a time column of a message.
 type OfHead = fn(&Message) -> Cell;
 
 /// Time columns of every topic.

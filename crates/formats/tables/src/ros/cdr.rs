@@ -1,4 +1,4 @@
-//! Decoder of CDR, the encoding of ROS 2. Numbers are aligned to their own size, counted after the first four bytes.
+//! Decoder of CDR, the encoding of ROS 2. Numbers are aligned to their own size, counted from the end of the first four bytes.
 //!
 //! ROS 1 messages are packed without alignment from the first byte on.
 
@@ -6,16 +6,16 @@ use super::schema::{Count, Dialect, Field, Kind, Message, RosSchema};
 use crate::cell::Cell;
 use crate::limits;
 
-/// Requested part of a message or a field.
+/// Request for a part of a message or a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Want {
-    /// Skipped.
+    /// Skips the field.
     Nothing,
-    /// Whole field, into the slot of this number.
+    /// Stores the whole field in the slot with this number.
     Whole(usize),
-    /// Bytes of a list of `uint8`, into the slot of this number.
+    /// Stores the bytes of a list of `uint8` in the slot with this number.
     Bytes(usize),
-    /// Request for each field.
+    /// Requests for the fields of a message.
     Fields(Vec<Want>),
 }
 
@@ -26,12 +26,12 @@ pub(crate) struct Cdr<'a> {
     at: usize,
     is_big_endian: bool,
     dialect: Dialect,
-    /// Number of cells made from this message.
+    /// Number of cells created from this message.
     cells: usize,
 }
 
 impl<'a> Cdr<'a> {
-    /// Body of `message`. In ROS 2 it follows four bytes that state the encoding.
+    /// Reader of the body of `message`. In ROS 2, the body follows four bytes that state the encoding.
     pub(crate) fn new(message: &'a [u8], dialect: Dialect) -> Result<Cdr<'a>, String> {
         if dialect == Dialect::Ros1 {
             return Ok(Cdr {
@@ -72,7 +72,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// Reads the message. Fills `slots` as `want` requests.
+    /// Reads the message. Fills `slots` according to `want`.
     pub(crate) fn read(
         &mut self,
         schema: &RosSchema,
@@ -213,7 +213,7 @@ impl<'a> Cdr<'a> {
         })
     }
 
-    /// Number of elements of a field. Each takes at least one byte. More elements than remaining bytes are rejected.
+    /// Number of elements of a field. Each element takes at least one byte, so a number above the remaining bytes is rejected.
     fn count(&mut self, field: &Field) -> Result<usize, String> {
         let count = match field.count {
             Count::One => 1,
@@ -233,7 +233,7 @@ impl<'a> Cdr<'a> {
         }
     }
 
-    /// Bytes of a text, after their length.
+    /// Bytes of a text. The length of the text precedes them.
     fn text_bytes(&mut self) -> Result<&'a [u8], String> {
         let length = u32::from_le_bytes(self.number()?) as usize;
         self.take(length)

@@ -1,4 +1,4 @@
-//! Definitions of standard ROS 2 messages, for recordings without definitions.
+//! Definitions of standard ROS 2 messages, for recordings that contain no definitions.
 
 /// Messages by `package/Name`, in the language of `.msg` files.
 pub(super) const KNOWN: [(&str, &str); 43] = [

@@ -6,7 +6,7 @@ use crate::cell::Cell;
 use crate::limits;
 use crate::path::longest;
 
-/// Fields that some columns need.
+/// Fields of a message that the requested columns need.
 #[derive(Debug)]
 pub(crate) struct Fields {
     want: Want,
@@ -14,7 +14,7 @@ pub(crate) struct Fields {
     picks: Vec<Pick>,
 }
 
-/// Column: its slot, the path in the slot, and the form of a time.
+/// Column: its slot, the path within the slot, and the form of a time.
 #[derive(Clone, Debug)]
 struct Pick {
     slot: usize,
@@ -30,7 +30,7 @@ enum Form {
 }
 
 impl Fields {
-    /// Columns `names`. The error is the first name that the schema lacks.
+    /// Columns called `names`. The error is the first name that the schema lacks.
     pub(crate) fn new<'n>(schema: &RosSchema, names: &[&'n str]) -> Result<Fields, &'n str> {
         let mut fields = Fields {
             want: Want::Nothing,
@@ -48,7 +48,7 @@ impl Fields {
         Ok(fields)
     }
 
-    /// Cells of one message, one for each column. The error is a message.
+    /// Cells of one message, one for each column, or an error message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Vec<Cell>, String> {
         let mut slots = vec![Cell::Null; self.slots];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -100,14 +100,14 @@ impl Fields {
 /// Index of a field in each message on the path to it, with the rest of the name.
 type Steps<'n> = Vec<(usize, &'n str)>;
 
-/// Path to a field, and its form.
+/// Path to a field, and the form of the field.
 struct Way<'n> {
     steps: Steps<'n>,
     form: Form,
 }
 
 impl<'n> Way<'n> {
-    /// Path to the field `name`. A time is one number, and its `ns` is another number.
+    /// Path to the field `name`. A time is a single number, and its member `ns` is another.
     fn to(schema: &RosSchema, name: &'n str) -> Option<Way<'n>> {
         if let Some((steps, end)) = steps(schema, name) {
             let form = match end.is_some_and(is_time) {
@@ -124,7 +124,7 @@ impl<'n> Way<'n> {
     }
 }
 
-/// Steps to the field `name`, and its message type if it is a single message.
+/// Steps to the field `name`, and its message type if the field is a single message.
 fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Option<&'s Message>)> {
     let mut message = schema.root();
     let mut steps = Vec::new();
@@ -147,7 +147,7 @@ fn steps<'s, 'n>(schema: &'s RosSchema, name: &'n str) -> Option<(Steps<'n>, Opt
     }
 }
 
-/// Message type of a field with one message.
+/// Message type of a field that contains one message.
 fn inner<'s>(schema: &'s RosSchema, field: &Field) -> Option<&'s Message> {
     match (field.kind, field.count) {
         (Kind::Message(place), Count::One) => Some(schema.message(place)),
@@ -155,7 +155,7 @@ fn inner<'s>(schema: &'s RosSchema, field: &Field) -> Option<&'s Message> {
     }
 }
 
-/// True if a message is a time or a duration: seconds and nanoseconds.
+/// True if a message is a time or a duration, with seconds and nanoseconds.
 fn is_time(message: &Message) -> bool {
     let is_named = matches!(
         message.name.as_str(),

@@ -1,4 +1,4 @@
-//! Pictures in messages. Encoded pictures such as JPEG keep their original bytes. Raw samples are row by row, without padding.
+//! Pictures in messages. Encoded pictures such as JPEG keep their original bytes. Uncompressed samples are row by row, without padding.
 
 use super::cdr::{Cdr, Want};
 use super::schema::{Count, Kind, Message, RosSchema};
@@ -21,7 +21,7 @@ use crate::limits;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Picture {
-    /// Picture file such as JPEG or PNG, unchanged.
+    /// Content of a picture file such as JPEG or PNG, unchanged.
     Encoded(Vec<u8>),
     /// Uncompressed samples.
     Samples(Samples),
@@ -45,13 +45,13 @@ pub struct Samples {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SampleForm {
-    /// One byte of brightness.
+    /// One byte of brightness per pixel.
     Mono8,
-    /// Two bytes of brightness.
+    /// Two bytes of brightness per pixel.
     Mono16,
-    /// One byte each of red, green and blue.
+    /// One byte each of red, green and blue per pixel.
     Rgb8,
-    /// One byte each of blue, green and red.
+    /// One byte each of blue, green and red per pixel.
     Bgr8,
 }
 
@@ -66,14 +66,14 @@ impl SampleForm {
     }
 }
 
-/// Picture field in messages of a schema.
+/// Picture field in the messages of a schema.
 #[derive(Debug)]
 pub(crate) struct PictureField {
     want: Want,
     is_raw: bool,
 }
 
-/// Slots of the fields of a picture.
+/// Slots of the fields that describe a picture.
 const DATA: usize = 0;
 const FORMAT: usize = 1;
 const HEIGHT: usize = 2;
@@ -84,7 +84,7 @@ const STEP: usize = 6;
 const SLOTS: usize = 7;
 
 impl PictureField {
-    /// Field `name`, a list of `uint8`. The error is a message if it is another type.
+    /// Field `name`, a list of `uint8`. Returns an error message for another type.
     pub(crate) fn new(schema: &RosSchema, name: &str) -> Result<PictureField, String> {
         let mut message = schema.root();
         let mut places = Vec::new();
@@ -140,7 +140,7 @@ impl PictureField {
         Ok(PictureField { want, is_raw })
     }
 
-    /// Picture of `message`. The error is a message.
+    /// Picture in `message`, or an error message.
     pub(crate) fn read(&self, schema: &RosSchema, message: &[u8]) -> Result<Picture, String> {
         let mut slots = vec![Cell::Null; SLOTS];
         Cdr::new(message, schema.dialect())?.read(schema, &self.want, &mut slots)?;
@@ -180,12 +180,12 @@ fn raw(slots: &[Cell], data: Vec<u8>) -> Result<RawPicture, String> {
     })
 }
 
-/// Picture as its message describes it, unchecked.
+/// Unchecked picture, as its message describes it.
 #[derive(Clone, Debug)]
 pub(crate) struct RawPicture {
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// Stride of a row, bytes.
+    /// Distance between the starts of two rows, bytes.
     pub(crate) step: u32,
     pub(crate) encoding: String,
     pub(crate) is_big_endian: bool,
@@ -193,7 +193,7 @@ pub(crate) struct RawPicture {
 }
 
 impl RawPicture {
-    /// Picture without padding, its numbers little-endian. The error is a message if the format is not supported.
+    /// Picture without padding, with little-endian numbers. Returns an error message for an unsupported format.
     pub(crate) fn samples(self) -> Result<Samples, String> {
         let RawPicture {
             width,

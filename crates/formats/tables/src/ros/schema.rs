@@ -1,5 +1,5 @@
-//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings. The message itself comes first, then the
-//! messages that it uses. Each follows a line of `=` and a line `MSG: package/Name`.
+//! Message definitions in the language of `.msg` files, as ROS 2 writes them into recordings. The message itself comes first, then the messages that it uses,
+//! each after a line of `=` and a line `MSG: package/Name`.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use super::definitions::KNOWN;
 use crate::error::shown;
 use crate::limits;
 
-/// Dialect of ROS 1 or ROS 2. Their schemas are alike. The encoding of numbers and some types differ.
+/// ROS 1 or ROS 2. The schemas are alike; the encoding of numbers and some types differ.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Dialect {
     /// Packed little-endian numbers.
@@ -16,7 +16,7 @@ pub(crate) enum Dialect {
     Ros2,
 }
 
-/// Messages of a schema. The first is the root.
+/// Messages of a schema. The first message is the root.
 #[derive(Clone, Debug)]
 pub(crate) struct RosSchema {
     messages: Vec<Message>,
@@ -25,7 +25,7 @@ pub(crate) struct RosSchema {
 
 #[derive(Clone, Debug)]
 pub(crate) struct Message {
-    /// `package/Name`.
+    /// Name in the form `package/Name`.
     pub(crate) name: String,
     pub(crate) fields: Vec<Field>,
 }
@@ -59,7 +59,7 @@ pub(crate) enum Kind {
     F32,
     F64,
     Text,
-    /// Another message: its index in the schema.
+    /// Another message, by its index in the schema.
     Message(usize),
 }
 
@@ -83,7 +83,7 @@ struct Written {
     count: Count,
 }
 
-/// Time types of ROS 1, which are keywords there, with their ROS 2 names.
+/// Time types that are keywords in ROS 1, with their names in ROS 2.
 const OF_ROS_1: [(&str, &str); 2] = [
     ("builtin_interfaces/Time", "uint32 sec\nuint32 nanosec"),
     ("builtin_interfaces/Duration", "int32 sec\nint32 nanosec"),
@@ -135,7 +135,7 @@ impl RosSchema {
         RosSchema::resolve(parts, dialect)
     }
 
-    /// Replaces names of types by indices. The first of two messages with the same name is used.
+    /// Replaces names of types by indices. Of two messages with the same name, the first is used.
     fn resolve(parts: Vec<(String, Vec<Written>)>, dialect: Dialect) -> Result<RosSchema, String> {
         let mut places = BTreeMap::new();
         for (at, (name, _)) in parts.iter().enumerate() {
@@ -174,7 +174,7 @@ impl RosSchema {
         &self.messages[place]
     }
 
-    /// Checks that messages below `place` nest within the limit. A message inside itself has no end.
+    /// Checks that messages below `place` nest within the limit. A message that contains itself would nest without end.
     fn check_depth(
         &self,
         place: usize,

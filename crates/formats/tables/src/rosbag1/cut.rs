@@ -9,19 +9,19 @@ use crate::limits;
 use crate::message::{Channel, Entry};
 use crate::source::Source;
 
-/// Messages of a bag, found by its records without its index.
+/// Messages of a bag, found by reading its records without its index.
 #[derive(Debug)]
 pub(super) struct Walk {
     pub(super) channels: BTreeMap<u32, Channel>,
     entries: BTreeMap<u32, Vec<Entry>>,
-    /// True to store the location of each message, not only their number.
+    /// True if the location of each message is stored, and not only the number of messages.
     is_located: bool,
     messages: u64,
-    /// End of the complete records.
+    /// Offset of the end of the complete records.
     pub(super) end: u64,
 }
 
-/// Error for a bag that was cut at `place`, with the number of messages before the cut.
+/// Error for a bag that is truncated at `place`, with the number of readable messages.
 pub(super) fn refusal(source: &Source, place: Place, problem: String) -> TableError {
     match Walk::of(source, false) {
         Ok(walk) => TableError::Cut {
@@ -36,7 +36,7 @@ pub(super) fn refusal(source: &Source, place: Place, problem: String) -> TableEr
 }
 
 impl Walk {
-    /// Messages in complete chunks, in a plain chunk that is cut, and behind the head of a chunk whose length was never written.
+    /// Reads messages in complete chunks, in a truncated uncompressed chunk, and after the head of a chunk whose length was never written.
     pub(super) fn of(source: &Source, is_located: bool) -> Result<Walk, TableError> {
         let mut records = Records::new(source)?;
         let mut walk = Walk {
@@ -69,7 +69,7 @@ impl Walk {
         Ok(walk)
     }
 
-    /// Adds the complete messages among records: those of the chunk at `chunk`, or a single record of the file.
+    /// Adds the complete messages among records: the records of the chunk at `chunk`, or a single record of the file.
     fn add(
         &mut self,
         source: &Source,
@@ -117,7 +117,7 @@ impl Walk {
         }
     }
 
-    /// Messages of `channels`, by time.
+    /// Messages of `channels`, sorted by time.
     pub(super) fn entries(&self, channels: &BTreeSet<u32>) -> Vec<Entry> {
         let own = self.entries.iter();
         let own = own.filter(|(number, _)| channels.contains(number));
@@ -129,7 +129,7 @@ impl Walk {
     }
 }
 
-/// Bytes of the truncated chunk at `at`, if it is not compressed.
+/// Bytes of the truncated chunk at `at`; `None` if it is compressed.
 pub(super) fn cut_chunk(records: &mut Records<'_>, at: u64) -> Option<Vec<u8>> {
     let length = records.source.length();
     let four = |records: &mut Records<'_>, at: u64| {

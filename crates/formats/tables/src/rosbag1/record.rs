@@ -30,7 +30,7 @@ pub(super) struct Head {
 }
 
 impl Head {
-    /// Parses the head from `fields`. Each field is its length, its name, `=` and its value. `None` if they do not fill `fields`.
+    /// Parses the head from `fields`. Each field is its length, its name, `=` and its value. `None` if the fields do not end at the end of `fields`.
     pub(super) fn new(fields: Vec<u8>, data_at: u64, end: u64) -> Option<Head> {
         let mut bytes = Bytes::new(&fields);
         while !bytes.rest().is_empty() {
@@ -70,7 +70,7 @@ impl Head {
         self.number::<1>("op").map(|[code]| code)
     }
 
-    /// The time of a message, ns since 1970.
+    /// Time of a message, ns since 1970.
     pub(super) fn time_ns(&self) -> Option<u64> {
         let [a, b, c, d, rest @ ..] = self.number::<8>("time")?;
         let seconds = u64::from(u32::from_le_bytes([a, b, c, d]));
@@ -97,7 +97,7 @@ pub(super) fn within(held: &[u8], at: usize) -> Option<(Head, Range<usize>)> {
     Some((Head::new(fields, 0, 0)?, begin..begin + data))
 }
 
-/// The number of a connection, and its channel.
+/// Number of a connection, and its channel.
 pub(super) fn connection(head: &Head, data: &[u8]) -> Option<(u32, Channel)> {
     let number = head.number::<4>("conn").map(u32::from_le_bytes)?;
     let said = Head::new(data.to_vec(), 0, 0)?;

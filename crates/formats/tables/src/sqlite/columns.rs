@@ -4,11 +4,11 @@
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct Columns {
     pub(super) names: Vec<String>,
-    /// Column that is an alias of the row number.
+    /// Position of the column that is an alias of the row number.
     pub(super) id: Option<usize>,
 }
 
-/// Columns in `CREATE TABLE name (…)`; `None` for a table that is stored differently, or for another text.
+/// Columns in `CREATE TABLE name (…)`; `None` for a table that is stored differently, or for other SQL.
 pub(super) fn columns(sql: &str) -> Option<Columns> {
     let (_, behind) = sql.split_once('(')?;
     let (inside, after) = behind.rsplit_once(')')?;

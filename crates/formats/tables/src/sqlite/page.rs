@@ -1,4 +1,4 @@
-//! Pages of a database, read with one cursor.
+//! Reader of the pages of a database, with its own cursor.
 
 use std::fs::File;
 use std::sync::Arc;
@@ -6,14 +6,14 @@ use std::sync::Arc;
 use super::{Database, RowPlace};
 use crate::error::{Place, TableError};
 
-/// Pages of a database; the last one is cached. A cursor reads each row once, or several times in succession.
+/// Pages of a database; the last page is cached. A reader reads each row once, or several times in succession.
 pub(crate) struct Pages<'a> {
     pub(super) database: &'a Database,
     file: File,
     kept: Option<(u32, Arc<Vec<u8>>)>,
-    /// The last row.
+    /// Location of the last counted row.
     row: Option<RowPlace>,
-    /// Size of all rows so far, bytes.
+    /// Total size of all counted rows, bytes.
     row_bytes: u64,
 }
 
@@ -55,7 +55,7 @@ impl<'a> Pages<'a> {
     /// Counts the row at `place`.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if the rows are longer than the file: a file is made to cost hours if rows share bytes.
+    /// [`TableError::Damaged`] if the rows together are longer than the file. Rows that share bytes could otherwise cost hours.
     pub(super) fn count(&mut self, place: RowPlace, bytes: u64) -> Result<(), TableError> {
         if self.row != Some(place) {
             self.row = Some(place);
@@ -79,17 +79,17 @@ impl<'a> Pages<'a> {
         }
     }
 
-    /// Takes back `bytes` of a counted row, which a cut took away.
+    /// Subtracts `bytes` of a counted row that are missing in a truncated file.
     pub(super) fn uncount(&mut self, bytes: u64) {
         self.row_bytes = self.row_bytes.saturating_sub(bytes);
     }
 
-    /// True for a page that the header announces and a cut took away.
+    /// True for a page that the header states but that is missing in a truncated file.
     pub(super) fn is_beyond_cut(&self, number: u32) -> bool {
         number > self.database.pages && number <= self.database.announced
     }
 
-    /// The error for a damaged page with this number.
+    /// Error for a damaged page with this number.
     pub(super) fn damaged(&self, number: u32, problem: impl Into<String>) -> TableError {
         let at = u64::from(number.saturating_sub(1)) * u64::from(self.database.page_bytes);
         let place = Place::byte(at).in_name(&format!("page {number}"));

@@ -1,4 +1,4 @@
-//! Rows: a row number, then a head with the types, then the values. A row that does not fit its page continues in overflow pages.
+//! Rows: a row number, then a head with the types, then the values. A row that exceeds its page continues in overflow pages.
 
 use std::collections::HashSet;
 use std::ops::Range;
@@ -16,11 +16,11 @@ pub(crate) enum Value {
     Integer(i64),
     Real(f64),
     Text(String),
-    /// Range of the value in the bytes of the row.
+    /// Blob, as its byte range in the row.
     Blob(Range<usize>),
 }
 
-/// Row. Only the bytes that its values need are read.
+/// Row, of which only the bytes of requested values are read.
 pub(crate) struct Record<'p, 'd> {
     pages: &'p mut Pages<'d>,
     page: u32,
@@ -32,12 +32,12 @@ pub(crate) struct Record<'p, 'd> {
     read: Vec<u8>,
     /// Size of the whole row, bytes.
     length: usize,
-    /// Next overflow page.
+    /// Number of the next overflow page.
     next: u32,
 }
 
 impl<'p, 'd> Record<'p, 'd> {
-    /// Opens the row at `place`. Reads the bytes in its own page.
+    /// Opens the row at `place`. Reads only the bytes in the page of the row.
     pub(crate) fn read(
         pages: &'p mut Pages<'d>,
         table: &SqliteTable,
@@ -96,12 +96,12 @@ impl<'p, 'd> Record<'p, 'd> {
         self.length as u64
     }
 
-    /// Bytes of the row read so far: at least up to the last requested value.
+    /// Bytes of the row read so far, which extend at least to the last requested value.
     pub(crate) fn into_bytes(self) -> Vec<u8> {
         self.read
     }
 
-    /// True if no part of the row is on a page that a cut took away.
+    /// True if the row has no part on a missing page of a truncated file.
     pub(crate) fn is_before_cut(&mut self) -> Result<bool, TableError> {
         match self.read_to(self.length) {
             Ok(()) => Ok(true),
@@ -114,7 +114,7 @@ impl<'p, 'd> Record<'p, 'd> {
         }
     }
 
-    /// The value in the column at `position`, from 0; null if the row was written before the column existed.
+    /// Value in the column at `position`, from 0; null if the row was written before the column was added.
     pub(crate) fn value(&mut self, position: usize) -> Result<Value, TableError> {
         let Some((kind, range)) = self.values.get(position).cloned() else {
             return Ok(Value::Null);
@@ -222,7 +222,7 @@ impl<'p, 'd> Record<'p, 'd> {
     }
 }
 
-/// Number of bytes of a row of `length` bytes in its own page. `usable` is the usable size of the page.
+/// Number of bytes that a row of `length` bytes has in its own page. `usable` is the usable size of a page.
 fn in_page(length: usize, usable: usize) -> usize {
     let most = usable - 35;
     if length <= most {
@@ -233,7 +233,7 @@ fn in_page(length: usize, usable: usize) -> usize {
     if even <= most { even } else { least }
 }
 
-/// Varint of one to nine bytes, the highest first, and the rest.
+/// Varint of one to nine bytes, the highest first, and the remaining bytes.
 fn varint(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let mut number = 0_u64;
     for at in 0..8 {

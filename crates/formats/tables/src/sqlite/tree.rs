@@ -1,4 +1,4 @@
-//! B-trees of tables. Interior pages refer to other pages. Leaf pages have rows in the order of their numbers.
+//! B-trees of tables. Interior pages refer to other pages. Leaf pages contain rows in the order of their numbers.
 
 use std::collections::HashSet;
 
@@ -10,7 +10,7 @@ use crate::error::TableError;
 /// Types of pages of a table.
 const INNER: u8 = 5;
 const LEAF: u8 = 13;
-/// Maximum depth of a tree: enough for all pages with two children each.
+/// Maximum depth of a tree, sufficient for all pages with two children each.
 const DEPTH: usize = 40;
 
 /// Head of a page of a table.
@@ -38,7 +38,7 @@ impl Head {
         })
     }
 
-    /// Bytes from the start of this cell on.
+    /// Bytes of the page from the start of this cell.
     pub(super) fn cell<'p>(&self, page: &'p [u8], cell: u16) -> Option<&'p [u8]> {
         if cell >= self.cells {
             return None;
@@ -48,13 +48,13 @@ impl Head {
         page.get(usize::from(u16::from_be_bytes([place[0], place[1]]))..)
     }
 
-    /// True for a leaf page, which has rows.
+    /// True for a leaf page, which contains rows.
     pub(super) fn is_leaf(&self) -> bool {
         self.kind == LEAF
     }
 }
 
-/// Calls `each` with every row of `table`; of a file that was cut, with those on pages before the cut.
+/// Calls `each` with every row of `table`. For a truncated file, only with rows on the existing pages.
 pub(super) fn walk(
     pages: &mut Pages<'_>,
     table: &SqliteTable,

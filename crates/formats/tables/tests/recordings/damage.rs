@@ -1,4 +1,4 @@
-//! Truncated copies of a file and copies with flipped bits. Reading them gives a result or an error of ours, soon.
+//! Truncated copies of a file, and copies with flipped bits. Reading a copy must soon give a result or an error of this crate.
 
 use std::cell::RefCell;
 use std::panic::{self, AssertUnwindSafe};
@@ -23,7 +23,7 @@ pub(crate) struct Endings {
 /// `root`.
 ///
 /// # Panics
-/// If our code panics, or a copy takes longer than ten seconds.
+/// Panics if the code of this crate panics, or a copy takes longer than ten seconds.
 pub(crate) fn damage<T, E: std::fmt::Display>(
     root: &Path,
     path: &Path,
@@ -65,7 +65,7 @@ pub(crate) fn damage<T, E: std::fmt::Display>(
     }
 }
 
-/// Result of `read`. If it panics, the error is the source file of the panic.
+/// Result of `read`. After a panic, the error is the source file of the panic.
 pub(crate) fn attempt<T>(read: impl FnOnce() -> T) -> Result<T, String> {
     listen();
     PANICKED_AT.with_borrow_mut(|at| *at = Some(String::new()));
@@ -123,7 +123,7 @@ fn copies(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     copies
 }
 
-/// Records the location of a panic of this thread instead of printing it.
+/// Records the location of a panic in this thread instead of printing the panic.
 fn listen() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

@@ -26,7 +26,7 @@ pub(crate) fn expected(name: &str) -> serde_json::Value {
     serde_json::from_str(&text).expect("JSON")
 }
 
-/// Number in it.
+/// Number in a value of `expected.json`.
 pub(crate) fn number(value: &serde_json::Value) -> f64 {
     value.as_f64().expect("a number")
 }

@@ -9,7 +9,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
-/// Parquet file of one column. `message` is its schema in the Parquet language. `write` fills it.
+/// Writes a Parquet file of one column. `message` is the schema in the Parquet language. `write` fills the column.
 pub(crate) fn parquet_file(
     message: &str,
     write: impl FnOnce(&mut ColumnWriter<'_>),

@@ -299,7 +299,6 @@ fn pages_that_lead_to_one_another_are_refused() {
     refused(&path, &["leads to it twice"]);
 }
 
-/// K5.
 #[test]
 fn rows_that_share_their_bytes_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");

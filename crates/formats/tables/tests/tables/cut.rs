@@ -1,4 +1,4 @@
-//! Recordings that were cut in the middle: refused with the number of messages before the cut, which are read on request.
+//! Tests of truncated recordings. They are rejected with the number of readable messages, and these messages are read on request.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -12,7 +12,7 @@ fn data(name: &str) -> PathBuf {
         .join(name)
 }
 
-/// The messages of a topic as text, each with the cells of the columns called `names`.
+/// Messages of a topic as text, each with the cells of the columns called `names`.
 fn rows(recording: &Recording, topic: &str, names: &[&str]) -> Vec<String> {
     let table = recording.table(topic).expect("a topic");
     let columns = table.columns(names).expect("reads");
@@ -31,7 +31,7 @@ fn names(recording: &Recording, topic: &str) -> Vec<String> {
     table.names().expect("names")
 }
 
-/// Number of messages before the cut, by the error.
+/// Number of readable messages that the error states.
 #[track_caller]
 fn refused(path: &Path) -> u64 {
     match Recording::open(path) {
@@ -40,7 +40,7 @@ fn refused(path: &Path) -> u64 {
     }
 }
 
-/// Checks that the messages of `path` before its cut are so many, and each one of `whole`.
+/// Checks that `path` has `messages` readable messages, and that each is also in `whole`.
 #[track_caller]
 fn read_to_cut(path: &Path, whole: &Recording, messages: u64) {
     let cut = Recording::open_to_cut(path).expect("messages before the cut");

@@ -1,4 +1,4 @@
-//! Tests with files of other libraries and of this crate: every value as those libraries read it back.
+//! Tests with files of other libraries and of this crate. Every value must equal the value that those libraries read back.
 
 #[path = "../recordings/mod.rs"]
 mod recordings;

@@ -1,4 +1,4 @@
-//! Tests with MCAP files that the Foxglove libraries wrote: every message as those libraries read it back.
+//! Tests with MCAP files that the Foxglove libraries wrote. Every message must equal the message that those libraries read back.
 
 use crate::recordings::{at, digest, expected, number, picture_digest, recording};
 use serde_json::Value;
@@ -13,7 +13,7 @@ const FIELDS: [(&str, &str); 6] = [
     ("Ty", "wrench.torque.y"),
     ("Tz", "wrench.torque.z"),
 ];
-/// The same messages: in chunks with indices, outside chunks, without indices, without a summary.
+/// Files with the same messages: in chunks with indices, outside chunks, without indices, without a summary.
 const WRITTEN: [&str; 4] = ["chunks", "loose", "no_index", "no_summary"];
 
 fn open(folder: &str, file: &str) -> Recording {
@@ -145,7 +145,7 @@ fn forces_and_pictures_are_those_that_were_written() {
     }
 }
 
-/// Collects the fields of a message of `expected.json` with dotted names. Times and lists stay whole.
+/// Collects the fields of a message of `expected.json` with dotted names. Times and lists are not split.
 fn flat(value: &Value, above: &str, into: &mut Vec<(String, Value)>) {
     match value {
         Value::Object(members) if members.len() == 2 && members.contains_key("nanosec") => {

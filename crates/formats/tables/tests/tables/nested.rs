@@ -1,10 +1,10 @@
-//! Tests of columns of every type, nesting and encoding that pyarrow writes, as pyarrow reads them back.
+//! Tests of columns of every type, nesting and encoding that pyarrow writes, compared with what pyarrow reads back.
 
 use crate::recordings::{at, expected, recording};
 use serde_json::Value;
 use taceva_tables::{Cell, ColumnKind, ParquetTable, TableError};
 
-/// Cell as `make.py` writes it.
+/// Cell in the form that `make.py` writes.
 pub(crate) fn plain(cell: &Cell) -> Value {
     match cell {
         Cell::Null => Value::Null,

@@ -1,4 +1,4 @@
-//! Tests with Parquet files that pyarrow and Hugging Face datasets wrote: every value and picture as those libraries read them back.
+//! Tests with Parquet files that pyarrow and Hugging Face datasets wrote. Every value and picture must equal what those libraries read back.
 
 use crate::recordings::{at, expected, number, picture_digest, recording};
 use taceva_tables::{Cell, ParquetTable, TableError};

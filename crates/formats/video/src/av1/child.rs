@@ -6,11 +6,11 @@ use super::rav1d::{Decoder, Refused};
 use super::sandbox::confine;
 use super::wire::{Answer, Greeting, Unit, plane_bytes};
 
-/// Reason why a child ends before its parent.
+/// Reason why a child ends before its parent closes the input.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ServeError {
-    /// The parent cannot be read from or written to, or is another program.
+    /// Reading from or writing to the parent failed, or the parent is another program.
     #[error("the AV1 decoder cannot communicate with its parent process: {0}")]
     Parent(#[from] io::Error),
     /// The process could not be confined. Nothing was decoded.
@@ -21,14 +21,14 @@ pub enum ServeError {
     Start(i32),
 }
 
-/// Decodes AV1 for a parent that writes to `input` and reads from `output`, until `input` is closed.
+/// Decodes AV1 for a parent that writes to `input` and reads from `output`, until the parent closes `input`.
 ///
-/// Confines the whole process permanently before it decodes the first byte of a clip. On Linux the process can then open no file or
-/// connection and start no process. It can use memory only for frames of that size. This needs seccomp filters, on x86-64 or a 64-bit ARM.
-/// On other systems the process keeps its rights. Call it last in a separate command.
+/// Confines the whole process permanently before it decodes the first byte of a clip. On Linux the process can then open no file or connection, start no
+/// process, and use memory only for frames of the stated size. This needs seccomp filters, on x86-64 or a 64-bit ARM. On other systems the process keeps its
+/// rights. Call this function last in a separate command.
 ///
 /// # Errors
-/// [`ServeError`]. The parent sees the child exit. A panic in the decoder ends the process.
+/// [`ServeError`]. The parent detects the exit of the child. A panic in the decoder ends the process.
 ///
 /// ```no_run
 /// // The whole of a program that `Decoders::av1` may name.
@@ -56,7 +56,7 @@ pub fn serve(mut input: impl Read, mut output: impl Write) -> Result<(), ServeEr
     Ok(())
 }
 
-/// Memory limit of the decoder, bytes: the program itself, and the frames that a codec keeps with their side data.
+/// Memory limit of the decoder, bytes: the program itself, the frames that a codec keeps, and the side data of these frames.
 fn memory_bytes(size: Greeting) -> u64 {
     (512 << 20) + 48 * plane_bytes(size.width, size.height, false)
 }

@@ -23,7 +23,7 @@ pub(crate) struct Av1Clip {
     source: Source,
     samples: Vec<Sample>,
     presented: Vec<u32>,
-    /// Bytes to send before the first sample.
+    /// Settings that are sent before the first sample.
     settings: Vec<u8>,
     size: Greeting,
     coding: YuvCoding,
@@ -34,7 +34,7 @@ pub(crate) struct Av1Clip {
 pub(crate) const DECODER: &str = "rav1d 1.1";
 
 impl Av1Clip {
-    /// Pixel format from the settings `av1C`; `None` if the child does not decode it.
+    /// Pixel format stated by the settings `av1C`; `None` if the child cannot decode it.
     pub(crate) fn pixel_format(settings: &[u8]) -> Option<&'static str> {
         let &[version, _, flags, ..] = settings else {
             return None;
@@ -47,7 +47,7 @@ impl Av1Clip {
         }
     }
 
-    /// Clip of a track with its `settings`, decoded by `program`.
+    /// Opens the clip of a track with the settings `settings`, to be decoded by `program`.
     pub(crate) fn open(
         source: Source,
         track: Track,
@@ -80,7 +80,7 @@ impl Av1Clip {
         })
     }
 
-    /// Calls `each` with the frames in `sorted`.
+    /// Calls `each` with the frames whose indices are in `sorted`.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],
@@ -147,14 +147,14 @@ impl Av1Clip {
     }
 }
 
-/// Visit of a clip: a running child process.
+/// Visit of a clip, with a running child process.
 struct Session<'a> {
     clip: &'a Av1Clip,
     colours: Colours,
     running: Running,
     to: SyncSender<Unit>,
     is_restart: bool,
-    /// Last line of its standard error.
+    /// Last line that the child wrote to standard error.
     said: String,
 }
 
@@ -188,7 +188,7 @@ impl<'a> Session<'a> {
         })
     }
 
-    /// Sends a unit. Returns the answer of the child.
+    /// Sends the packet `unit` of a frame. Returns the answer of the child.
     fn ask(&mut self, unit: Unit, frame: u64) -> Result<Answer, VideoError> {
         let is_sent = self.to.send(unit).is_ok();
         loop {

@@ -16,15 +16,15 @@ use rav1d::src::lib::{
 
 use super::wire::{Answer, Yuv};
 
-/// Library error that requests another call: `-EAGAIN`.
+/// Error code `-EAGAIN` of the library, which requests another call.
 const AGAIN: i32 = -11;
 
 /// Reason why a packet was not decoded.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Refused {
-    /// Error of the library, a negative system error number.
+    /// Error code of the library: a negative error number of the operating system.
     Code(i32),
-    /// Unsupported data, as text.
+    /// Unsupported kind of data, in words.
     Kind(&'static str),
 }
 
@@ -34,7 +34,7 @@ pub(super) struct Decoder {
 }
 
 impl Decoder {
-    /// Creates a decoder of frames of at most `pixels`.
+    /// Creates a decoder for frames of at most `pixels` pixels.
     pub(super) fn open(pixels: u32) -> Result<Decoder, i32> {
         let mut settings = MaybeUninit::<Dav1dSettings>::uninit();
         // SAFETY: the pointer is valid for the settings, and the function writes all of them.

@@ -1,6 +1,6 @@
 //! Confinement of the child process before it reads a clip.
 
-/// Restricts all threads to reading and writing open files, and to `memory` bytes.
+/// Restricts all threads to reading and writing open files, and to `memory` bytes of memory, on Linux. Does nothing on other systems.
 #[cfg(not(target_os = "linux"))]
 pub(super) fn confine(_memory: u64) -> Result<(), String> {
     Ok(())
@@ -21,7 +21,7 @@ mod linux {
         SeccompFilter, SeccompRule, TargetArch, apply_filter_all_threads,
     };
 
-    /// System calls allowed with any arguments: for open files, memory, time and exit.
+    /// System calls that are allowed with any arguments: for open files, memory, time and exit.
     const ALWAYS: [i64; 21] = [
         libc::SYS_brk,
         libc::SYS_clock_gettime,
@@ -105,7 +105,7 @@ mod tests {
 
     use super::confine;
 
-    /// Folder for the confined process, which the test starts.
+    /// Environment variable with a folder for the confined process that the test starts.
     const CONFINED: &str = "TACEVA_VIDEO_CONFINED";
 
     #[test]

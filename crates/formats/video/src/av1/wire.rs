@@ -1,6 +1,6 @@
 //! Protocol between a parent and the child that decodes AV1. Integers have a fixed size and are little-endian.
 //!
-//! The parent sends a [`Greeting`], then [`Unit`]s. Each unit is answered before the next.
+//! The parent sends a [`Greeting`], then [`Unit`]s. The child answers each unit before the parent sends the next.
 
 use std::io::{self, Read, Write};
 
@@ -10,7 +10,7 @@ use crate::limits;
 /// First bytes of the protocol. The last byte is the version.
 const LETTERS: [u8; 8] = *b"tacAV1\x00\x01";
 
-/// Size of all frames.
+/// Greeting of the parent: the size of all frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Greeting {
     pub(super) width: u32,
@@ -20,31 +20,31 @@ pub(super) struct Greeting {
 /// Packet of one frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Unit {
-    /// True to reset the decoder first.
+    /// True if the decoder must be reset first.
     pub(super) is_restart: bool,
-    /// True to return the picture.
+    /// True if the child must return the picture.
     pub(super) is_wanted: bool,
     pub(super) bytes: Vec<u8>,
 }
 
-/// Answer to a unit.
+/// Answer of the child to a unit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
-    /// Decoded. `has_picture` is true if it gave a picture.
+    /// Packet decoded, but picture not returned. `has_picture` is true if the packet gave a picture.
     Decoded { has_picture: bool },
-    /// Decoded, with its picture.
+    /// Packet decoded, with its picture.
     Picture(Yuv),
-    /// Not decoded, with the reason.
+    /// Packet not decoded, with the reason.
     Refused(String),
 }
 
-/// Picture of 8 bits a sample: luma, then two chroma planes with half its sides unless it is gray.
+/// Picture of 8 bits per sample: luma, then two chroma planes with half its width and height unless it is gray.
 #[derive(Clone, PartialEq, Eq)]
 pub(super) struct Yuv {
     pub(super) width: u32,
     pub(super) height: u32,
     pub(super) is_gray: bool,
-    /// Matrix number of ITU-T H.273. 2 is unspecified.
+    /// Matrix number of ITU-T H.273; 2 means unspecified.
     pub(super) matrix: u16,
     pub(super) is_full_range: bool,
     pub(super) planes: Vec<u8>,
@@ -56,7 +56,7 @@ impl std::fmt::Debug for Yuv {
     }
 }
 
-/// Size of the planes of a picture, bytes, for sides within the limits.
+/// Total size of the planes of a picture, bytes. The sides must be within the limits.
 pub(super) fn plane_bytes(width: u32, height: u32, is_gray: bool) -> u64 {
     let (width, height) = (u64::from(width), u64::from(height));
     width * height
@@ -128,7 +128,7 @@ impl Unit {
 
 /// Size of the header of a picture, bytes.
 const PICTURE_HEAD: usize = 12;
-/// Maximum length of a refusal, bytes.
+/// Maximum length of a reason for a refusal, bytes.
 #[cfg(feature = "av1")]
 const MOST_WORDS: usize = 1024;
 
@@ -155,7 +155,7 @@ impl Answer {
         }
     }
 
-    /// Reads the bytes of the next answer, for frames of the size of `greeting`. Empty at the end.
+    /// Reads the bytes of the next answer, for frames of the size of `greeting`. Returns no bytes at the end.
     pub(super) fn take(from: &mut dyn Read, greeting: Greeting) -> io::Result<Vec<u8>> {
         let mut answer = Vec::new();
         let mut more = |answer: &mut Vec<u8>, count: u64| {
@@ -213,7 +213,7 @@ impl Answer {
 }
 
 impl Yuv {
-    /// Parses the header before the planes, after the letter of the kind.
+    /// Parses the header before the planes, which follows the letter of the kind.
     fn head(answer: &[u8]) -> Option<Yuv> {
         let head: &[u8; PICTURE_HEAD] = answer.get(1..)?.first_chunk()?;
         let &[

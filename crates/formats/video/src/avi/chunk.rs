@@ -1,11 +1,11 @@
-//! Chunks of RIFF files: four letters, a size, and that many bytes, padded to an even number.
+//! Chunks of RIFF files: four letters, a size, and content of that size, padded to an even number of bytes.
 
 use std::fmt;
 
 use crate::error::VideoError;
 use crate::source::Source;
 
-/// Four letters of a chunk or list.
+/// Four letters that identify a chunk or list.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) struct ChunkId(pub(super) [u8; 4]);
 
@@ -35,9 +35,9 @@ impl fmt::Display for ChunkId {
 #[derive(Clone, Debug)]
 pub(super) struct Chunk {
     pub(super) id: ChunkId,
-    /// Offset of the first letter.
+    /// Offset of the first letter, bytes.
     pub(super) at: u64,
-    /// Offset of the content.
+    /// Offset of the content, bytes.
     pub(super) body: u64,
     /// Size of the content without padding, bytes.
     pub(super) size: u64,
@@ -50,7 +50,7 @@ impl fmt::Debug for ChunkId {
 }
 
 impl Chunk {
-    /// Kind of a list, four letters; `None` for other chunks.
+    /// Four letters of the kind of a list; `None` for other chunks.
     pub(super) fn list_kind(&self, source: &Source) -> Result<Option<[u8; 4]>, VideoError> {
         if !matches!(&self.id.0, b"LIST" | b"RIFF") || self.size < 4 {
             return Ok(None);
@@ -75,7 +75,7 @@ pub(super) struct Chunks<'a> {
     source: &'a Source,
     at: u64,
     end: u64,
-    /// Read buffer and its offset. Many small chunks are read at once.
+    /// Read buffer and its offset in the file. Many small chunks are read at once.
     window: Vec<u8>,
     window_at: u64,
 }
@@ -94,7 +94,7 @@ impl<'a> Chunks<'a> {
         }
     }
 
-    /// Header at the current offset, eight bytes.
+    /// Eight bytes of the header at the current offset.
     fn head(&mut self) -> Result<[u8; 8], VideoError> {
         let in_window = |chunks: &Chunks<'_>| -> Option<[u8; 8]> {
             let from = usize::try_from(chunks.at.checked_sub(chunks.window_at)?).ok()?;
@@ -118,7 +118,7 @@ impl<'a> Chunks<'a> {
     /// Next chunk; `None` if fewer than eight bytes are left.
     ///
     /// # Errors
-    /// [`VideoError::Damaged`] for a chunk larger than its parent, or one that does not begin with four letters.
+    /// [`VideoError::Damaged`] for a chunk larger than its parent, or a chunk that does not begin with four letters.
     pub(super) fn next(&mut self) -> Result<Option<Chunk>, VideoError> {
         let left = self.end.saturating_sub(self.at);
         if left < 8 {

@@ -10,18 +10,18 @@ use crate::source::Source;
 pub(crate) struct StreamHeader {
     /// Index among all streams, from 0.
     pub(super) number: u8,
-    /// Codec, four letters.
+    /// Four letters of the codec.
     pub(crate) codec: [u8; 4],
     /// Width, pixels.
     pub(crate) width: u32,
     /// Height, pixels.
     pub(crate) height: u32,
-    /// Period of the frames as a fraction: `scale` / `rate` seconds.
+    /// Frame period as a fraction: `scale` / `rate` seconds.
     pub(super) scale: u32,
     pub(super) rate: u32,
 }
 
-/// Reads the first video stream in the list of headers; `None` if there is none.
+/// Reads the first video stream in the list of headers; `None` without a video stream.
 pub(super) fn read(source: &Source, headers: &Chunk) -> Result<Option<StreamHeader>, VideoError> {
     let mut chunks = headers.list(source)?;
     let mut number = 0;
@@ -104,7 +104,7 @@ fn read_whole(source: &Source, chunk: &Chunk, least: u64) -> Result<Vec<u8>, Vid
     )
 }
 
-/// Little-endian integer at `at`. The caller has checked `at`.
+/// Little-endian integer at offset `at`, which the caller has checked.
 fn number_at(bytes: &[u8], at: usize) -> u32 {
     u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]])
 }

@@ -6,7 +6,7 @@ use crate::limits;
 use crate::packets::Packet;
 use crate::source::Source;
 
-/// Entries of the indices among the pictures (OpenDML), in order.
+/// Entries of the OpenDML indices among the pictures, in order.
 #[derive(Debug, Default)]
 pub(super) struct Index {
     entries: Vec<(u64, Packet)>,
@@ -43,7 +43,7 @@ impl Index {
         Ok(())
     }
 
-    /// Checks the entries, if there are any, against the packets found.
+    /// Checks the entries, if any, against the packets that were found.
     pub(super) fn check(&self, source: &Source, packets: &[Packet]) -> Result<(), VideoError> {
         if self.entries.is_empty() {
             return Ok(());
@@ -56,7 +56,7 @@ impl Index {
     }
 }
 
-/// Checks the index at the end of a part against the `packets` of stream `number` in that part. The list of the part begins at `base`.
+/// Checks the index at the end of a part against the `packets` of the stream `number` in that part. The list of the part begins at offset `base`.
 pub(super) fn check_idx1(
     source: &Source,
     chunk: &Chunk,

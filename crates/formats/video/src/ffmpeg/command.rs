@@ -10,7 +10,7 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::process::{Ended, Running};
 
-/// Command for ffmpeg with the clip as input, every frame of the first video stream unchanged, and the arguments `output`.
+/// Command for ffmpeg, with the clip as input and the arguments `output`. Every frame of the first video stream is unchanged.
 pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Command, VideoError> {
     let file = File::open(path).map_err(VideoError::io("open", path))?;
     let mut command = Command::new(program);
@@ -48,7 +48,7 @@ pub(super) fn command(path: &Path, program: &Path, output: &[&str]) -> Result<Co
 const MAX_PIXELS: &str = "67108864";
 const MAX_ALLOCATED: &str = "1073741824";
 
-/// Containers and raw streams with their own frames, as ffmpeg names them.
+/// Containers and raw streams that store their own frames, as ffmpeg names them.
 const CONTAINERS: &str = "avi,matroska,mov,mpegts,mpeg,mpegvideo,m4v,h264,hevc,obu,ivf,ogg,flv,asf,mxf,nut,dv,gif,mjpeg,yuv4mpegpipe";
 
 pub(super) fn not_started(
@@ -63,7 +63,7 @@ pub(super) fn not_started(
     }
 }
 
-/// Limits the address space of the child process. Does nothing except on Linux.
+/// Limits the address space of the child process. Has an effect only on Linux.
 pub(super) fn bound_memory(running: &mut Running) {
     #[cfg(target_os = "linux")]
     {
@@ -86,7 +86,7 @@ pub(super) fn note_fault(fault: &mut Option<String>, line: &str) {
     }
 }
 
-/// Checks the exit status and the errors of a program.
+/// Checks the exit status and the error output of a program.
 pub(super) fn check_end(
     path: &Path,
     program: &Path,

@@ -1,27 +1,27 @@
-//! Pixel layouts of raw frames, by the format names of ffmpeg.
+//! Pixel layouts of raw frames, by the names that ffmpeg uses for pixel formats.
 
-/// Layout of a frame.
+/// Pixel layout of a raw frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Layout {
-    /// Luma plane and two chroma planes, with one byte a sample, or two in little-endian order.
+    /// Luma plane and two chroma planes, with one byte per sample, or two bytes in little-endian order.
     Planar {
         shifts: [u32; 2],
         bits: u32,
         is_full_range: bool,
     },
-    /// Luma plane, then a plane of chroma pairs, red first if `is_red_first`.
+    /// Luma plane, then a plane of chroma pairs, with red first if `is_red_first`.
     Paired { is_red_first: bool },
-    /// Luma and chroma of two pixels in four bytes: offsets of luma, blue chroma and red chroma.
+    /// Luma and chroma of two pixels in four bytes, with the offsets of luma, blue chroma and red chroma.
     Woven {
         luma: usize,
         blue: usize,
         red: usize,
     },
-    /// Luma plane.
+    /// Luma plane only.
     Gray { bits: u32 },
     /// Pixels of `step` bytes, with the offsets of red, green and blue.
     Packed { step: usize, order: [usize; 3] },
-    /// Planes of green, blue and red, one byte a sample.
+    /// Planes of green, blue and red, with one byte per sample.
     Planes,
 }
 
@@ -110,7 +110,7 @@ impl Layout {
     }
 }
 
-/// Chroma samples along a side of `length` luma samples.
+/// Number of chroma samples along a side of `length` luma samples.
 pub(super) fn chroma_side(length: usize, shift: u32) -> usize {
     length.div_ceil(1 << shift)
 }
@@ -120,7 +120,7 @@ pub(super) fn bytes_of(bits: u32) -> usize {
     if bits > 8 { 2 } else { 1 }
 }
 
-/// Parses `yuv420p`, `yuvj422p`, `yuv444p10le` …
+/// Parses a planar format such as `yuv420p`, `yuvj422p` or `yuv444p10le`.
 fn planar(name: &str) -> Option<Layout> {
     let (is_full_range, rest) = match name.strip_prefix("yuvj") {
         Some(rest) => (true, rest),
@@ -144,7 +144,7 @@ fn planar(name: &str) -> Option<Layout> {
     })
 }
 
-/// Parses the bits of `10le`.
+/// Bits of a sample in a suffix such as `10le`.
 fn bits_of(depth: &str) -> Option<u32> {
     let bits: u32 = depth.strip_suffix("le")?.parse().ok()?;
     (9..=16).contains(&bits).then_some(bits)

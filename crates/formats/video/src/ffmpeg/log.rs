@@ -1,9 +1,9 @@
-//! Parser of the log of ffmpeg: lines with their level.
+//! Parser of the log of ffmpeg, whose lines have a level.
 
 /// Line of the log, `[context] [level] text`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Said<'a> {
-    /// Source of the line, if any: `h264 @ 0x55…`.
+    /// Source of the line, such as `h264 @ 0x55…`; empty if none is stated.
     context: &'a str,
     level: &'a str,
     pub(super) text: &'a str,
@@ -34,7 +34,7 @@ impl<'a> Said<'a> {
         said
     }
 
-    /// True for an error of the clip. Errors of the output concern the order of times, which is not used here.
+    /// True for an error of the clip. False for errors of the output, which concern the order of times and are irrelevant.
     pub(super) fn is_fault(&self) -> bool {
         let of_output = ["null ", "rawvideo ", "out#", "vost#"];
         matches!(self.level, "fatal" | "error" | "panic")

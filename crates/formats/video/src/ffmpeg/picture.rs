@@ -20,7 +20,7 @@ pub(super) enum Refused {
 }
 
 impl RawFrame {
-    /// Converts the frame `bytes`. They must have the size of its layout.
+    /// Converts the frame `bytes`, which must have the size of the layout.
     pub(super) fn picture(&self, bytes: Vec<u8>, colours: Colours) -> Result<Picture, Refused> {
         let (width, height) = (self.width, self.height);
         let pixels = width as usize * height as usize;

@@ -1,4 +1,4 @@
-//! First run of ffmpeg over a clip, with its report of each frame.
+//! First run of ffmpeg over a clip, in which ffmpeg reports each frame.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub(super) struct Look {
     pub(super) version: Option<String>,
     pub(super) container: Option<String>,
     pub(super) codec: Option<String>,
-    /// Duration of a tick, s.
+    /// Duration of a tick of the time stamps, s; `None` before it is reported.
     tick_s: Option<f64>,
     pub(super) times_s: Vec<Option<f64>>,
     /// Pixel format and size of the first frame.
@@ -85,7 +85,7 @@ impl Look {
         Ok(())
     }
 
-    /// Parses a frame, `n:   0 pts:      0 pts_time:0 … fmt:yuv420p … s:64x48 …`.
+    /// Parses the report on a frame: `n:   0 pts:      0 pts_time:0 … fmt:yuv420p … s:64x48 …`.
     fn frame(&mut self, path: &Path, shown: &str) -> Result<(), VideoError> {
         let size = value(shown, " s:").and_then(|size| size.split_once('x'));
         let size = size.and_then(|(width, height)| {

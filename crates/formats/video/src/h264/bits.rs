@@ -7,7 +7,7 @@ pub(super) struct Bits {
 }
 
 impl Bits {
-    /// Reads the unit `unit` after its first byte.
+    /// Reads the unit `unit` from its second byte.
     pub(super) fn new(unit: &[u8]) -> Bits {
         let mut bytes = Vec::with_capacity(unit.len());
         let mut zeros = 0;
@@ -29,7 +29,7 @@ impl Bits {
         Some(bit == 1)
     }
 
-    /// Next `count` bits, at most 32.
+    /// Next `count` bits, at most 32; `None` at the end of the unit.
     pub(super) fn bits(&mut self, count: u32) -> Option<u32> {
         (0..count).try_fold(0, |number, _| Some(number << 1 | u32::from(self.bit()?)))
     }

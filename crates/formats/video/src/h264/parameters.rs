@@ -11,7 +11,7 @@ pub(crate) struct Sequence {
     luma_bits: u32,
     chroma_bits: u32,
     reference_frames: u32,
-    /// Macroblocks of 16×16 pixels in a frame.
+    /// Number of macroblocks of 16×16 pixels in a frame.
     blocks: u64,
     has_fields: bool,
     is_cut_left_or_top: bool,
@@ -19,13 +19,13 @@ pub(crate) struct Sequence {
     /// Size of the shown picture, pixels.
     pub(super) width: u32,
     pub(super) height: u32,
-    /// True for samples from 0 to 255, if the stream states the range.
+    /// True for samples from 0 to 255; `None` if the stream states no range.
     pub(super) is_full_range: Option<bool>,
-    /// Matrix number of ITU-T H.273, if the stream states one.
+    /// Matrix number of ITU-T H.273; `None` if the stream states none.
     pub(super) matrix: Option<u16>,
 }
 
-/// Limits of level 6.2: macroblocks of a frame, and macroblocks of all reference frames (ITU-T H.264, table A-1).
+/// Limits of level 6.2: number of macroblocks of a frame, and of all reference frames (ITU-T H.264, table A-1).
 const MOST_BLOCKS: u64 = 139_264;
 const MOST_KEPT_BLOCKS: u64 = 696_320;
 
@@ -115,7 +115,7 @@ impl Sequence {
         })
     }
 
-    /// Codec with its profile.
+    /// Name of the codec, with its profile.
     pub(crate) fn codec(&self) -> String {
         let profile = match self.profile {
             66 => "Baseline",
@@ -144,7 +144,7 @@ impl Sequence {
         }
     }
 
-    /// Reason why this process cannot decode it; `None` if it can.
+    /// Reason why this process cannot decode the stream; `None` if it can.
     pub(super) fn foreign(&self) -> Option<&'static str> {
         if self.chroma != 1 {
             Some("other than 4:2:0")
@@ -163,7 +163,7 @@ impl Sequence {
         }
     }
 
-    /// True if it exceeds every level of the standard.
+    /// True if the stream exceeds every level of the standard.
     pub(super) fn is_too_large(&self) -> bool {
         let kept = self
             .blocks

@@ -1,4 +1,4 @@
-//! Units of an H.264 stream: with length prefixes in MP4, with start codes for decoders.
+//! Units of an H.264 stream. They have length prefixes in MP4, and start codes for decoders.
 
 use super::parameters::Sequence;
 use crate::error::VideoError;
@@ -7,7 +7,7 @@ use crate::source::Source;
 /// Contents of `avcC`.
 #[derive(Clone, Debug)]
 pub(crate) struct Settings {
-    /// Size of the length of a unit, bytes: 1, 2 or 4.
+    /// Size of the length prefix of a unit, bytes: 1, 2 or 4.
     length_bytes: usize,
     /// All parameter sets, with start codes.
     pub(super) parameters: Vec<u8>,
@@ -40,7 +40,7 @@ impl UnitKind {
 }
 
 impl Settings {
-    /// Parses the settings `bytes` at `offset` in the file.
+    /// Parses the settings `bytes`, which are at `offset` in the file.
     pub(super) fn read(source: &Source, bytes: &[u8], offset: u64) -> Result<Settings, VideoError> {
         let wrong = |at: usize, problem: &str| {
             source.damaged(offset + at as u64, format!("settings of H.264: {problem}"))
@@ -82,7 +82,7 @@ impl Settings {
         Ok(settings)
     }
 
-    /// Units of the sample `bytes` at `offset`, each with its own offset in the file.
+    /// Units of the sample `bytes` at `offset`, each with its offset in the file.
     pub(super) fn units<'a>(
         &self,
         source: &Source,
@@ -155,7 +155,7 @@ pub(super) fn push_unit(stream: &mut Vec<u8>, unit: &[u8]) {
     stream.extend_from_slice(unit);
 }
 
-/// Bytes after a length of two bytes. Advances `at`. `None` if they are truncated.
+/// Bytes that follow a length of two bytes. Advances `at` past them. `None` if the bytes are truncated.
 fn sized<'a>(bytes: &'a [u8], at: &mut usize) -> Option<&'a [u8]> {
     let length = bytes.get(*at..*at + 2)?;
     let length = usize::from(u16::from_be_bytes([length[0], length[1]]));

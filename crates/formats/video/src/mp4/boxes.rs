@@ -54,7 +54,7 @@ impl BoxAt {
         })
     }
 
-    /// Content, at most `limit` bytes.
+    /// Reads the content, at most `limit` bytes.
     pub(super) fn fields(
         &self,
         source: &Source,
@@ -139,12 +139,12 @@ pub(super) struct Fields {
 }
 
 impl Fields {
-    /// Offset of the next value in the file.
+    /// Offset in the file of the next value.
     pub(super) fn offset(&self) -> u64 {
         self.from + self.at as u64
     }
 
-    /// Bytes left.
+    /// Number of bytes left.
     pub(super) fn left(&self) -> usize {
         self.bytes.len() - self.at
     }
@@ -184,7 +184,7 @@ impl Fields {
         Ok(u64::from_be_bytes(self.take(source)?))
     }
 
-    /// Version of a box that has one; skips its flags.
+    /// Version of a box that has a version. Skips the flags.
     pub(super) fn version(&mut self, source: &Source) -> Result<u8, VideoError> {
         Ok(self.take::<4>(source)?[0])
     }
@@ -204,7 +204,7 @@ impl Fields {
         Ok(())
     }
 
-    /// Reads a count of entries of `entry` bytes each. Checks that they fit.
+    /// Reads a count of entries of `entry` bytes each. Checks that the entries fit into the box.
     pub(super) fn count(&mut self, source: &Source, entry: usize) -> Result<usize, VideoError> {
         let at = self.offset();
         let count = self.u32(source)?;

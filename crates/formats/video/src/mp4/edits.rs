@@ -1,4 +1,4 @@
-//! Edit list of a track: the presented part.
+//! Edit list of a track, which states the presented part.
 
 use super::boxes::BoxAt;
 use crate::error::VideoError;
@@ -8,9 +8,9 @@ use crate::source::Source;
 /// Presented part of a track.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Edit {
-    /// Delay before the part, in ticks of the movie.
+    /// Delay before the presented part, in ticks of the movie.
     pub(super) delay: u64,
-    /// First presented tick of the track.
+    /// First presented time, in ticks of the track.
     pub(super) from: i64,
     /// Duration in ticks of the movie; `None` for the rest of the track.
     pub(super) duration: Option<u64>,

@@ -5,16 +5,16 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// Description of a track's samples.
+/// Description of the samples of a track.
 #[derive(Clone, Debug)]
 pub(crate) struct Entry {
-    /// Number of descriptions. This is the first.
+    /// Number of descriptions, of which this is the first.
     pub(super) count: u32,
     pub(crate) coding: Coding,
     /// Size in the container, pixels.
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// Colours in the container, if stated.
+    /// Colours that the container states; `None` if it states none.
     pub(crate) colour: Option<ColourTag>,
 }
 
@@ -94,7 +94,7 @@ pub(super) fn read(source: &Source, descriptions: &BoxAt) -> Result<Entry, Video
     })
 }
 
-/// Returns the next part of a description. Ignores padding that is not a box. Some writers leave it at the end.
+/// Returns the next part of a description. Ignores padding that is not a box, which some writers leave at the end.
 fn next_part(inner: &mut Boxes<'_>) -> Result<Option<BoxAt>, VideoError> {
     match inner.next() {
         Err(VideoError::Damaged { .. }) => Ok(None),
@@ -143,7 +143,7 @@ fn coding(source: &Source, found: &BoxAt, settings: Option<BoxAt>) -> Result<Cod
     }
 }
 
-/// Codec number in a description of MPEG-4 systems: nested descriptors, each with a tag and a size in groups of 7 bits.
+/// Codec number in a description of MPEG-4 systems. The description consists of nested descriptors, each with a tag and a size in groups of 7 bits.
 fn object_type(bytes: &[u8]) -> Option<u8> {
     // Skips version and flags.
     let mut rest = bytes.get(4..)?;
@@ -165,7 +165,7 @@ fn object_type(bytes: &[u8]) -> Option<u8> {
     behind.get(size + 1).copied()
 }
 
-/// Reads matrix and range, if the box states them as numbers.
+/// Reads matrix and range; `None` if the box does not state them as numbers.
 fn read_colour(source: &Source, found: &BoxAt) -> Result<Option<ColourTag>, VideoError> {
     let mut fields = found.fields(
         source,
@@ -185,7 +185,7 @@ fn read_colour(source: &Source, found: &BoxAt) -> Result<Option<ColourTag>, Vide
     }))
 }
 
-/// Checks that the samples are in the file itself, with the box `minf` of its track.
+/// Checks that the samples are in the file itself. `information` is the box `minf` of the track.
 pub(super) fn check_is_in_file(source: &Source, information: &BoxAt) -> Result<(), VideoError> {
     let references = match information.find(source, b"dinf")? {
         Some(place) => place.find(source, b"dref")?,

@@ -1,4 +1,4 @@
-//! Samples of fragmented MP4 files. Each fragment has its own tables beside its frames.
+//! Samples of fragmented MP4 files, in which each fragment has separate tables.
 
 use super::boxes::{BoxAt, Boxes, Fields};
 use super::samples::{Sample, too_many};
@@ -6,7 +6,7 @@ use crate::error::VideoError;
 use crate::limits;
 use crate::source::Source;
 
-/// Defaults for samples without their own values in a fragment.
+/// Defaults for samples whose fragment states no values.
 #[derive(Clone, Copy, Debug, Default)]
 struct Defaults {
     duration: u32,
@@ -17,7 +17,7 @@ struct Defaults {
 /// Flag of a sample at which decoding cannot begin.
 const IS_NO_SYNC: u32 = 0x1_0000;
 
-/// Appends the samples of the track `number` in all fragments of the file. False if only ffmpeg can read them.
+/// Appends the samples of the track `number` in all fragments of the file. Returns false if only ffmpeg can read the fragments.
 pub(super) fn append(
     source: &Source,
     movie: &BoxAt,
@@ -77,7 +77,7 @@ struct Reader<'a> {
     source: &'a Source,
     number: u32,
     defaults: Defaults,
-    /// Total size of the samples so far, bytes. Samples cannot overlap.
+    /// Total size of the samples so far, bytes. It is limited, because samples cannot overlap.
     bytes: u64,
     samples: &'a mut Vec<Sample>,
 }

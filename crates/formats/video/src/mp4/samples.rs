@@ -12,7 +12,7 @@ pub(crate) struct Sample {
     pub(crate) offset: u64,
     /// Size, bytes.
     pub(crate) size: u32,
-    /// True if decoding can begin here, as stated by the container.
+    /// True if decoding can begin at this sample, as the container states.
     pub(crate) is_sync: bool,
     /// Presentation time, in ticks of the track, before edits.
     pub(crate) time: i64,
@@ -84,7 +84,7 @@ fn read_sizes(source: &Source, tables: &BoxAt) -> Result<Vec<u32>, VideoError> {
     (0..count).map(|_| fields.u32(source)).collect()
 }
 
-/// Reads sizes of 4, 8 or 16 bits.
+/// Reads sample sizes of 4, 8 or 16 bits.
 fn read_small_sizes(source: &Source, found: &BoxAt) -> Result<Vec<u32>, VideoError> {
     let (mut fields, _) = table(source, found)?;
     let at = fields.offset();
@@ -116,7 +116,7 @@ fn read_small_sizes(source: &Source, found: &BoxAt) -> Result<Vec<u32>, VideoErr
     Ok(sizes)
 }
 
-/// Offset of each sample, from the offsets of chunks and their numbers of samples.
+/// Offset of each sample, computed from the offsets of chunks and the numbers of samples in each.
 fn read_offsets(source: &Source, tables: &BoxAt, sizes: &[u32]) -> Result<Vec<u64>, VideoError> {
     let (mut chunks, is_long) = match tables.find(source, b"co64")? {
         Some(found) => (table(source, &found)?.0, true),
@@ -213,7 +213,7 @@ fn read_times(source: &Source, tables: &BoxAt, count: usize) -> Result<Vec<i64>,
     Ok(times)
 }
 
-/// Adds the delay between decoding and presentation of each sample.
+/// Adds to `times` the delay between decoding and presentation of each sample.
 fn add_delays(source: &Source, found: &BoxAt, times: &mut [i64]) -> Result<(), VideoError> {
     let (mut fields, _) = table(source, found)?;
     let count = times.len();

@@ -42,7 +42,7 @@ pub(super) fn open(path: &Path, decoders: &Decoders) -> Result<Opened, VideoErro
     ))
 }
 
-/// Opens a clip with ffmpeg, if it is available.
+/// Opens a clip with ffmpeg; an error if ffmpeg is not available.
 fn open_foreign(path: &Path, known: Known, decoders: &Decoders) -> Result<Opened, VideoError> {
     let Some(program) = &decoders.ffmpeg else {
         return Err(known.no_decoder(path));
@@ -161,7 +161,7 @@ fn packets_of(track: &Track) -> Vec<Packet> {
     samples.map(packet).collect()
 }
 
-/// Opens a clip of JPEG packets. If a frame consists of two fields, ffmpeg combines them.
+/// Opens a clip of JPEG packets. If a frame consists of two fields, ffmpeg combines the fields.
 fn of_jpegs(
     source: Source,
     info: VideoInfo,

@@ -1,4 +1,4 @@
-//! Tests of AV1 in a confined child. Luma equals the luma of libdav1d. A child that dies gives an error with the name of the clip.
+//! Tests of AV1 in a confined child. Luma must equal that of libdav1d. A child that exits early gives an error with the name of the clip.
 
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -9,7 +9,7 @@ use taceva_video::{Colours, Decoders, Video, VideoError};
 
 const CLIPS: [&str; 2] = ["mp4-av1", "lerobot-v3-av1"];
 
-/// Example program that is the child. It is beside the tests if the whole package is tested.
+/// Decoders with the example program as child. The program is beside the tests if the whole package is tested; `None` otherwise.
 fn child() -> Option<Decoders> {
     let test = std::env::current_exe().expect("this test is a program");
     let built = test
@@ -73,7 +73,7 @@ fn a_frame_is_the_same_whether_all_are_read_or_it_alone() {
     }
 }
 
-/// Result of the first frame if a shell runs `script` instead of the child.
+/// Result of reading the first frame if a shell runs `script` in place of the child.
 #[cfg(unix)]
 fn first_by(script: &str) -> String {
     let decoders = by(vec!["sh".into(), "-c".into(), script.into()]);

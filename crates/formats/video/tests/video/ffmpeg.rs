@@ -1,4 +1,4 @@
-//! Tests of an external ffmpeg. Luma from raw frames equals the luma of the peer. Damage is an error.
+//! Tests of an external ffmpeg. Luma from raw frames must equal the luma that another decoder gives. Damage must be an error.
 
 mod odd_clips;
 use std::path::{Path, PathBuf};
@@ -38,7 +38,7 @@ fn open(file: &Path, decoders: &Decoders) -> Video {
     Video::open(file, decoders).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Makes a clip for a test with ffmpeg.
+/// Creates a clip for a test with ffmpeg.
 fn make(decoders: &Decoders, arguments: &[&str], to: &Path) {
     let program = decoders.ffmpeg.as_ref().expect("there");
     let mut command = Command::new(program);

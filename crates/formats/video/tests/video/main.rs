@@ -1,4 +1,4 @@
-//! Tests with clips of every container: frames as a peer decodes them, and damaged copies.
+//! Tests with clips of every container: frames as another decoder gives them, and damaged copies.
 
 #[cfg(feature = "av1")]
 mod av1;

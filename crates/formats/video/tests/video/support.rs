@@ -1,4 +1,4 @@
-//! Shared code of tests: the clips, the values of a peer, and damaged copies.
+//! Shared code of tests: the clips, the values of another decoder, and damaged copies.
 
 #![allow(dead_code)]
 
@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use sha2::{Digest, Sha256};
 use taceva_video::{Colours, Decoders, Picture, Video, VideoError, VisitError};
 
-/// File `name` of the folder `clip` in this crate, or else among the shared recordings.
+/// File `name` in the folder `clip` of this crate or, if it does not exist, of the shared recordings.
 pub(crate) fn path(clip: &str, name: &str) -> PathBuf {
     let crate_folder = Path::new(env!("CARGO_MANIFEST_DIR"));
     let own = crate_folder.join("tests/data").join(clip);
@@ -50,7 +50,7 @@ pub(crate) fn bytes(picture: Picture) -> Vec<u8> {
     }
 }
 
-/// Digests of the frames `sorted`, in the order shown.
+/// Digests of the frames `sorted`, in the order returned.
 pub(crate) fn digests(clip: &Video, sorted: &[u64], colours: Colours) -> Vec<(u64, String)> {
     let mut shown = Vec::new();
     clip.visit(sorted, colours, &mut |index, picture| {
@@ -84,8 +84,8 @@ pub(crate) struct Damage {
     pub(crate) read: usize,
 }
 
-/// Reads damaged copies of the file: 6 truncated, and 40 with flipped bits at 1 or 6 places. Each gives frames or a typed error. Reading
-/// ends, and the process stays below 512 MiB.
+/// Reads damaged copies of the file: 6 truncated, and 40 with flipped bits at 1 or 6 places. Each must give frames or a typed error. Reading must end, and the
+/// process must stay below 512 MiB.
 pub(crate) fn damage(file: &Path, decoders: &Decoders) -> Damage {
     let whole = std::fs::read(file).expect("readable");
     let length = whole.len();

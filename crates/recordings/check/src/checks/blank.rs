@@ -1,4 +1,4 @@
-//! TAC025: empty frames and signals, with the same value everywhere.
+//! TAC025: blank frames and signals, which have the same value everywhere.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

@@ -14,17 +14,18 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of samples.
+/// Minimum number of samples for the check.
 const LEAST: usize = 20;
-/// Greatest range of one byte, in counts, with a tolerance for rounding.
+/// Maximum range of one byte, in counts, with a tolerance for rounding.
 const BYTE: f64 = 255.5;
-/// Number of counts of one byte.
+/// Number of different counts of one byte.
 const COUNTS: f64 = 256.0;
 /// Minimum jump, in counts.
 const JUMP: f64 = 200.0;
-/// Number of changes before and after a jump which show that the force continues without the jump. A release or a new staircase does not continue.
+/// Number of changes, before and after a jump, which show that the force continues if the jump is removed. The force does not continue after a release or a new
+/// staircase.
 const NEAR: usize = 3;
-/// Greatest change of a slowly varying force between neighbours, in counts. At most one change in `SHARE` may exceed it.
+/// Maximum change of a slowly varying force between neighbours, in counts. At most one change in `SHARE` may exceed it.
 const SLOW: f64 = 64.0;
 const SHARE: usize = 8;
 /// Tolerance for rounded values, in counts.

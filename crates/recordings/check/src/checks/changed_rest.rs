@@ -17,12 +17,12 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of untouched pictures, and of contact pictures, for a mean.
+/// Minimum number of untouched pictures, and of pictures with contact, from which a mean is computed.
 const LEAST: usize = 3;
-/// Force in N, and depth in mm, below which there is no contact.
+/// Limits below which there is no contact: force, N, and depth, mm.
 const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
-/// Share of the greatest load above which a picture shows contact.
+/// Fraction of the greatest load above which a picture shows contact.
 const PRESSED: f64 = 0.5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

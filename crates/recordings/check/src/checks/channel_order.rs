@@ -14,7 +14,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Least difference of red and blue, as a share of full scale, that distinguishes a swap from a change of light.
+/// Minimum difference of red and blue, as a fraction of full scale, that indicates a swap and not a change of light.
 const CLEAR: f64 = 0.02;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

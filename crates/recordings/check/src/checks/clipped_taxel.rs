@@ -18,9 +18,9 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples with the value at the end of the range.
 const LEAST: u64 = 5;
-/// Least frequency of that value: one in this many samples.
+/// Minimum frequency of the value at the end of the range: one in this many samples.
 const SHARE: u64 = 100;
-/// Least ratio of the frequency of that value to the frequency of the next value.
+/// Minimum ratio of the frequency of the value at the end of the range to that of the next value.
 const TIMES: u64 = 3;
 /// Maximum number of taxels named in a message; the others are counted.
 const NAMED: usize = 5;
@@ -52,7 +52,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::overall(Severity::Warning, message)]
 }
 
-/// Value at which a taxel is clipped, and the number of samples with this value.
+/// Value at which a taxel is clipped, and the number of samples with this value; `None` if the taxel is not clipped.
 fn end_of(facts: &SignalFacts, position: usize) -> Option<ValueCount> {
     let TaxelFacts {
         least,

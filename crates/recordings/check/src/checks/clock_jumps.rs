@@ -19,19 +19,19 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum jump within one contact, as a multiple of the usual step. `JUMP_S` is the minimum in seconds.
+/// Minimum jump within one contact: a multiple of the usual step, and (`JUMP_S`) a time in seconds.
 const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
-/// Maximum frequency of jumps without contact points: a single jump, or one in this many steps. More jumps are pauses between presses.
+/// Maximum frequency of jumps in recordings without contact points: a single jump, or one in this many steps. More jumps are pauses between presses.
 const SELDOM: usize = 100;
-/// Greatest step of a regular stream, in usual steps, which nine in ten steps must not exceed. Jumps without contact points are searched only in
-/// such streams.
+/// Maximum step of a regular stream, in usual steps, for nine in ten steps. Recordings without contact points are searched for jumps only if they are regular
+/// streams.
 const REGULAR_STEPS: f64 = 3.0;
-/// Difference of consecutive stamps that indicates two clocks, s: twelve days. A Unix clock and an uptime clock are 54 years apart.
+/// Difference between consecutive time stamps that indicates two clocks, s: twelve days. A Unix clock and an uptime clock are 54 years apart.
 const TWO_CLOCKS_S: f64 = 1e6;
-/// First plausible Unix time of a recording (1990), s. `RUNNING_S` is the greatest plausible uptime (32 years).
+/// Earliest plausible Unix time of a recording (1990), s. `RUNNING_S` is the maximum plausible uptime (32 years), s.
 const UNIX_FROM_S: f64 = 631_152_000.0;
-/// Last plausible Unix time of a recording (2100), s.
+/// Latest plausible Unix time of a recording (2100), s.
 const UNIX_TO_S: f64 = 4_102_444_800.0;
 const RUNNING_S: f64 = 1e9;
 
@@ -62,7 +62,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Last stamp of each clock, s.
+/// Last time stamp of each clock, s.
 fn last_stamps(table: &Table) -> Vec<f64> {
     let mut last: BTreeMap<(Option<&str>, Option<&str>), f64> = BTreeMap::new();
     for (row, time) in table.t_s().iter().enumerate() {
@@ -77,7 +77,7 @@ fn last_stamps(table: &Table) -> Vec<f64> {
     last.into_values().collect()
 }
 
-/// Finds Unix clocks beside clocks that count from a start.
+/// Finds Unix clocks in a recording that also has clocks counting from a start.
 fn of_two_kinds(last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;
@@ -88,7 +88,7 @@ fn of_two_kinds(last: &[f64]) -> Option<Found> {
         .then(|| Found::overall(Severity::Warning, message))
 }
 
-/// Finds stamps that jump ahead by less than `TWO_CLOCKS_S`, within one contact or between rows without contact points.
+/// Finds time stamps that jump ahead by less than `TWO_CLOCKS_S`, within one contact or between rows without contact points.
 fn set_within(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(stream) = Stream::of(evidence) else {
         return Vec::new();
@@ -137,7 +137,7 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
     Some(evidence.found(Severity::Warning, message, &rows))
 }
 
-/// Finds a declared clock that contradicts the last stamps.
+/// Finds a declared clock that contradicts the last time stamps.
 fn contradicted(evidence: &Evidence<'_>, last: &[f64]) -> Option<Found> {
     let least = last.iter().copied().reduce(f64::min)?;
     let most = last.iter().copied().reduce(f64::max)?;

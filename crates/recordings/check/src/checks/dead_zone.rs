@@ -19,10 +19,10 @@ pub(super) static CHECK: Check = Check {
 /// Minimum number of zeros under load. `SHARE` is their minimum frequency.
 const LEAST: usize = 10;
 const SHARE: usize = 20;
-/// Minimum correlation of nonzero forces with picture changes, which shows that the pictures depend on the load.
+/// Minimum correlation of nonzero forces with picture changes. It shows that the pictures depend on the load.
 const CLEAR: f64 = 0.7;
-/// Share of the way from the picture change at rest to the median change with force above which there is contact. Rest is the quantile 1 /
-/// `AT_REST` of the zero-force pictures.
+/// Threshold of contact between two picture changes, as a fraction: 0 is the change at rest, 1 the median change with force. The change at rest is the quantile
+/// 1 / `AT_REST` of the pictures with zero force.
 const PRESSED: f64 = 0.25;
 const AT_REST: usize = 10;
 
@@ -72,7 +72,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![evidence.found(Severity::Warning, message, &pressed)]
 }
 
-/// Quantile 1 / `parts` of `numbers`; 0 if there are none.
+/// Quantile 1 / `parts` of `numbers`; 0 for no numbers.
 fn ranked(numbers: impl Iterator<Item = f64>, parts: usize) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);

@@ -15,30 +15,30 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Lengths of steps that count as gaps, in periods. Longer steps are pauses.
+/// Lengths of steps that count as gaps, in frame periods. Longer steps are pauses.
 const GAP: std::ops::Range<f64> = 1.5..10.5;
-/// Maximum relative deviation of a step from the usual step, and minimum share of such steps, in a regular stream.
+/// Maximum relative deviation of a step from the usual step in a regular stream. `REGULAR` is the minimum fraction of steps within it.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
-/// For streams with more missing frames: the period is searched near the length that one in this many steps undercuts.
+/// Quantile of short steps, near which the period is searched in streams with many missing frames: one step in this many is shorter.
 const SHORT: usize = 10;
-/// Minimum share of steps that are one period long.
+/// Minimum fraction of steps that are one period long.
 const SINGLE: f64 = 0.3;
-/// Maximum deviation of a step from a multiple of the period, in periods, and minimum share of such steps.
+/// Maximum deviation of a step from a multiple of the period, in periods. `MULTIPLES` is the minimum fraction of steps within it.
 const WHOLE: f64 = 0.2;
 const MULTIPLES: f64 = 0.9;
-/// Resolutions to which stamps are truncated, s. A steady stream of 60 Hz in hundredths of a second has steps of one and two of them.
+/// Resolutions to which time stamps are truncated, s. For example, a steady stream of 60 Hz in hundredths of a second has steps of one and two hundredths.
 const PLACES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
-/// Maximum relative deviation of a period from such a resolution, and maximum drift of truncated stamps from an even pace, in periods.
+/// Maximum relative deviation of a period from one of these resolutions. `STRAY` is the maximum drift of truncated time stamps from an even pace, in periods.
 const AT_PLACE: f64 = 0.01;
 const STRAY: f64 = 2.0;
-/// Share of missing frames above which the finding is a warning.
+/// Fraction of missing frames above which the finding is a warning.
 const WARN: f64 = 0.01;
 
 /// Missing frames of a stream.
 #[derive(Debug)]
 pub(super) struct Missing {
-    /// Number of missing frames, whole.
+    /// Number of missing frames, a whole number.
     pub(super) frames: f64,
     /// Rows after the gaps.
     rows: Vec<usize>,
@@ -139,7 +139,7 @@ fn period(stream: &Stream) -> Option<f64> {
     (is_period && !is_cut(stream, period)).then_some(period)
 }
 
-/// True if the steps are those of an even pace with stamps truncated to a decimal place near `period`.
+/// True if the steps fit an even pace whose time stamps are truncated to a decimal place near `period`.
 fn is_cut(stream: &Stream, period: f64) -> bool {
     let is_pause = |step: &Step| step.seconds / period >= GAP.end;
     let steps = stream.steps.iter().filter(|step| !is_pause(step));
@@ -166,7 +166,7 @@ fn is_cut(stream: &Stream, period: f64) -> bool {
 mod tests {
     use super::*;
 
-    /// Number of missing frames in a stream with these steps, in periods of 1/30 s.
+    /// Number of missing frames in a stream whose steps are these multiples of 1/30 s.
     fn missing_of(periods: &[f64]) -> f64 {
         let seconds: Vec<f64> = periods.iter().map(|periods| periods / 30.0).collect();
         Missing::of(&Stream::of_seconds(&seconds)).map_or(0.0, |missing| missing.frames)

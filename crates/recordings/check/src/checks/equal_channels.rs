@@ -13,7 +13,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of samples; in fewer, two channels may be equal by chance.
+/// Minimum number of samples. In fewer samples, two channels may be equal by chance.
 const LEAST: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -48,7 +48,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Number of samples with both labels, and the sign between them. `None` if the labels differ somewhere or never change.
+/// Number of samples with both labels, and the sign between the labels. `None` if the labels differ in a sample or never change.
 fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f64)> {
     let (one, other) = (evidence.table.truth(one), evidence.table.truth(other));
     let pairs: Vec<(f64, f64)> = (0..one.len())
@@ -69,7 +69,7 @@ fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f6
         .map(|sign| (pairs.len(), sign))
 }
 
-/// Column that `label` was imported from.
+/// Column from which `label` was imported; `None` for a recording, and for several columns.
 fn source(evidence: &Evidence<'_>, label: &str) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == label)?;

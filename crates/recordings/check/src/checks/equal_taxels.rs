@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of rows; in fewer, two taxels may be equal by chance.
+/// Minimum number of rows. In fewer rows, two taxels may be equal by chance.
 const LEAST: u64 = 5;
 /// Maximum number of names in a message.
 const NAMED: usize = 5;

@@ -17,9 +17,9 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of depths for the check.
 const LEAST: usize = 3;
-/// Deepest plausible press, mm. The thickest gels on sale have 10 mm.
+/// Maximum plausible depth of a press, mm. The thickest gels on sale have 10 mm.
 const DEEPEST_MM: f64 = 12.0;
-/// Share of the greatest depth. Values that never fall below it, and exceed a length in mm, are distances.
+/// Fraction of the greatest depth. Depths that never fall below this fraction, and exceed a length in mm, are distances.
 const NEVER_BELOW: f64 = 0.5;
 const DISTANCE_MM: f64 = 5.0;
 

@@ -20,24 +20,23 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples in a stream for detecting a lag.
 const LEAST: usize = 50;
-/// Maximum lag that is searched, in steps, and as a fraction of the samples.
+/// Maximum lag that is searched: a number of steps, and a fraction of the samples.
 const FURTHEST: usize = 60;
 const SHARE: usize = 4;
 /// Minimum correlation of pictures and forces at the lag. `BETTER` is the minimum factor by which the lag reduces the unexplained variance.
 const CLEAR: f64 = 0.6;
 const BETTER: f64 = 1.5;
-/// Number of parts of the recording. Most parts with a varying force must show the lag too, because a drift shifts the lag only in the whole
-/// recording.
+/// Number of parts of the recording. Most parts with a varying force must also show the lag, because a drift shifts the lag only in the whole recording.
 const PARTS: usize = 3;
-/// Minimum variance of the force in such a part, as a share of the greatest variance.
+/// Minimum variance of the force in a part, as a fraction of the greatest variance.
 const LOADED: f64 = 0.1;
 /// Maximum lag that the slow recovery of a gel explains, s.
 const SLOW_GEL_S: f64 = 0.1;
 
-/// Maximum lag as a share of the duration of the recording.
+/// Maximum lag as a fraction of the duration of the recording.
 const OF_RECORDING: f64 = 0.1;
 
-/// Minimum variance of a varying series, as a share of its squared mean.
+/// Minimum variance of a varying series, as a fraction of its squared mean.
 const VARIES: f64 = 1e-20;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -98,7 +97,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found.into_iter().collect()
 }
 
-/// Map entry that removes a lag of `seconds` of the channel `name`. `None` unless the channel is joined by time with one lag.
+/// Map entry that removes a lag of `seconds` of the channel `name`. `None` unless the channel is joined by time with a single lag.
 fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == name)?;
@@ -115,12 +114,12 @@ fn line(evidence: &Evidence<'_>, name: &str, seconds: f64) -> Option<String> {
     ))
 }
 
-/// True if the correlation at a lag is strong, and clearly better than without a lag.
+/// True if the correlation at a lag is strong, and clearly better than `standing`, the correlation without a lag.
 fn is_clear(best: f64, standing: f64) -> bool {
     best >= CLEAR && 1.0 - standing.powi(2) >= BETTER * (1.0 - best.powi(2))
 }
 
-/// Absolute correlation of pictures with the forces `later` steps after them.
+/// Absolute correlation of pictures with the forces `later` steps afterwards.
 fn correlation_at(streams: &[Vec<Instant>], later: i64) -> f64 {
     let shift = usize::try_from(later.unsigned_abs()).unwrap_or(usize::MAX);
     let shifted = || {
@@ -140,7 +139,7 @@ fn correlation_at(streams: &[Vec<Instant>], later: i64) -> f64 {
     .abs()
 }
 
-/// The lag with the best correlation of forces and pictures.
+/// Lag with the best correlation of forces and pictures.
 #[derive(Debug)]
 struct Lag {
     /// Number of samples by which the force lags behind the picture.
@@ -151,10 +150,10 @@ struct Lag {
     standing: f64,
 }
 
-/// Time in s, picture value, and force.
+/// Time, s, picture value, and force.
 type Instant = (f64, f64, f64);
 
-/// Streams of each sensor unit, centred on the means of the unit, because one unit may be brighter than another.
+/// Streams of each sensor unit, with the means of the unit subtracted, because units may differ in brightness.
 fn alike(streams: BTreeMap<(Option<&str>, Option<&str>), Vec<Instant>>) -> Vec<Vec<Instant>> {
     let mut sums: BTreeMap<Option<&str>, [f64; 3]> = BTreeMap::new();
     for ((unit, _), stream) in &streams {
@@ -282,7 +281,7 @@ pub(super) fn correlation(
 mod tests {
     use super::*;
 
-    /// Presses of different depths at thirty samples per second, with forces `later` steps after their pictures.
+    /// Presses of different depths at thirty samples per second, with forces `later` steps after the pictures.
     fn presses(later: usize) -> Vec<(f64, f64, f64)> {
         let press = |number: usize| -> f64 {
             let (within, which) = (number % 40, number / 40);

@@ -17,9 +17,9 @@ pub(super) static CHECK: Check = Check {
 
 /// Distance of Tukey's outer fences from the quartiles, in interquartile ranges.
 const FENCE: f64 = 3.0;
-/// Minimum gap below the outliers, as a share of the distance from the quartile to the label below the gap.
+/// Minimum gap below the outliers, as a fraction of the distance from the quartile to the label below the gap.
 const GAP: f64 = 0.5;
-/// Maximum frequency of outliers: one in this many labels. More values form a group.
+/// Maximum frequency of outliers: one in this many labels. More values are a group.
 const MOST: usize = 20;
 /// Minimum number of values for quartiles.
 const LEAST: usize = 20;
@@ -57,7 +57,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
 /// Maximum number of pictures or rows in a map entry.
 const LISTED: usize = 20;
 
-/// Map entry that leaves out `rows`; empty if they were not imported.
+/// Map entry that leaves out `rows`; empty if the rows were not imported.
 fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     let line = match pictures_of(evidence, rows) {
         Some(names) => Some(("frames_named", names)),
@@ -77,7 +77,7 @@ fn drop_line(evidence: &Evidence<'_>, rows: &[usize]) -> String {
     )
 }
 
-/// Pictures of `rows`, as named in a map; `None` if they are not files, or if a row has several pictures.
+/// Pictures of `rows`, as a map names them; `None` if they are not files, or if a row has several pictures.
 fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let header = evidence.header;
     let pictures = header.mapping().pictures;
@@ -94,7 +94,7 @@ fn pictures_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
         .collect()
 }
 
-/// Numbers of `rows` in their tables, as a map names them, with the table if there are several.
+/// Numbers of `rows` in their tables, as a map names them, with the table if there are several. `None` if a row has no such number.
 fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     let (tables, numbers) = (evidence.table.source_table(), evidence.table.source_row());
     let are_several = tables.windows(2).any(|pair| pair[0] != pair[1]);
@@ -111,7 +111,7 @@ fn numbers_of(evidence: &Evidence<'_>, rows: &[usize]) -> Option<Vec<String>> {
     rows.iter().map(number).collect()
 }
 
-/// Values far above all others.
+/// Group of values far above all others.
 struct Outliers {
     /// Rows of the outliers, ordered by value.
     rows: Vec<usize>,
@@ -121,8 +121,8 @@ struct Outliers {
     next: f64,
 }
 
-/// Values above Tukey's outer fence and above a gap. The gap must exceed the interquartile range and [`GAP`] times the tail below it. The second
-/// condition accepts long tails, such as a few presses with much shear.
+/// Values above Tukey's outer fence and above a gap. The gap must exceed the interquartile range, and [`GAP`] times the tail below it. The second condition
+/// accepts long tails, such as a few presses with much shear.
 fn above(mut values: Vec<(f64, usize)>) -> Option<Outliers> {
     if values.len() < LEAST {
         return None;

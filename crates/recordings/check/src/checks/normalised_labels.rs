@@ -14,11 +14,11 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of different values that define a range.
+/// Minimum number of different values from which a range is determined.
 const VALUES: usize = 10;
 /// Tolerance at the ends of the range, for labels rounded to binary32.
 const ROUNDING: f64 = 1e-6;
-/// Minimum number of channels with such a range, because a single one may have it by chance.
+/// Minimum number of channels with such a range, because a single channel may have it by chance.
 const CHANNELS: usize = 2;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -59,7 +59,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     Vec::new()
 }
 
-/// Units of the channels called `names`, each once.
+/// Units of the channels called `names`, each unit once.
 fn units(ends: &[(&Channel, [f64; 2])], names: &[&str]) -> String {
     let mut units: Vec<String> = ends
         .iter()
@@ -70,7 +70,7 @@ fn units(ends: &[(&Channel, [f64; 2])], names: &[&str]) -> String {
     units.join(" and ")
 }
 
-/// Least and greatest label; `None` if there are few different values.
+/// Least and greatest label; `None` if there are too few different values.
 fn ends(evidence: &Evidence<'_>, position: usize) -> Option<[f64; 2]> {
     let column = evidence.table.truth(position);
     let mut values: Vec<f64> = (0..column.len())

@@ -125,13 +125,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// True for a log joined by time that is faster than the tables: its unused rows outnumber their rows.
+/// True for a log joined by time that is faster than the tables: its unused rows outnumber the rows of the tables.
 fn is_by_time(evidence: &Evidence<'_>, name: &str) -> bool {
     let mut joins = evidence.header.joins.iter();
     joins.any(|join| join.name == name && join.by == "time")
 }
 
-/// First few names with their counts.
+/// First few names, with their counts.
 fn named(counts: &BTreeMap<String, u64>) -> String {
     let words = counts.iter();
     let words = words.map(|(name, count)| format!("{} {count}", shown(name)));

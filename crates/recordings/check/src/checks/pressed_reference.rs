@@ -17,8 +17,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for a rank correlation.
 const LEAST: usize = 10;
-/// Rank correlation of load and distance from the reference below which the reference is suspect. A correct reference gives a clearly positive
-/// value.
+/// Rank correlation of load and distance from the reference, below which the reference is suspect. A correct reference gives a clearly positive correlation.
 pub(super) const SUSPECT: f64 = -0.3;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -45,7 +44,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![Found::overall(Severity::Warning, message)]
 }
 
-/// Spearman's rank correlation. Ties are ranked in row order.
+/// Spearman's rank correlation. Equal values are ranked in the order of rows.
 pub(super) fn rank_correlation(pairs: &[(f64, f64)]) -> f64 {
     let ranks = |values: Vec<f64>| -> Vec<usize> {
         let mut order: Vec<usize> = (0..values.len()).collect();

@@ -1,4 +1,4 @@
-//! TAC018: rows declared as without contact that have contact.
+//! TAC018: rows that are declared as without contact but have contact.
 
 use taceva_core::Field;
 
@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Share of the greatest load above which a row counts as pressed.
+/// Fraction of the greatest load above which a row counts as pressed.
 const SHARE: f64 = 0.1;
 /// Minimum number of samples for a rank correlation.
 const LEAST: usize = 10;
@@ -56,7 +56,7 @@ fn loaded(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<F
     Some(evidence.found(Severity::Warning, message, &pressed))
 }
 
-/// Finds a mean of the rest rows that is closer to samples with more load than to samples with less.
+/// Finds a mean of the rows without contact that is closer to samples with more load than to samples with less.
 fn resembling(evidence: &Evidence<'_>, facts: &SignalFacts, load: usize) -> Option<Found> {
     let column = evidence.table.truth(load);
     let rows = facts.distance.iter().enumerate();

@@ -1,4 +1,4 @@
-//! TAC036: labels joined by repeated times, from whole seconds or a stopped clock.
+//! TAC036: labels that are joined by repeated times, from a clock of whole seconds or a stopped clock.
 
 use std::collections::BTreeSet;
 

@@ -14,9 +14,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Share of full-scale values above which a frame is reported.
+/// Fraction of full-scale values above which a frame is reported.
 const SHARE: f64 = 0.02;
-/// Share of zero or full-scale values above which a frame counts as binarised on purpose.
+/// Fraction of zero or full-scale values above which a frame is taken as binarised on purpose.
 const BINARISED: f64 = 0.98;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

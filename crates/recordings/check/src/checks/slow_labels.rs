@@ -1,4 +1,4 @@
-//! TAC037: labels from a slow table, each applied to many pictures.
+//! TAC037: labels from a slow table, each used for many pictures.
 
 use std::collections::BTreeMap;
 
@@ -18,9 +18,9 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of stretches with one label.
+/// Minimum number of runs with one label.
 const LEAST: usize = 5;
-/// Minimum median length of a stretch, rows. Nine in ten stretches are at most `ALIKE` medians long. Levels held on purpose vary more.
+/// Minimum median length of a run, rows. Nine in ten runs must be at most `ALIKE` medians long, because levels held on purpose vary more.
 const ROWS: usize = 2;
 const ALIKE: usize = 2;
 
@@ -87,7 +87,7 @@ struct Stretches {
 }
 
 impl Stretches {
-    /// Runs of equal labels of `channels`. `None` if most rows have their own label, or levels were held on purpose.
+    /// Runs of equal labels of `channels`. `None` if most rows have a different label than their neighbours, or levels were held on purpose.
     fn of(table: &Table, channels: &[(usize, &Channel)]) -> Option<Stretches> {
         let times = table.t_s();
         let label = |row: usize| -> Option<Vec<u64>> {
@@ -147,7 +147,7 @@ impl Stretches {
         self.times[row].unwrap_or_default()
     }
 
-    /// Greatest age of a label, s: half a run for `nearest`, a whole run for `before`.
+    /// Maximum age of a label, s: half a run for `nearest`, a whole run for `before`.
     fn oldest_s(&self, pick: Option<&str>) -> f64 {
         let spans = self.all.iter().map(|stretch| {
             let (first, last) = (stretch[0], stretch[stretch.len() - 1]);
@@ -160,7 +160,7 @@ impl Stretches {
         }
     }
 
-    /// Mean and greatest difference between the labels and linear interpolation from run to run.
+    /// Mean and maximum difference between the labels and a linear interpolation from run to run.
     fn interpolated(&self, table: &Table, position: usize) -> Option<(f64, f64)> {
         let column = table.truth(position);
         let middle = |stretch: &[usize]| {

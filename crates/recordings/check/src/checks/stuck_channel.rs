@@ -15,18 +15,18 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum length of a frozen stretch, samples. `STILL_SHARE` is its minimum share of all samples.
+/// Minimum length of a frozen stretch, samples. `STILL_SHARE` is its minimum fraction of all samples.
 const STILL: usize = 20;
 const STILL_SHARE: usize = 10;
-/// Minimum number of steps outside the stretch. At most one in `HELD` may repeat its value, because a channel that is often held is not stuck.
+/// Minimum number of steps outside the stretch. At most one step in `HELD` may repeat its value, because a channel that is often held is not stuck.
 const BESIDE: usize = 10;
 const HELD: usize = 10;
-/// Maximum frequency of repeated pictures in the stretch: one in this many. If pictures freeze too, the whole recording does.
+/// Maximum frequency of repeated pictures in the stretch: one in this many. If the pictures also freeze, the whole recording does.
 const SAME_PICTURES: usize = 10;
 /// Minimum number of samples at the limit of a clipped force. `CUT_SHARE` is their minimum frequency.
 const CUT: usize = 10;
 const CUT_SHARE: usize = 20;
-/// Minimum ratio of the frequency of the limit to that of any other value, among at least `VALUES` values. Commanded levels do not reach it.
+/// Minimum ratio of the frequency of the limit to that of any other value, among at least `VALUES` values. Commanded levels have a lower ratio.
 const TIMES: usize = 3;
 const VALUES: usize = 20;
 
@@ -48,7 +48,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         .collect()
 }
 
-/// Value of all samples, if it is the same in at least two.
+/// Common value of all samples; `None` if values differ or there are fewer than two.
 fn only_value(labels: &[(usize, f64)]) -> Option<f64> {
     let (first, others) = labels.split_first()?;
     let is_only = !others.is_empty() && others.iter().all(|label| is_same(label.1, first.1));
@@ -96,7 +96,7 @@ fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) ->
     Some(evidence.found(Severity::Warning, message, &rows))
 }
 
-/// Finds a force clipped at its greatest or least value, except zero, which is normal at rest.
+/// Finds a force clipped at its greatest or least value. Zero is excluded, because it is normal at rest.
 fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> Option<Found> {
     let mut sorted = labels.to_vec();
     sorted.retain(|(_, value)| value.abs() > 0.0);

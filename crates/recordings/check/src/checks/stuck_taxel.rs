@@ -16,7 +16,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for a constant value to count.
 const LEAST: u64 = 10;
-/// Maximum taxels named in a message; the rest are counted.
+/// Maximum number of taxels named in a message; the others are counted.
 const NAMED: usize = 5;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {

@@ -19,7 +19,7 @@ pub(super) static CHECK: Check = Check {
 
 /// Minimum number of samples for computing a rate.
 const LEAST: usize = 10;
-/// Length above which a step is a gap, in usual steps. Includes a tolerance for rounding.
+/// Length above which a step is a gap, in usual steps, including a tolerance for rounding.
 const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
 /// Maximum relative difference, in a regular stream, between the usual step and the mean of the steps without gaps.
@@ -100,7 +100,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Median of the forward steps as usual step, so that pauses between presses do not affect it.
+/// Sample rate from the usual step, which is the median of the forward steps. Pauses between presses therefore do not affect the rate.
 fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
     let mut forward: Vec<f64> = steps.iter().map(|(_, seconds)| *seconds).collect();
     forward.retain(|seconds| *seconds > 0.0);

@@ -1,4 +1,4 @@
-//! TAC014: unused columns of the imported table, especially columns that rate the rows.
+//! TAC014: unused columns of the imported table, especially columns with quality ratings of the rows.
 
 use taceva_core::shown;
 use taceva_dataset::internal::first_names;
@@ -36,7 +36,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Warning about a column that may rate its rows, with the map entry that would use it.
+/// Warning about a column that may contain quality ratings, with the map entry that would use the column.
 fn unread(name: &str) -> String {
     let name = shown(name);
     format!(

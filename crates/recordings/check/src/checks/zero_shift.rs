@@ -1,4 +1,4 @@
-//! TAC035: drifting zero of the force transducer, from steps or drifts of forces without contact.
+//! TAC035: drifting zero of the force transducer, detected by steps or drifts of forces without contact.
 
 use taceva_core::{Channel, Field, Unit};
 
@@ -20,11 +20,11 @@ pub(super) static CHECK: Check = Check {
 /// Minimum number of samples on each side of a step, and in total.
 const SIDE: usize = 4;
 const LEAST: usize = 8;
-/// Minimum shift as a share of the 95th percentile of the labels.
+/// Minimum shift, as a fraction of the 95th percentile of the labels.
 const SHARE: f64 = 0.02;
-/// Minimum shift in standard errors of the shift; large because the position of a step is searched.
+/// Minimum shift, in standard errors of the shift. The value is large because the position of a step is searched.
 const CLEAR: f64 = 6.0;
-/// Rounding of labels with few decimals, as a share of the greatest label. Rounding does not count as scatter.
+/// Rounding of labels with few decimals, as a fraction of the greatest label. Rounding does not count as scatter.
 const ROUNDING: f64 = 1e-4;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
@@ -100,27 +100,27 @@ fn of_channel(
     Some(evidence.found(Severity::Warning, message, &shifted))
 }
 
-/// First time of the recording, s.
+/// First time stamp of the recording, s.
 fn first_time(evidence: &Evidence<'_>) -> f64 {
     let times = evidence.table.t_s().iter().flatten();
     times.copied().fold(f64::INFINITY, f64::min)
 }
 
-/// Step with the least residual scatter.
+/// Step at the position with the least residual scatter.
 #[derive(Clone, Copy, Debug)]
 struct Step {
     /// Index of the first value after the step.
     at: usize,
     before: f64,
     after: f64,
-    /// Standard error of the difference of both means.
+    /// Standard error of the difference between the means before and after the step.
     error: f64,
-    /// Residual sum of squares.
+    /// Residual sum of squares around both means.
     residual: f64,
 }
 
 impl Step {
-    /// Best step of `values` in order. `least` is the scatter from rounding alone.
+    /// Best step in `values`, which are in order of time. `least` is the scatter that rounding alone causes.
     fn of(values: &[f64], least: f64) -> Option<Step> {
         let mut sums = vec![(0.0, 0.0)];
         for value in values {
@@ -150,10 +150,10 @@ impl Step {
     }
 }
 
-/// Straight line through the values.
+/// Straight line fitted to the values.
 #[derive(Clone, Copy, Debug)]
 struct Drift {
-    /// Change from the first time to the last.
+    /// Change of the line from the first time to the last.
     change: f64,
     error: f64,
     residual: f64,

@@ -1,4 +1,4 @@
-//! Angles that jump.
+//! Tests of angles that jump.
 
 use taceva_check::CheckReport;
 

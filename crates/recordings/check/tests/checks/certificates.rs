@@ -1,4 +1,4 @@
-//! Certificates of the instruments: absent, expired, of another serial number, and of a smaller range.
+//! Tests of certificates of the instruments: missing, expired, for another serial number, and for a smaller range.
 
 use taceva_check::{CheckReport, Severity};
 
@@ -21,7 +21,7 @@ U = { Fz = "3.0 mN" }
 range = { Fz = ["0.05 N", "50 N"] }
 "#;
 
-/// A check of these forces, taken from `begun_s` on, in a map with `instruments`.
+/// Report on these forces, measured from `begun_s` on, and imported by a map with `instruments`.
 fn checked(forces: &[f64], begun_s: u64, instruments: &str) -> CheckReport {
     let rows = (begun_s..).zip(forces);
     let rows = rows.map(|(time, force)| format!("{time},{force}\n"));

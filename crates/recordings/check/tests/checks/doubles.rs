@@ -1,11 +1,11 @@
-//! Duplicate labels, normalised labels, and implausible depths.
+//! Tests of duplicate labels, normalised labels, and implausible depths.
 
 use taceva_check::CheckReport;
 
 use super::lab::{PICTURES, SENSOR, imported, pictures};
 use super::streams::{message, says_nothing};
 
-/// Checks a table whose channels are read from these columns.
+/// Report on a table whose channels are read from these columns.
 fn labelled(table: &str, columns: &str, only: &str) -> CheckReport {
     let rows = table.lines().count() - 1;
     let files = [
@@ -56,7 +56,7 @@ fn a_column_that_is_mapped_twice_with_two_signs_or_written_twice_is_named_and_th
     says_nothing(&labelled(TWICE, &axes, "TAC038"), "TAC038");
 }
 
-/// A table of `rows` rows of one or two columns.
+/// Table of `rows` rows with one or two columns.
 fn table(rows: u32, head: &str, cells: impl Fn(u32) -> String) -> String {
     let rows = (0..rows).map(cells);
     std::iter::once(head.to_owned())
@@ -65,7 +65,7 @@ fn table(rows: u32, head: &str, cells: impl Fn(u32) -> String) -> String {
         .join("\n")
 }
 
-/// A number from 0 to 1; both ends occur.
+/// Number from 0 to 1, including both ends.
 fn unit(row: u32, factor: u32) -> f64 {
     f64::from(row * factor % 41) / 40.0
 }

@@ -1,4 +1,4 @@
-//! Forces that freeze, forces that are cut at a limit, and forces of one byte.
+//! Tests of forces that freeze, forces that are clipped at a limit, and forces stored in one byte.
 
 use taceva_check::CheckReport;
 
@@ -19,7 +19,7 @@ fn with_forces(force: impl Fn(u32) -> f64, change: impl FnOnce(&mut Recording)) 
     recording.check("")
 }
 
-/// From 1 N to 2.99 N, all different.
+/// Different forces from 1 N to 2.99 N.
 fn forces(number: u32) -> f64 {
     1.0 + 0.01 * f64::from(number * 37 % 200)
 }
@@ -71,7 +71,7 @@ fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
     );
 }
 
-/// Report on presses from 0 to 1.5 N and back, whose forces pass through `read`, after `rest` samples at rest.
+/// Report on presses from 0 to 1.5 N and back, whose forces are changed by `read`, after `rest` samples at rest.
 fn of_presses(rest: u32, read: impl Fn(f64) -> f64) -> CheckReport {
     let press = |number: u32| match number < rest {
         true => 0.0,
@@ -104,7 +104,7 @@ fn a_force_that_is_zero_below_a_threshold_differs_from_rest_by_its_pictures() {
     says_nothing(&of_presses(0, |force| force), "TAC027");
 }
 
-/// A check of 120 forces of 0.1 N a count, of presses of 40 samples that the map names if `by_press`.
+/// Report on 120 forces with 0.1 N per count, in presses of 40 samples. The map names the presses if `by_press`.
 fn in_counts(count: impl Fn(i32) -> i32, by_press: bool) -> CheckReport {
     let rows = (0..120).map(|row| format!("{},{}\n", row / 40, count(row)));
     let table = format!("press,counts\n{}", rows.collect::<String>());
@@ -161,7 +161,7 @@ fn a_sudden_release_and_a_repeated_staircase_do_not_begin_anew() {
     message(&in_counts(falling, false), "TAC045");
 }
 
-/// A check of tables `names` of 500 forces, of which those from row `far` of the last table, from 0, are far from the others.
+/// Report on the tables `names` with 500 forces. In the last table, forces from row `far` (from 0) are far from the others.
 fn with_far_forces(names: &[&str], far: u32) -> CheckReport {
     let table = |is_last: bool| {
         let force = |row: u32| match is_last && row >= far {

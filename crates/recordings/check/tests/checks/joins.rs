@@ -1,11 +1,11 @@
-//! Labels joined by time, although the times or the readings do not suit it.
+//! Tests of labels joined by time although the times or the readings do not suit a join by time.
 
 use super::codes;
 use super::lab::{PICTURES, SENSOR, imported, pictures};
 use super::streams::{message, says_nothing};
 use taceva_check::Severity;
 
-/// A recording of `cam.csv` whose forces are those of `ft.csv` at its times.
+/// Report on a recording of `cam.csv`, with forces of `ft.csv` joined by time.
 fn joined(cam: &str, ft: &str, pick: &str, only: &[&str]) -> taceva_check::CheckReport {
     let rows = cam.lines().count() - 1;
     let presses: Vec<f64> = (0..rows)

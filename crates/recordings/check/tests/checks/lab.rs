@@ -1,4 +1,4 @@
-//! A drawn lab's folder, imported and checked.
+//! Generated folder of a lab, imported and checked.
 
 use std::num::NonZeroUsize;
 
@@ -7,19 +7,19 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 
-/// Facts of every sensor of these tests: unknown.
+/// Sensor section of all maps in these tests, with unknown facts.
 pub(super) const SENSOR: &str =
     "[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 
-/// The pictures of these tests, in an array.
+/// Frame section for the pictures of these tests, which are in an array.
 pub(super) const PICTURES: &str =
     "[frame]\narray = { file = \"f.npy\" }\nchannel_order = \"gray\"\nreference = \"unknown\"\n";
 
-/// Pixels of a picture.
+/// Size of a picture, pixels.
 const WIDTH: u32 = 24;
 const HEIGHT: u32 = 16;
 
-/// Gray pictures as a NumPy file, one for each of `presses`: a press darkens the middle, and the noise of all pictures differs.
+/// Gray pictures as a NumPy file, one for each of `presses`. A press darkens the middle, and the noise differs between pictures.
 pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     let shape = format!("({}, {HEIGHT}, {WIDTH})", presses.len());
     let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}\n");
@@ -42,7 +42,7 @@ pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
     bytes
 }
 
-/// Imports a folder of these files by this map, and runs the checks of these codes.
+/// Imports a folder with `files` by this map, and runs the checks with the codes `only`.
 pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {
@@ -63,7 +63,7 @@ pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> C
     check(&dataset, &request, &SilentProgress).expect("checked")
 }
 
-/// The numbers of column `name` of a table whose cells are separated by commas.
+/// Numbers in the column `name` of a comma-separated table.
 pub(super) fn column(text: &str, name: &str) -> Vec<f64> {
     let mut lines = text.lines();
     let header: Vec<&str> = lines.next().expect("a header").split(',').collect();

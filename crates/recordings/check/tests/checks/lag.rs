@@ -1,8 +1,8 @@
-//! A clock of the forces that differs from that of the pictures.
+//! Tests of a clock of the forces that differs from the clock of the pictures.
 
 use super::{Recording, picture, readings};
 
-/// Presses of 40 samples, all different.
+/// Force of a sample in presses of 40 samples, all different.
 fn press(number: u32) -> f64 {
     let depth = 0.4 + 0.2 * f64::from(number / 40 * 3 % 4);
     depth * (1.0 - (f64::from(number % 40) / 20.0 - 1.0).abs())

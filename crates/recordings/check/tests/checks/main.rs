@@ -1,4 +1,4 @@
-//! Every check: a recording that triggers it, and one that must not.
+//! Tests of every check: a recording that triggers the check, and a recording that must not.
 
 mod angles;
 mod certificates;
@@ -28,7 +28,7 @@ use taceva_core::{
 };
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 
-/// A recording without a flaw, sample by sample, for the tests to spoil.
+/// Recording without defects, sample by sample, to which tests add defects.
 struct Recording {
     facts: SensorFacts,
     clock: Clock,
@@ -72,7 +72,7 @@ impl Recording {
         self.check_beside(request, None)
     }
 
-    /// The same with this table of sessions beside the recording.
+    /// Report on the recording, with this table of sessions beside it.
     fn check_beside(self, request: &str, sessions: Option<&str>) -> CheckReport {
         let folder = tempfile::tempdir().expect("a folder");
         let dataset = self.write(&folder.path().join("data"));
@@ -105,7 +105,7 @@ impl Recording {
     }
 }
 
-/// More force gives less light; red is the brightest colour.
+/// Picture that is darker under a greater force, with red as the brightest colour.
 fn picture(number: u32, force: f64) -> Frame {
     let info = FrameInfo {
         width: 8,

@@ -1,10 +1,10 @@
-//! Neighbours on both sides of a division, and the clusters of a test part without points.
+//! Tests of neighbours on both sides of a division, and of the clusters of a test part without points.
 
 use taceva_check::{CheckReport, Severity};
 
 use super::{Recording, SAMPLES, readings};
 
-/// A recording without points, whose labels are a function of the row number.
+/// Recording without contact points, whose labels are a function of the row number.
 fn labelled(label: impl Fn(u32) -> f64) -> Recording {
     let mut recording = Recording::sound();
     for (number, sample) in (0..SAMPLES).zip(&mut recording.samples) {
@@ -14,12 +14,12 @@ fn labelled(label: impl Fn(u32) -> f64) -> Recording {
     recording
 }
 
-/// A press that rises and falls.
+/// Force of a press that rises and falls.
 fn pressed(number: u32) -> f64 {
     1.0 + (f64::from(number) / 9.0).sin()
 }
 
-/// Labels of which none resembles the previous one.
+/// Label that does not resemble the previous label.
 fn scattered(number: u32) -> f64 {
     0.1 + f64::from(number.wrapping_mul(2_654_435_761) >> 16) / 65_536.0
 }

@@ -1,4 +1,4 @@
-//! Untouched pictures that differ from the reference.
+//! Tests of untouched pictures that differ from the reference.
 
 use taceva_check::CheckReport;
 use taceva_core::{Frame, FrameInfo, PixelFormat, PressOutcome, Readings};
@@ -9,7 +9,7 @@ use super::{Recording, readings};
 
 const SIDE: u32 = 32;
 
-/// A picture of a press of `force`, with the light changed by `fault` at each pixel.
+/// Picture of a press with `force`. `fault` changes the light at each pixel.
 fn picture(number: u32, force: f64, fault: &dyn Fn(u32, u32, f64) -> f64) -> Frame {
     let info = FrameInfo {
         width: SIDE,
@@ -32,7 +32,7 @@ fn picture(number: u32, force: f64, fault: &dyn Fn(u32, u32, f64) -> f64) -> Fra
     Frame::new(info, bytes.collect()).expect("whole")
 }
 
-/// Checks presses, every fourth of them without contact, with a reference from before `fault`.
+/// Report on presses, every fourth without contact. The reference was taken before `fault`.
 fn after(fault: &dyn Fn(u32, u32, f64) -> f64) -> CheckReport {
     let mut recording = Recording::sound();
     recording.reference = Some(picture(0, 0.0, &|_, _, light| light));

@@ -1,4 +1,4 @@
-//! Doubled and dropped frames, clocks that jump, blank samples, and omissions of an import.
+//! Tests of doubled and dropped frames, clocks that jump, blank samples, and omissions of an import.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -10,7 +10,7 @@ use taceva_import::{ImportMap, ImportPlan};
 
 use super::{Recording, SAMPLES, codes};
 
-/// Report on a recording with these stamps, s.
+/// Report on a recording with these time stamps, s.
 pub(super) fn stamped(
     time: impl Fn(u32) -> f64,
     change: impl FnOnce(&mut Recording),
@@ -155,7 +155,7 @@ fn frames_of_one_colour_are_found_by_a_check_that_is_asked_for_alone() {
     );
 }
 
-/// Report of the checks of these codes on an import.
+/// Report of the checks with the codes `only` on an import.
 fn imported(files: &[(&str, &str)], map: &str, only: &[&str]) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, text) in files {
@@ -277,7 +277,7 @@ fn frames_in_jpeg_are_said_to_depend_on_their_decoder() {
 
 const BLANK_MAP: &str = "map_version = 2\ntable = \"l.csv\"\n[frame]\narray = { file = \"f.npy\" }\nchannel_order = \"gray\"\nreference = \"unknown\"\n[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"m\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = true\n";
 
-/// Two frames of one colour.
+/// Folder with two frames, each of a single colour.
 fn blank_lab() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let header = "{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 2), }";

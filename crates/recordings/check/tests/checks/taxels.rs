@@ -1,4 +1,4 @@
-//! Findings of `check` about taxels.
+//! Tests of findings of `check` about taxels.
 
 use std::num::NonZeroUsize;
 
@@ -18,7 +18,7 @@ fn checked(dataset: &Dataset, only: &[&str]) -> CheckReport {
     check(dataset, &request, &SilentProgress).expect("checked")
 }
 
-/// Codes and messages of the findings in a drawn recording whose signals `change` alters.
+/// Codes and messages of the findings in a generated recording whose signals are changed by `change`.
 fn found(change: impl Fn(u32, Vec<f32>) -> Vec<f32>) -> Vec<(&'static str, String)> {
     let folder = tempfile::tempdir().expect("a folder");
     let dataset = record_changed(&folder.path().join("data"), 400, change);

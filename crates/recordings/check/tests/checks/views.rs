@@ -1,4 +1,4 @@
-//! Recordings whose samples have several pictures: findings name the view.
+//! Tests of recordings whose samples have several pictures. Findings name the view.
 
 use taceva_check::{CheckReport, Severity};
 
@@ -11,7 +11,7 @@ fn presses(phase: usize) -> Vec<f64> {
     (0..ROWS).map(press).collect()
 }
 
-/// Two arrays of pictures beside a table.
+/// Report on two arrays of pictures beside a table.
 fn checked(left: &[u8], right: &[u8], only: &[&str]) -> CheckReport {
     let rows = presses(0).into_iter().map(|press| format!("{press},0.5\n"));
     let table = format!("force,still\n{}", rows.collect::<String>());
@@ -33,7 +33,7 @@ fn checked(left: &[u8], right: &[u8], only: &[&str]) -> CheckReport {
     imported(&files, &map, only)
 }
 
-/// Pictures whose noise differs from that of the other finger.
+/// Pictures whose noise differs from the noise of the other finger.
 fn other_finger() -> Vec<u8> {
     let mut bytes = pictures(&presses(0));
     let pixels = bytes.len() - ROWS * 24 * 16;

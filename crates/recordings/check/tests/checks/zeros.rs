@@ -1,4 +1,4 @@
-//! A transducer whose zero moves while pictures without contact stay the same.
+//! Tests of a transducer whose zero drifts while pictures without contact are unchanged.
 
 use taceva_check::CheckReport;
 
@@ -35,7 +35,7 @@ fn a_transducer_that_was_zeroed_anew_half_way_is_a_step_of_untouched_pictures() 
     assert!(said.starts_with(start), "{said}");
 }
 
-/// A press in three of four samples, by its number.
+/// Force of sample `number`; three of four samples are pressed.
 fn press(number: u32) -> f64 {
     match number % 4 {
         0 => 0.0,
@@ -43,7 +43,7 @@ fn press(number: u32) -> f64 {
     }
 }
 
-/// Checks 200 samples whose labels of `name` are the press plus `zero`.
+/// Report on 200 samples whose labels of `name` are the press plus `zero`.
 fn with_zero(name: &str, time: bool, zero: impl Fn(u32) -> f64) -> CheckReport {
     let header = if time { "t,fz" } else { "fz" };
     let mut table = format!("{header}\n");

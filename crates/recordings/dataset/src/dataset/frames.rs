@@ -20,9 +20,8 @@ impl Dataset {
     /// Frame of a row, verified and decoded; `None` if the row has no frame.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if its file differs from the recorded one; [`DatasetError::Image`] if it cannot be decoded;
-    /// [`DatasetError::Request`] if there is no such row; [`DatasetError::View`] if rows have several pictures and no view was named;
-    /// [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] if the file of the frame differs from the recorded digest; [`DatasetError::Image`] if the frame cannot be decoded;
+    /// [`DatasetError::Request`] if the row does not exist; [`DatasetError::View`] if rows have several pictures and no view is selected; [`DatasetError::Io`].
     pub fn frame(&self, row: usize) -> Result<Option<Frame>, DatasetError> {
         self.check_row(row)?;
         if let Some((recording, row)) = self.recording_of(row) {
@@ -38,12 +37,12 @@ impl Dataset {
         }
     }
 
-    /// Description of damage inside the picture of a row, although it can be decoded. `None` if the picture is intact or missing.
+    /// Description of damage inside the picture of a row that decodes without an error. `None` if the picture is intact or missing.
     ///
-    /// A JPEG is read to its end, code by code. Imports reject such damage, but older datasets may contain it.
+    /// A JPEG is checked code by code to its end. Imports reject this damage, but older datasets may contain it.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if its file differs from the recorded one; [`DatasetError::Request`] if there is no such row;
+    /// [`DatasetError::Digest`] if the file of the picture differs from the recorded digest; [`DatasetError::Request`] if the row does not exist;
     /// [`DatasetError::Io`].
     pub fn damage_inside(&self, row: usize) -> Result<Option<String>, DatasetError> {
         self.check_row(row)?;
@@ -64,10 +63,10 @@ impl Dataset {
         Ok(None)
     }
 
-    /// Frame without contact, if known; `None` for joined recordings, because each has its own.
+    /// Frame without contact; `None` if unknown, and for joined recordings, because each recording has a separate frame without contact.
     ///
     /// # Errors
-    /// As [`frame`](Dataset::frame).
+    /// Errors of [`frame`](Dataset::frame).
     pub fn reference(&self) -> Result<Option<Frame>, DatasetError> {
         let Some(info) = &self.header.frames else {
             return Ok(None);
@@ -136,7 +135,7 @@ impl Dataset {
         Ok(bytes)
     }
 
-    /// First frame of the pack that contains `entry`.
+    /// First frame of the pack that contains `entry`, to which differences in this pack refer.
     fn first_entry(&self, entry: &FrameEntry) -> Result<&FrameEntry, DatasetError> {
         let is_first = |first: &&FrameEntry| first.begins(&entry.path) && !first.is_difference();
         let mut frames = self.table.frames().iter().flatten();

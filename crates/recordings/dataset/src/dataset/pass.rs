@@ -8,7 +8,7 @@ use super::Dataset;
 use crate::error::DatasetError;
 use crate::parallel::ordered_map;
 
-/// Rows of a pass in order, with number of threads and progress receiver.
+/// Rows of a pass in order, with the number of threads and the progress receiver.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample};
@@ -116,11 +116,11 @@ impl Dataset {
     /// Decodes the frame of each row and calls `work` with it on one of several threads. Calls `take` with the results in
     /// order on the calling thread.
     ///
-    /// Memory holds at most a few frames for each thread. The result does not depend on the number of threads.
+    /// Memory contains at most a few frames for each thread. The result does not depend on the number of threads.
     ///
     /// # Errors
-    /// As [`frame`](Dataset::frame), for the first failing row in order; [`DatasetError::Request`] if a row has no frame;
-    /// [`DatasetError::Sink`] if `take` fails; [`DatasetError::Cancelled`].
+    /// Errors of [`frame`](Dataset::frame), for the first failing row in order; [`DatasetError::Request`] if a row has no frame; [`DatasetError::Sink`] if
+    /// `take` fails; [`DatasetError::Cancelled`].
     pub fn map_frames<T: Send>(
         &self,
         pass: Pass<'_>,
@@ -156,7 +156,7 @@ impl Dataset {
     /// Passes the sample of each row to `sink`, in order. Frames are decoded and signals read only if the sink needs them.
     ///
     /// # Errors
-    /// As [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink rejects a sample; [`DatasetError::Cancelled`].
+    /// Errors of [`frame`](Dataset::frame); [`DatasetError::Sink`] if the sink rejects a sample; [`DatasetError::Cancelled`].
     pub fn stream(
         &self,
         pass: Pass<'_>,

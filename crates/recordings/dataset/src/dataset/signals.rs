@@ -10,7 +10,7 @@ use crate::layout;
 use crate::signals::SignalsReader;
 
 impl Dataset {
-    /// Fields of at least one sample: those of the table, and signals, which have a separate file.
+    /// Fields that at least one sample has: columns of the table and, from a separate file, signals.
     pub fn fields(&self) -> FieldSet {
         let fields = self.table.fields();
         match self.header.signals {
@@ -19,11 +19,11 @@ impl Dataset {
         }
     }
 
-    /// Signals of a row; `None` if the recording has none. The first request verifies the whole file.
+    /// Signals of a row; `None` if the recording has no signals. The first request verifies the whole file.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if the file differs from the recorded one, [`DatasetError::Damaged`] if it contradicts its header;
-    /// [`DatasetError::Request`] if there is no such row; [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] if the file differs from the recorded digest; [`DatasetError::Damaged`] if the file contradicts its header;
+    /// [`DatasetError::Request`] if the row does not exist; [`DatasetError::Io`].
     pub fn signals(&self, row: usize) -> Result<Option<Signals>, DatasetError> {
         self.check_row(row)?;
         if let Some((recording, row)) = self.recording_of(row) {
@@ -35,10 +35,11 @@ impl Dataset {
         }
     }
 
-    /// Mean signals over the rows declared as without contact. `None` without such rows, and for joined recordings, because each has its own.
+    /// Mean signals over the rows declared as without contact. `None` if no row is declared so, and for joined recordings, because each recording has a
+    /// separate mean.
     ///
     /// # Errors
-    /// As [`signals`](Dataset::signals).
+    /// Errors of [`signals`](Dataset::signals).
     pub fn rest(&self) -> Result<Option<Signals>, DatasetError> {
         if !self.joined.is_empty() {
             return Ok(None);
@@ -67,7 +68,7 @@ impl Dataset {
         })
     }
 
-    /// Rows declared as without contact, for their signals.
+    /// Indices of the rows whose signals are declared as measured without contact.
     pub fn rest_rows(&self) -> impl Iterator<Item = usize> + '_ {
         let info = self.header.signals.iter();
         let runs = info.flat_map(|info| &info.spec.rest);

@@ -1,4 +1,4 @@
-//! Several recordings of the same kind of sensor as one dataset: one table of labels, with frames and signals in their original files.
+//! Several recordings of the same kind of sensor as one dataset: one table of labels, with frames and signals in the original files.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 use std::ops::Range;
@@ -18,7 +18,7 @@ mod agreement;
 use agreement::differences;
 pub use agreement::{Difference, differences_of_added};
 
-/// Separator between the name of a recording and the name of a sample, contact point or frame in it. Names of recordings do not contain it.
+/// Separator between the name of a recording and the name of a sample, contact point or frame of the recording. Names of recordings do not contain it.
 const SEPARATOR: char = '/';
 
 /// Recording that is part of a dataset from [`Dataset::joined`].
@@ -62,22 +62,22 @@ impl JoinedRecording {
         self.rows.clone()
     }
 
-    /// Recording itself, with rows from 0.
+    /// The recording as a separate dataset, with rows from 0.
     pub fn dataset(&self) -> &Dataset {
         &self.dataset
     }
 }
 
 impl Dataset {
-    /// Joins `recordings` in their order; a single one is returned unchanged.
+    /// Joins `recordings` in their order. A single recording is returned unchanged.
     ///
-    /// Samples and contact points are prefixed with the name of their recording (`monday/p3`), so that those of different recordings never
-    /// merge. Frames and signals are read from their original files; only labels are copied. The digest is a function of the digests in
-    /// order. Gel, serial number, camera settings, attributes, pictures without contact and clocks may differ between recordings.
+    /// Names of samples and contact points get the name of their recording as prefix (`monday/p3`), so that equal names of different recordings remain
+    /// distinct. Frames and signals are read from the original files; only labels are copied. The digest is a function of the digests in order. Gel, serial
+    /// number, camera settings, attributes, pictures without contact and clocks may differ between recordings.
     ///
     /// # Errors
-    /// [`DatasetError::Unlike`] for two recordings that share samples, or differ in source, sensor model, opacity, footprint, channels,
-    /// their units, or the kind and size of frames or signals; [`DatasetError::Request`] for no recording.
+    /// [`DatasetError::Unlike`] for two recordings that share samples, or differ in source, sensor model, opacity, footprint, channels, units, or the kind and
+    /// size of frames or signals; [`DatasetError::Request`] if `recordings` is empty.
     pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
         let mut recordings = recordings;
         if recordings.len() < 2 {
@@ -138,7 +138,7 @@ impl Dataset {
     }
 }
 
-/// Rejects a recording that occurs twice: by its path, by its content, or as an earlier state of an extended one.
+/// Rejects a recording that occurs twice: with the same path, with the same content, or once in a state before rows were added.
 fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
     let place = |dataset: &Dataset| dataset.path().canonicalize().ok();
     for (at, other) in recordings.iter().enumerate() {
@@ -164,11 +164,11 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
 /// Digest of a frame, and its labels by channel name, bit for bit.
 type Shared = (Digest, Vec<Option<u64>>);
 
-/// Least number of different pictures shared under other labels that makes two recordings overlap. No camera takes the same picture twice.
+/// Number of different pictures, shared under other labels, from which two recordings overlap. No camera takes the same picture twice.
 const SAME_PICTURES: usize = 3;
 
-/// Rejects recordings that share a sample: equal frame bytes and labels, or some pictures under other labels, as in two imports of one recording.
-/// A shared sample could be in both the training and the test part.
+/// Rejects recordings that share a sample: equal frame bytes and labels, or at least [`SAME_PICTURES`] pictures under other labels, as in two imports of one
+/// recording. A shared sample could be in both the training and the test part.
 fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
     let mut known: HashMap<Shared, (usize, usize)> = HashMap::new();
     let mut pictures: HashMap<Digest, (usize, usize)> = HashMap::new();
@@ -283,7 +283,7 @@ fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     table
 }
 
-/// Header of the joined dataset. If the recordings differ, the clock is unknown, and serial number and gel are `several`.
+/// Header of the joined dataset. If recordings differ in the clock, it is unknown; if they differ in serial number or gel, the value is `several`.
 fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 of several recordings");

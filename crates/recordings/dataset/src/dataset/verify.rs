@@ -17,10 +17,10 @@ use crate::samples::from_parquet;
 use crate::table::{FrameEntry, Table};
 
 impl Dataset {
-    /// Reads all frames, signals and predictions, and checks their digests. Decodes no frame.
+    /// Reads all frames, signals and predictions, and checks their digests. Does not decode frames.
     ///
     /// # Errors
-    /// As [`frame_bytes`](Dataset::frame_bytes), for the first difference.
+    /// Errors of [`frame_bytes`](Dataset::frame_bytes), for the first file that differs from its digest.
     pub fn verify_frames(&self) -> Result<(), DatasetError> {
         if !self.joined.is_empty() {
             let mut joined = self.joined.iter();
@@ -51,7 +51,7 @@ impl Dataset {
         check_digest(path, predictions.sha256, found)
     }
 
-    /// Checks that header and table agree, and that all paths are valid, so that reading a frame needs no further check.
+    /// Checks that header and table agree and that all paths are valid. Later reads of frames need no further check.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged =
             |name: &str, problem: String| DatasetError::damaged(&self.path().join(name), problem);

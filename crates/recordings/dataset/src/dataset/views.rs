@@ -30,14 +30,14 @@ impl Dataset {
         })
     }
 
-    /// The same dataset with the frames of the view `view`, or of several side by side: `left+right`.
+    /// The same dataset with the frames of the view `view`, or with several views side by side: `left+right`.
     ///
-    /// The digest depends on the dataset and on the view. Labels are unchanged. Several views have no common file, so their table entries have no
-    /// bytes.
+    /// The digest depends on the dataset and on the view. Labels are unchanged. For several views, the table entries have no bytes, because no single file
+    /// contains the frame.
     ///
     /// # Errors
-    /// [`DatasetError::View`] if there is no such view. [`DatasetError::Request`] if a view is named twice, or if pictures side by side differ in
-    /// height or format. [`DatasetError::Io`].
+    /// [`DatasetError::View`] if the view does not exist. [`DatasetError::Request`] if a view is named twice, or if pictures side by side differ in height or
+    /// format. [`DatasetError::Io`].
     pub fn seen(&self, view: &str) -> Result<Dataset, DatasetError> {
         if !self.joined.is_empty() {
             let recordings = self.joined.iter();
@@ -64,7 +64,7 @@ impl Dataset {
     /// Checks that each sample has a single picture or a view was selected.
     ///
     /// # Errors
-    /// [`DatasetError::View`] with the list of views, if there are several and none was selected.
+    /// [`DatasetError::View`] with the list of views, if there are several and none is selected.
     pub fn require_view(&self) -> Result<(), DatasetError> {
         match self.header.views.is_empty() || !self.seen.is_empty() {
             true => Ok(()),
@@ -109,7 +109,7 @@ impl Dataset {
         frames?.map(|frames| self.beside(&frames)).transpose()
     }
 
-    /// Frame without contact with the selected views side by side; `None` if a view has none.
+    /// Frame without contact with the selected views side by side; `None` if a view has no frame without contact.
     pub(super) fn reference_beside(&self) -> Result<Option<Frame>, DatasetError> {
         let frames = self.seen.iter().map(|at| {
             let info = &self.header.views[*at].frames;
@@ -154,7 +154,7 @@ pub(super) fn reference_entry(reference: &ReferenceInfo) -> FrameEntry {
     }
 }
 
-/// Size and format of the pictures of `views` side by side, or an error message if they do not fit.
+/// Size and format of the pictures of `views` side by side; an error message if the pictures differ in height or format.
 fn info_of(views: &[&ViewInfo]) -> Result<FrameInfo, String> {
     let Some((first, others)) = views.split_first() else {
         return Err("no view is named".to_owned());
@@ -202,7 +202,7 @@ fn frames_of(views: &[&ViewInfo], info: FrameInfo, count: u64) -> FramesInfo {
     frames
 }
 
-/// Changes `header` to the header of the dataset seen in `view`.
+/// Changes `header` to the header of the dataset with the selected view `view`.
 fn see(header: &mut Header, frames: FramesInfo, view: &str) {
     header.frames = Some(frames);
     header.digest = seen_digest(header.digest, view);
@@ -211,7 +211,7 @@ fn see(header: &mut Header, frames: FramesInfo, view: &str) {
     }
 }
 
-/// Digest of a dataset seen in `view`, because other pictures give other numbers.
+/// Digest of a dataset with the selected view `view`. Depends on the view, because pictures of another view give other numbers.
 fn seen_digest(dataset: Digest, view: &str) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 seen by");

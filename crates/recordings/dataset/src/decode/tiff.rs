@@ -77,7 +77,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     Ok((info, pixels))
 }
 
-/// Message of the decoder; for unsupported content with the supported alternatives.
+/// Error message of the decoder. For unsupported content, the message also lists the supported alternatives.
 fn text(error: TiffError) -> String {
     match error {
         TiffError::UnsupportedError(what) => format!(

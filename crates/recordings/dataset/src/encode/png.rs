@@ -1,7 +1,7 @@
-//! PNG encoder for noisy pictures: the five filters of the format, then only Huffman codes.
+//! PNG encoder for noisy pictures: applies the five filters of the format, then only Huffman codes.
 //!
-//! After filtering, a camera picture is mostly noise, without repetitions. The search for repetitions is the slow part of deflate. It finds only
-//! accidental repetitions and makes files a fifth larger for pictures of the simulated cameras. A uniform picture shrinks to an eighth at best.
+//! After filtering, a camera picture is mostly noise, without repetitions. The search for repetitions is the slow part of deflate. The search finds only
+//! accidental repetitions, which make files of the simulated cameras a fifth larger. Without the search, a uniform picture shrinks to an eighth at best.
 
 use miniz_oxide::deflate::core::{
     CompressionStrategy, CompressorOxide, TDEFLFlush, TDEFLStatus, compress_to_output,
@@ -43,7 +43,7 @@ pub(super) fn file(frame: &Frame) -> Result<Vec<u8>, String> {
     Ok(file)
 }
 
-/// Samples in the byte order of PNG, high byte first.
+/// Pixel values in the byte order of PNG, high byte first.
 fn samples(frame: &Frame) -> Vec<u8> {
     match frame.info().format.bytes_per_sample() {
         1 => frame.bytes().to_vec(),
@@ -51,7 +51,7 @@ fn samples(frame: &Frame) -> Vec<u8> {
     }
 }
 
-/// Filtered rows, each preceded by the number of its filter: the filter with the smallest sum of magnitudes.
+/// Filtered rows, each preceded by the number of its filter. Each row uses the filter with the smallest sum of magnitudes.
 fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
     let mut filtered = Vec::with_capacity(samples.len() + samples.len() / row.max(1) + 1);
     let nothing = vec![0; row];

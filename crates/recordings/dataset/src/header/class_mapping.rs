@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Mapping of a column of classes by an import. In another list, the same number is another class.
+/// Mapping of a column of classes by an import. A number denotes a different class in a different list.
 ///
 /// ```
 /// let text = "name = \"texture\"\nfrom = \"c\"\nnames = [\"smooth\", \"rough\"]\n";
@@ -22,7 +22,7 @@ pub struct MappedClass {
 }
 
 impl MappedClass {
-    /// Attribute `name`, read from the column `from` with the list `names`.
+    /// Classes in the attribute `name`, read from the column `from` with the list `names`.
     pub fn new(name: &str, from: &str, names: Vec<String>) -> MappedClass {
         MappedClass {
             name: name.to_owned(),
@@ -31,7 +31,7 @@ impl MappedClass {
         }
     }
 
-    /// First position whose class differs; `None` if one list begins with the other.
+    /// First position at which the classes differ; `None` if one list is a prefix of the other.
     pub(super) fn other_position(&self, known: &MappedClass) -> Option<usize> {
         let mut pairs = self.names.iter().zip(&known.names);
         pairs.position(|(own, known)| own != known)

@@ -31,7 +31,7 @@ pub struct MappedColumn {
     /// Factors of the columns after subtraction of the offsets. The products are summed. Empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<f64>,
-    /// Placeholder for "not measured". A row is left out if all columns with a placeholder contain it.
+    /// Number that means "not measured". A row is left out if all columns with a placeholder contain theirs.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placeholder: Option<f64>,
     /// Order of taxels: `place-first` or `channel-first`.
@@ -50,7 +50,7 @@ const OTHER_COLUMN: &str =
     "if the column was recorded differently this time, rename it in the table";
 
 impl MappedColumn {
-    /// `label`, read from `from` in `unit`, without conversion.
+    /// Mapping of `label`, read from `from` in `unit`, without conversion.
     pub fn new(label: &str, from: Vec<String>, unit: &str) -> MappedColumn {
         MappedColumn {
             label: label.to_owned(),
@@ -86,7 +86,7 @@ impl MappedColumn {
         other.from.iter().any(|column| self.from.contains(column))
     }
 
-    /// First setting in which `self`, from a new map, differs from `known`. Both map the same column to the same label.
+    /// First setting in which `self`, from a new map, differs from `known`, the mapping of the same column to the same label.
     fn differs_from(&self, known: &MappedColumn) -> Option<Misread> {
         let facts = |column: &MappedColumn| {
             let order = column.order.clone();
@@ -109,7 +109,7 @@ impl MappedColumn {
     }
 }
 
-/// First column in `new`, from another map, that is mapped differently in `known`. Columns with other names are ignored.
+/// First column of `new`, from another map, whose mapping in `known` differs. Columns with other names are ignored.
 pub(super) fn misread(known: &[MappedColumn], new: &[MappedColumn]) -> Option<Misread> {
     new.iter().find_map(|column| {
         let same_label = known.iter().filter(|known| known.label == column.label);

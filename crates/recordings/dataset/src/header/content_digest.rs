@@ -4,8 +4,8 @@ use super::{Extension, FramesInfo, ViewInfo};
 use crate::digest::{Digest, PartsDigest};
 use crate::signals::SignalsInfo;
 
-/// Digest of a dataset. Covers the table with the digests of frames, the settings of frame decoding, and the signals. Also covers the states before
-/// rows were added, because they determine the parts.
+/// Digest of a dataset: covers the table with the digests of frames, the settings of frame decoding, and the signals. Also covers the states before rows were
+/// added, because these states determine the parts of splits.
 pub(crate) fn dataset_digest(
     table: Digest,
     frames: Option<&FramesInfo>,

@@ -27,7 +27,7 @@ pub struct Extension {
 }
 
 impl Extension {
-    /// A recording of `rows` rows with this digest, to which rows of the folder `from` were added on `date`.
+    /// Addition to a recording of `rows` rows with this digest. The rows come from the folder `from` and were added on `date`.
     pub fn new(
         rows: u64,
         digest: Digest,
@@ -44,7 +44,7 @@ impl Extension {
 }
 
 impl Header {
-    /// Digest and number of samples of each state of the recording: one before each addition, the present state last.
+    /// Digest and number of samples of each state of the recording: the states before each addition, then the present state.
     pub fn stages(&self) -> impl Iterator<Item = (Digest, u64)> + '_ {
         let before = self.extended.iter();
         let before = before.map(|extension| (extension.digest, extension.rows));

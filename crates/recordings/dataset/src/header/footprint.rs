@@ -1,4 +1,4 @@
-//! Sensing area of a sensor, as in files.
+//! Sensing area of a sensor, as stored in files.
 
 use serde::{Deserialize, Serialize};
 
@@ -84,10 +84,10 @@ impl Footprint {
         }
     }
 
-    /// The same area in whole nanometres, as metrics bin it.
+    /// The same area in whole nanometres, the unit in which metrics bin positions.
     ///
     /// # Errors
-    /// A message if a length is missing, unexpected, not positive or above 10 m.
+    /// Error message if a length is missing, unexpected, not positive or above 10 m.
     pub fn to_core(&self) -> Result<taceva_core::Footprint, String> {
         if let Some(problem) = self.problem() {
             return Err(problem);

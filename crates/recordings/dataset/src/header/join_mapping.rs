@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none, quoted};
 
-/// Join of a table by an import. Another lag or pick would select readings of other instants.
+/// Mapping of a joined table by an import. A different lag or pick would select readings of other instants.
 ///
 /// ```
 /// let text = "name = \"ft\"\nby = \"time\"\ncolumn = \"t\"\nunit = \"s\"\npick = \"nearest\"\ntolerance_ms = 5.0\nlag_ms = 12.5\nunmatched = \"drop\"\n";
@@ -22,7 +22,7 @@ pub struct MappedJoin {
     /// Pairs for a join by columns: `column of the main table = column of this table`.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub on: Vec<String>,
-    /// Column of the time, or of the row number up to which its rows apply.
+    /// Time column; for `until`, the column with the main row number before which a row of this table applies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub column: Option<String>,
     /// Unit of the time column.
@@ -34,10 +34,10 @@ pub struct MappedJoin {
     /// Maximum time difference, ms.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// Delay of the clock of this table, ms; positive if the clock is ahead.
+    /// Offset of the clock of this table from the clock of the main table, ms; positive if the clock of this table is ahead.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
-    /// Source of a lag that differs by row: the column that contains it, or `file = ms` for each file.
+    /// Source of an offset that differs by row: the column that contains the offset, or `file = ms` for each file.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lag_by: Vec<String>,
     /// Treatment of rows of the main table without a match: `drop` or `refuse`.
@@ -48,7 +48,7 @@ pub struct MappedJoin {
 }
 
 impl MappedJoin {
-    /// Table `name`, joined by `by`. A row without a match is rejected.
+    /// Table `name`, joined by `by`. Rows of the main table without a match are rejected.
     pub fn new(name: &str, by: &str) -> MappedJoin {
         MappedJoin {
             name: name.to_owned(),

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::digest::Digest;
 
-/// Predictions of a model beside a recording, in `predictions.csv`. They were made while frames were taken, and are not labels.
+/// Predictions of a model, stored beside a recording in `predictions.csv`. The model made them while frames were taken; they are not labels.
 ///
 /// ```
 /// use taceva_dataset::{Digest, LivePredictions};
@@ -28,7 +28,8 @@ pub struct LivePredictions {
 }
 
 impl LivePredictions {
-    /// Predictions in `table`, with a header line and one line per sample, by the model called `by` whose file has the digest `model`.
+    /// Facts about the predictions in `table`, which has a header line and one line per sample. `by` is the name of the model and `model` the digest of its
+    /// file.
     pub fn new(by: impl Into<String>, model: Digest, table: &[u8]) -> LivePredictions {
         let lines = table.iter().filter(|byte| **byte == b'\n').count() as u64;
         LivePredictions {

@@ -17,7 +17,7 @@ pub struct Misread {
     pub mend: &'static str,
 }
 
-/// First fact of `new` that differs from the same fact of `known`.
+/// First fact of `new` whose value differs in `known`.
 pub(super) fn differing(known: Vec<Fact>, new: Vec<Fact>, mend: &'static str) -> Option<Misread> {
     let mut pairs = known.into_iter().zip(new);
     let ((_, own), (key, other)) = pairs.find(|((_, own), (_, other))| own != other)?;
@@ -29,7 +29,7 @@ pub(super) fn differing(known: Vec<Fact>, new: Vec<Fact>, mend: &'static str) ->
     })
 }
 
-/// Names for an error message.
+/// Quotes `names` for an error message.
 pub(super) fn quoted(names: &[String]) -> String {
     let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
     match quoted[..] {
@@ -38,12 +38,12 @@ pub(super) fn quoted(names: &[String]) -> String {
     }
 }
 
-/// A number for an error message.
+/// Writes a number for an error message.
 pub(super) fn number(number: Option<f64>) -> String {
     number.map_or_else(|| "none".to_owned(), |number| number.to_string())
 }
 
-/// A name for an error message, or `none`.
+/// Writes a name for an error message; `none` if missing.
 pub(super) fn or_none(name: Option<&str>) -> String {
     name.map_or_else(|| "none".to_owned(), |name| format!("`{name}`"))
 }

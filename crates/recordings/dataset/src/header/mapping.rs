@@ -6,7 +6,7 @@ use super::join_mapping::MappedJoin;
 use super::map_conflict::{Misread, differing};
 use super::picture_mapping::MappedPictures;
 
-/// Settings that determine the values that an import reads from the cells, rows and arrays of a lab.
+/// Settings that determine the values that an import reads from cells, rows and arrays of the source folder.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[doc(hidden)]
 pub struct Mapping {
@@ -18,7 +18,7 @@ pub struct Mapping {
     pub pictures: Vec<MappedPictures>,
     /// Mappings of the classes.
     pub classes: Vec<MappedClass>,
-    /// Channels that together are one rotation.
+    /// Channels that together form one rotation.
     pub rotations: Vec<Vec<String>>,
 }
 
@@ -32,12 +32,12 @@ const OTHER_ARRAY: &str =
     "if the pictures were written differently this time, give their array another name";
 
 impl Mapping {
-    /// True if no map is known, because the dataset was recorded.
+    /// True if no map is stored, because the dataset was recorded and not imported.
     pub fn is_empty(&self) -> bool {
         *self == Mapping::default()
     }
 
-    /// First key of `new`, another map, that contradicts `self`. Entries with other names are ignored.
+    /// First key of the new map `new` that contradicts `self`. Entries with other names are ignored.
     pub fn misread(&self, new: &Mapping) -> Option<Misread> {
         let columns = misread(&self.columns, &new.columns);
         let joins = new.joins.iter().find_map(|join| {
@@ -65,7 +65,7 @@ impl Mapping {
         columns.or(joins).or(pictures).or(classes)
     }
 
-    /// Combined mapping after rows were added with `new`.
+    /// Combined mapping after rows were added with the map `new`.
     pub fn and(self, new: &Mapping) -> Mapping {
         Mapping {
             columns: united(self.columns, &new.columns),

@@ -1,12 +1,12 @@
-//! Data in the folder of a lab that the import did not use.
+//! Data in the source folder that the import did not use.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// Data that the import left out. Readers of the dataset should know of it.
+/// Data that the import left out, for readers of the dataset.
 ///
-/// Files are named relative to the folder of the lab. The first 64 files are named, and the others are counted together under `…`.
+/// File names are relative to the source folder. The first 64 names are kept, and further files are counted together under `…`.
 ///
 /// ```
 /// use taceva_dataset::LeftOut;
@@ -21,7 +21,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct LeftOut {
-    /// Images beside the tables that no row uses.
+    /// Number of images beside the tables that no row uses.
     #[serde(skip_serializing_if = "is_zero")]
     pub images: u64,
     /// Number of unused columns whose names are not stored, because there are more than 256 or the names are too long.
@@ -46,7 +46,7 @@ pub struct LeftOut {
 
 /// Maximum number of stored names of one kind.
 const NAMED: usize = 64;
-/// Name under which the others are counted.
+/// Name under which items beyond [`NAMED`] are counted together.
 const OTHERS: &str = "…";
 
 impl LeftOut {
@@ -75,7 +75,7 @@ impl LeftOut {
     }
 }
 
-/// Adds `count` to the count of `name`, or of the others if there are too many names.
+/// Adds `count` to the count of `name`, or to the common count of further names if the maximum number of names is reached.
 pub fn add(counts: &mut BTreeMap<String, u64>, name: &str, count: u64) {
     if count == 0 {
         return;

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::map_conflict::{Fact, number, or_none};
 
-/// Mapping of pictures by an import. With another range or index column, the same values are other pictures.
+/// Mapping of pictures by an import. A different range or index column would select different pictures.
 ///
 /// ```
 /// let text = "by = \"array\"\nfrom = \"/rgb\"\nindex = \"n\"\nrange = [0.0, 1.0]\nbits = 8\n";
@@ -17,7 +17,7 @@ use super::map_conflict::{Fact, number, or_none};
 pub struct MappedPictures {
     /// Key of the source: `column`, `pattern`, `array`, `bytes` or `video`.
     pub by: String,
-    /// Column, pattern, array in its file, or clip; empty for the only array of a file.
+    /// Column, pattern, array, or clip that contains the pictures; empty for the only array of a file.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub from: String,
     /// Column of the index in an array or clip; `None` for the row number.
@@ -26,10 +26,10 @@ pub struct MappedPictures {
     /// Axes of an array: `nhwc`, `nhw` or `nchw`, if the map states them.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layout: Option<String>,
-    /// Values of black and full scale.
+    /// Values that become black and full scale, in this order.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<[f64; 2]>,
-    /// Bit depth of the pixels that values in a range are converted to.
+    /// Bits per pixel after values in `range` are converted to pixels.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bits: Option<u8>,
     /// Name of the view, if samples have several pictures.
@@ -51,7 +51,7 @@ impl MappedPictures {
         }
     }
 
-    /// True if both have the same source: arrays with the same name, or clips, whose names differ between recordings.
+    /// True if both mappings have the same source: arrays with the same name, or any clips, because clip names differ between recordings.
     pub(super) fn is_of(&self, known: &MappedPictures) -> bool {
         self.by == known.by
             && self.view == known.view

@@ -25,11 +25,11 @@ use crate::text::shown;
 pub struct RecordingFacts {
     /// Origin of the samples: measured, simulated or synthetic.
     pub source: Source,
-    /// Clock that stamps the samples, which defines the origin of `t_s`.
+    /// Clock that stamps the samples. Defines the origin of `t_s`.
     pub clock: Clock,
     /// UTC day on which the recording began; `None` if nothing was measured, or for an import.
     pub recorded_on: Option<Date>,
-    /// UTC day of its last session, if that is another one.
+    /// UTC day of the last session, if different from `recorded_on`.
     pub recorded_until: Option<Date>,
     /// Model, serial number and gel of the sensor.
     pub sensor: SensorFacts,
@@ -42,7 +42,7 @@ pub struct RecordingFacts {
 }
 
 impl RecordingFacts {
-    /// Facts without a footprint, settings, day or instruments.
+    /// Facts with unknown footprint, settings, day and instruments.
     pub fn new(source: Source, clock: Clock, sensor: SensorFacts) -> RecordingFacts {
         RecordingFacts {
             source,
@@ -89,7 +89,7 @@ impl RecordingFacts {
         }
     }
 
-    /// The same facts, with the day, the settings and the instruments of `before`, an interrupted recording that is resumed.
+    /// The same facts, with the day, settings and instruments of `before`, the interrupted recording that is resumed.
     pub(crate) fn resuming(self, before: &RecordingFacts) -> RecordingFacts {
         RecordingFacts {
             recorded_on: before.recorded_on,
@@ -100,7 +100,7 @@ impl RecordingFacts {
         }
     }
 
-    /// First setting whose value differs in `now`, as text. A setting that only `now` has is ignored, because earlier builds stored fewer.
+    /// First setting whose value differs in `now`, as text. A setting that only `now` has is ignored, because earlier builds stored fewer settings.
     pub(crate) fn other_setting(&self, now: &RecordingFacts) -> Option<String> {
         self.settings.iter().find_map(|(name, before)| {
             let found = match now.settings.get(name) {
@@ -113,7 +113,7 @@ impl RecordingFacts {
         })
     }
 
-    /// Difference of the instruments in `now`, in words, for the begun recording at `path`. Earlier builds stored no instruments.
+    /// Difference between the instruments and those of `now`, as text; `path` is the begun recording. Earlier builds stored no instruments.
     pub(crate) fn other_instrument(&self, now: &RecordingFacts, path: &Path) -> Option<String> {
         if self.traceability.is_empty() || self.traceability == now.traceability {
             return None;
@@ -137,7 +137,7 @@ impl RecordingFacts {
 }
 
 impl Header {
-    /// First and last UTC day of these sample times, or of the sessions of the recording; `None` if the clock gives no date.
+    /// First and last UTC day of the sample times `t_s`, s, or of the sessions of the recording; `None` if the clock gives no date.
     pub fn days(&self, t_s: &[Option<f64>]) -> Option<RangeInclusive<Date>> {
         if self.clock != Clock::Unix {
             let first = self.recorded_on?;

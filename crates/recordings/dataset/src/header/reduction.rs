@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use taceva_core::FrameInfo;
 
-/// Original form and method of frames that were reduced before recording.
+/// Original format and reduction method of frames that were reduced before recording.
 ///
 /// ```
 /// use taceva_core::{FrameInfo, PixelFormat};
@@ -24,7 +24,7 @@ pub struct ReducedFrames {
 }
 
 impl ReducedFrames {
-    /// Frames of `from`, each reduced to exact area averages that were rounded once, to 8 bits.
+    /// Reduction of frames of the format `from` to exact area averages, each rounded once, to 8 bits.
     pub fn area_averages(from: FrameInfo) -> ReducedFrames {
         ReducedFrames {
             from,
@@ -32,7 +32,7 @@ impl ReducedFrames {
         }
     }
 
-    /// True if this reduction can produce frames of `info`.
+    /// True if this reduction can produce frames of the format `info`.
     pub(crate) fn may_give(&self, info: FrameInfo) -> bool {
         let from = self.from;
         info.width <= from.width

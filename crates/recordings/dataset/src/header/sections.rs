@@ -7,7 +7,7 @@ use super::reduction::ReducedFrames;
 use crate::decode::ChannelOrder;
 use crate::digest::Digest;
 
-/// Origin of the samples, stated in every report. It gets no further variant, because every reader must handle each.
+/// Origin of the samples, stated in every report. This enum gets no further variant, because every reader must handle each variant.
 ///
 /// ```
 /// use taceva_dataset::Source;
@@ -26,7 +26,7 @@ pub enum Source {
     Synthetic,
 }
 
-/// Fact that may be unknown. It gets no further variant.
+/// Fact that may be unknown. This enum gets no further variant.
 ///
 /// ```
 /// use taceva_dataset::Known;
@@ -87,7 +87,7 @@ impl<'de> Deserialize<'de> for Known<bool> {
     }
 }
 
-/// Facts about the sensor. A file must state each key; the value `"unknown"` is accepted.
+/// Facts about the sensor. A header must state each key; the value `"unknown"` is accepted.
 ///
 /// ```
 /// use taceva_dataset::{Known, SensorFacts};
@@ -178,7 +178,7 @@ pub struct FramesInfo {
     pub info: FrameInfo,
     /// Order of the colours in the image files.
     pub channel_order: ChannelOrder,
-    /// Video coding of the frames, if they came from a clip; of the first clip if there are several.
+    /// Video coding of the frames if they came from a clip; the coding of the first clip if there are several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub codec: Option<FrameCodec>,
     /// Other video codings of further clips, each once.
@@ -193,7 +193,7 @@ pub struct FramesInfo {
 }
 
 impl FramesInfo {
-    /// `count` frames, neither coded as a clip nor reduced, without a frame without contact.
+    /// Properties of `count` unreduced frames that are not from a clip, with an unknown frame without contact.
     pub fn new(count: u64, info: FrameInfo, channel_order: ChannelOrder) -> FramesInfo {
         FramesInfo {
             count,
@@ -206,7 +206,7 @@ impl FramesInfo {
         }
     }
 
-    /// Size and format of a camera frame: before reduction, or as recorded.
+    /// Size and format of a camera frame before any reduction.
     pub fn of_camera(&self) -> FrameInfo {
         self.reduced
             .as_ref()

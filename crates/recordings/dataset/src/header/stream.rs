@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Numbers of frames of a stream that its recording lacks, counted while recording.
+/// Numbers of stream frames that are missing in the recording, counted while recording.
 ///
 /// ```
 /// use taceva_dataset::StreamFacts;
@@ -22,7 +22,7 @@ pub struct StreamFacts {
 }
 
 impl StreamFacts {
-    /// A stream without losses.
+    /// Stream without losses.
     pub fn new(numbered: bool) -> StreamFacts {
         StreamFacts {
             numbered,

@@ -4,16 +4,16 @@
 #[derive(Debug)]
 pub(super) struct Bits<'a> {
     bytes: &'a [u8],
-    /// Offset of the next byte that is not in `buffer`.
+    /// Offset of the next byte to load into `buffer`.
     position: usize,
-    /// Bits read but not yet used, in the low end.
+    /// Loaded but unused bits, in the low end.
     buffer: u64,
     count: u32,
     /// True if `position` is at a marker, or at the end of the file.
     is_at_marker: bool,
 }
 
-/// The message about data that ends before the last block.
+/// Message about data that ends before the last block.
 pub(super) const ENDS_EARLY: &str = "the entropy-coded data ends before the last block";
 
 impl<'a> Bits<'a> {
@@ -84,7 +84,7 @@ impl<'a> Bits<'a> {
         Ok(bits >> (16 - count))
     }
 
-    /// The position of the marker that must follow, after padding bits.
+    /// Position of the marker that must follow the padding bits.
     pub(super) fn end(mut self) -> Result<usize, String> {
         self.fill();
         if self.count < 8 && self.is_at_marker {

@@ -8,7 +8,7 @@ pub(super) struct Component {
     pub(super) id: u8,
     /// Blocks across and down in a unit of an interleaved scan.
     pub(super) sampling: [usize; 2],
-    /// The number of its quantisation table.
+    /// Number of the quantisation table.
     pub(super) quantiser: u8,
     /// Blocks across and down, including padding of the last unit.
     pub(super) padded: [usize; 2],
@@ -20,7 +20,7 @@ pub(super) struct Component {
     pub(super) missing: [Option<u8>; 64],
 }
 
-/// The frame of a picture.
+/// Frame header of a picture, with the coding state of each component.
 #[derive(Clone, Debug)]
 pub(super) struct Frame {
     pub(super) is_progressive: bool,

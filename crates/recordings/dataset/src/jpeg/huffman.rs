@@ -10,7 +10,7 @@ const QUICK: u32 = 9;
 pub(super) struct Huffman {
     /// By the next [`QUICK`] bits: the length of the code and its symbol; length 0 if the code is longer or invalid.
     quick: Vec<(u8, u8)>,
-    /// By length: the first code after those of that length, shifted to the left end of 16 bits.
+    /// By length: the first code beyond all codes of that length, shifted to the left end of 16 bits.
     beyond: [u32; 17],
     /// By length: the offset from a code to the index of its symbol.
     offset: [i64; 17],

@@ -18,17 +18,17 @@ pub(super) struct Tables {
 /// Header of a scan.
 #[derive(Debug)]
 pub(super) struct Scan {
-    /// Index in the frame, and the numbers of both Huffman tables.
+    /// By component of the scan: index in the frame, and the numbers of both Huffman tables.
     components: Vec<(usize, [usize; 2])>,
-    /// First and last coefficient.
+    /// First and last coefficient of the band.
     band: [usize; 2],
-    /// Bit position coded before; 0 in the first scan of a band.
+    /// Number of low bits that the previous scan of the band did not code; 0 in the first scan.
     before: u8,
-    /// Number of bits left to later scans.
+    /// Number of low bits that later scans code.
     later: u8,
 }
 
-/// Twice the greatest coefficient of 8-bit pixels: some encoders overshoot on purpose.
+/// Limit of a coefficient: twice the greatest of 8-bit pixels, because some encoders overshoot on purpose.
 const GREATEST: i64 = 2_048;
 
 impl Scan {
@@ -67,7 +67,7 @@ impl Scan {
         Ok(scan)
     }
 
-    /// Records the bits that the scan codes. They must follow those of the earlier scans.
+    /// Records the bits that the scan codes. Rejects bits that do not continue the earlier scans.
     fn note_bits(&self, frame: &mut Frame) -> Result<(), String> {
         let wrong = || Err("a scan that codes bits out of order".to_owned());
         let [first, last] = self.band;
@@ -98,7 +98,7 @@ impl Scan {
         Ok(())
     }
 
-    /// Parses every block of the data that begins at `start`; returns the position of the marker after it.
+    /// Parses every block of the data that begins at `start`. Returns the position of the marker after the data.
     pub(super) fn read(
         &self,
         frame: &mut Frame,
@@ -165,7 +165,7 @@ impl Scan {
         coders.collect()
     }
 
-    /// Parses a block of a scan of some bits of some coefficients.
+    /// Parses a block of a progressive scan.
     fn progressive(
         &self,
         coder: &Coder<'_>,
@@ -183,7 +183,7 @@ impl Scan {
         }
     }
 
-    /// Parses the first bits of a band.
+    /// Parses a block of the first scan of a band.
     fn first_of_band(
         &self,
         bits: &mut Bits<'_>,
@@ -215,7 +215,7 @@ impl Scan {
         Ok(())
     }
 
-    /// Parses one more bit of a band.
+    /// Parses a block of a scan that adds one bit to each coefficient of a band.
     fn refined(
         &self,
         bits: &mut Bits<'_>,
@@ -283,12 +283,12 @@ struct Coder<'a> {
     quantiser: i64,
 }
 
-/// State that one block passes to the next, between restart markers.
+/// State passed from block to block between restart markers.
 #[derive(Default)]
 struct State {
-    /// By component of the frame, the last DC coefficient.
+    /// By component of the frame: the last DC coefficient.
     previous: [i64; 4],
-    /// Number of following blocks without a code of their own.
+    /// Number of following blocks that the last code declared empty.
     empty_blocks: u32,
 }
 
@@ -367,7 +367,7 @@ fn mask(count: usize) -> u64 {
     }
 }
 
-/// The position after restart marker `number`, which must be at `position`.
+/// Position after restart marker `number`. The marker must be at `position`.
 fn restarted(bytes: &[u8], position: usize, number: u8) -> Result<usize, String> {
     let rest = bytes.get(position..).unwrap_or_default();
     let fills = rest.iter().take_while(|byte| **byte == 0xFF).count();

@@ -1,4 +1,4 @@
-//! Segments of a JPEG in order, and the state that they set for the scans.
+//! Segments of a JPEG in order, and the decoder state that they set for the scans.
 
 use super::bits::big_endian;
 use super::frame::Frame;
@@ -59,7 +59,7 @@ impl<'a> Reader<'a> {
         frame.check_complete()
     }
 
-    /// The type of the marker that must be here.
+    /// Type of the marker at the current position.
     fn marker(&mut self) -> Result<u8, String> {
         let rest = self.bytes.get(self.position..).unwrap_or_default();
         let fills = rest.iter().take_while(|byte| **byte == 0xFF).count();

@@ -14,7 +14,7 @@ use crate::signals::{SignalsInfo, SignalsReader, SignalsWriter};
 use crate::store::{Beside, write_table_and_header};
 
 impl Recorder {
-    /// Closes the recording and turns it into a dataset. The journal remains until the header is written, so that the recording can be resumed.
+    /// Closes the recording and turns it into a dataset. The journal is kept until the header is written, so that an interrupted close can be resumed.
     ///
     /// # Errors
     /// [`DatasetError::Damaged`] if the written files cannot be read back; [`DatasetError::Io`].

@@ -61,7 +61,7 @@ pub(super) fn unclosed_folder(path: &Path) -> Result<File, DatasetError> {
     Ok(lock)
 }
 
-/// Rejects links in the recording at `path`, through which it would continue elsewhere.
+/// Rejects symbolic links in the recording at `path`, because data would be appended to their targets.
 ///
 /// A link created after this check is followed. Users with write access to the folder are trusted.
 fn refuse_links(path: &Path) -> Result<(), DatasetError> {

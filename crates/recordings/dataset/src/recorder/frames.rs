@@ -1,4 +1,4 @@
-//! Frames of a recording. Each frame and the name of its pack are durable before the journal names it.
+//! Frames of a recording. The journal names a frame only after the frame and the name of its pack are durable.
 
 use taceva_core::{Frame, FrameError, Sample};
 use taceva_files::parent_of;
@@ -25,7 +25,7 @@ impl Recorder {
         self.write_each(frames.collect())
     }
 
-    /// As [`write_frames`](Recorder::write_frames), but files sent by a camera are stored unchanged.
+    /// Appends frames like [`write_frames`](Recorder::write_frames), but stores files sent by a camera unchanged.
     pub(super) fn write_streamed(
         &mut self,
         stream: &[Streamed],

@@ -94,7 +94,7 @@ impl WrittenStart {
     }
 }
 
-/// Sample of a journal: row, frame format, and taxel values.
+/// Sample read from a journal: row, frame format, and taxel values.
 type Taken = (Row, Option<FrameInfo>, Option<Vec<f32>>);
 
 /// Sample as written; missing values are omitted.
@@ -125,7 +125,7 @@ pub(super) struct WrittenSample {
     spacing_nm: Option<i64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     intensity: Option<f64>,
-    /// Signals in double precision, whose text reads back to the same single-precision number.
+    /// Signals in double precision, whose text parses back to the same single-precision numbers.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     signals: Option<Vec<f64>>,
     truth: BTreeMap<String, f64>,
@@ -197,7 +197,7 @@ impl WrittenFrame {
 }
 
 impl WrittenSample {
-    /// Row with its frame format and taxel values, as far as present.
+    /// Written form of a row, with its frame format and taxel values if any.
     pub(super) fn new(
         row: &Row,
         channels: &Channels,
@@ -243,7 +243,7 @@ impl WrittenSample {
         from_toml(payload)
     }
 
-    /// Converts to the row, the frame format and the taxel values. The caller compares the values with the taxels of the recording.
+    /// Converts to the row, the frame format and the taxel values. The caller checks the number of values against the taxels of the recording.
     pub(super) fn into_row(self, channels: &Channels) -> Result<Taken, String> {
         let stranger = self
             .truth

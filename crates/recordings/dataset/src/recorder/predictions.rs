@@ -17,9 +17,9 @@ pub(super) struct PredictedTable {
 }
 
 impl Recorder {
-    /// Stores the predictions `table`, CSV with one line for each sample, of the model called `by`, until the recording is closed.
+    /// Stores the predictions `table` of the model called `by` until the recording is closed. `table` is CSV with one line per sample.
     ///
-    /// Only the last table is kept. An interruption before the close loses the table, but not frames and labels; `taceva predict` can make it
+    /// Only the last table is kept. An interruption before the close loses the table, but not frames and labels. `taceva predict` can compute the predictions
     /// again.
     pub fn keep_predictions(&mut self, by: &str, model: Digest, table: Vec<u8>) {
         self.predictions = Some(PredictedTable {

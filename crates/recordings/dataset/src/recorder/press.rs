@@ -1,4 +1,4 @@
-//! Presses of a protocol. A press is one record of the journal, so an interruption keeps either all of its samples or none.
+//! Presses of a protocol. Each press is one record of the journal, so an interruption keeps either all of its samples or none.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -25,11 +25,11 @@ impl Recorder {
         counts
     }
 
-    /// Records a press, its outcome and all its samples, possibly none. Returns the number of its record once it is durable.
+    /// Records a press, its outcome and all its samples, possibly none. Returns the number of the journal record once the record is durable.
     ///
     /// # Errors
-    /// As [`append`](Recorder::append), for the first rejected sample; [`DatasetError::Sample`] if the name of the press is empty or taken;
-    /// [`DatasetError::Request`] for more samples than one record holds, some thousands. Nothing is recorded then.
+    /// Errors of [`append`](Recorder::append), for the first rejected sample; [`DatasetError::Sample`] if the name of the press is empty or taken;
+    /// [`DatasetError::Request`] for more samples than fit into one record, some thousands. Nothing is recorded after an error.
     pub fn append_press(
         &mut self,
         press: &str,
@@ -52,7 +52,7 @@ impl Recorder {
         Ok(sequence)
     }
 
-    /// Appends one record with `samples`, whose frames are written as `entries`; `payload` is the text of the record.
+    /// Appends one record with the text `payload`. `entries` are the locations of the written frames of `samples`.
     pub(super) fn append_all<'a>(
         &mut self,
         kind: RecordKind,

@@ -1,13 +1,13 @@
-//! Restores a recording from its journal, record by record.
+//! Restores the state of a recording from its journal, record by record.
 
 use super::Recorder;
 use super::payload::{WrittenFrame, WrittenPress, WrittenSample, WrittenStream};
 use crate::error::DatasetError;
 use crate::journal::{JournalRecord, RecordKind};
 
-/// Error of restoring a record of a journal.
+/// Error while a record of a journal is restored.
 pub(super) enum ReplayError {
-    /// Damaged record, with the fault.
+    /// Damaged record, with a description of the damage.
     Damaged(String),
     /// Error of the operating system.
     Io(DatasetError),

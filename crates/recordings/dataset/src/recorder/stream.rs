@@ -1,4 +1,4 @@
-//! Frames of a stream, recorded several at a time so that the disk is synced once for all.
+//! Frames of a stream. Several frames are recorded together, with a single sync of the disk.
 
 use taceva_core::Sample;
 
@@ -9,7 +9,7 @@ use crate::error::DatasetError;
 use crate::header::StreamFacts;
 use crate::journal::RecordKind;
 
-/// Sample of a stream, with the file of its frame if the camera sends files.
+/// Sample of a stream, with the image file if the camera sends files.
 ///
 /// ```
 /// use taceva_core::Sample;
@@ -36,7 +36,7 @@ impl Streamed {
     /// The same sample with the file of its frame as the camera sent it.
     ///
     /// # Errors
-    /// A message if the file is neither PNG nor JPEG nor TIFF, truncated, or damaged inside.
+    /// Error message if the file is neither PNG nor JPEG nor TIFF, truncated, or damaged inside.
     pub fn with_sent(self, sent: Vec<u8>) -> Result<Streamed, String> {
         let kind = kind_of_whole(&sent)?;
         check_to_the_end(&sent, kind)?;
@@ -48,10 +48,10 @@ impl Streamed {
 }
 
 impl Recorder {
-    /// Records frames of a stream, and its losses so far; returns their number in the journal once all of them are durable.
+    /// Records frames of a stream, and the losses of the stream so far. Returns the number of their journal record once all frames are durable.
     ///
     /// # Errors
-    /// As [`append_press`](Recorder::append_press); nothing is recorded then.
+    /// Errors of [`append_press`](Recorder::append_press). Nothing is recorded after an error.
     pub fn append_stream(
         &mut self,
         stream: &[Streamed],

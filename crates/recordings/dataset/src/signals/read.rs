@@ -1,4 +1,4 @@
-//! Reader of signals. Verifies the file once, then keeps a few row groups in memory.
+//! Reader of signals. Verifies the file once, then caches a few row groups.
 
 use std::collections::VecDeque;
 use std::fs::File;
@@ -27,7 +27,7 @@ pub struct SignalsReader {
     file: SerializedFileReader<File>,
     /// First row of each group, then the number of rows.
     starts: Vec<u64>,
-    /// Recently used groups, the newest last, values place first.
+    /// Recently used groups, the newest last, with values taxel by taxel.
     groups: Mutex<VecDeque<(usize, Arc<Vec<f32>>)>>,
 }
 
@@ -123,7 +123,7 @@ impl std::fmt::Debug for SignalsReader {
     }
 }
 
-/// First row of each group, after a check of schema and sizes against `info`. Nothing is allocated by unchecked sizes.
+/// First row of each group. Checks schema and sizes against `info` before memory is allocated by these sizes.
 fn starts(
     file: &SerializedFileReader<File>,
     info: &SignalsInfo,
@@ -157,7 +157,7 @@ fn starts(
     }
 }
 
-/// Values of a row group, place first.
+/// Values of a row group, taxel by taxel.
 fn read_group(group: &dyn RowGroupReader, length: usize) -> Result<Vec<f32>, ParquetError> {
     let rows = usize::try_from(group.metadata().num_rows())?;
     let mut values = vec![0.0; rows * length];

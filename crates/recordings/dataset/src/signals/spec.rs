@@ -22,17 +22,17 @@ use crate::digest::{Digest, PartsDigest};
 pub struct SignalsSpec {
     /// Grid and unit of the taxels.
     pub info: SignalInfo,
-    /// Names of the values of a place, in order.
+    /// Names of the values of one taxel, in order.
     pub channels: Vec<String>,
-    /// Runs of rows without contact, each as first and last row, from 0.
+    /// Ranges of rows without contact, each as first and last row, from 0.
     pub rest: Vec<[u64; 2]>,
 }
 
 impl SignalsSpec {
-    /// Taxels of `info` with values called `channels`, without rows marked as rest.
+    /// Taxels of `info`, each with values called `channels`, without rows marked as without contact.
     ///
     /// # Errors
-    /// A message if there is not one name for each value of a place, or if a name is duplicate or invalid for a column.
+    /// Error message if the number of names is not the number of values per taxel, or if a name is duplicate or invalid for a column.
     pub fn new<N: Into<String>>(
         info: SignalInfo,
         channels: impl IntoIterator<Item = N>,
@@ -46,7 +46,7 @@ impl SignalsSpec {
         Ok(spec)
     }
 
-    /// The same taxels with the runs of rows without contact, each as first and last row, from 0.
+    /// The same taxels with the ranges of rows without contact, each as first and last row, from 0.
     #[must_use]
     pub fn with_rest(self, rest: impl IntoIterator<Item = [u64; 2]>) -> SignalsSpec {
         SignalsSpec {
@@ -65,7 +65,7 @@ impl SignalsSpec {
         })
     }
 
-    /// Checks values that may come from a file; returns a message as error.
+    /// Checks the values, which may come from a file. Returns an error message.
     pub(super) fn check(&self) -> Result<(), String> {
         let info = self.info;
         if !info.is_valid() {
@@ -95,7 +95,7 @@ impl SignalsSpec {
         Ok(())
     }
 
-    /// Checks the rows without contact of a recording with `rows` rows; returns a message as error.
+    /// Checks the rows without contact of a recording with `rows` rows. Returns an error message.
     pub(super) fn check_rest(&self, rows: u64) -> Result<(), String> {
         let wrong = |run: &&[u64; 2]| run[0] > run[1] || run[1] >= rows;
         match self.rest.iter().find(wrong) {
@@ -106,7 +106,7 @@ impl SignalsSpec {
         }
     }
 
-    /// Digest of everything except the values, to which the values are added.
+    /// Digest of the taxel facts, to which the caller adds the values.
     pub(super) fn digest(&self) -> PartsDigest {
         let mut digest = PartsDigest::default();
         digest.part(b"taceva.signals/1");
@@ -152,7 +152,7 @@ impl SignalsSpec {
 pub struct SignalsInfo {
     /// Taxels of the recording.
     pub spec: SignalsSpec,
-    /// Digest of the file content, independent of its storage.
+    /// Digest of the taxel values, independent of their storage.
     pub digest: Digest,
     /// SHA-256 of the bytes of the file.
     pub sha256: Digest,
@@ -175,7 +175,7 @@ pub(crate) struct WrittenSignals {
 }
 
 impl WrittenSignals {
-    /// Form for a recording that is not closed yet.
+    /// Form for a recording that is not yet closed.
     pub(crate) fn of(spec: &SignalsSpec) -> WrittenSignals {
         WrittenSignals {
             rows: spec.info.rows,
@@ -188,7 +188,7 @@ impl WrittenSignals {
         }
     }
 
-    /// Converts to the taxels; returns a message as error.
+    /// Converts to the taxels. Returns an error message if they are invalid.
     pub(crate) fn spec(&self) -> Result<SignalsSpec, String> {
         let channels = u32::try_from(self.channels.len()).unwrap_or(u32::MAX);
         let info = SignalInfo::new(self.rows, self.columns, channels, self.unit);

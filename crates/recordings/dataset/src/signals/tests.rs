@@ -11,7 +11,7 @@ fn spec() -> SignalsSpec {
     SignalsSpec::new(info, ["x", "y", "z"]).expect("three names")
 }
 
-/// Distinct numbers of `row`, with a negative zero and the least positive number.
+/// Distinct numbers for `row`, including a negative zero and the least positive number.
 fn values(row: u16) -> Vec<f32> {
     let own = |place: u16| f32::from(row) * 1.25 - f32::from(place) / 3.0;
     let mut values: Vec<f32> = (0..15).map(own).collect();
@@ -160,7 +160,7 @@ fn a_stranger_who_knows_the_digest_gets_an_error_and_no_panic() {
     }
 }
 
-/// Facts of the same file with a grid of 3 × 5 single numbers.
+/// Facts about the same file, but for a grid of 3 × 5 taxels with one value each.
 fn other_grid(info: &SignalsInfo) -> SignalsInfo {
     let grid = SignalInfo::new(3, 5, 1, Unit::Microtesla).expect("fifteen numbers");
     SignalsInfo {

@@ -1,4 +1,4 @@
-//! Writer of signals, row by row. Memory holds at most one row group.
+//! Writer of signals, row by row. Memory contains at most one row group.
 
 use std::fs::File;
 use std::io::BufWriter;
@@ -25,7 +25,7 @@ pub struct SignalsWriter {
     path: PathBuf,
     spec: SignalsSpec,
     writer: SerializedFileWriter<BufWriter<File>>,
-    /// Rows not yet written to a group, values place first.
+    /// Rows not yet written to a group, values taxel by taxel.
     held: Vec<f32>,
     rows: u64,
     digest: PartsDigest,
@@ -60,7 +60,7 @@ impl SignalsWriter {
     /// Adds the values of the next row.
     ///
     /// # Shapes
-    /// `values`: rows × columns × channels, place first.
+    /// `values`: rows × columns × channels, taxel by taxel.
     pub fn push(&mut self, values: &[f32]) -> Result<(), DatasetError> {
         let expected = self.spec.info.len();
         let row = self.rows;
@@ -86,7 +86,7 @@ impl SignalsWriter {
         }
     }
 
-    /// Closes the file and syncs its bytes, but not its name.
+    /// Closes the file and syncs its content, but not its name.
     pub fn finish(mut self) -> Result<SignalsInfo, DatasetError> {
         let problem = self.spec.check_rest(self.rows);
         problem.map_err(|problem| DatasetError::damaged(&self.path, problem))?;

@@ -79,7 +79,7 @@ impl Cells<'_> {
         matches!(self, Cells::Name(_) | Cells::Text(_))
     }
 
-    /// Number in a row of a numeric column.
+    /// Number in a row of a numeric column; `None` if missing.
     pub fn number(&self, row: usize) -> Option<f64> {
         match self {
             Cells::Spacing(cells) => cells[row].map(Nanometre::to_millimetres),
@@ -89,7 +89,7 @@ impl Cells<'_> {
         }
     }
 
-    /// Cell as text; numbers in the shortest form that reads back to the same binary64.
+    /// Cell as text. Numbers have the shortest form that parses back to the same binary64.
     pub fn text(&self, row: usize) -> Option<String> {
         match self {
             Cells::Name(cells) => Some(cells[row].clone()),

@@ -5,11 +5,10 @@ use taceva_core::{Column, Field, Labels, Nanometre};
 use super::Table;
 
 impl Table {
-    /// Texts of `field` in `rows`, in order: contact point, unit, scene, phase, kind of grating or digest of the frame. `None` for fields without
-    /// text.
+    /// Texts of `field` in `rows`, in order: contact point, unit, scene, phase, kind of grating or digest of the frame. `None` if the field has no text.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if the row does not exist.
     pub fn labels(&self, field: Field, rows: impl Iterator<Item = usize>) -> Option<Labels> {
         let mut labels = Labels::default();
         let mut push = |name: Option<&str>| match name {
@@ -33,10 +32,10 @@ impl Table {
         Some(labels)
     }
 
-    /// Numbers of `field` in `rows`, in order: depth step, repeat, time in s, spacing in whole nm, intensity. `None` for fields without numbers.
+    /// Numbers of `field` in `rows`, in order: depth step, repeat, time in s, spacing in whole nm, intensity. `None` if the field is not numeric.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if the row does not exist.
     pub fn numbers(&self, field: Field, rows: impl Iterator<Item = usize>) -> Option<Column> {
         let mut column = Column::default();
         match field {

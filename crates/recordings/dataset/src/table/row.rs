@@ -21,9 +21,9 @@ use crate::pack::Span;
 pub struct FrameEntry {
     /// File or pack of the frame, relative to the folder of the dataset, with `/`.
     pub path: String,
-    /// Byte range within that file; `None` for the whole file.
+    /// Byte range within the file at `path`; `None` for the whole file.
     pub span: Option<Span>,
-    /// Digest of its bytes; for a difference, digest of its bytes and of the digest of the first frame of the pack.
+    /// Digest of the frame bytes. For a difference, digest of its bytes and of the digest of the first frame of the pack.
     pub digest: Digest,
 }
 
@@ -101,7 +101,7 @@ pub struct RowFrame {
 pub struct Row {
     /// Name of the sample, unique in a table.
     pub sample: String,
-    /// Contact point, which repeats share.
+    /// Contact point, shared by repeats.
     pub point_id: Option<String>,
     /// Sensor unit of the sample.
     pub unit_id: Option<String>,
@@ -119,11 +119,11 @@ pub struct Row {
     pub zero_u_mm: Option<f64>,
     /// Imported table relative to the lab's folder, or the imported file of this row.
     pub source_table: Option<String>,
-    /// Row number in that table, from 0.
+    /// Row number in `source_table`, from 0.
     pub source_row: Option<u32>,
     /// Original picture relative to the lab's folder: a file, or a file with the index of a frame, from 0, such as `clip.mp4#12`.
     pub source_frame: Option<String>,
-    /// Declared part of a split.
+    /// Part of a split that the recording declares.
     pub part: Option<String>,
     /// Time on the clock of the recording, s.
     pub t_s: Option<f64>,
@@ -139,7 +139,7 @@ pub struct Row {
     pub attributes: Vec<Option<String>>,
     /// Location of the picture.
     pub frame: Option<FrameEntry>,
-    /// Pictures of all views of the table; `frame` is then unused.
+    /// Pictures of all views of the table. If there are views, `frame` is unused.
     pub views: Vec<RowFrame>,
 }
 

@@ -6,7 +6,7 @@ use super::views::{ViewFrames, column_kind};
 use super::{FrameEntry, Row, Table};
 use crate::digest::{Digest, PartsDigest};
 
-/// Names for a row of another table in this table, and the location of its frame.
+/// Names for a row of another table in this table, and the new location of the frame.
 #[doc(hidden)]
 pub struct RowNames {
     /// Name of the sample.
@@ -18,10 +18,10 @@ pub struct RowNames {
 }
 
 impl Table {
-    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute of only one table is missing in the rows of the other.
+    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute that only one table has is missing in the rows from the other.
     ///
     /// # Panics
-    /// If `other` lacks a channel, or has no such row.
+    /// Panics if `other` lacks a channel, or if the row does not exist.
     pub fn push_of(&mut self, other: &Table, row: usize, names: RowNames) {
         let truth = |channel: &Channel| {
             let position = other.channels.position(channel.name());

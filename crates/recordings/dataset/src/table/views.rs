@@ -26,7 +26,7 @@ pub struct ViewFrames {
     frames: Vec<Option<FrameEntry>>,
 }
 
-/// Name on disk of the column `column` of the view `view`.
+/// Name on disk of the column `column` for the view `view`.
 pub fn column_of(column: &str, view: &str) -> String {
     format!("{column}{SEPARATOR}{view}")
 }
@@ -63,7 +63,7 @@ impl ViewFrames {
         &self.intensity
     }
 
-    /// Original picture of each row in the lab's folder.
+    /// Path of the original picture of each row, relative to the lab's folder.
     pub fn source_frame(&self) -> &[Option<String>] {
         &self.source_frame
     }
@@ -71,7 +71,7 @@ impl ViewFrames {
     /// Picture of a row.
     ///
     /// # Panics
-    /// If there is no such row.
+    /// Panics if the row does not exist.
     pub fn row(&self, row: usize) -> RowFrame {
         RowFrame {
             source_frame: self.source_frame[row].clone(),
@@ -99,10 +99,10 @@ impl ViewFrames {
 }
 
 impl Table {
-    /// The same table without rows, with a picture in each of these views per row.
+    /// The same table, for rows with a picture in each of the views `names`. The table must be empty.
     ///
     /// # Panics
-    /// If the table has rows.
+    /// Panics if the table has rows.
     #[must_use]
     pub fn with_views<'n>(mut self, names: impl IntoIterator<Item = &'n str>) -> Table {
         assert_eq!(self.rows(), 0, "no row has pictures of other views");
@@ -123,15 +123,15 @@ impl Table {
     /// Sets the file and the brightness of the frame of a row in the view at index `view`.
     ///
     /// # Panics
-    /// If there is no such view or row.
+    /// Panics if the view or the row does not exist.
     pub fn set_frame_of(&mut self, view: usize, row: usize, entry: FrameEntry, intensity: f64) {
         let view = &mut self.views[view];
         view.frames[row] = Some(entry);
         view.intensity[row] = Some(intensity);
     }
 
-    /// The same table with the frames of the views at `positions`. For several views, frames have the location of the first, a digest of all, and
-    /// the mean intensity weighted by `widths`.
+    /// The same table with the frames of the views at `positions`. For several views, an entry has the location of the first picture, a digest of all pictures,
+    /// and the mean intensity weighted by `widths`.
     pub(crate) fn seen_by(&self, positions: &[usize], widths: &[u32]) -> Table {
         let mut seen = self.clone();
         let views: Vec<&ViewFrames> = positions.iter().map(|at| &self.views[*at]).collect();
@@ -146,7 +146,7 @@ impl Table {
     }
 }
 
-/// Pictures of one row side by side, combined to one entry.
+/// Combines the pictures of one row, placed side by side, to one entry.
 fn beside(rows: &[RowFrame], widths: &[u32]) -> RowFrame {
     if let [only] = rows {
         return only.clone();

@@ -1,4 +1,4 @@
-//! A recorder killed at any moment loses no acknowledged sample.
+//! Tests that a recorder killed at any moment loses no acknowledged sample.
 #![cfg(unix)]
 
 use std::io::{BufRead, BufReader, Read};
@@ -10,7 +10,7 @@ use taceva_needs::{Need, skip};
 
 use crate::support::Random;
 
-/// The example recorder, built beside this test.
+/// Path of the example recorder beside this test; `None` if it was not built.
 fn example() -> Option<PathBuf> {
     let here = std::env::current_exe().ok()?;
     let built = here.parent()?.parent()?.join("examples/record");

@@ -1,4 +1,4 @@
-//! A recording survives a kill and reports its samples.
+//! Tests that a recording survives the end of its process and reports its samples.
 
 mod killed;
 mod packs;

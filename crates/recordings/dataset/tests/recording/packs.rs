@@ -1,4 +1,4 @@
-//! Frames are stored in packs, as differences to the first frame of each.
+//! Tests that frames are stored in packs, as differences to the first frame of each pack.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use taceva_dataset::{Dataset, DatasetError, Recorder};
 use super::{sample, spec};
 use crate::support::Random;
 
-/// Static texture, changing noise, and a touched region.
+/// Frame with static texture, changing noise, and a touched region.
 fn textured(number: u8, format: PixelFormat) -> Frame {
     let info = FrameInfo {
         width: 40,

@@ -1,4 +1,4 @@
-//! Recordings of frames that were reduced before they were recorded.
+//! Tests of recordings of frames that were reduced before they were recorded.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_dataset::{Dataset, DatasetError, Recorder, RecordingSpec, ReducedFrames};

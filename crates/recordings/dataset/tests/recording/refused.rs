@@ -1,4 +1,4 @@
-//! Samples, folders and links that a recorder refuses.
+//! Tests of samples, folders and links that a recorder rejects.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -151,7 +151,7 @@ fn links_at_names_of_a_recording_lead_nothing_elsewhere() {
     assert_eq!(theirs.read_dir().expect("there").count(), 1);
 }
 
-/// Relative paths of the files and folders of a recording, with the bytes of files.
+/// Relative paths of the files and folders of a recording, with the content of files.
 fn entries(recording: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     let mut entries = BTreeMap::new();
     for folder in [recording.to_owned(), recording.join("frames")] {
@@ -165,7 +165,7 @@ fn entries(recording: &Path) -> BTreeMap<PathBuf, Vec<u8>> {
     entries
 }
 
-/// An interrupted recording with a reference and two frames.
+/// Creates an interrupted recording with a reference and two frames.
 fn interrupted(path: &Path) {
     let mut recorder = Recorder::create(path, &spec()).expect("created");
     recorder.append_reference(&frame(0)).expect("recorded");

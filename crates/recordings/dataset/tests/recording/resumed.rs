@@ -1,4 +1,4 @@
-//! An interrupted recording is resumed to the same result.
+//! Tests that an interrupted recording is resumed with the same result.
 
 use std::fs;
 

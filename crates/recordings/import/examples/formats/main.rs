@@ -1,12 +1,12 @@
-//! Outcomes of files that other packages wrote, as rows of the table in `docs/your-recording.md`.
+//! Outcomes of importing files that other packages wrote, as rows of the table in `docs/your-recording.md`.
 //!
 //! ```text
 //! cargo run -p taceva-import --example formats -- FOLDER [DATASETS]
 //! ```
 //!
-//! With DATASETS, each dataset is kept there with its map, so that `tests/formats/compare.py` can read the files again with their packages.
-//! `packages.json` names the package that wrote each file or folder of FOLDER. Each is imported by its map beside this file, or else by a fresh
-//! draft with the units N, Nm and mm filled in. Clips need ffmpeg on the PATH.
+//! With DATASETS, each dataset is kept in that folder with its map, so that `tests/formats/compare.py` can read the files again with their packages.
+//! `packages.json` names the package that wrote each file or folder of FOLDER. Each is imported by its map beside this file. Without a map, a fresh draft is
+//! used, with the units N, Nm and mm filled in. Clips need ffmpeg on the PATH.
 
 #![expect(clippy::print_stdout, reason = "a program says what it found")]
 
@@ -20,7 +20,7 @@ use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{Decoders, ImportMap, ImportPlan, MapDraft};
 
-/// A file or folder and the package that wrote it.
+/// File or folder, and the package that wrote it.
 #[derive(Deserialize)]
 struct Written {
     path: String,
@@ -31,7 +31,7 @@ struct Written {
     map: Option<String>,
 }
 
-/// Limit of an error message in a row, characters.
+/// Maximum length of an error message in a row, characters.
 const SHOWN: usize = 400;
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -86,7 +86,7 @@ fn copy(from: &Path, to: &Path) -> std::io::Result<()> {
     Ok(())
 }
 
-/// Imports the lab's folder, writes dataset and map to `target`, and returns a summary.
+/// Imports the lab's folder, writes the dataset and the map to `target`, and returns a summary.
 fn imported(lab: &Path, map: Option<String>, target: &Path) -> Result<String, Box<dyn Error>> {
     let by = if map.is_some() {
         "by its map"
@@ -136,7 +136,7 @@ fn imported(lab: &Path, map: Option<String>, target: &Path) -> Result<String, Bo
     Ok(format!("{}, {by}{open}", parts.join(", ")))
 }
 
-/// Channels whose column a draft leaves open.
+/// Channels for whose columns a draft has gaps.
 fn left_open(draft: &str) -> Vec<String> {
     let open = draft
         .lines()
@@ -145,7 +145,7 @@ fn left_open(draft: &str) -> Vec<String> {
         .collect()
 }
 
-/// Draft with units and sensor model filled in, without open channels.
+/// Draft with units and sensor model filled in, and without channels that have gaps.
 fn filled(draft: &str) -> String {
     let line = |line: &str| {
         let unit = match line.as_bytes().first() {

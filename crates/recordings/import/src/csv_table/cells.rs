@@ -23,12 +23,12 @@ impl Ragged {
 pub(super) struct RowSplitter {
     delimiter: u8,
     columns: usize,
-    /// Limit of rows to find.
+    /// Maximum number of rows to find.
     most: usize,
     rows: usize,
-    /// Line ends so far, including blank lines.
+    /// Number of line ends so far, including blank lines.
     lines: u64,
-    /// For each row the start of each cell, then one past the end of the last.
+    /// For each row, the start of each cell, then the position after the end of the last cell, bytes.
     bounds: Vec<u32>,
     /// Index in `bounds` of the first bound of the current row.
     row: usize,
@@ -37,7 +37,7 @@ pub(super) struct RowSplitter {
 }
 
 impl RowSplitter {
-    /// Searches up to `most` rows from `start`. Clears `bounds` and writes the cell bounds to it.
+    /// Starts a search for up to `most` rows from `start`. Clears `bounds`, which receives the cell bounds.
     pub(super) fn new(
         delimiter: u8,
         columns: usize,
@@ -60,8 +60,8 @@ impl RowSplitter {
         splitter
     }
 
-    /// Continues with `part` of the text, which begins at the end of the previous part. Returns the end of the last requested row, if
-    /// reached.
+    /// Continues with `part` of the text, which begins at the end of the previous part. Returns the end of the last requested row, or `None` if the part ends
+    /// before it.
     pub(super) fn split(
         &mut self,
         text: &[u8],
@@ -95,7 +95,7 @@ impl RowSplitter {
         Ok(None)
     }
 
-    /// Ends an unterminated last line before `end`, if there is one.
+    /// Ends an unterminated last line before `end`, if any.
     pub(super) fn finish(&mut self, text: &[u8], end: usize) -> Result<(), Ragged> {
         if self.line < end {
             self.end(text, end)
@@ -165,7 +165,7 @@ fn bound(offset: usize) -> u32 {
     u32::try_from(offset).expect("the text is shorter than 2^32 - 1 bytes")
 }
 
-/// The high bit of each byte of `word` that is `byte` (exact: no carry runs from one byte into the next).
+/// Sets the high bit of each byte of `word` that equals `byte`. Exact, because no carry crosses a byte boundary.
 fn bytes_equal(word: u64, byte: u8) -> u64 {
     const LOW_BITS: u64 = 0x7f7f_7f7f_7f7f_7f7f;
     let difference = word ^ (u64::from(byte) * 0x0101_0101_0101_0101);

@@ -18,28 +18,29 @@ enum Invalid {
 }
 
 impl CsvTable {
-    /// The numbers of the column called `name`; empty cells are absent.
+    /// Numbers of the column called `name`; empty cells are missing values.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if there is no such column, or at the first cell that is not a finite number.
+    /// [`ImportError::Table`] if the column does not exist, or at the first cell that is not a finite number.
     pub fn numbers(&self, name: &str) -> Result<Column, ImportError> {
         self.whole(name, Invalid::Refuse)
     }
 
-    /// Numbers of the column called `name`; empty cells are absent. A cell that is not a finite number becomes NaN, so that callers can count it.
+    /// Numbers of the column called `name`; empty cells are missing values. A cell that is not a finite number becomes NaN, so that callers can count these
+    /// cells.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if there is no such column.
+    /// [`ImportError::Table`] if the column does not exist.
     pub fn numbers_with_invalid(&self, name: &str) -> Result<Column, ImportError> {
         self.whole(name, Invalid::AsNan)
     }
 
-    /// Numbers of the column at `column` in `rows`, in that order; empty cells are absent.
+    /// Numbers of the column at `column` in `rows`, in that order; empty cells are missing values.
     ///
     /// # Errors
     /// [`ImportError::Table`] at the first cell that is not a finite number.
     /// # Panics
-    /// If there is no such row or column.
+    /// Panics if the row or column does not exist.
     pub fn numbers_in(
         &self,
         column: usize,
@@ -48,12 +49,12 @@ impl CsvTable {
         self.some(column, rows, Invalid::Refuse)
     }
 
-    /// As [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is neither empty nor a finite number.
+    /// Numbers like those of [`numbers_in`](CsvTable::numbers_in), with NaN for each cell that is neither empty nor a finite number.
     ///
     /// # Errors
-    /// None. The return type equals that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two.
+    /// No error occurs. The return type equals that of [`numbers_in`](CsvTable::numbers_in), so that a caller can choose between the two methods.
     /// # Panics
-    /// If there is no such row or column.
+    /// Panics if the row or column does not exist.
     pub fn numbers_in_with_invalid(
         &self,
         column: usize,
@@ -64,13 +65,12 @@ impl CsvTable {
 
     /// Finite number in a cell, converted to the stored unit; `None` if the cell is empty.
     ///
-    /// If the units differ by a power of ten, the decimal point is moved before parsing. So `1212.4 um` is the binary64 nearest to 1.2124
-    /// mm.
+    /// If the units differ by a power of ten, the decimal point is moved before parsing. For example, `1212.4 um` becomes the binary64 nearest to 1.2124 mm.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if the cell holds no finite number, or one too large for its unit.
+    /// [`ImportError::Table`] if the cell contains no finite number, or a number that overflows in the stored unit.
     /// # Panics
-    /// If there is no such row or column.
+    /// Panics if the row or column does not exist.
     pub fn number_in_unit(
         &self,
         row: usize,
@@ -88,19 +88,19 @@ impl CsvTable {
         converted.map_err(|problem| self.refuse(row, column, &problem))
     }
 
-    /// The cells of the column called `name` as they are written, without surrounding blanks.
+    /// Cells of the column called `name` as written, without surrounding blanks.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if there is no such column.
+    /// [`ImportError::Table`] if the column does not exist.
     pub fn text(&self, name: &str) -> Result<Vec<&str>, ImportError> {
         let column = self.position(name)?;
         Ok(self.text_in(column, 0..self.rows).collect())
     }
 
-    /// Cells of the column at `column` in `rows`, in their order, as written, without surrounding blanks.
+    /// Cells of the column at `column` in `rows`, in the order of `rows`, as written, without surrounding blanks.
     ///
     /// # Panics
-    /// If there is no such row or column.
+    /// Panics if the row or column does not exist.
     pub fn text_in(
         &self,
         column: usize,
@@ -144,7 +144,7 @@ impl CsvTable {
         Ok(with_absent(values, &absent))
     }
 
-    /// Fills `values`. Returns the positions of absent values.
+    /// Parses the numbers into `values`. Returns the positions of missing values.
     fn parse(
         &self,
         column: usize,
@@ -164,7 +164,7 @@ impl CsvTable {
         Ok(absent)
     }
 
-    /// Text range of each cell of `rows`. A block is searched only when a row is outside the previous one.
+    /// Text range of each cell of `rows`. The block is looked up again only for a row outside the previous block.
     fn cells(
         &self,
         column: usize,

@@ -1,26 +1,26 @@
-//! Decimal text to the nearest binary64.
+//! Converts decimal text to the nearest binary64.
 
 use std::ops::Range;
 
 use crate::unit_suffix::UnitSuffix;
 use taceva_core::{MAGNITUDE_MAX, SourceUnit, is_scorable};
 
-/// Powers of ten that binary64 holds exactly.
+/// Powers of ten that binary64 represents exactly.
 const EXACT_POWERS: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
     1e17, 1e18, 1e19, 1e20, 1e21, 1e22,
 ];
 
-/// The limit up to which binary64 holds every integer exactly.
+/// Limit up to which binary64 represents every integer exactly.
 const EXACT_INTEGERS: u64 = 1 << 53;
 
-/// Limit of a plain cell, bytes: 16 digits and a point. More digits exceed 2^53 unless they begin with zeros.
+/// Maximum length of a plain cell, bytes: 16 digits and a point. Longer numbers exceed 2^53 unless they begin with zeros.
 const PLAIN_BYTES: usize = 17;
 
-/// Limit of a cell that is parsed in one step, bytes, without its sign.
+/// Maximum length of a cell that is parsed in one step, bytes, without its sign.
 const WINDOW: usize = 8;
 
-/// Parses the number in a cell of `text`: `Some(None)` if the cell is empty, `None` if it holds something else.
+/// Parses the number in a cell of `text`: `Some(None)` if the cell is empty, `None` if the cell contains something else.
 pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>> {
     if let Some(number) = parse_short(text.as_bytes(), cell.clone()) {
         return Some(Some(number));
@@ -37,7 +37,7 @@ pub(super) fn parse_number(text: &str, cell: Range<usize>) -> Option<Option<f64>
     is_scorable(number).then_some(Some(number))
 }
 
-/// Decimal text with its point moved `places` to the right, parsed and rounded once.
+/// Decimal text with the decimal point moved `places` to the right, parsed and rounded once.
 pub(super) fn parse_shifted(cell: &str, places: i32) -> Option<f64> {
     let (mantissa, exponent) = match cell.split_once(['e', 'E']) {
         Some((mantissa, exponent)) => (mantissa, exponent.parse::<i32>().ok()?),
@@ -76,9 +76,9 @@ fn parse_plain(cell: &[u8]) -> Option<f64> {
     Some(if negative { -magnitude } else { magnitude })
 }
 
-/// As [`parse_plain`], for up to eight bytes and a sign, processed together to avoid unpredictable branches.
+/// Parses up to eight bytes and a sign like [`parse_plain`], but all bytes together, to avoid unpredictable branches.
 ///
-/// The window ends with the cell, so that the last digit is in its highest byte.
+/// The eight-byte window ends at the end of the cell, so that the last digit is in the highest byte.
 fn parse_short(text: &[u8], cell: Range<usize>) -> Option<f64> {
     let negative = *text.get(cell.start)? == b'-';
     let length = cell.len().checked_sub(usize::from(negative))?;
@@ -116,7 +116,7 @@ const fn repeated(byte: u8) -> u64 {
     u64::from_le_bytes([byte; WINDOW])
 }
 
-/// The high bit of each byte that is zero (exact: no carry runs from one byte into the next).
+/// Sets the high bit of each byte that is zero. Exact, because no carry crosses a byte boundary.
 fn zero_bytes(bytes: u64) -> u64 {
     const LOW_BITS: u64 = repeated(0x7f);
     !(((bytes & LOW_BITS) + LOW_BITS) | bytes | LOW_BITS)
@@ -129,8 +129,8 @@ fn eight_digits(digits: u64) -> u64 {
     fours.wrapping_mul((10_000 << 32) + 1) >> 32
 }
 
-/// Finite number in `cell`, converted to the stored unit; `None` if the cell is empty. The error is a message. If the factor is a power of ten, the
-/// decimal point is moved before parsing.
+/// Finite number in `cell`, converted to the stored unit; `None` if the cell is empty. Returns an error message for other cells. If the factor is a power of
+/// ten, the decimal point is moved before parsing.
 pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64>, String> {
     let Some(number) = number(cell)? else {
         return Ok(None);
@@ -144,12 +144,12 @@ pub(crate) fn number_in_unit(cell: &str, unit: &SourceUnit) -> Result<Option<f64
     }
 }
 
-/// Finite number in `cell`; `None` if the cell is empty. The error is a message.
+/// Finite number in `cell`; `None` if the cell is empty. Returns an error message for other cells.
 pub(crate) fn number(cell: &str) -> Result<Option<f64>, String> {
     parse_number(cell, 0..cell.len()).ok_or_else(|| not_a_number(cell))
 }
 
-/// Reason that `cell` holds no usable number, with a hint where one is known.
+/// Reason why `cell` contains no usable number, with a hint if one is known.
 pub(crate) fn not_a_number(cell: &str) -> String {
     match cell.parse::<f64>() {
         Ok(number) if number.is_finite() => {
@@ -182,7 +182,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Result of parsing `cell`, which does not depend on its position in the text.
+    /// Parses `cell`, with a result that does not depend on the position of the cell in the text.
     fn read(cell: &str) -> Option<Option<f64>> {
         let found = parse_number(cell, 0..cell.len());
         for before in ["7", "12.5,-8,9.", "1.5\n-1234567.25,", "µ,µ,µ,µ,µ,µ,-"] {

@@ -14,7 +14,7 @@ use crate::error::ImportError;
 use taceva_dataset::Digest;
 use taceva_dataset::internal::{limits, open_regular};
 
-/// Rows of a part; the last part has fewer.
+/// Number of rows of a part; the last part may have fewer.
 pub(super) const PART_ROWS: u64 = 1 << 16;
 
 /// Read-ahead buffer of the scan, bytes.
@@ -38,7 +38,7 @@ const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 #[serde(deny_unknown_fields)]
 pub struct CsvParts {
     path: PathBuf,
-    /// Range of the header in the file, bytes.
+    /// Byte range of the header in the file.
     header: [u64; 2],
     marks: Vec<Mark>,
     end: u64,
@@ -47,13 +47,13 @@ pub struct CsvParts {
 }
 
 impl CsvParts {
-    /// Rows of a part; the last part has fewer.
+    /// Number of rows of a part; the last part may have fewer.
     pub const ROWS: u64 = PART_ROWS;
 
     /// Scans the file at `path` once, or twice if cells are quoted. The file may have any length.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] if it is no regular file or cannot be read; [`ImportError::Table`] if a quote is not closed.
+    /// [`ImportError::Dataset`] if the file is not regular or cannot be read; [`ImportError::Table`] if a quote is not closed.
     pub fn scan(path: &Path) -> Result<CsvParts, ImportError> {
         let (mut file, _) = open_regular(path, u64::MAX)?;
         let failed = |source| ImportError::io("read", path)(source);
@@ -110,14 +110,14 @@ impl CsvParts {
     /// Table of the same columns without rows.
     ///
     /// # Errors
-    /// As [`CsvTable::read`].
+    /// Errors of [`CsvTable::read`].
     pub fn header(&self) -> Result<CsvTable, ImportError> {
         let (mut file, _) = open_regular(&self.path, u64::MAX)?;
         let bytes = self.header_line(&mut file)?;
         CsvTable::of_bytes(&self.path, bytes)
     }
 
-    /// Header as a line with a normalised line end.
+    /// Header line with the line end `\n`.
     fn header_line(&self, file: &mut File) -> Result<Vec<u8>, ImportError> {
         let bytes = self.bytes(file, self.header[0]..self.header[1])?;
         Ok(header_line_of(bytes))
@@ -126,7 +126,7 @@ impl CsvParts {
     /// Reads the rows of a part as a table. Errors name lines of the file.
     ///
     /// # Errors
-    /// As [`CsvTable::read`]; also [`ImportError::Table`] if the rows have changed since the scan.
+    /// Errors of [`CsvTable::read`]; also [`ImportError::Table`] if the rows have changed since the scan.
     pub fn read(&self, part: usize) -> Result<CsvTable, ImportError> {
         let Some(mark) = self.marks.get(part) else {
             return self.header();
@@ -152,7 +152,7 @@ impl CsvParts {
         Ok(table)
     }
 
-    /// Bytes of the file in the range, fewer at its end.
+    /// Bytes of the file in the range `bytes`; fewer at the end of the file.
     fn bytes(&self, file: &mut File, bytes: Range<u64>) -> Result<Vec<u8>, ImportError> {
         let length = bytes.end.saturating_sub(bytes.start);
         if length > limits::TABLE_BYTES {
@@ -178,8 +178,8 @@ impl CsvTable {
         CsvTable::of_text(path, text, delimiter, NonZeroUsize::MIN)
     }
 
-    /// Table made of `rows`, each with as many cells as there are `names`. It stands in for the file at `path`, and its line numbers do not
-    /// refer to that file.
+    /// Table of the cells in `rows`, each with as many cells as there are `names`. The table has the path `path`, but its line numbers do not refer to that
+    /// file.
     ///
     /// ```
     /// use taceva_import::CsvTable;
@@ -192,7 +192,7 @@ impl CsvTable {
     /// ```
     ///
     /// # Errors
-    /// As [`read`](CsvTable::read).
+    /// Errors of [`read`](CsvTable::read).
     pub fn of_cells<'c, R: IntoIterator<Item = &'c str>>(
         path: &Path,
         names: &[&str],
@@ -215,7 +215,7 @@ impl CsvTable {
     }
 }
 
-/// Adds a line of cells, quoted where they must be. A single empty cell is quoted, because a blank line is no row.
+/// Adds a line of cells, quoted if necessary. A single empty cell is quoted, because a blank line is not a row.
 fn push_line<'c>(text: &mut String, cells: impl IntoIterator<Item = &'c str>) {
     let start = text.len();
     for (at, cell) in cells.into_iter().enumerate() {
@@ -237,7 +237,7 @@ fn push_line<'c>(text: &mut String, cells: impl IntoIterator<Item = &'c str>) {
     text.push('\n');
 }
 
-/// Scans a table of quoted cells.
+/// Scans a table that has quoted cells.
 fn quoted(path: &Path, mut file: File, begin: u64) -> std::io::Result<(Found, Digest)> {
     file.seek(SeekFrom::Start(begin))?;
     let mut first = String::new();
@@ -253,7 +253,7 @@ fn quoted(path: &Path, mut file: File, begin: u64) -> std::io::Result<(Found, Di
     Ok((scan.finish(), digest))
 }
 
-/// Header as a line with a normalised line end.
+/// Header line with the line end `\n`.
 pub(super) fn header_line_of(mut bytes: Vec<u8>) -> Vec<u8> {
     while matches!(bytes.last(), Some(b'\r' | b'\n')) {
         bytes.pop();
@@ -262,7 +262,7 @@ pub(super) fn header_line_of(mut bytes: Vec<u8>) -> Vec<u8> {
     bytes
 }
 
-/// Offset of the text: behind the byte order mark, if there is one.
+/// Offset of the text after the byte order mark, if any.
 pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
     let mut start = Vec::new();
     file.by_ref().take(3).read_to_end(&mut start)?;
@@ -278,7 +278,7 @@ pub(super) fn begin_of(file: &mut File) -> std::io::Result<u64> {
 mod tests {
     use super::*;
 
-    /// Table longer than one part, with blank lines; some cells are quoted if `is_quoted`.
+    /// Table that is longer than one part, with blank lines, and with some quoted cells if `is_quoted`.
     fn text(is_quoted: bool) -> String {
         let mut text = "id,Fz,note\n".to_owned();
         for row in 0..PART_ROWS + 77 {

@@ -1,4 +1,4 @@
-//! Tables with quoted cells, which are unquoted into a new text.
+//! Tables with quoted cells. Cells are unquoted into a new text.
 
 use std::path::Path;
 

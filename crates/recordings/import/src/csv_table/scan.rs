@@ -1,4 +1,4 @@
-//! Offsets of the rows of a CSV file, found in one pass over its bytes without storing them.
+//! Finds the offsets of the rows of a CSV file in one pass over its bytes, without storing the bytes.
 
 use std::io::{self, Read};
 
@@ -12,7 +12,7 @@ use super::parts::PART_ROWS;
 pub(super) struct Mark {
     /// Offset in the file, bytes.
     pub(super) byte: u64,
-    /// The line of the file, from 1.
+    /// Line of the file, from 1.
     pub(super) line: u64,
 }
 
@@ -39,14 +39,15 @@ impl Found {
     }
 }
 
-/// Passes bytes through and finds rows as `split.rs` does: each line is a row, the first is the header, blank lines are skipped.
+/// Reader that returns the bytes of `inner` unchanged and finds rows as `split.rs` does. Each line is a row, the first is the header, and blank lines are
+/// skipped.
 pub(super) struct LineScan<R> {
     inner: R,
     found: Found,
     line: u64,
     /// Offset of the current line, bytes.
     start: u64,
-    /// Last byte passed.
+    /// Last byte read.
     last: u8,
 }
 
@@ -92,7 +93,7 @@ impl<R: Read> LineScan<R> {
         self.found.end += bytes.len() as u64;
     }
 
-    /// Ends the line before `end`. `before` is the byte in front of `end`.
+    /// Ends the line before `end`. `before` is the byte that precedes `end`.
     fn end_line(&mut self, end: u64, before: u8) {
         let length = end - self.start;
         let is_blank = length == 0 || (length == 1 && before == b'\r');
@@ -116,7 +117,7 @@ impl<R: Read> Read for LineScan<R> {
     }
 }
 
-/// Passes on the cells of a quoted table as `quotation.rs` stores them, each with a line end, and finds rows.
+/// Reader that returns the cells of a quoted table as `quotation.rs` stores them, each with a line end, and finds rows.
 pub(super) struct QuotedScan<R> {
     reader: csv::Reader<R>,
     record: csv::ByteRecord,

@@ -1,4 +1,4 @@
-//! Tables without quotes, cut at line ends into parts that are split in parallel.
+//! Splits tables without quotes in parallel, in parts that end at line ends.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use super::{CsvTable, line_at};
 use crate::error::{ImportError, Place};
 use taceva_dataset::internal::each_part;
 
-/// Text below this is not worth a second thread.
+/// Minimum length of text for a second thread, bytes.
 const LEAST_PART: usize = 1 << 16;
 
 /// Range of rows with the bounds of each cell in the text.
@@ -18,12 +18,12 @@ pub(super) struct Block {
     /// Row numbers in the table.
     pub(super) rows: Range<usize>,
     pub(super) columns: usize,
-    /// For each row the start of each cell, then one past the end of the last.
+    /// For each row, the start of each cell, then the position after the end of the last cell, bytes.
     pub(super) bounds: Vec<u32>,
 }
 
 impl Block {
-    /// Text range of a cell. One byte separates it from the next.
+    /// Text range of a cell. One byte separates the cell from the next.
     pub(super) fn cell(&self, row: usize, column: usize) -> Range<usize> {
         let first = (row - self.rows.start) * (self.columns + 1) + column;
         self.bounds[first] as usize..self.bounds[first + 1] as usize - 1
@@ -75,7 +75,7 @@ pub(super) fn read(
     })
 }
 
-/// The text from `start` in about `jobs` parts, each of whole lines.
+/// Divides the text from `start` into about `jobs` parts of whole lines.
 fn line_parts(text: &[u8], start: usize, jobs: NonZeroUsize) -> Vec<Range<usize>> {
     let size = (text.len() - start).div_ceil(jobs.get()).max(LEAST_PART);
     let mut parts = Vec::new();

@@ -16,7 +16,7 @@ use taceva_dataset::{Digest, Place};
 /// Read size, bytes.
 const AHEAD: usize = 1 << 16;
 
-/// Limit of a block, bytes; rows of numbers stay below it.
+/// Maximum size of a block, bytes; blocks of numbers remain smaller.
 const MOST_BYTES: usize = 1 << 28;
 
 /// Number of leading bytes that are searched for zero bytes, as in [`CsvTable::read`].
@@ -41,14 +41,14 @@ const BEGINNING: usize = 4_096;
 /// ```
 #[derive(Debug)]
 pub struct CsvStream {
-    /// Columns without rows.
+    /// Table of the columns without rows.
     header: CsvTable,
     delimiter: u8,
     file: File,
     digest: PartsDigest,
-    /// Bytes read behind the last block.
+    /// Bytes that were read beyond the last block.
     ahead: Vec<u8>,
-    /// Lines of the file before `ahead`.
+    /// Number of lines of the file before `ahead`.
     lines: u64,
 }
 
@@ -56,8 +56,8 @@ impl CsvStream {
     /// Opens the file at `path` and reads its header.
     ///
     /// # Errors
-    /// [`ImportError::Table`] if there is no header, the header has a quoted cell, or the file does not begin with text; [`ImportError::Dataset`]
-    /// if it is no regular file or cannot be read.
+    /// [`ImportError::Table`] if the header is missing or has a quoted cell, or the file does not begin with text; [`ImportError::Dataset`] if the file is not
+    /// regular or cannot be read.
     pub fn open(path: &Path) -> Result<CsvStream, ImportError> {
         let (mut file, _) = open_regular(path, u64::MAX)?;
         begin_of(&mut file).map_err(ImportError::io("read", path))?;
@@ -89,7 +89,7 @@ impl CsvStream {
         &self.header
     }
 
-    /// A table without a row, to read blocks into.
+    /// Table without rows, into which blocks are read.
     pub fn block(&self) -> CsvTable {
         CsvTable {
             path: self.header.path.clone(),
@@ -104,11 +104,10 @@ impl CsvStream {
         }
     }
 
-    /// Replaces the rows of `block` with the next `rows` rows: fewer at the end of the file, then none. Its memory is reused.
+    /// Replaces the rows of `block` with the next `rows` rows: fewer at the end of the file, then none. The memory of `block` is reused.
     ///
     /// # Errors
-    /// As [`CsvTable::read`]; also [`ImportError::Table`] for a quoted cell, whose end needs the whole file. After an error the stream cannot be
-    /// read.
+    /// Errors of [`CsvTable::read`]; also [`ImportError::Table`] for a quoted cell, whose end needs the whole file. After an error the stream cannot be read.
     pub fn read(&mut self, rows: usize, block: &mut CsvTable) -> Result<(), ImportError> {
         let CsvTable { path, names, .. } = &self.header;
         let mut text = std::mem::take(&mut block.text).into_bytes();
@@ -193,7 +192,7 @@ fn wrong(path: &Path, line: u64, problem: String) -> ImportError {
 mod tests {
     use super::*;
 
-    /// Compares the file, read in blocks of `rows` rows, with the whole table.
+    /// Compares the table read in blocks of `rows` rows with the table read at once.
     fn is_as_the_whole(path: &Path, rows: usize) {
         let whole = CsvTable::read(path).expect("a table");
         let mut stream = CsvStream::open(path).expect("plain");

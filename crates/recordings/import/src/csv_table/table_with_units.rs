@@ -1,4 +1,4 @@
-//! Text table read in a given text form, with the unit of each column.
+//! Text table read in a stated text form, with the unit of each column.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ impl CsvTable {
     /// Reads the file at `path` in the text form `form`. A line `sep=;` before the header sets the separator.
     ///
     /// # Errors
-    /// As [`read`](CsvTable::read). The error suggests keys of the map if the text seems to have another form.
+    /// Errors of [`read`](CsvTable::read). The error suggests keys of the map if the text seems to have another form.
     pub(crate) fn read_written(
         path: &Path,
         form: &TextForm,
@@ -37,7 +37,7 @@ impl CsvTable {
     }
 }
 
-/// Keys of the map's table with which a non-plain text could be read.
+/// Keys of the map section `table` that would read a text with another form.
 fn hint(text: &str, form: &TextForm) -> Option<String> {
     let guessed = TextForm::guessed(text);
     let keys = TextForm {

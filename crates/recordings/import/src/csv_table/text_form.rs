@@ -1,12 +1,12 @@
-//! Text tables of force gauges and spreadsheets: lines before the header, a row of units, decimal commas.
+//! Forms of text tables of force gauges and spreadsheets: lines before the header, a row of units, decimal commas.
 
 use super::{cells_of_first_row, number};
 use crate::unit_suffix::UnitSuffix;
 
-/// Form of a text table, besides its separator.
+/// Form of a text table, except its separator.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct TextForm {
-    /// False for a table without header, whose columns are named by position, from 0.
+    /// False for a table without header, whose column names are the positions, from 0.
     pub(crate) has_header: bool,
     /// Decimal mark.
     pub(crate) decimal: char,
@@ -16,15 +16,15 @@ pub(crate) struct TextForm {
     pub(crate) comment: Option<String>,
     /// Number of lines before the header, outside the table.
     pub(crate) skip_lines: u32,
-    /// True if the line below the header holds units.
+    /// True if the line below the header contains units.
     pub(crate) has_units: bool,
 }
 
-/// Lines of a text table from which its form is guessed.
+/// Number of lines of a text table from which its form is guessed.
 const LOOKED_AT: usize = 64;
 
 impl TextForm {
-    /// Plain form: decimal points, and only rows below the header.
+    /// Plain form: decimal points, and only rows of the table below the header.
     pub(crate) fn new(has_header: bool) -> TextForm {
         TextForm {
             has_header,
@@ -49,10 +49,10 @@ impl TextForm {
                 .is_some_and(|sign| !sign.is_empty())
     }
 
-    /// Returns the cell with a decimal point and without groups; `None` if it is no number or needs no change.
+    /// Returns the cell with a decimal point and without digit groups; `None` if the cell is no number or needs no change.
     ///
     /// # Errors
-    /// A message if a cell of digits and signs does not have this form.
+    /// Error message if a cell of digits and signs does not have this form.
     pub(crate) fn converted(&self, cell: &str) -> Result<Option<String>, String> {
         if !self.converts() || !cell.bytes().any(|byte| byte.is_ascii_digit()) {
             return Ok(None);
@@ -230,7 +230,7 @@ impl TextForm {
     }
 }
 
-/// True for a cell of digits with one `sign` among them.
+/// True for a cell of digits that contains one `sign`.
 fn is_decimal(cell: &str, sign: char) -> bool {
     let bare = cell.trim_start_matches(['+', '-']);
     bare.split_once(sign).is_some_and(|(whole, fraction)| {
@@ -258,7 +258,7 @@ pub(crate) fn is_grouped(cell: &str, sign: char) -> bool {
         && others.all(|group| group.len() == 3 && are_digits(group))
 }
 
-/// Separator from a spreadsheet's own line `sep=;`.
+/// Separator stated by the line `sep=;`, which spreadsheets write.
 pub(super) fn separator_line(line: &str) -> Option<u8> {
     let line = line.trim().trim_matches('"');
     match line

@@ -1,10 +1,10 @@
-//! Lines of `[columns]`: for each channel the best candidate, with the others in a comment.
+//! Lines of `[columns]` of a map: the best candidate for each channel, with the others in a comment.
 
 use std::fmt::Write;
 
 use super::roles::candidate::{Candidate, Reason};
 
-/// Candidate as a map names it.
+/// Candidate column for a channel, with its name in a map.
 pub(super) struct Offered<'t> {
     pub(super) name: &'t str,
     pub(super) candidate: &'t Candidate,
@@ -21,8 +21,8 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
-    /// Rank among the candidates of a channel; the lowest is the best. If the best of them with a scale states its unit (`is_stated`),
-    /// numbers without a scale come after it.
+    /// Rank among the candidates of a channel; the lowest is the best. If the best candidate with a scale states a unit (`is_stated`), candidates without a
+    /// scale rank after it.
     fn rank(&self, is_stated: bool) -> (bool, bool, Reason, bool, u32) {
         (
             self.candidate.open.is_some(),
@@ -54,7 +54,7 @@ impl Offered<'_> {
     }
 }
 
-/// Lines of all channels, in column order. A line stays open if two candidates share the best rank.
+/// Lines of all channels, in column order. A line has a gap if two candidates share the best rank.
 pub(super) fn lines(offered: &[Offered<'_>]) -> String {
     let mut channels: Vec<&str> = Vec::new();
     for one in offered {

@@ -15,13 +15,13 @@ use crate::source_folder::SourceFolder;
 
 /// The only clip of a folder.
 pub(super) struct OnlyClip {
-    /// Name without its ending.
+    /// File name of the clip without its ending.
     stem: String,
     frames: u64,
 }
 
 impl OnlyClip {
-    /// Evidence that each row of `table` is a frame. 2 for as many rows in a file named as the clip, 1 for as many, 0 for others.
+    /// Evidence that each row of `table` is a frame, from 0 to 2. 1: the clip has as many frames as rows. 2: its file name also agrees.
     pub(super) fn fit(&self, table: &SeenTable<'_>) -> u8 {
         let is_as_many = table.rows as u64 == self.frames && table.group.paths.len() == 1;
         let is_named = table.group.stem().starts_with(&self.stem);
@@ -29,7 +29,7 @@ impl OnlyClip {
     }
 }
 
-/// The clip among `groups` if it is the only one and can be opened.
+/// Clip among `groups` if there is only one and it can be opened.
 pub(super) fn only(folder: &SourceFolder, groups: &[FileGroup]) -> Option<OnlyClip> {
     let mut clips = groups.iter().filter(|group| is_clip(&group.ending));
     let (clip, others) = (clips.next()?, clips.next());
@@ -43,7 +43,7 @@ pub(super) fn only(folder: &SourceFolder, groups: &[FileGroup]) -> Option<OnlyCl
     })
 }
 
-/// Frames of the clips among `groups` for the rows of `main`.
+/// Frame lines for the clips among `groups` that have a frame for each row of `main`.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -91,10 +91,10 @@ fn lines(clip: &str, index: String) -> FrameLines {
     }
 }
 
-/// Greatest ratio of the time spans of a clip and a table that may have been recorded together.
+/// Maximum ratio between the time spans of a clip and a table that may have been recorded together.
 const SPANS: f64 = 10.0;
 
-/// Open line for a clip whose frame count differs from the rows of `main`; `None` if they agree or the clip cannot be opened.
+/// Map line with a gap, for a clip with more or fewer frames than `main` has rows. `None` if the counts agree or the clip cannot be opened.
 fn other_length(clip: &Path, main: &SeenTable<'_>) -> Option<String> {
     let video = Video::open(clip, &Decoders::default()).ok()?;
     let info = video.info();

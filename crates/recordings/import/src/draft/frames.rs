@@ -1,4 +1,4 @@
-//! Finds the frames of a table.
+//! Finds the frames that belong to the rows of a table.
 
 mod picture_lines;
 mod series;
@@ -15,7 +15,7 @@ use picture_lines::{in_array, in_table};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
-/// Number of cells of a column that are looked up as files.
+/// Number of cells of a column that are checked for names of files.
 const LOOKED_UP: usize = 20;
 
 /// Comment on the pictures that belong to no row of `main`.
@@ -38,7 +38,7 @@ pub(super) struct FrameLines {
     pub(super) drop: Option<String>,
 }
 
-/// Evidence that rows of `table` have pictures: 2 if they hold or name them, 1 if cells are parts of their names, 0 for none.
+/// Evidence that rows of `table` have pictures: 2 if rows contain or name pictures, 1 if cells are parts of picture names, 0 for none.
 pub(super) fn evidence(folder: &SourceFolder, groups: &[FileGroup], table: &SeenTable<'_>) -> u8 {
     match table.pictures.is_empty() && file_columns(folder, table).is_empty() {
         true => u8::from(
@@ -87,7 +87,7 @@ fn file_columns<'t>(folder: &SourceFolder, table: &'t SeenTable<'_>) -> Vec<File
     columns.collect()
 }
 
-/// Column whose cells name pictures in the folders of several views, with these folders: `left`, `right`.
+/// Column whose cells name pictures in the folders of several views, and these folders: `left`, `right`.
 fn camera_folders<'t>(
     folder: &SourceFolder,
     table: &'t SeenTable<'_>,
@@ -118,7 +118,7 @@ fn camera_folders<'t>(
     })
 }
 
-/// Rule that drops rows without a picture name; recorders that allocate rows ahead leave such rows.
+/// Rule that drops rows without a picture name. Recorders that allocate rows in advance leave empty rows at the end.
 fn empty_rows(column: &SeenColumn, rows: usize) -> Option<String> {
     (column.empty > 0).then(|| {
         format!(
@@ -210,7 +210,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     })
 }
 
-/// Frames of `main`, one entry for each view. Clips are handled by their own function.
+/// Frame lines for the pictures of `main`, one entry for each view. Clips are handled separately.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -269,12 +269,12 @@ pub(super) fn of(
     }
 }
 
-/// Frame lines of the `names` that are views of one sample; `lines` makes those of each view.
+/// Frame lines of the columns, folders or files `names` that are views of one sample; `lines` writes the lines of each view.
 pub(super) fn of_views(names: &[&str], lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
     of_sides(sided(names), lines)
 }
 
-/// Frame lines of views, made by `lines`.
+/// Frame lines of the views `sides`; `lines` writes the lines of each view.
 fn of_sides(sides: Vec<Sided>, lines: impl Fn(usize) -> FrameLines) -> Vec<FrameLines> {
     let views = sides.into_iter().map(|Sided { at, view }| FrameLines {
         view: Some(view),
@@ -306,14 +306,14 @@ fn in_column(folder: &SourceFolder, main: &SeenTable<'_>, found: FileColumn<'_>)
     }
 }
 
-/// True if the groups pair up: the varying parts of their names are equal.
+/// True if the files of both groups form pairs: the varying parts of their names are equal.
 pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
     tables.paths.len() > 1
         && files.paths.len() == tables.paths.len()
         && files.parts.names == tables.parts.names
 }
 
-/// Line for pictures in one file that several tables share. By default each table would begin with the first picture.
+/// Index line with a gap, for pictures in one file that several tables share. By default each table would begin with the first picture.
 pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
         "index = \"?\"   # {} tables share it: name the column that numbers its pictures",
@@ -325,9 +325,9 @@ pub(super) fn counted_through(tables: &FileGroup) -> String {
 struct Beside {
     /// File name as a map writes it for each table.
     file: String,
-    /// Comment before the line.
+    /// Comment above the line.
     comment: Option<String>,
-    /// Line that names the picture index of a row, if it differs from the row number.
+    /// Line that names the picture index of a row, if the index differs from the row number.
     index: Option<String>,
 }
 
@@ -370,7 +370,7 @@ impl Beside {
     }
 }
 
-/// True for a file with a grayscale picture. The import reports unreadable files.
+/// True for a file with a grayscale picture. False for an unreadable file, which the import reports.
 fn is_gray(path: &Path) -> bool {
     let bytes = read_capped(path, limits::IMAGE_BYTES);
     bytes.is_ok_and(|bytes| decode(&bytes, ChannelOrder::Gray).is_ok())

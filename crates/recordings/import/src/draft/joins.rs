@@ -1,28 +1,28 @@
-//! Finds joined tables: by a shared column, by time, or row by row.
+//! Finds tables to join with the main table: by a shared column, by time, or row by row.
 
 use std::collections::BTreeSet;
 
 use super::roles::{Role, median_step};
 use super::tables::{SeenTable, SeenTime};
 
-/// Joined table with the lines of its `[[join]]`.
+/// Joined table with the lines of its `[[join]]` section.
 #[derive(Debug)]
 pub(super) struct SeenJoin<'t, 'g> {
     pub(super) name: String,
     pub(super) table: &'t SeenTable<'g>,
-    /// The table's value in a map.
+    /// Value of `table` in a map for this table.
     pub(super) written: String,
     pub(super) lines: Vec<String>,
 }
 
 impl SeenJoin<'_, '_> {
-    /// True if its cells are interpolated, which excludes texts.
+    /// True if cells of the joined table are interpolated, which excludes texts.
     pub(super) fn is_interpolated(&self) -> bool {
         self.lines.iter().any(|line| line.starts_with(LINEAR))
     }
 }
 
-/// Begin of the line of an interpolating join.
+/// Beginning of the line of an interpolating join.
 const LINEAR: &str = "pick = \"linear\"";
 
 /// Tables with channels that `main` lacks, each with its join.
@@ -70,7 +70,7 @@ pub(super) fn of<'t, 'g>(
     joins
 }
 
-/// Table with one row for each main table, such as a summary of a session.
+/// Joined table with one row for each main table, such as a summary of a session.
 fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<String>)> {
     let are_pairs = main.group.paths.len() > 1
         && other.group.paths.len() == main.group.paths.len()
@@ -176,25 +176,25 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     Some(lines)
 }
 
-/// Time between two rows from which they are single presses and no stream, ms.
+/// Time step between rows from which each row is taken for a single press, ms; rows of a stream are closer.
 const PRESSES_MS: f64 = 1_000.0;
 
-/// Share of the time between two rows in which a row of the same press is expected.
+/// Fraction of the time step between rows within which a row of the same press is expected.
 const SHARE_OF_STEP: f64 = 0.1;
 
-/// First and last time of a table, s; `None` if they are no numbers.
+/// First and last time of a table, s; `None` if the times are no numbers.
 pub(super) fn span_s(time: &SeenTime<'_>) -> Option<[f64; 2]> {
     let ends = [time.column.cells.first()?, &time.column.last];
     let ends = ends.map(|cell| in_seconds(cell, time.unit));
     ends.iter().all(|end| end.is_finite()).then_some(ends)
 }
 
-/// A time in seconds; NaN if it is no number.
+/// Time of a cell in seconds; NaN if the cell is no number.
 fn in_seconds(cell: &str, unit: &str) -> f64 {
     cell.parse::<f64>().unwrap_or(f64::NAN) / second_in(unit)
 }
 
-/// Number of units called `unit` in a second.
+/// Number of `unit` per second.
 fn second_in(unit: &str) -> f64 {
     match unit {
         "ns" => 1e9,
@@ -204,7 +204,7 @@ fn second_in(unit: &str) -> f64 {
     }
 }
 
-/// Rate of rows at these times, Hz; `None` if no two times differ or their unit is unknown.
+/// Rate of rows at these times, Hz; `None` if all times are equal or the unit is unknown.
 fn rate_hz(cells: &[String], unit: &str) -> Option<f64> {
     if unit == "?" {
         return None;
@@ -213,20 +213,20 @@ fn rate_hz(cells: &[String], unit: &str) -> Option<f64> {
     Some(second_in(unit) / median_step(&times)?)
 }
 
-/// Least rate of a joined table, relative to the main table, at which each row has a near one.
+/// Minimum rate of a joined table, relative to the main table, at which each main row has a near row.
 const NEAR_RATE: f64 = 0.9;
 
-/// True if several rows of the main table share a row of a table of the rate `other`, Hz.
+/// True if the rate `other` of the joined table is so low that several main rows share a row. Rates in Hz.
 fn is_slower(own: f64, other: f64) -> bool {
     other < NEAR_RATE * own
 }
 
-/// True if rows of this rate, Hz, are taken for single presses.
+/// True if the rate of rows, Hz, is so low that each row is taken for a single press.
 fn is_of_presses(rate: f64) -> bool {
     1e3 / rate > PRESSES_MS
 }
 
-/// Line with the pick that suits the rates of the main and the joined table, Hz.
+/// Line `pick` for these rates of the main and the joined table, Hz.
 fn pick_by_rates(own: f64, other: f64) -> String {
     let both = format!("{} beside {} of the main table", in_hz(other), in_hz(own));
     match is_slower(own, other) {
@@ -243,13 +243,13 @@ fn pick_by_rates(own: f64, other: f64) -> String {
     }
 }
 
-/// A rate with three digits: `33.3 Hz`.
+/// Writes a rate, Hz, with three digits: `33.3 Hz`.
 fn in_hz(rate: f64) -> String {
     let scale = 10_f64.powf(2.0 - rate.log10().floor());
     format!("{} Hz", (rate * scale).round() / scale)
 }
 
-/// Join row by row: both tables have equally many rows and no other relation.
+/// Join row by row, for tables with the same number of rows and no other relation.
 fn by_row(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     // With several tables, each would begin with the first row of the other.
     let is_alike = main.rows == other.rows && main.channels() == 0 && main.group.paths.len() == 1;

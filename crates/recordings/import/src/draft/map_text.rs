@@ -1,4 +1,4 @@
-//! Map as text: certain lines as they are, guesses with a reason, and `"?"` for facts that only the lab knows.
+//! Text of a drafted map: certain lines, guesses with a reason, and `"?"` for facts that only the lab knows.
 
 mod column_lists;
 mod ids;
@@ -21,13 +21,13 @@ use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, lin
 use signals::signals;
 use taceva_core::counted;
 
-/// Limit of unread items that a draft names.
+/// Maximum number of unread items that a draft names.
 const UNREAD: usize = 8;
 
-/// Limit of columns that a comment names.
+/// Maximum number of columns that a comment names.
 const NAMED: usize = 24;
 
-/// Map with one more comment at its beginning.
+/// Map with an additional comment at its beginning.
 pub(super) fn with_note(text: &str, note: &str) -> String {
     match text.strip_prefix(HEAD) {
         Some(rest) => format!("{HEAD}# {note}\n{rest}"),
@@ -253,7 +253,7 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
     ended(text)
 }
 
-/// Joins with a column in an active line of the map, and the tables of the unused joins as a map writes them.
+/// Joins that an active line of the map uses, and the tables of the unused joins as a map writes them.
 fn used_joins<'t, 'g>(
     main: &SeenTable<'_>,
     found: Vec<SeenJoin<'t, 'g>>,
@@ -302,7 +302,7 @@ fn offered<'t>(
     of_columns.chain(of_path).collect()
 }
 
-/// Lines of `[attributes]` for texts of the tables.
+/// Lines of `[attributes]` for columns of texts.
 fn attribute_lines(main: &SeenTable<'_>, columns: &[NamedColumn<'_>]) -> Lines {
     let mut attributes = Lines::default();
     for column in columns {
@@ -315,13 +315,13 @@ fn attribute_lines(main: &SeenTable<'_>, columns: &[NamedColumn<'_>]) -> Lines {
     attributes
 }
 
-/// Column named as in a map.
+/// Column with its name in a map.
 struct NamedColumn<'t> {
     name: String,
     role: &'t Role,
     /// True for a column of the main table.
     is_own: bool,
-    /// True if its cells are numbers between two rows of a joined table.
+    /// True if the cells are numbers interpolated between two rows of a joined table.
     is_interpolated: bool,
 }
 

@@ -1,27 +1,27 @@
-//! Notes of a draft on files that it does not read.
+//! Notes of a draft on files that the draft does not use.
 
 use super::survey::FileGroup;
 use super::tables::SeenTable;
 use crate::import::converter;
 use taceva_dataset::internal::first_names;
 
-/// Note on an unreadable file, with a converter for it.
+/// Note on a file of an unreadable form, with a command that converts it.
 pub(super) fn refused_form(group: &FileGroup) -> Option<String> {
     let remedy = converter(group.first())?;
     Some(format!("{} is not read: {remedy}", group.first()))
 }
 
-/// Limit of files that a note names.
+/// Maximum number of files that a note names.
 const NAMED: usize = 8;
 
-/// Note on files of other kinds; `None` if there are none. Maps of this program are not mentioned.
+/// Note on files of other kinds; `None` without such files. Import maps are not mentioned.
 pub(super) fn unread(groups: &[&FileGroup]) -> Option<String> {
     let others = groups.iter().filter(|group| group.ending != "toml");
     let names: Vec<&str> = others.map(|group| group.pattern()).collect();
     (!names.is_empty()).then(|| format!("Not read: {}", first_names(&names, NAMED)))
 }
 
-/// Advice for clips without a table.
+/// Advice for clips without a table of labels.
 pub(super) fn bare_clips(clips: &FileGroup) -> String {
     let clip = clips.first();
     format!(
@@ -38,7 +38,7 @@ pub(super) fn known_layout(preset: &str) -> String {
     )
 }
 
-/// Comment on an array that is beside pictures but not a table of them.
+/// Comment on an array that is beside pictures but has no rows for them.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     let reason = match table.group.ending.as_str() {
         "txt" => "its numbers have no names, and its rows are not as many",

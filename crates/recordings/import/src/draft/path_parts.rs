@@ -1,4 +1,4 @@
-//! Varying parts of similar file names: `x+0.5_007.png` has a number after `x` and a counter.
+//! Varying parts of similar file names. For example, `x+0.5_007.png` has a number after `x` and a counter.
 
 use std::collections::BTreeSet;
 
@@ -59,13 +59,13 @@ pub(super) fn varying(paths: &[&str]) -> Option<PathParts> {
 }
 
 impl PathParts {
-    /// Path pattern that takes its varying parts from the path of a table: `s{path.s}/frames.npy`.
+    /// Path pattern for pictures of a table, with the varying parts taken from the path of the table: `s{path.s}/frames.npy`.
     pub(super) fn of_table(&self) -> String {
         let plain = self.pattern.replace(":digits}", "}");
         plain.replace(":number}", "}").replace('{', "{path.")
     }
 
-    /// Letters directly after the part called `name`, usually its unit.
+    /// Letters directly after the part called `name`. They are usually its unit.
     pub(super) fn letters_behind(&self, name: &str) -> Option<&str> {
         let (_, behind) = self.pattern.split_once(&format!("{{{name}:"))?;
         let (_, behind) = behind.split_once('}')?;
@@ -75,7 +75,7 @@ impl PathParts {
         (end > 0).then(|| &behind[..end])
     }
 
-    /// Adds one folder level or the file name, called `names` in the paths.
+    /// Adds one folder level, or the file name. `names` are the names at this level in all paths.
     fn add_level(&mut self, names: &[&str]) {
         let rows: Vec<Vec<Token<'_>>> = names.iter().map(|name| tokens(name)).collect();
         let first = &rows[0];
@@ -162,7 +162,7 @@ impl PathParts {
     }
 }
 
-/// Splits the shared file extension off the names.
+/// Splits the common file extension off the names.
 fn common_ending<'a>(names: &[&'a str]) -> (BTreeSet<&'a str>, &'a str) {
     let ending = names[0].rfind('.').map_or("", |at| &names[0][at..]);
     let stems: Option<BTreeSet<&str>> =
@@ -173,7 +173,7 @@ fn common_ending<'a>(names: &[&'a str]) -> (BTreeSet<&'a str>, &'a str) {
     }
 }
 
-/// Splits a name into tokens. A sign at the start, or after a letter or `_`, belongs to the number that follows.
+/// Splits a name into tokens. A sign at the start, or after a letter or `_`, belongs to the following number.
 fn tokens(name: &str) -> Vec<Token<'_>> {
     let bytes = name.as_bytes();
     let is_digit = |at: usize| bytes.get(at).is_some_and(u8::is_ascii_digit);

@@ -19,31 +19,32 @@ pub(super) use words::words;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Role {
     Channels(Vec<Candidate>),
-    /// Name like that of a channel, for another quantity.
+    /// Column with a name like that of a channel, but for another quantity.
     Excluded(Exclusion),
-    /// Time in `unit`, since 1970 or not; `"?"` if the unit is unknown.
+    /// Time in `unit`, since 1970 or another origin; `"?"` if the unit is unknown.
     Time {
         unit: &'static str,
         is_unix: bool,
-        /// Reason that the unit may be another.
+        /// Reason why the unit may be different.
         guess: Option<&'static str>,
     },
     /// Text with few values, such as an object or a session.
     Attribute,
-    /// Whole numbers that count frames.
+    /// Whole numbers that count the frames.
     Index,
-    /// Numbers with an uninformative name.
+    /// Numbers whose column name does not indicate the quantity.
     Number,
-    /// Several numbers in each cell, with an uninformative name.
+    /// Several numbers in each cell, whose column name does not indicate the quantity.
     Numbers(usize),
     Other,
 }
 
-/// Least number of ascending rows that make a force a counter; larger if the column has the name of the channel.
+/// Minimum number of rows counting up by one from which numbers are taken for a counter instead of a force. A larger minimum applies to a column with the name
+/// of the channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 
-/// Name that explains the column: its own, or that of its file if columns are called `value`.
+/// Name that describes the column: its own, or the name of its file if the column is called `value`.
 fn explained<'n>(name: &'n str, about: &'n str) -> &'n str {
     match name {
         "value" => about,
@@ -51,7 +52,7 @@ fn explained<'n>(name: &'n str, about: &'n str) -> &'n str {
     }
 }
 
-/// Role of the column called `name`. `about` is the name of its file, which explains columns called `value`.
+/// Role of the column called `name`. `about` is the name of its file, which describes a column called `value`.
 pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
     let explained = explained(name, about);
     let filled: Vec<&str> = cells
@@ -74,12 +75,12 @@ pub(super) fn role(name: &str, about: &str, cells: &[String]) -> Role {
     }
 }
 
-/// True for a column without a name, such as the pandas index.
+/// True for a column without a name, such as the index that pandas writes.
 fn is_unnamed(name: &str) -> bool {
     name.is_empty() || name.starts_with("Unnamed: ")
 }
 
-/// Role of a column whose numbers have their own names.
+/// Role of a column with a name for each number in its cells.
 pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
     let is_known = names.iter().any(|name| !words(name).is_empty());
     if !is_known {
@@ -162,7 +163,7 @@ fn of_texts(cells: &[&str]) -> Role {
     }
 }
 
-/// Role of a column whose cells hold `width` numbers each.
+/// Role of a column with `width` numbers in each cell.
 fn several(named: &Named, width: usize) -> Role {
     let words = named.quantity_of_several();
     let has = |known: &[&str]| words.iter().any(|word| known.contains(word));
@@ -189,7 +190,7 @@ fn several(named: &Named, width: usize) -> Role {
     }
 }
 
-/// Number of numbers in each cell; `None` if the cells differ.
+/// Number of numbers in each cell; `None` if cells differ.
 fn width(cells: &[&str]) -> Option<usize> {
     let count = |cell: &str| {
         let is_number = |at: usize| {

@@ -8,12 +8,12 @@ use super::path_parts::{PathParts, varying};
 use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
 
-/// Limit of files and folders examined.
+/// Maximum number of files and folders examined.
 const LOOKED_AT: usize = 100_000;
-/// Limit of names compared in a group.
+/// Maximum number of names compared in a group.
 const COMPARED: usize = 2_000;
 
-/// Files with names of one pattern.
+/// Files whose names have a common pattern.
 #[derive(Debug)]
 pub(super) struct FileGroup {
     /// Paths relative to the folder, sorted.
@@ -35,7 +35,7 @@ impl FileGroup {
         }
     }
 
-    /// Name of its first file without its ending.
+    /// Name of the first file without its ending.
     pub(super) fn stem(&self) -> &str {
         let name = self.first().rsplit('/').next().unwrap_or_default();
         name.split('.').next().unwrap_or(name)
@@ -126,7 +126,7 @@ fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     groups.collect()
 }
 
-/// True if files with this ending may be tables. Tables whose names differ in the last word usually hold different data.
+/// True if files with this ending may be tables. Tables whose names differ in the last word usually contain different data.
 fn is_table_ending(ending: &str) -> bool {
     !matches!(
         ending,
@@ -134,7 +134,7 @@ fn is_table_ending(ending: &str) -> bool {
     )
 }
 
-/// Last word of a name before its ending, without digits: `forces` of `cube_1_forces.csv`.
+/// Last word of a name before the ending, without digits: `forces` of `cube_1_forces.csv`.
 fn last_word(name: &str) -> String {
     let stem = name.split('.').next().unwrap_or(name);
     let last = stem.rsplit(['_', '-', ' ']).next().unwrap_or(stem);

@@ -18,26 +18,26 @@ use form::{NUMBERED_HEADER, cut_key, form_of};
 pub(super) use taxels::Taxels;
 use taxels::taxels_of;
 
-/// Number of rows examined in a table.
+/// Maximum number of rows examined in a table.
 const SAMPLED: usize = 200;
 
-/// Table, or the first of several similar ones.
+/// Examined table, as an example of several similar tables if there are any.
 #[derive(Debug)]
 pub(super) struct SeenTable<'g> {
     pub(super) group: &'g FileGroup,
-    /// The table's value in a map.
+    /// Value of `table` in a map for this table.
     pub(super) written: String,
     pub(super) is_single_array: bool,
     /// True if channels are guessed from the number of columns alone.
     pub(super) has_guessed_channels: bool,
-    /// Comment on the guessed header, or on the cut of a recording.
+    /// Comment on the guessed header, or on the end of a truncated recording.
     pub(super) header_guess: Option<String>,
     pub(super) rows: usize,
     pub(super) columns: Vec<SeenColumn>,
     pub(super) pictures: Vec<PictureColumn>,
     /// Lists of classes stated by the file.
     pub(super) classes: Vec<(String, Vec<String>)>,
-    /// Other tables with pictures in the same file, as a map writes them.
+    /// Further tables with pictures in the same file, as a map writes them.
     pub(super) others: Vec<String>,
     /// Unread items of the file, each with the reason.
     pub(super) unread: Vec<String>,
@@ -47,17 +47,17 @@ pub(super) struct SeenTable<'g> {
 pub(super) struct SeenColumn {
     pub(super) name: String,
     pub(super) role: Role,
-    /// First cells.
+    /// Cells of the first rows.
     pub(super) cells: Vec<String>,
     /// Cell of the last row.
     pub(super) last: String,
-    /// Shape of the lists in its first cell, if they hold many numbers, as taxels do.
+    /// Shape of the lists in the first cell, if they contain as many numbers as taxels do.
     pub(super) taxels: Option<Vec<usize>>,
     /// Number of empty cells among the first million rows.
     pub(super) empty: usize,
 }
 
-/// Time column of a table.
+/// Time column of an examined table.
 #[derive(Debug)]
 pub(super) struct SeenTime<'t> {
     pub(super) column: &'t SeenColumn,
@@ -67,7 +67,7 @@ pub(super) struct SeenTime<'t> {
 }
 
 impl SeenTime<'_> {
-    /// Comment behind its unit.
+    /// Comment on the unit of the time.
     pub(super) fn mark(&self) -> String {
         let guess = self.guess.map(|guess| format!("   # {guess}"));
         guess.unwrap_or_default()
@@ -75,7 +75,7 @@ impl SeenTime<'_> {
 }
 
 impl<'g> SeenTable<'g> {
-    /// Reads the table in the first file of `group`; `Ok(None)` if it is no table. The error describes an unreadable table.
+    /// Reads the table in the first file of `group`; `Ok(None)` if the file is no table. The error describes an unreadable table.
     pub(super) fn read(
         folder: &SourceFolder,
         group: &'g FileGroup,
@@ -87,7 +87,7 @@ impl<'g> SeenTable<'g> {
         SeenTable::of_form(&path, group, group.pattern(), form, extra).map(Some)
     }
 
-    /// Reads the folder as a LeRobot dataset; `None` if it is none. `group` is the file that identifies it.
+    /// Reads the folder as a LeRobot dataset; `None` if the folder is not such a dataset. `group` is the file that identifies the dataset.
     pub(super) fn of_lerobot(
         folder: &SourceFolder,
         group: &'g FileGroup,
@@ -97,7 +97,7 @@ impl<'g> SeenTable<'g> {
             .then(|| SeenTable::of_form(folder.path(), group, ".", TableForm::LeRobot, extra))
     }
 
-    /// Readable topics of a recording, those with pictures first. The error says why there is none.
+    /// Readable topics of a recording, topics with pictures first. The error states why no topic is readable.
     pub(super) fn of_messages(
         folder: &SourceFolder,
         group: &'g FileGroup,
@@ -235,7 +235,7 @@ impl<'g> SeenTable<'g> {
         })
     }
 
-    /// True if its rows are in several groups of one file.
+    /// True if the rows are in several groups of one file.
     pub(super) fn has_groups(&self) -> bool {
         self.written.contains("/*\"") && self.group.ending != "json"
     }
@@ -245,12 +245,12 @@ impl<'g> SeenTable<'g> {
         self.group.first() == "meta/info.json"
     }
 
-    /// Number of channels in its columns.
+    /// Number of channels among the columns.
     pub(super) fn channels(&self) -> usize {
         self.columns.iter().map(SeenColumn::channels).sum()
     }
 
-    /// Time column, preferring acquisition time over log time.
+    /// Time column. Prefers the time of acquisition to the time of logging.
     pub(super) fn time(&self) -> Option<SeenTime<'_>> {
         let columns = self.columns.iter();
         let (logged, taken): (Vec<_>, Vec<_>) = columns.partition(|column| is_logged(&column.name));
@@ -282,7 +282,7 @@ impl SeenColumn {
     }
 }
 
-/// Maximum number of rows that are searched for empty cells. A small file can state many more.
+/// Maximum number of rows that are searched for empty cells, because a small file can declare many more rows.
 const SEARCHED: usize = 1_000_000;
 
 /// Number of empty cells among the first rows of a column.
@@ -336,10 +336,10 @@ fn complete(table: &ForeignTable, name: &str, candidates: &mut [Candidate]) {
     }
 }
 
-/// Least number of zero rows that make a channel doubtful.
+/// Minimum number of zero rows that make a channel doubtful.
 const LEAST_ZEROS: usize = 4;
 
-/// Leaves channels open that another column marks as invalid: `force_valid` beside `force_z`.
+/// Leaves a gap for channels with a column for their validity: `force_valid` beside `force_z`.
 fn open_invalid(columns: &mut [SeenColumn]) {
     let is_false = |cell: &String| {
         matches!(
@@ -375,7 +375,7 @@ fn open_invalid(columns: &mut [SeenColumn]) {
     }
 }
 
-/// Takes three unnamed numbers for forces, six for forces and torques. Returns true for three or six.
+/// Takes three unnamed numbers for forces, and six for forces and torques. Returns true for three or six.
 fn guess_channels(columns: &mut [SeenColumn]) -> bool {
     let names = ["Fx", "Fy", "Fz", "Tx", "Ty", "Tz"];
     let numbers: Vec<&mut SeenColumn> = columns

@@ -1,4 +1,4 @@
-//! Several pictures in one row: columns, folders and files whose names differ in a finger, an eye or a number.
+//! Views of a sample: columns, folders and files whose names differ in a finger, an eye or a number.
 
 use super::roles::words;
 
@@ -9,10 +9,10 @@ const SIDES: [&str; 26] = [
     "a", "b", "one", "two",
 ];
 
-/// One of several names that differ only in their side.
+/// Name that differs from others only in its side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Sided {
-    /// Position among the names.
+    /// Index among the names.
     pub(super) at: usize,
     /// Name of the view.
     pub(super) view: String,
@@ -21,11 +21,11 @@ pub(super) struct Sided {
 /// Token of a name.
 struct Stretch<'a> {
     text: &'a str,
-    /// Position in the name, bytes.
+    /// Offset in the name, bytes.
     start: usize,
 }
 
-/// Names among `names` that differ in one side or number alone, in their order; empty if fewer than two do.
+/// Names among `names` that differ only in one side or number, in the same order; empty for fewer than two.
 pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     let mut groups: Vec<(String, Vec<Sided>)> = Vec::new();
     for (at, name) in names.iter().enumerate() {
@@ -49,7 +49,7 @@ pub(super) fn sided(names: &[&str]) -> Vec<Sided> {
     largest.map(|(_, group)| group).unwrap_or_default()
 }
 
-/// Features of LeRobot as views by the last part of their names; empty if fewer than two differ in it.
+/// Features of LeRobot as views, named by the last part of the feature name; empty if fewer than two features differ in that part.
 pub(super) fn features<'n>(names: impl Iterator<Item = (usize, &'n str)>) -> Vec<Sided> {
     let mut found: Vec<Sided> = Vec::new();
     for (at, name) in names {
@@ -70,7 +70,7 @@ pub(super) fn features<'n>(names: impl Iterator<Item = (usize, &'n str)>) -> Vec
     }
 }
 
-/// For each possible side or number in `name`: the name without it, and the view.
+/// For each possible side or number in `name`: the name without this part, and the name of the view.
 fn sides_of(name: &str) -> Vec<(String, String)> {
     let stretches = stretches(name);
     let mut sides = Vec::new();
@@ -95,7 +95,7 @@ fn sides_of(name: &str) -> Vec<(String, String)> {
     sides
 }
 
-/// Words and numbers of a name. A word ends where a lower-case letter precedes an upper-case one.
+/// Words and numbers of a name. A word ends between a lower-case and an upper-case letter.
 fn stretches(name: &str) -> Vec<Stretch<'_>> {
     let mut found: Vec<Stretch<'_>> = Vec::new();
     let mut start = None;

@@ -1,4 +1,4 @@
-//! Columns of a dataset as the cells of another program's table.
+//! Converts columns of a dataset to cells of tables of other programs.
 
 use taceva_arrays::{ArrayError, Problem};
 use taceva_tables::{Cell, TableError, WrittenKind};
@@ -30,7 +30,7 @@ pub(super) fn cell(cells: &Cells<'_>, row: usize) -> Cell {
     found.unwrap_or(Cell::Null)
 }
 
-/// Picture of the sample called `sample`; null if there is none.
+/// Picture of the sample called `sample`; null if the sample has no picture.
 pub(super) fn picture(picture: Option<Encoded>, sample: &str) -> Cell {
     let Some(Encoded { bytes, extension }) = picture else {
         return Cell::Null;
@@ -51,7 +51,7 @@ impl Exported<'_> {
         ))
     }
 
-    /// `name`, with `_` appended until no column has that name.
+    /// Returns `name`, with `_` appended until no column has the same name.
     pub(super) fn free_name(&self, name: &str) -> String {
         let mut free = name.to_owned();
         while self.columns.iter().any(|column| column.name == free) {

@@ -1,4 +1,4 @@
-//! Content common to all forms of an export.
+//! Content that all forms of an export share.
 
 use std::num::NonZeroUsize;
 
@@ -20,14 +20,14 @@ pub(super) struct Exported<'a> {
 }
 
 impl Exported<'_> {
-    /// True if some samples have a picture and others none.
+    /// True if only some samples have a picture.
     pub(super) fn is_partly(&self) -> bool {
         let table = self.dataset.table();
         let pictures = table.frames().iter().flatten().count();
         pictures > 0 && pictures < table.rows()
     }
 
-    /// Facts of the dataset that no map can hold, in words.
+    /// Facts of the dataset that no map can state, in words.
     pub(super) fn left_out(&self) -> Vec<String> {
         let header = self.dataset.header();
         let table = self.dataset.table();
@@ -80,7 +80,7 @@ impl Exported<'_> {
         left.map(|(_, what)| what.to_owned()).collect()
     }
 
-    /// True if a text has surrounding blanks, or is present and empty.
+    /// True if a text has surrounding blanks, or is present but empty.
     fn has_blanks(&self) -> bool {
         let rows = self.dataset.table().rows();
         let texts = self.columns.iter().filter(|column| column.cells.is_text());
@@ -95,7 +95,7 @@ impl Exported<'_> {
         Ok(signals.map_or_else(Vec::new, |signals| signals.values().to_vec()))
     }
 
-    /// Writes the picture without contact beside the other pictures. Returns its name; `None` if there is none.
+    /// Writes the picture without contact beside the other pictures. Returns its file name; `None` if the dataset has no picture without contact.
     pub(super) fn write_reference(
         &self,
         staged: &StagedFolder,
@@ -119,7 +119,7 @@ impl Exported<'_> {
     }
 }
 
-/// True if samples rest on several certificates or devices of one instrument.
+/// True if labels were measured with several certificates or devices of one kind of instrument.
 fn has_several(of: &[Traceability]) -> bool {
     let is_several = |instrument: Instrument| {
         let of = of.iter().filter(|of| of.instrument == instrument);
@@ -128,7 +128,7 @@ fn has_several(of: &[Traceability]) -> bool {
     Instrument::ALL.into_iter().any(is_several)
 }
 
-/// True if the instrument of the sensor names a driver or a serial number, which `[sensor]` of a map cannot hold.
+/// True if the instrument of the sensor has a driver or a serial number, which `[sensor]` of a map cannot state.
 fn has_device_of_sensor(of: &[Traceability]) -> bool {
     of.iter().any(|of| {
         let is_device = of.driver.is_some() || of.serial.is_some();

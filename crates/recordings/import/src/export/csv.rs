@@ -1,4 +1,4 @@
-//! Text table, with one file for each picture.
+//! Export as a text table, with one file for each picture.
 
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -11,9 +11,9 @@ use super::picture::{Encoded, Pictures};
 use crate::error::ImportError;
 use taceva_dataset::internal::{layout, ordered_map, staging::StagedFolder, write_durable};
 
-/// File name of the table; its rows are those of the dataset.
+/// File name of the table; rows are in the order of the dataset.
 const TABLE: &str = "labels.csv";
-/// Pictures that each job writes at a time. Most of the time is spent waiting for the disk.
+/// Number of pictures that each job writes at once. Most of the time is spent waiting for the disk.
 const PICTURES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
 
 pub(super) fn write(
@@ -82,7 +82,7 @@ struct PathColumn {
     paths: Vec<String>,
 }
 
-/// Writes one file for each picture. Returns the names, empty for rows without a picture.
+/// Writes one file for each picture. Returns the file names, which are empty for rows without a picture.
 fn write_pictures(
     exported: &Exported<'_>,
     pictures: &Pictures<'_>,

@@ -1,6 +1,6 @@
 //! Forms of an export.
 
-/// Export form that other programs read.
+/// Form of an export, readable by other programs.
 ///
 /// ```
 /// use taceva_import::ExportForm;
@@ -29,7 +29,7 @@ impl ExportForm {
         ExportForm::LeRobot,
     ];
 
-    /// The word for it.
+    /// Word for the form on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             ExportForm::Csv => "csv",

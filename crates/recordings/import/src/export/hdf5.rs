@@ -1,4 +1,4 @@
-//! HDF5 file: one array for each column, and the pictures as one array of pixels. Arrays are contiguous.
+//! Export as an HDF5 file: one contiguous array for each column, and the pictures as one array of pixels.
 
 use taceva_arrays::{Hdf5Writer, WrittenElement};
 use taceva_core::PixelFormat;
@@ -12,7 +12,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{Cells, staging::StagedFolder};
 
 const FILE: &str = "recording.h5";
-/// Limit of a text, bytes. All texts of an array take the space of the longest.
+/// Maximum length of a text, bytes. Each text of an array takes the space of the longest.
 const TEXT_BYTES: usize = 4096;
 
 pub(super) fn write(
@@ -99,7 +99,7 @@ pub(super) fn write(
     Ok((written, Vec::new()))
 }
 
-/// Writes a column as an array. Absent numbers become NaN, absent texts are empty.
+/// Writes a column as an array. Missing numbers become NaN, and missing texts become empty.
 fn write_column(
     exported: &Exported<'_>,
     writer: &mut Hdf5Writer,

@@ -1,4 +1,4 @@
-//! Hugging Face dataset: Parquet with the pictures in the column `image`.
+//! Export as a Hugging Face dataset: Parquet with the pictures in the column `image`.
 
 use taceva_core::markdown;
 use taceva_tables::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_features};

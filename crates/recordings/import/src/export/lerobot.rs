@@ -1,8 +1,8 @@
-//! LeRobot folder, version 3.0, with the pictures in its tables.
+//! Export as a LeRobot folder, version 3.0, with the pictures in its tables.
 //!
-//! An episode is a press: consecutive rows of one sensor unit, scene, contact point and repeat. LeRobot takes the rows of an episode for
-//! frames that follow one another in time. Repeats of a contact point may be hours apart, with others in between, so they form separate
-//! episodes. As episodes are runs of rows, rows keep their order.
+//! An episode is a press: consecutive rows of one sensor unit, scene, contact point and repeat. LeRobot treats the rows of an episode as consecutive frames.
+//! Repeats of a contact point may be hours apart, with other presses in between, so they form separate episodes. Episodes are runs of rows, so rows keep their
+//! order.
 
 use std::collections::BTreeMap;
 
@@ -22,9 +22,9 @@ use taceva_dataset::internal::{RESERVED, staging::StagedFolder};
 
 const STATE: &str = "observation.state";
 const TAXELS: &str = "observation.tactile";
-/// Prefix of picture features, followed by the view; `gel` for samples with one picture.
+/// Prefix of the feature names of pictures, followed by the view; `gel` for samples with one picture.
 const PICTURES: &str = "observation.images";
-/// Number of pictures in the statistics, about as many as LeRobot itself uses.
+/// Number of pictures used for the statistics, about as many as LeRobot itself uses.
 const LOOKED_AT: usize = 100;
 
 pub(super) fn write(
@@ -80,13 +80,13 @@ pub(super) fn write(
     Ok((written, folders))
 }
 
-/// Feature name of these pictures.
+/// Feature name of `pictures`.
 fn picture_name(pictures: &Pictures<'_>) -> String {
     let view = pictures.view();
     format!("{PICTURES}.{}", view.as_deref().unwrap_or("gel"))
 }
 
-/// Feature name of a column. Attributes are kept apart from the columns that LeRobot defines.
+/// Feature name of a column. Attributes get a prefix, to differ from the columns that LeRobot defines.
 fn name_of(name: &str) -> String {
     match RESERVED.contains(&name) {
         true => name.to_owned(),
@@ -94,7 +94,7 @@ fn name_of(name: &str) -> String {
     }
 }
 
-/// Columns other than channels; the channels share one feature.
+/// Columns other than channels. The channels form one feature.
 fn labels<'e, 'd>(
     exported: &'e Exported<'d>,
 ) -> impl Iterator<Item = &'e taceva_dataset::internal::NamedColumn<'d>> {
@@ -178,7 +178,7 @@ fn is_same_press(table: &Table, before: usize, row: usize) -> bool {
         && table.scene()[before] == table.scene()[row]
 }
 
-/// Frame rate within presses, whole Hz as LeRobot requires, from the median time step; 1 if times are absent.
+/// Frame rate within presses, in whole Hz as LeRobot requires, from the median time step; 1 if times are missing.
 fn rate_hz(table: &Table) -> f64 {
     let pairs = (1..table.rows()).filter(|row| is_same_press(table, row - 1, *row));
     let steps = pairs.filter_map(|row| Some(table.t_s()[row]? - table.t_s()[row - 1]?));
@@ -188,7 +188,7 @@ fn rate_hz(table: &Table) -> f64 {
     median.map_or(1.0, |step| (1.0 / step).round().clamp(1.0, 1e6))
 }
 
-/// Adds the pixels of a picture, scaled to 0 to 1.
+/// Adds the pixels of a picture, scaled to the range 0 to 1.
 fn add_picture(stats: &mut FeatureStats, frame: &Frame) {
     let format = frame.info().format;
     let full = f64::from(format.full_scale());

@@ -11,13 +11,13 @@ use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::internal::{RESERVED, column_kind, column_of};
 use taceva_dataset::{Header, ReducedFrames, SensorFacts};
 
-/// Locations of the map's items in an export form.
+/// Names of the exported items, to be written in the map.
 pub(super) struct Written {
     /// Value of `table`, as TOML.
     pub(super) table: String,
-    /// Pictures of each view; empty without pictures.
+    /// Map entries for the pictures of each view; empty without pictures.
     pub(super) frames: Vec<WrittenFrames>,
-    /// Value of `from` of [signals], as TOML; `None` without signals.
+    /// Value of `from` in `[signals]`, as TOML; `None` without signals.
     pub(super) signals: Option<String>,
     /// Maps a column name of the dataset to its name in the file.
     pub(super) names: fn(&str) -> String,
@@ -25,15 +25,15 @@ pub(super) struct Written {
     pub(super) channels: Vec<String>,
 }
 
-/// Pictures of a view in an export form.
+/// Map entries for the pictures of a view.
 pub(super) struct WrittenFrames {
-    /// Key and value that name the pictures, as TOML.
+    /// Key and value that locate the pictures, as TOML.
     pub(super) key: String,
     /// File of the picture without contact.
     pub(super) reference: Option<String>,
 }
 
-/// Column name of a plain table: unchanged.
+/// Name of a column in a plain table, which equals its name in the dataset.
 pub(super) fn bare(name: &str) -> String {
     name.to_owned()
 }
@@ -49,14 +49,14 @@ pub(super) fn quoted(text: &str) -> String {
     toml::Value::String(text.to_owned()).to_string()
 }
 
-/// Keys of the map for the origin of rows, with their columns.
+/// Map keys for the origin of rows, with the columns that contain it.
 const ORIGIN: [(&str, &str); 3] = [
     ("table", "source_table"),
     ("row", "source_row"),
     ("frame", "source_frame"),
 ];
 
-/// Text of the map for an export with the locations `written`.
+/// Text of the map for an export with the names `written`.
 pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     let header = exported.dataset.header();
     let table = exported.dataset.table();
@@ -192,7 +192,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     text + &facts(header)
 }
 
-/// Instruments of the labels and the sensor, in the order of TOML.
+/// Instruments of the labels and of the sensor, in the order of TOML.
 #[derive(Serialize)]
 struct Devices<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -220,13 +220,13 @@ struct Sensor<'a> {
     certificate: Option<&'a Certificate>,
 }
 
-/// The entry of `instrument`; `None` if there is none, or if there are several, which no map can hold.
+/// Entry for `instrument`; `None` without an entry, and for several entries, which no map can state.
 fn only(of: &[Traceability], instrument: Instrument) -> Option<&Traceability> {
     let mut of = of.iter().filter(|of| of.instrument == instrument);
     of.next().filter(|_| of.next().is_none())
 }
 
-/// Instruments, sensor and footprint, as in the header.
+/// Sections of instruments, sensor and footprint, as in the header.
 fn facts(header: &Header) -> String {
     let words = "texts, numbers and truth values can be written as TOML";
     let device = |instrument| {

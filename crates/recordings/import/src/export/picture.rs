@@ -1,4 +1,4 @@
-//! Pictures of an export, with the bytes of the dataset where the form allows.
+//! Pictures of an export, with the original bytes if the form allows it.
 
 use taceva_core::{Frame, PixelFormat};
 
@@ -7,18 +7,18 @@ use crate::error::ImportError;
 use taceva_dataset::internal::{ImageKind, encode_png};
 use taceva_dataset::{ChannelOrder, Dataset, DatasetError, ReducedFrames};
 
-/// Pictures of a dataset that has at least one.
+/// Pictures of a dataset with at least one picture.
 pub(super) struct Pictures<'a> {
     dataset: &'a Dataset,
     /// Colour order in the exported files.
     pub(super) order: ChannelOrder,
-    /// True if every picture is re-encoded; otherwise only those stored as differences.
+    /// True if every picture is encoded again; otherwise only pictures stored as differences are.
     is_anew: bool,
-    /// True if the form holds pixels instead of files.
+    /// True if the form stores pixels instead of image files.
     is_pixels: bool,
 }
 
-/// Picture as a file.
+/// Picture as an image file.
 pub(super) struct Encoded {
     pub(super) bytes: Vec<u8>,
     pub(super) extension: &'static str,
@@ -68,14 +68,14 @@ impl<'a> Pictures<'a> {
         self.dataset.table().frames().iter().flatten().count() as u64
     }
 
-    /// Number of re-encoded pictures.
+    /// Number of pictures that are encoded again.
     pub(super) fn encoded_anew(&self) -> u64 {
         let entries = self.dataset.table().frames().iter().flatten();
         let anew = entries.filter(|entry| self.is_pixels || self.is_anew || entry.is_difference());
         anew.count() as u64
     }
 
-    /// Picture of a row as a file; `None` if the row has none.
+    /// Picture of a row as an image file; `None` if the row has no picture.
     pub(super) fn encoded(&self, row: usize) -> Result<Option<Encoded>, ImportError> {
         let Some(entry) = &self.dataset.table().frames()[row] else {
             return Ok(None);
@@ -88,7 +88,7 @@ impl<'a> Pictures<'a> {
         Ok(Some(Encoded::of(bytes)))
     }
 
-    /// Picture without contact as a file; `None` if there is none.
+    /// Picture without contact as an image file; `None` if the dataset has none.
     pub(super) fn reference(&self) -> Result<Option<Encoded>, ImportError> {
         let header = self.dataset.header();
         let reference = header
@@ -108,13 +108,13 @@ impl<'a> Pictures<'a> {
         Ok(bytes.map(Encoded::of))
     }
 
-    /// Decoded picture of a row, for forms that need one in each row.
+    /// Decoded picture of a row, for forms in which each row needs a picture.
     pub(super) fn frame(&self, row: usize) -> Result<Frame, ImportError> {
         let frame = self.dataset.frame(row)?;
         frame.ok_or_else(|| self.none(row))
     }
 
-    /// Error for a row without a picture, in forms that need one in each row.
+    /// Error for a row without a picture, in forms in which each row needs a picture.
     pub(super) fn none(&self, row: usize) -> ImportError {
         let problem = "no picture, and this format needs pictures for all samples or none; use `--format huggingface` or `csv`";
         DatasetError::sample(&self.dataset.table().samples()[row], problem).into()
@@ -129,7 +129,7 @@ impl<'a> Pictures<'a> {
             .map(|frames| frames.info)
     }
 
-    /// Number of colours per pixel.
+    /// Number of colour channels per pixel.
     pub(super) fn colours(&self) -> usize {
         self.info()
             .map_or(PixelFormat::Rgb8.samples(), |info| info.format.samples())

@@ -1,4 +1,4 @@
-//! Arrays as tables: a row is one index of their first axis.
+//! Arrays as tables: each index of the first axis is a row.
 
 mod attributes;
 mod cells;
@@ -21,22 +21,22 @@ use attributes::{absent_chunks, is_data_frame, problem};
 pub(crate) use frames::ArrayPictures;
 use group::{Group, candidates, rows_of};
 
-/// Limit of arrays that a draft searches for pictures.
+/// Maximum number of arrays that a draft searches for pictures.
 const LISTED: usize = 64;
 
-/// Rows of a file of arrays, from one group or several.
+/// Rows of a file of arrays, from one or several groups.
 #[derive(Debug)]
 pub(crate) struct ArrayRows {
     path: PathBuf,
     file: Arc<ArrayFile>,
-    /// Groups whose arrays are columns, or the HDF5 table itself. A file without groups has one without a name.
+    /// Groups whose arrays are the columns, or the HDF5 table itself. A file without groups has one group without a name.
     groups: Vec<Group>,
-    /// True if the file is one row, with each array as a cell.
+    /// True if the file is a single row, with each array as a cell.
     is_whole: bool,
 }
 
 impl ArrayRows {
-    /// Opens the arrays of the groups that `rows` names, or of the whole file.
+    /// Opens the arrays of the groups named by `rows`, or of the whole file.
     pub(super) fn open(
         path: &Path,
         format: ArrayFormat,
@@ -68,7 +68,7 @@ impl ArrayRows {
         })
     }
 
-    /// Opens the file as one row.
+    /// Opens the file as a single row.
     pub(super) fn whole(path: &Path, format: ArrayFormat) -> Result<ArrayRows, String> {
         let file = ArrayFile::open(path, format).map_err(problem)?;
         let whole = Group {
@@ -138,7 +138,7 @@ impl ColumnSource for ArrayRows {
         }
     }
 
-    /// Unit of NumPy times that pandas stores as integers marked as times.
+    /// Unit of times that pandas stores as integers with a marker; `None` for other columns.
     fn time_unit(&self, name: &str) -> Option<&'static str> {
         let mut units = self
             .groups

@@ -1,4 +1,4 @@
-//! Encoded pictures in the cells of a column, each the bytes of a picture file.
+//! Encoded pictures in the cells of a column. Each cell contains the bytes of an image file.
 
 use std::fmt;
 use std::path::Path;
@@ -27,7 +27,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         each: VisitBytes<'_>,
     ) -> Result<(), Ended<TableError>>;
 
-    /// Kind of a column's values, or of the innermost values of its lists.
+    /// Kind of the values of a column, or of the innermost values if the column contains lists.
     fn kind_within(&self, name: &str) -> Option<ColumnKind> {
         let mut kind = self.kind_of(name).ok()?;
         while let ColumnKind::List(element) = kind {
@@ -36,7 +36,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         Some(kind)
     }
 
-    /// Unit of the times in a column, or in its lists.
+    /// Unit of the times in a column or in its lists; `None` for other columns.
     fn unit_of_times(&self, name: &str) -> Option<&'static str> {
         match self.kind_within(name)? {
             ColumnKind::Time(unit) => Some(unit),
@@ -44,7 +44,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
         }
     }
 
-    /// The cell, or null if the form marks it as absent.
+    /// Returns the cell, or null if the form marks the cell as missing.
     fn present(cell: Cell) -> Cell {
         cell
     }
@@ -63,7 +63,7 @@ pub(super) trait ByteColumns: Sized + fmt::Debug + Send + Sync {
     }
 }
 
-/// The readers of all forms have the same methods, except for the getter of the path.
+/// Implements [`ByteColumns`] for a reader. The readers of all forms have the same methods, except for the getter of the path.
 macro_rules! byte_columns {
     ($table:ty, $place:ident $(, $present:item)?) => {
         impl ByteColumns for $table {

@@ -1,11 +1,11 @@
-//! Several values in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, `["a", "b, c"]`, nested lists, and numbers as NumPy prints them.
+//! Lists in one cell: `[0.1, 0.2]`, `1 2 3`, `1;2;3`, `["a", "b, c"]`, nested lists, and numbers as NumPy prints them.
 
 use std::borrow::Cow;
 
-/// Limit of nested list levels.
+/// Maximum depth of nested lists.
 const DEEPEST: usize = 16;
 
-/// Value of a cell that holds several.
+/// Element of the list in a cell.
 #[derive(Debug, PartialEq, Eq)]
 pub(crate) struct Value<'a> {
     /// Text of the value, without quotes.
@@ -20,7 +20,7 @@ impl Value<'_> {
     }
 }
 
-/// As [`item`], with quotes removed from a quoted text.
+/// Value of [`item`], without the quotes of a quoted text.
 pub(crate) fn value<'a>(cell: &'a str, index: &[usize]) -> Result<Value<'a>, String> {
     let found = item(cell, index)?;
     Ok(match unquoted(found) {
@@ -35,7 +35,7 @@ pub(crate) fn value<'a>(cell: &'a str, index: &[usize]) -> Result<Value<'a>, Str
     })
 }
 
-/// Text as a member of a list, quoted if it could be taken for several values or for another one.
+/// Text as an element of a list, quoted if it could be taken for several elements or for a different one.
 pub(crate) fn member(text: String) -> String {
     let is_special = |letter: char| letter.is_whitespace() || "[](),;\"'\\".contains(letter);
     match text.as_str() {
@@ -49,7 +49,7 @@ fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }
 
-/// Value at `index` in `cell`, one position per list level from the outermost inwards. The error says why there is none.
+/// Element at `index` of the list in `cell`, with one position per list level, the outermost first. The error states why the element does not exist.
 pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String> {
     let mut found = cell.trim();
     for (depth, position) in index.iter().enumerate() {
@@ -70,7 +70,7 @@ pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String
     Ok(plain(found))
 }
 
-/// Number without the type that NumPy 2 prints around it: `np.float64(1.5)`.
+/// Number without the type name that NumPy 2 prints around it: `np.float64(1.5)`.
 pub(crate) fn plain(cell: &str) -> &str {
     let inner = cell
         .strip_prefix("np.")
@@ -104,7 +104,7 @@ fn unquoted(value: &str) -> Option<Cow<'_, str>> {
     Some(Cow::Owned(json.unwrap_or_else(|| unescaped(inside))))
 }
 
-/// Text printed by Python, without the backslashes of its escapes.
+/// Text printed by Python, with its escape sequences resolved.
 fn unescaped(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     let mut letters = text.chars();
@@ -125,7 +125,8 @@ fn unescaped(text: &str) -> String {
     plain
 }
 
-/// Length in bytes of the quoted text at the beginning of `text`, quotes included; `None` without one, or if more text follows directly.
+/// Length of the quoted text at the beginning of `text`, in bytes, quotes included. `None` if `text` does not begin with a quote, or if more text follows
+/// directly.
 fn quoted_bytes(text: &str) -> Option<usize> {
     let mut letters = text.char_indices();
     let (_, quote) = letters
@@ -147,7 +148,7 @@ fn quoted_bytes(text: &str) -> Option<usize> {
     None
 }
 
-/// Values of the outermost list, or of a cell without brackets.
+/// Elements of the outermost list, or of a cell without brackets.
 fn parts(cell: &str) -> Result<Vec<&str>, String> {
     let inside = ["[]", "()"].iter().find_map(|pair| {
         let (open, close) = pair.split_at(1);
@@ -180,7 +181,7 @@ fn parts(cell: &str) -> Result<Vec<&str>, String> {
     Ok(parts)
 }
 
-/// Offset and length of each separator outside brackets and quoted texts, bytes.
+/// Offset and length of each separator outside brackets and quotes, bytes.
 fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, usize)>, String> {
     let mut depth = 0_usize;
     let mut found = Vec::new();

@@ -16,15 +16,15 @@ pub(super) struct ClipRows {
     times_s: Vec<f64>,
 }
 
-/// Names of the columns: frame number from 0, and time in seconds.
+/// Column names: the frame number, from 0, and the time, s.
 const INDEX: &str = "index";
 const TIME: &str = "t";
 
 impl ClipRows {
-    /// Opens the clip at `path`, with its first frame at `start_s`. Without a rate, the times stated by the clip are used.
+    /// Opens the clip at `path`, whose first frame is at `start_s`, s. Without a rate, the times stated by the clip are used.
     ///
     /// # Errors
-    /// Errors of the clip reader; clips whose times are absent or do not rise.
+    /// Errors of the clip reader; an error for clips whose times are missing or not ascending.
     pub(super) fn open(
         path: &Path,
         rate: Option<f64>,

@@ -12,19 +12,19 @@ use crate::error::ImportError;
 use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, FrameCodec};
 
-/// Frames of a clip in display order. Each visit opens the file, as a recording may have one clip per press.
+/// Frames of a clip in display order. Each visit opens the file again, because a recording may have one clip per press.
 #[derive(Debug)]
 pub(crate) struct ClipPictures {
     path: PathBuf,
     decoders: Decoders,
     count: u64,
     codec: FrameCodec,
-    /// Pixels of a depth map, whose values are distances.
+    /// Conversion of the codes of a depth map to pixels; `None` for other clips.
     depth: Option<DepthPixels>,
 }
 
 impl ClipPictures {
-    /// Opens the clip at `path`, with `depth` as a depth map.
+    /// Opens the clip at `path`; with `depth`, as a depth map.
     pub(crate) fn open(
         path: &Path,
         decoders: &Decoders,
@@ -98,7 +98,7 @@ impl Pictures for ClipPictures {
     }
 }
 
-/// Distances in a picture of a depth map.
+/// Converts the codes in a picture of a depth map to distances.
 fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Picture, String> {
     let taceva_video::Picture::Deep {
         width,
@@ -132,7 +132,7 @@ fn of_depth(picture: &taceva_video::Picture, depth: &DepthPixels) -> Result<Pict
     )
 }
 
-/// Picture as stored: a Motion JPEG packet unchanged, samples of more than 8 bits unscaled in 16 bits.
+/// Picture as stored: a Motion JPEG packet is unchanged, and samples of more than 8 bits are stored unscaled in 16 bits.
 fn kept(picture: taceva_video::Picture, format: PixelFormat) -> Result<Picture, String> {
     let (width, height, format, bytes) = match picture {
         taceva_video::Picture::Jpeg(bytes) => return Ok(Picture::Encoded(bytes)),

@@ -17,20 +17,20 @@ use taceva_tables::DepthCodes;
 pub(crate) struct Stated {
     /// Unit, from `unit` or `units`.
     pub(crate) unit: Option<String>,
-    /// Factor and offset of packed numbers, from `scale_factor` and `add_offset` (netCDF convention); `None` if they change nothing.
+    /// Factor and offset of packed numbers, from `scale_factor` and `add_offset` (netCDF convention); `None` if the numbers are not packed.
     pub(crate) packed: Option<[f64; 2]>,
 }
 
-/// Part of a recording before a cut.
+/// Readable part of a truncated recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct BeforeCut {
-    /// Number of complete messages, of all topics.
+    /// Number of complete messages of all topics.
     pub(crate) messages: u64,
-    /// End of the complete records, byte.
+    /// Offset of the end of the complete records, bytes.
     pub(crate) end: u64,
 }
 
-/// Source of a table of columns.
+/// Source of a table that is read column by column.
 pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     fn rows(&self) -> usize;
 
@@ -40,26 +40,26 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
     /// True if there is a column of exactly this name.
     fn has(&self, name: &str) -> bool;
 
-    /// Cells of each column, by row: texts unchanged, numbers in the shortest form that reads back as the same 64 bits, several numbers as
-    /// `[1.0, 2.0]`.
+    /// Cells of each column, by row. Texts are unchanged, numbers have the shortest form that parses back to the same 64 bits, and several numbers are written
+    /// as `[1.0, 2.0]`.
     fn columns(&self, names: &[&str]) -> Result<Vec<Vec<String>>, String>;
 
-    /// Unit of a time column as stated by the file; `None` for other columns. The cells are converted to seconds.
+    /// Unit of a time column as stated by the file; `None` for other columns. The cells are already converted to seconds.
     fn time_unit(&self, _name: &str) -> Option<&'static str> {
         None
     }
 
-    /// True if the file states that a column holds integers or lists of integers.
+    /// True if the file states that a column contains integers or lists of integers.
     fn holds_integers(&self, _name: &str) -> bool {
         false
     }
 
-    /// Attributes that the file states for a column, one entry for each differing group.
+    /// Attributes that the file states for a column, one entry for each different set among the groups.
     fn stated(&self, _name: &str) -> Vec<Stated> {
         Vec::new()
     }
 
-    /// Reason that an item of this name is no column: a link, or an unsupported form.
+    /// Reason why an item with this name is no column: a link, or an unsupported form.
     fn why_absent(&self, _name: &str) -> Option<String> {
         None
     }
@@ -69,17 +69,17 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Part of a cut recording that is read.
+    /// Readable part of a truncated recording; `None` if the recording is complete.
     fn before_cut(&self) -> Option<BeforeCut> {
         None
     }
 
-    /// Arrays behind these columns with unwritten chunks, with the number of these chunks.
+    /// Arrays of these columns that have unwritten chunks, and the number of unwritten chunks of each.
     fn absent_chunks(&self, _names: &[&str]) -> Result<Vec<(String, u64)>, String> {
         Ok(Vec::new())
     }
 
-    /// Columns that seem to hold pictures.
+    /// Columns that seem to contain pictures.
     fn picture_columns(&self) -> Vec<PictureColumn>;
 
     /// Class lists stated by the file, for columns whose numbers index them.
@@ -87,7 +87,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Names of the numbers in a column, as the file states them.
+    /// Names of the numbers in a column; empty if the file does not state them.
     fn element_names(&self, _column: &str) -> Vec<String> {
         Vec::new()
     }
@@ -100,13 +100,13 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Err(format!("`{key}` names no clip: this table has no clips"))
     }
 
-    /// Distances of the codes of `key`, if it is a depth map.
+    /// Distance for each code of `key`; `None` if it is not a depth map.
     fn depth(&self, _key: &str) -> Option<DepthCodes> {
         None
     }
 }
 
-/// Column that seems to hold pictures.
+/// Column that seems to contain pictures.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PictureColumn {
     pub(crate) name: String,
@@ -127,7 +127,7 @@ pub(crate) enum PictureKind {
     Array {
         is_gray: bool,
         is_planar: bool,
-        /// Least and greatest value of the first frames; `None` if the values are pixels.
+        /// Minimum and maximum of the first frames; `None` if the values are pixels.
         range: Option<[f64; 2]>,
     },
 }
@@ -138,20 +138,20 @@ pub(crate) struct ColumnTable {
     path: PathBuf,
     source: Box<dyn ColumnSource>,
     read: Mutex<ReadColumns>,
-    /// Limit of the memory of its cells, bytes: a small crafted file could exhaust the memory.
+    /// Maximum memory of the cells, bytes. A small crafted file could otherwise exhaust the memory.
     most_bytes: usize,
 }
 
-/// Columns that were read so far.
+/// Columns read so far.
 #[derive(Debug, Default)]
 struct ReadColumns {
     by_name: BTreeMap<String, Arc<Vec<String>>>,
-    /// Problems of columns that could not be read, so that each costs one attempt.
+    /// Errors of columns that could not be read, so that each column is tried only once.
     refused: BTreeMap<String, String>,
     bytes: usize,
 }
 
-/// Memory limit of the cells of a file, bytes: `CELL_BYTES`, or `CELL_RATIO` times the file size if that is more.
+/// Memory limit of the cells of a file, bytes: the larger of `CELL_BYTES` and `CELL_RATIO` times the file size.
 const CELL_BYTES: u64 = 96 << 20;
 const CELL_RATIO: u64 = 64;
 
@@ -166,7 +166,7 @@ fn most_bytes(path: &Path) -> usize {
         .unwrap_or(usize::MAX)
 }
 
-/// Memory of the cells of a column.
+/// Memory of the cells of a column, bytes.
 fn bytes_of(column: &[String]) -> usize {
     column
         .iter()
@@ -175,7 +175,7 @@ fn bytes_of(column: &[String]) -> usize {
 }
 
 impl ColumnTable {
-    /// Opens the file at `path` with `open`. Errors, and panics of a decoder, name that file.
+    /// Opens the file at `path` with `open`. Errors and decoder panics name the file.
     pub(super) fn open<S: ColumnSource + 'static>(
         path: &Path,
         open: impl FnOnce() -> Result<S, String>,

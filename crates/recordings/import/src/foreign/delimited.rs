@@ -9,15 +9,15 @@ use crate::csv_table::text_form::{TextForm, is_grouped};
 use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::shown;
 
-/// Least number of cells with a point before three digits that suggest grouped digits.
+/// Minimum number of cells with a point before three digits that suggests digit groups.
 const LEAST_GROUPED: u64 = 3;
 
-/// Text table with its form.
+/// Text table with its text form.
 #[derive(Debug)]
 pub(crate) struct DelimitedTable {
     table: CsvTable,
     form: TextForm,
-    /// Unit of each column from the row of units; empty without one.
+    /// Unit of each column from the row of units; empty without a row of units.
     units: Vec<Option<String>>,
 }
 
@@ -65,8 +65,8 @@ impl DelimitedTable {
         }
     }
 
-    /// Example cell whose point may group digits, with the number of such cells in the column. Requires whole numbers among them, as
-    /// fractions of three digits alone are common.
+    /// Example of a cell whose decimal point may be a digit separator, with the number of these cells in the column. `None` unless the column also contains
+    /// whole numbers, because columns of fractions with three digits are common.
     pub(crate) fn grouped_digits(&self, name: &str) -> Option<(String, u64)> {
         if self.form.thousands.is_some() || self.form.decimal != '.' {
             return None;

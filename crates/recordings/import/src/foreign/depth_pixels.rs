@@ -1,20 +1,20 @@
-//! Pixels for the codes of a depth map.
+//! Conversion of the codes of a depth map to pixels.
 
 use taceva_tables::DepthCodes;
 
 use crate::frame_names::PixelRange;
 
-/// Pixel of each code: distances in whole millimetres, or in the range of a map.
+/// Pixel for each code of a depth map: the distance in whole millimetres, or in the range of a map.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct DepthPixels {
-    /// Pixel of each code; `None` outside the range.
+    /// Pixel of each code; `None` for a distance outside the range.
     pixels: Vec<Option<u16>>,
     codes: DepthCodes,
     range: PixelRange,
 }
 
 impl DepthPixels {
-    /// Pixels of `codes` in `range`, mm. Without a range they are whole millimetres; finer or larger codes are rejected.
+    /// Pixels of `codes` in `range`, mm. Without a range, pixels are whole millimetres, and an error is returned for codes that these cannot represent.
     pub(crate) fn new(codes: DepthCodes, range: Option<PixelRange>) -> Result<DepthPixels, String> {
         let [least, greatest] = codes.ends_mm();
         let whole = PixelRange::new([0.0, 65_535.0], 16)

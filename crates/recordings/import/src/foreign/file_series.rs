@@ -8,16 +8,16 @@ use super::pictures::{Pictures, Visit};
 use crate::error::ImportError;
 use taceva_dataset::{ChannelOrder, FrameCodec};
 
-/// Pictures of several files in sequence.
+/// Pictures of several files, one after another.
 #[derive(Debug)]
 pub(crate) struct SeveralPictures {
-    /// Files, each with the number of its first picture among all.
+    /// Files, each with the number of its first picture among all pictures.
     files: Vec<(u64, Arc<dyn Pictures>)>,
     count: u64,
 }
 
 impl SeveralPictures {
-    /// Pictures of `files`, at least one, in this order.
+    /// Pictures of `files` in this order. `files` must not be empty.
     pub(crate) fn new(files: Vec<Arc<dyn Pictures>>) -> SeveralPictures {
         let mut count = 0_u64;
         let files = files.into_iter().map(|pictures| {

@@ -1,4 +1,4 @@
-//! Files without a table: each is a row, with labels only in its path.
+//! Files without a table. Each file is a row, with labels only in its path.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ pub(crate) struct FileRows {
 }
 
 impl FileRows {
-    /// Row for the file at `path`.
+    /// Row that represents the file at `path`.
     pub(super) fn one(path: &Path) -> FileRows {
         FileRows {
             path: path.to_owned(),

@@ -10,7 +10,7 @@ use super::members::in_order;
 use crate::error::{ImportError, Place, table_error};
 use taceva_dataset::internal::{limits, read_capped, shown, utf8};
 
-/// Number of rows that are searched for members.
+/// Number of rows that are searched for member names.
 const LISTED: usize = 100;
 
 /// Rows of a JSON file.
@@ -22,19 +22,19 @@ pub(crate) struct JsonRows {
 
 #[derive(Debug)]
 struct JsonRow {
-    /// Member name, if the row is a member of an object.
+    /// Name of the row as a member of an object; `None` otherwise.
     key: Option<String>,
     value: Value,
-    /// Line of the row, for JSON lines.
+    /// Line of the row; `None` unless the file is JSON lines.
     line: Option<u64>,
 }
 
 impl JsonRows {
-    /// Reads the rows at the pointer `rows` in the file at `path`. A step `*` matches each member. Without a pointer, rows are the elements
-    /// of a list, or any other value as a whole.
+    /// Reads the rows at the pointer `rows` in the file at `path`. A step `*` matches each member. Without a pointer, the rows are the elements of a list; any
+    /// other value is a single row.
     ///
     /// # Errors
-    /// [`ImportError::Table`] naming the line of invalid JSON, or if the pointer leads nowhere.
+    /// [`ImportError::Table`] naming the line of invalid JSON, or if no value is at the pointer.
     pub(super) fn read(path: &Path, rows: Option<&str>) -> Result<JsonRows, ImportError> {
         let whole = text(path)?;
         let value: Value =
@@ -138,7 +138,7 @@ impl JsonRows {
         }
     }
 
-    /// Value at the pointer `name`. A row that is itself a number or a text is called `value`.
+    /// Value at the pointer `name`. The value of a row that is itself a number or a text is called `value`.
     fn at(&self, row: usize, name: &str) -> Option<&Value> {
         let value = &self.rows[row].value;
         match name {
@@ -147,7 +147,7 @@ impl JsonRows {
         }
     }
 
-    /// Cell at the pointer `name`: texts unchanged, numbers in the shortest form that reads back, lists as JSON, `null` as empty.
+    /// Cell at the pointer `name`: texts unchanged, numbers in the shortest form that parses back, lists as JSON, `null` as empty.
     pub(super) fn cell(&self, row: usize, name: &str) -> Cow<'_, str> {
         match self.at(row, name) {
             None | Some(Value::Null) => Cow::Borrowed(""),
@@ -156,7 +156,7 @@ impl JsonRows {
         }
     }
 
-    /// True if all present values at the pointer `name` are integers and there is at least one.
+    /// True if there is a value at the pointer `name` and all of these values are integers.
     pub(super) fn holds_integers(&self, name: &str) -> bool {
         let found = (0..self.rows.len()).filter_map(|row| self.at(row, name));
         let mut found = found.filter(|value| !value.is_null()).peekable();
@@ -227,7 +227,7 @@ fn add_leaves(value: &Value, pointer: String, found: &mut Vec<String>) {
     }
 }
 
-/// Parts of a pointer between its steps `*`.
+/// Parts of a pointer between the steps `*`.
 fn ways(pointer: &str) -> Vec<String> {
     let mut ways = vec![String::new()];
     for step in pointer.split('/').skip(1) {
@@ -242,7 +242,7 @@ fn ways(pointer: &str) -> Vec<String> {
     ways
 }
 
-/// Value with the names of the members that lead to it.
+/// Value with the names of the members on the path to it.
 type Named = (Option<String>, Value);
 
 /// Members of a list or an object, with names appended to `key`; `None` for any other value.
@@ -279,7 +279,7 @@ fn taken(mut value: Value, pointer: &str) -> Option<Value> {
     value.pointer_mut(pointer).map(Value::take)
 }
 
-/// Error for invalid JSON in `text`, which begins after `lines_before` lines of the file.
+/// Error for invalid JSON in `text`. The file has `lines_before` lines before `text`.
 fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64) -> ImportError {
     let line = u64::try_from(error.line()).unwrap_or(1).max(1);
     table_error!(
@@ -289,7 +289,7 @@ fn no_json(path: &Path, text: &str, error: &serde_json::Error, lines_before: u64
     )
 }
 
-/// JSON error in `text` without its line, with a hint for numbers that JSON lacks.
+/// JSON error in `text` without its line, with a hint for numbers that JSON does not support.
 pub(super) fn json_problem(text: &str, error: &serde_json::Error) -> String {
     let (line, column) = (error.line(), error.column());
     let said = error.to_string();
@@ -305,7 +305,7 @@ pub(super) fn json_problem(text: &str, error: &serde_json::Error) -> String {
     }
 }
 
-/// Word for NaN or infinity around the byte `column`, from 1, of a line.
+/// NaN or infinity, as written around the byte `column`, from 1, of a line; `None` for other text.
 fn word_at(line: &str, column: usize) -> Option<&str> {
     let bytes = line.as_bytes();
     let at = column.checked_sub(1)?.min(bytes.len().checked_sub(1)?);

@@ -1,4 +1,4 @@
-//! LeRobot dataset as a table: a folder of Parquet files, with the frames of its clips.
+//! LeRobot dataset as a table: a folder of Parquet files, with the frames of clips.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -51,7 +51,7 @@ impl ColumnSource for LeRobotRows {
         self.dataset.kind_within(name) == Some(ColumnKind::Integer)
     }
 
-    /// Pictures first, then depth maps with known codes.
+    /// Pictures, followed by depth maps with known codes.
     fn picture_columns(&self) -> Vec<PictureColumn> {
         let features = self.dataset.features().iter();
         let features = features.filter_map(|feature| {

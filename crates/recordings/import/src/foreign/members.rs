@@ -1,11 +1,11 @@
-//! Members of a JSON object in file order, which a map by name does not preserve.
+//! Members of a JSON object in file order, which a parsed map does not preserve.
 
 use std::fmt;
 
 use serde::de::{DeserializeSeed, Deserializer, IgnoredAny, MapAccess, Visitor};
 use serde_json::Value;
 
-/// Members of the object at `pointer`, whose steps are all objects; `None` otherwise.
+/// Members of the object at `pointer`; `None` if a value on the path is not an object.
 pub(super) fn in_order(text: &str, pointer: &str) -> Option<Vec<(String, Value)>> {
     let parts = pointer.split('/').skip(1);
     let way: Vec<String> = parts
@@ -15,7 +15,7 @@ pub(super) fn in_order(text: &str, pointer: &str) -> Option<Vec<(String, Value)>
     Way(&way).deserialize(&mut deserializer).ok()?
 }
 
-/// Names of the objects on the path to the wanted one.
+/// Names of the members on the path to the wanted object.
 struct Way<'w>(&'w [String]);
 
 impl<'de> DeserializeSeed<'de> for Way<'_> {

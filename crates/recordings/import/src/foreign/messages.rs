@@ -14,7 +14,7 @@ use crate::frame_names::FrameNames;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::guarded;
 
-/// Message types with a picture in their field `data`: of ROS 2, ROS 1 and Foxglove.
+/// Message types of ROS 2, ROS 1 and Foxglove with a picture in the field `data`.
 const PICTURES: [&str; 6] = [
     "sensor_msgs/msg/Image",
     "sensor_msgs/msg/CompressedImage",
@@ -52,12 +52,12 @@ struct MessagePictures {
 /// Topics of a recording, for a draft.
 pub(crate) struct Topics {
     pub(crate) names: Vec<String>,
-    /// The part with these topics, if the recording was cut.
+    /// Part of the recording with these topics, if the recording was truncated.
     pub(crate) before_cut: Option<BeforeCut>,
 }
 
 impl Topics {
-    /// Topics of the recording at `path`; for a cut recording, the topics before the cut.
+    /// Topics of the recording at `path`; for a truncated recording, the topics before its end.
     pub(crate) fn of(path: &Path) -> Result<Topics, String> {
         let recording = guarded(|| open(path, true)).and_then(|opened| opened)?;
         let topics = recording.topics().iter();
@@ -68,7 +68,7 @@ impl Topics {
     }
 }
 
-/// Opens the recording at `path`, up to its cut if requested.
+/// Opens the recording at `path`. With `is_to_cut`, a truncated recording is read up to its end.
 fn open(path: &Path, is_to_cut: bool) -> Result<Recording, String> {
     let opened = match is_to_cut {
         true => Recording::open_to_cut(path),
@@ -83,7 +83,7 @@ fn open(path: &Path, is_to_cut: bool) -> Result<Recording, String> {
     })
 }
 
-/// Part of a cut recording that is read.
+/// Readable part of a truncated recording; `None` if the recording is complete.
 fn before_cut(recording: &Recording) -> Option<BeforeCut> {
     let topics = recording.topics().iter();
     let messages = topics.map(|topic| topic.count).sum();
@@ -92,7 +92,7 @@ fn before_cut(recording: &Recording) -> Option<BeforeCut> {
 }
 
 impl MessageRows {
-    /// Opens the messages of `topic`, or of the only topic, up to a cut of the recording if requested.
+    /// Opens the messages of `topic`, or of the only topic. A truncated recording is read up to its end if requested.
     pub(super) fn open(
         path: &Path,
         topic: Option<&str>,
@@ -159,7 +159,7 @@ impl MessageRows {
     }
 }
 
-/// Colour order of a sample form.
+/// Colour order of a sample form; `None` if the form states none.
 fn order_of(form: SampleForm) -> Option<ChannelOrder> {
     match form {
         SampleForm::Mono8 | SampleForm::Mono16 => Some(ChannelOrder::Gray),
@@ -193,7 +193,7 @@ impl ColumnSource for MessageRows {
         Ok(texts.collect())
     }
 
-    /// Field types come from the schema in the file.
+    /// Uses the field types from the schema in the file.
     fn holds_integers(&self, name: &str) -> bool {
         let columns = self.table.columns(&[name]);
         columns.is_ok_and(|columns| columns.iter().flatten().all(is_integer))
@@ -276,7 +276,7 @@ fn is_integer(cell: &Cell) -> bool {
     }
 }
 
-/// Picture as stored: encoded bytes unchanged, samples in the colour order of the map.
+/// Picture as stored: encoded bytes are unchanged, samples are in the colour order of the map.
 fn kept(picture: taceva_tables::Picture, order: ChannelOrder) -> Result<Picture, String> {
     let samples = match picture {
         taceva_tables::Picture::Encoded(bytes) => return Ok(Picture::Encoded(bytes)),

@@ -10,7 +10,7 @@ use crate::error::ImportError;
 use taceva_dataset::internal::guarded;
 use taceva_dataset::{ChannelOrder, FrameCodec};
 
-/// Pictures by their number, from 0.
+/// Pictures of a file, by number from 0.
 pub(crate) trait Pictures: fmt::Debug + Send + Sync {
     /// File that contains the pictures.
     fn path(&self) -> &Path;
@@ -18,10 +18,10 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
     /// Number of pictures.
     fn count(&self) -> u64;
 
-    /// Calls `each` for the pictures of `sorted`, which is strictly ascending, in that order.
+    /// Calls `each` for the pictures with the numbers `sorted`, in this strictly ascending order.
     ///
     /// # Errors
-    /// A damaged picture, or any error of `each`.
+    /// An error for a damaged picture, or an error of `each`.
     fn visit(
         &self,
         sorted: &[u64],
@@ -34,7 +34,7 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         None
     }
 
-    /// File of the picture at `index`, with its number in that file.
+    /// File of the picture at `index`, and the number of the picture in that file.
     fn origin(&self, index: u64) -> (&Path, u64) {
         (self.path(), index)
     }
@@ -44,15 +44,15 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
         vec![(self.path(), self.count())]
     }
 
-    /// Arrays with unwritten chunks, with the number of these chunks.
+    /// Arrays with unwritten chunks, and the number of unwritten chunks of each.
     ///
     /// # Errors
-    /// A damaged list of chunks.
+    /// An error for a damaged list of chunks.
     fn absent_chunks(&self) -> Result<Vec<(String, u64)>, ImportError> {
         Ok(Vec::new())
     }
 
-    /// Checks that there is a picture at `index`.
+    /// Checks that a picture exists at `index`.
     fn check_index(&self, index: u64) -> Result<(), ImportError> {
         if index < self.count() {
             return Ok(());
@@ -70,7 +70,7 @@ pub(crate) trait Pictures: fmt::Debug + Send + Sync {
 /// Callback that receives each picture.
 pub(crate) type Visit<'v> = &'v mut dyn FnMut(u64, Picture) -> Result<(), ImportError>;
 
-/// Reason that a visit ended early: the file is damaged, or the caller rejected a picture.
+/// Reason why a visit ended early: the file is damaged, or the caller rejected a picture.
 pub(super) enum Ended<E> {
     File(E),
     Picture(ImportError),
@@ -82,7 +82,7 @@ impl<E> From<E> for Ended<E> {
     }
 }
 
-/// Runs a visit of the file at `path`. A panic of its decoder becomes an error of the file.
+/// Runs a visit of the file at `path`. A panic of a decoder becomes an error of the file.
 pub(super) fn guarded_visit<E: fmt::Display>(
     path: &Path,
     visit: impl FnOnce() -> Result<(), Ended<E>>,
@@ -97,7 +97,7 @@ pub(super) fn guarded_visit<E: fmt::Display>(
 
 /// Picture as found in a file.
 pub(crate) enum Picture {
-    /// Bytes of a PNG, JPEG or TIFF file, which are stored unchanged.
+    /// Bytes of a PNG, JPEG or TIFF file. They are stored unchanged.
     Encoded(Vec<u8>),
     Pixels(Frame),
 }

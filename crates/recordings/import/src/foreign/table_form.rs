@@ -7,21 +7,21 @@ use crate::csv_table::text_form::TextForm;
 /// Form of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum TableForm {
-    /// Cells between separators.
+    /// Text with separators between cells.
     Delimited(TextForm),
-    /// JSON with a pointer to the rows: a step `*` matches each member, and the empty pointer is the whole value.
+    /// JSON with a pointer to the rows. A step `*` matches each member, and the empty pointer denotes the whole value.
     Json {
         rows: Option<String>,
     },
     /// One JSON value per line.
     JsonLines,
-    /// No table: each file is a row.
+    /// No table. Each file is a row.
     Files,
     /// Arrays, with rows along the first axis. `rows` names a group, several groups with `*`, or a table in the file.
     Arrays {
         format: ArrayFormat,
         rows: Option<String>,
-        /// True if the file is one row, with each array as a cell.
+        /// True if the file is a single row, with each array as a cell.
         is_whole: bool,
     },
     Parquet,
@@ -30,14 +30,14 @@ pub(crate) enum TableForm {
     /// Messages of one topic of a recording: MCAP, rosbag2 or a ROS 1 bag.
     Messages {
         topic: Option<String>,
-        /// True to read a cut recording up to the cut.
+        /// True if a truncated recording is read up to its end.
         is_to_cut: bool,
     },
     /// LeRobot folder, version 2.1 or 3.0.
     LeRobot,
     /// WebDataset shard.
     WebDataset,
-    /// Frames of a clip at `rate`, Hz, or at the times stated by the clip. The first frame is at `start_s`.
+    /// Frames of a clip at the rate `rate`, Hz, or at the times stated by the clip. The first frame is at `start_s`, s.
     Clip {
         rate: Option<f64>,
         start_s: f64,

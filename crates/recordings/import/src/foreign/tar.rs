@@ -1,5 +1,5 @@
-//! Reader of tar archives with ustar, POSIX (pax) and GNU names. Rejects links, devices, sparse files and names that leave the folder.
-//! Holds one header of 512 bytes and one long name in memory.
+//! Reader of tar archives with ustar, POSIX (pax) and GNU names. Rejects links, devices, sparse files and names outside the folder. Needs memory for one header
+//! of 512 bytes and one long name.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read};
@@ -9,11 +9,11 @@ use thiserror::Error;
 use taceva_dataset::internal::check_relative;
 
 const BLOCK: usize = 512;
-/// Limit of a long name, or of the records of an extended header, bytes.
+/// Maximum size of a long name, or of the records of an extended header, bytes.
 const NAME_BYTES: u64 = 64 << 10;
-/// Limit of members in an archive.
+/// Maximum number of members in an archive.
 pub(crate) const MEMBERS: u64 = 1 << 20;
-/// Limit of empty members; a small archive may hold any number of them.
+/// Maximum number of empty members, because a small archive can contain very many.
 pub(crate) const EMPTY_MEMBERS: u64 = 20_000;
 
 /// Error of an archive.
@@ -52,16 +52,16 @@ pub(crate) enum TarError {
     Twice(String),
 }
 
-/// Input of an archive: bytes in order, some of which are skipped.
+/// Input of an archive: a byte sequence in which some bytes may be skipped.
 pub(crate) trait Tape: Read {
-    /// Skips `bytes`. Returns true if they exist.
+    /// Skips `bytes` bytes. Returns false if the input ends before.
     fn skip(&mut self, bytes: u64) -> io::Result<bool>;
 
     /// Total length, bytes; `None` if unknown.
     fn length(&self) -> Option<u64>;
 }
 
-/// File, in which skipped bytes are not read.
+/// File as input. Skipped bytes are not read.
 pub(crate) struct FileTape {
     pub(crate) file: BufReader<File>,
     pub(crate) length: u64,
@@ -87,12 +87,12 @@ impl Tape for FileTape {
     }
 }
 
-/// File in the archive.
+/// File stored in the archive.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Member {
-    /// Relative path with `/`, without a leading `.`.
+    /// Relative path with `/`, without a leading `.` component.
     pub(crate) name: String,
-    /// Offset of its content, bytes.
+    /// Offset of the content in the archive, bytes.
     pub(crate) at: u64,
     pub(crate) size: u64,
 }
@@ -102,7 +102,7 @@ pub(crate) struct Members<T> {
     tape: T,
     /// Current offset, bytes.
     at: u64,
-    /// Unread bytes of the last member, padding included.
+    /// Number of unread bytes of the last member, including padding.
     left: u64,
     count: u64,
     /// Number of empty files and folders so far.
@@ -214,7 +214,7 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// Copies the content of `member`, the last one found, to `into`. Fails if the archive ends early.
+    /// Copies the content of `member`, the last one returned, to `into`. Fails if the archive ends early.
     pub(crate) fn copy(
         &mut self,
         member: &Member,
@@ -266,7 +266,7 @@ impl<T: Tape> Members<T> {
         }
     }
 
-    /// Reads `size` bytes, which are few, and their padding.
+    /// Reads `size` bytes and their padding into memory. `size` must be small.
     fn short(&mut self, size: u64) -> Result<Vec<u8>, TarError> {
         let length = filled(size).unwrap_or(0);
         let mut text = vec![0; usize::try_from(length).unwrap_or(0)];
@@ -328,7 +328,7 @@ fn records(mut text: &[u8], at: u64) -> Result<Records, TarError> {
     Ok(found)
 }
 
-/// Name in the header itself.
+/// Name in the header block itself.
 fn own_name(header: &[u8; BLOCK]) -> Vec<u8> {
     let text = |field: &[u8]| {
         let end = field.iter().position(|byte| *byte == 0);
@@ -364,7 +364,7 @@ fn number(field: &[u8]) -> Option<u64> {
     }
 }
 
-/// Length padded to whole blocks.
+/// Length padded to whole blocks; `None` on overflow.
 fn filled(size: u64) -> Option<u64> {
     size.checked_next_multiple_of(BLOCK as u64)
 }

@@ -1,4 +1,4 @@
-//! WebDataset shards: tar members whose names agree up to the first dot are one sample. Pictures are read in place.
+//! WebDataset shards. Tar members whose names agree up to the first dot form one sample. Pictures are read directly from the archive.
 
 mod samples;
 
@@ -18,11 +18,11 @@ use samples::{Extent, Sample, bytes_at, samples};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{ImageKind, limits};
 
-/// Number of samples that are searched for a member of their JSON.
+/// Number of samples that are searched for members of their JSON.
 const LOOKED_AT: usize = 100;
-/// Limit of a JSON or text of a sample, bytes.
+/// Maximum size of a JSON or text member, bytes.
 const TEXT_BYTES: u64 = 1 << 20;
-/// Limit of an array of a sample, bytes.
+/// Maximum size of an array member, bytes.
 const ARRAY_BYTES: u64 = 1 << 26;
 /// Filename extensions of text members.
 const TEXTS: [&str; 4] = ["txt", "text", "cls", "id"];
@@ -87,7 +87,7 @@ impl Shard {
         })
     }
 
-    /// Array of a sample in the field `field`, as nested lists; empty without it.
+    /// Array of a sample in the field `field`, as nested lists; empty if the sample lacks the field.
     fn array(&self, sample: &Sample, field: &str) -> Result<String, String> {
         let Some(place) = sample.parts.get(field) else {
             return Ok(String::new());
@@ -143,7 +143,7 @@ impl Shard {
 enum Field<'n> {
     Text(&'n str),
     Array(&'n str),
-    /// Field, and the pointer into its JSON.
+    /// Field, and the pointer into the JSON of the field.
     Json(&'n str, &'n str),
 }
 
@@ -166,7 +166,7 @@ fn ending_of(field: &str) -> &str {
     field.rsplit_once('.').map_or(field, |(_, ending)| ending)
 }
 
-/// Numbers of this shape as nested lists, in the shortest form that reads back.
+/// Numbers of this shape as nested lists, in the shortest form that parses back.
 fn nested(shape: &[u64], numbers: &[f64]) -> String {
     match shape {
         [] => numbers

@@ -13,7 +13,7 @@ use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{open_regular, shown_path};
 use taceva_files::TemporaryFolder;
 
-/// Limit of the expansion of a compressed archive: a multiple of its size, and additional bytes.
+/// Limit of the unpacked size of a compressed archive: a multiple of the packed size, plus a number of bytes.
 const GROWTH: u64 = 128;
 const GROWTH_BYTES: u64 = 64 << 20;
 /// Name prefix of the folder of unpacked files.
@@ -21,10 +21,10 @@ const PREFIX: &str = ".taceva-unpacked-";
 /// The first bytes of a gzip file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 
-/// Unpacked `.tar` or `.tar.gz`. Its files are in a hidden folder that is removed on drop.
+/// Unpacked `.tar` or `.tar.gz`. The files are in a hidden folder that is removed on drop.
 ///
-/// Readers of recordings open files by path and seek in them, and maps name further files. Reading them inside the archive would need all of it
-/// in memory. WebDataset shards are the exception: they are read in place.
+/// Readers of recordings open files by path and seek in them, and maps name further files. Reading them inside the archive would need the whole archive in
+/// memory. WebDataset shards are an exception, because they can be read in place.
 ///
 /// ```no_run
 /// use taceva_import::{MapDraft, UnpackedArchive};
@@ -40,7 +40,7 @@ pub struct UnpackedArchive {
     archive: PathBuf,
     /// Folder of the unpacked files, within `temporary`.
     content: PathBuf,
-    /// Removed on drop.
+    /// Temporary folder, removed on drop.
     _temporary: TemporaryFolder,
 }
 
@@ -59,14 +59,14 @@ impl UnpackedArchive {
                 .any(|ending| name.ends_with(ending))
     }
 
-    /// Unpacks the archive into a hidden folder with an unpredictable name in `beside`. Removes the remains of killed imports there.
+    /// Unpacks the archive into a hidden folder with an unpredictable name in `beside`. Removes leftovers of killed imports in `beside`.
     ///
-    /// Holds one header and one name in memory. If the archive has a single folder at its top, that folder is the recording.
+    /// Needs memory for one header and one name. If the archive has a single folder at its top, that folder is the recording.
     ///
     /// # Errors
-    /// [`ImportError::Table`] naming the member if it is damaged, cut or larger than the archive, if its name leaves the folder, or for
-    /// links, devices and sparse files. Also above a million members, and if a compressed archive grows beyond 128 times its size and 64
-    /// MiB more. [`ImportError::Dataset`] if the disk is full, or `Cancelled`.
+    /// [`ImportError::Table`] naming the member if the member is damaged, truncated or larger than the archive, if its name leads out of the folder, or for
+    /// links, devices and sparse files. Also for more than a million members, and if a compressed archive exceeds 128 times its size plus 64 MiB.
+    /// [`ImportError::Dataset`] if the disk is full, or `Cancelled`.
     pub fn open(
         archive: &Path,
         beside: &Path,
@@ -127,7 +127,7 @@ impl UnpackedArchive {
         )
     }
 
-    /// The same text with the archive's path instead of the temporary folder's.
+    /// The same text with the path of the archive instead of the temporary folder.
     ///
     /// ```no_run
     /// # let archive = taceva_import::UnpackedArchive::open("run.tar".as_ref(), "/tmp".as_ref(), &taceva_core::SilentProgress)?;
@@ -148,7 +148,7 @@ impl UnpackedArchive {
     }
 }
 
-/// The error of a folder that takes no files, with the remedy.
+/// Error for a folder in which no files can be created, with the remedy.
 fn unusable(beside: &Path) -> impl FnOnce(io::Error) -> ImportError {
     let refused = ImportError::io("unpack into", beside);
     move |error| {
@@ -168,7 +168,7 @@ fn is_of_disk(kind: io::ErrorKind) -> bool {
     )
 }
 
-/// Unpacks all members, or some if the work is cancelled.
+/// Unpacks all members. Stops early if the work is cancelled.
 fn unpack(tape: impl Tape, into: &Path, progress: &dyn Progress) -> Result<(), TarError> {
     let mut members = Members::new(tape);
     while let Some(member) = members.next()? {
@@ -193,7 +193,7 @@ fn unpack(tape: impl Tape, into: &Path, progress: &dyn Progress) -> Result<(), T
     Ok(())
 }
 
-/// The folder, or its only subfolder if it has no other entry, repeatedly.
+/// Descends into the only subfolder of `folder` while there is no other entry. Returns the last folder.
 fn innermost(folder: &Path) -> Result<PathBuf, ImportError> {
     let mut folder = folder.to_owned();
     loop {

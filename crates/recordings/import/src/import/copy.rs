@@ -42,7 +42,7 @@ use taceva_dataset::{Digest, SourcesInfo, ViewInfo};
 pub struct ImportReport {
     /// Numbers of items read, kept and left out.
     pub summary: ImportSummary,
-    /// Size and format of the frames; `None` if there are none.
+    /// Size and format of the frames; `None` without frames.
     pub frames: Option<FrameInfo>,
     /// Frames of each view, if samples have several pictures; `frames` is then `None`.
     pub views: Vec<ViewInfo>,
@@ -55,13 +55,13 @@ pub struct ImportReport {
 impl ImportPlan {
     /// Writes the dataset to `target` on `jobs` threads. The bytes are the same for any number of threads.
     ///
-    /// Encoded frames keep their bytes; numbers from an array or a clip become PNG. A JPEG is decoded to its end, which detects missing or
-    /// changed data unless every code stays valid and the last one ends at the same place. A bit flipped before the import may therefore
-    /// change the picture without an error. Damage after the import is always detected by the digests.
+    /// Encoded frames keep their bytes; pixels from an array or a clip become PNG. A JPEG is decoded to its end. This detects missing or changed data, unless
+    /// every code is still valid and the last one ends at the same place. A bit changed before the import may therefore change the picture without an error.
+    /// The digests detect all damage after the import.
     ///
     /// # Errors
-    /// [`ImportError::Named`] naming the image and the row if a frame does not decode or is unlike the first; [`ImportError::Dataset`] with
-    /// `TargetExists`, `Busy`, `Cancelled` or `Io`. After any of them `target` is absent.
+    /// [`ImportError::Named`] naming the image and the row if a frame does not decode or differs in size or format from the first; [`ImportError::Dataset`]
+    /// with `TargetExists`, `Busy`, `Cancelled` or `Io`. After an error `target` does not exist.
     pub fn run(
         self,
         target: &Path,
@@ -71,12 +71,12 @@ impl ImportPlan {
         self.run_at(target, Place::Free, jobs, progress)
     }
 
-    /// As [`run`](ImportPlan::run), but replaces the dataset at `target` if there is one. Readers see the old dataset until the new one is
+    /// Writes the dataset like [`run`](ImportPlan::run), but replaces an existing dataset at `target`. Readers see the old dataset until the new one is
     /// complete and durable.
     ///
     /// # Errors
-    /// As [`run`](ImportPlan::run); `target` is then unchanged. [`ImportError::Dataset`] if `target` is no dataset, or holds files that
-    /// are no part of one.
+    /// Errors of [`run`](ImportPlan::run); `target` is unchanged after an error. [`ImportError::Dataset`] if `target` is no dataset, or contains files that do
+    /// not belong to a dataset.
     pub fn replace(
         self,
         target: &Path,

@@ -1,4 +1,4 @@
-//! Describes an import in words.
+//! Describes an import in words, as printed by `taceva import`.
 
 use std::fmt;
 
@@ -175,7 +175,7 @@ impl fmt::Display for Conversion {
 }
 
 impl fmt::Display for ZeroSummary {
-    /// `zero     Fz minus -0.0210 to 1.5020 (mean of the first 10 rows of each table; 2 blocks)`
+    /// Writes a line such as `zero     Fz minus -0.0210 to 1.5020 (mean of the first 10 rows of each table; 2 blocks)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,
@@ -190,7 +190,7 @@ impl fmt::Display for ZeroSummary {
 }
 
 impl fmt::Display for JoinSummary {
-    /// `join     ft: 23 rows matched, at most 2.5 ms away, 1 unmatched; 170 of its rows unused`
+    /// Writes a line such as `join     ft: 23 rows matched, at most 2.5 ms away, 1 unmatched; 170 of its rows unused`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(
             f,

@@ -1,4 +1,4 @@
-//! Adds rows to an imported dataset: writes a successor beside it that shares its files, then replaces it atomically.
+//! Adds rows to an imported dataset. Writes a successor that shares the files of the dataset, then replaces the dataset atomically.
 
 mod certificates;
 mod duplicates;
@@ -34,9 +34,9 @@ use taceva_dataset::{Dataset, Digest, Header, SourcesInfo, Table};
 pub struct Addition {
     /// Date in UTC: `2026-11-23`.
     pub date: String,
-    /// Folder as named by the caller.
+    /// Source folder as named by the caller.
     pub from: String,
-    /// True if the rows may have another certificate than the dataset.
+    /// True if the rows may have a different certificate than the dataset.
     pub new_certificate: bool,
 }
 
@@ -50,7 +50,7 @@ impl Addition {
         }
     }
 
-    /// The same rows, which may have another certificate than the dataset.
+    /// The same addition, for rows that may have a different certificate than the dataset.
     #[must_use]
     pub fn with_new_certificate(self, new_certificate: bool) -> Addition {
         Addition {
@@ -61,15 +61,15 @@ impl Addition {
 }
 
 impl ImportPlan {
-    /// Appends the rows to the dataset at `target`. Readers see the old dataset until the new one is durable, and keep open files valid.
-    /// Existing frames are shared, not copied. The header records the former number of rows, their digest, and `added`.
+    /// Appends the rows to the dataset at `target`. Readers see the old dataset until the new one is durable, and files that they have open remain valid.
+    /// Existing frames are shared, not copied. The header records the former number of rows, the former digest, and `added`.
     ///
-    /// If the map names no column for sample names, numbering continues after the greatest number among the existing names. Existing rows
-    /// keep their part of each split.
+    /// If the map names no column for sample names, numbers continue after the greatest number among the existing names. Existing rows keep their part of each
+    /// split.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the key if the map contradicts the header, or naming the row if the dataset already has it. Also if
-    /// `target` is no imported dataset; otherwise as [`run`](ImportPlan::run). After any error `target` is unchanged.
+    /// [`ImportError::Dataset`] naming the key if the map contradicts the header, naming the row if the dataset already has the row, or if `target` is not an
+    /// imported dataset. Otherwise errors of [`run`](ImportPlan::run). After an error `target` is unchanged.
     ///
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SilentProgress, SourceUnit};
@@ -159,7 +159,7 @@ impl ImportPlan {
         Ok(list)
     }
 
-    /// Rejects rows whose header would contradict that of `before`. `frames` are the frames of the rows, if known.
+    /// Rejects rows whose header would contradict the header of `before`. `frames` are the frames of the rows, if any.
     fn check_alike(
         &self,
         before: &Dataset,
@@ -278,7 +278,7 @@ fn differs(key: &str, own: &str, other: &str) -> String {
     )
 }
 
-/// Removes the picture without contact from `frames`. It must equal that of the dataset.
+/// Removes the picture without contact from `frames`. Rejects a picture that differs from the one of the dataset.
 fn check_reference(before: &Dataset, frames: &mut PlannedFrames) -> Result<(), ImportError> {
     let header = before.header();
     let known = match &frames.view {

@@ -7,17 +7,17 @@ use super::pattern_column::{NumberForm, PatternColumn};
 use super::resolve::ResolvedTable;
 use crate::error::ImportError;
 
-/// Cells that name a frame.
+/// Cells that name the frame of a row.
 pub(super) enum FrameCells {
     Column(usize),
-    /// Path made of texts and the cells of columns, in order.
+    /// Path composed of texts and of the cells of columns, in order.
     Pattern(Vec<PatternPart>),
-    /// Column of the position in another file, or in the file of the table if `file` is `None`.
+    /// Column of the position in another file; `file` is `None` for the file of the table.
     Within {
         file: Option<Vec<PatternPart>>,
         index: usize,
     },
-    /// Clip and frame number of each row, stated by the table itself.
+    /// Clip and frame number of each row, as the table itself states.
     Clips(Vec<(String, u64)>),
     /// One frame for each row, by its position.
     OfRow,
@@ -29,7 +29,7 @@ pub(super) enum PatternPart {
 }
 
 impl PatternPart {
-    /// True if it is an empty cell.
+    /// True if the cell that names the frame is empty.
     pub(super) fn is_empty<'c>(&self, cell: impl Fn(usize) -> &'c str) -> bool {
         match self {
             PatternPart::Text(_) => false,
@@ -41,11 +41,11 @@ impl PatternPart {
 /// Name of a row's frame.
 pub(super) enum FrameName {
     File(String),
-    /// Position in a file, or in the file of the table if `None`.
+    /// Position in a file; `None` for the file of the table.
     Within(Option<String>, u64),
 }
 
-/// Joins texts and cells to a path.
+/// Concatenates texts and cells to a path.
 pub(super) fn filled<'c>(parts: &'c [PatternPart], cell: impl Fn(usize) -> &'c str) -> String {
     let texts = parts.iter().map(|part| match part {
         PatternPart::Text(text) => Cow::Borrowed(text.as_str()),
@@ -79,7 +79,7 @@ impl FrameCells {
     }
 }
 
-/// Texts and columns of a pattern.
+/// Parses a pattern into texts and columns.
 fn parts(pattern: &str, table: &ResolvedTable) -> Result<Vec<PatternPart>, ImportError> {
     let mut parts = Vec::new();
     let mut rest = pattern;

@@ -29,12 +29,12 @@ pub(super) struct PlannedFrame {
 #[derive(Debug)]
 pub(super) enum FrameSource {
     File(PathBuf),
-    /// Picture with that number in another file.
+    /// Picture with this number in another file.
     Within(Arc<dyn Pictures>, u64),
 }
 
 impl FrameSource {
-    /// Path in the lab's folder, with `#` and the picture number inside a file.
+    /// Path relative to the lab's folder, followed by `#` and the picture number if the picture is inside a file.
     pub(super) fn origin(&self, folder: &Path) -> String {
         let inside = |path: &Path| {
             let inside = path.strip_prefix(folder).unwrap_or(path);
@@ -49,7 +49,7 @@ impl FrameSource {
         }
     }
 
-    /// Path for messages, with `#` and the picture number inside a file.
+    /// Path for messages, followed by `#` and the picture number if the picture is inside a file.
     pub(super) fn named(&self) -> PathBuf {
         match self {
             FrameSource::File(path) => path.clone(),
@@ -60,7 +60,7 @@ impl FrameSource {
         }
     }
 
-    /// Bytes of an image file with the picture: unchanged if it is encoded, else PNG.
+    /// Bytes of an image file with the picture: unchanged if the picture is encoded, otherwise PNG.
     pub(super) fn file_bytes(&self, order: ChannelOrder) -> Result<Vec<u8>, ImportError> {
         let (pictures, index) = match self {
             FrameSource::File(path) => return Ok(read_capped(path, limits::IMAGE_BYTES)?),

@@ -1,4 +1,4 @@
-//! Import map: the column and unit of each channel, and facts of the recording.
+//! Import map: the column and unit of each channel, and facts about the recording.
 
 mod axes;
 mod check;
@@ -46,7 +46,7 @@ pub(crate) use columns::OriginMap;
 pub use columns::{ColumnMap, IdMap, TimeMap};
 pub use drop::{DropRules, DroppedRow, Placeholder};
 
-/// Checked import map.
+/// Checked import map: the source and unit of each channel, and facts about the recording.
 ///
 /// ```
 /// let map = taceva_import::ImportMap::parse(
@@ -75,9 +75,9 @@ pub struct ImportMap {
     pub table: String,
     /// Sources of the frames, one for each view; empty for a dataset without frames.
     pub frames: Vec<FrameMap>,
-    /// The channels, in order.
+    /// Channels of the dataset, in order.
     pub channels: Channels,
-    /// For each channel its source column.
+    /// Source column of each channel.
     pub columns: Vec<ColumnMap>,
     /// Columns of the ids.
     pub ids: IdMap,
@@ -93,7 +93,7 @@ pub struct ImportMap {
     pub(crate) form: TableForm,
     /// Coordinate frame to which the rows of the table are restricted.
     pub(crate) frame_id: Option<String>,
-    /// True if unwritten HDF5 elements are read as the fill value.
+    /// True if unwritten elements of an HDF5 array are read as the fill value.
     pub(crate) is_filled: bool,
     /// Labels in the path of the table, in the file of a row, or in a cell.
     pub(crate) path: Option<PathPattern>,
@@ -107,9 +107,9 @@ pub struct ImportMap {
     pub(crate) classes: BTreeMap<String, ClassMap>,
     /// Channels that are parts of one rotation.
     pub(crate) rotations: Vec<RotationMap>,
-    /// Rows that read zero force.
+    /// Rows at zero force, whose mean is subtracted.
     pub(crate) zero: Option<ZeroMap>,
-    /// Weight of a tool.
+    /// Tool whose weight is subtracted.
     pub(crate) gravity: Option<GravityMap>,
 }
 
@@ -117,18 +117,18 @@ pub struct ImportMap {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct ClassMap {
     pub(crate) from: String,
-    /// Class names. Numbers in the column are positions in this list, from 0, unless they are themselves names.
+    /// Class names. A number in the column is a position in this list, from 0, unless the number itself is a name.
     pub(crate) names: Vec<String>,
 }
 
 impl ClassMap {
-    /// Position that a cell holds, if it is within the list.
+    /// Position in the list that a cell contains; `None` if the cell is no position in the list.
     pub(crate) fn position(&self, cell: &str) -> Option<usize> {
         let position = cell.parse::<usize>().ok();
         position.filter(|position| *position < self.names.len())
     }
 
-    /// First name that is also the position of another name, with that position.
+    /// First name that is also the position of another name, and that position.
     pub(crate) fn ambiguous(&self) -> Option<(&str, usize)> {
         let mut names = self.names.iter().enumerate();
         names.find_map(|(at, name)| {
@@ -169,7 +169,7 @@ impl ImportMap {
     /// Reads the map at `path`.
     ///
     /// # Errors
-    /// [`ImportError::Dataset`] naming the line, or if it is no regular file, is above 1 MiB or cannot be read.
+    /// [`ImportError::Dataset`] naming the line, or if the file is not regular, exceeds 1 MiB or cannot be read.
     pub fn read(path: &Path) -> Result<ImportMap, ImportError> {
         ImportMap::parse(path, &read_toml_text(path)?)
     }

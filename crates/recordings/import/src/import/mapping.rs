@@ -11,7 +11,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::Digest;
 use taceva_dataset::internal::Mapping;
 
-/// Limits of named taxel columns and of bytes per name in a header. The rest is represented by a digest.
+/// Limits in a header: the number of named taxel columns, and the bytes per name. A digest represents the rest.
 const NAMED: usize = 64;
 const NAME_BYTES: usize = 256;
 
@@ -33,7 +33,7 @@ pub(super) fn mapping(map: &ImportMap, folder: &SourceFolder) -> Result<Mapping,
     })
 }
 
-/// `names`, shortened to the limit of a header.
+/// Shortens `names` to the limits of a header.
 fn short(names: &[String]) -> Vec<String> {
     let (named, others) = names.split_at(names.len().min(NAMED));
     let named = named.iter().map(|name| short_name(name).into_owned());

@@ -12,8 +12,7 @@ use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::add_left_out;
 
-/// Counts frames of arrays and clips that no row uses, and unwritten chunks of arrays. `absent_chunks` holds those of arrays other than
-/// frames.
+/// Counts frames of arrays and clips that no row uses, and unwritten chunks of arrays. `absent_chunks` contains the counts of arrays other than frames.
 pub(super) fn count(
     folder: &SourceFolder,
     maps: &[FrameMap],
@@ -62,7 +61,7 @@ pub(super) fn count(
     Ok(())
 }
 
-/// True if the array is in an HDF5 file. Unlike HDF5 writers, zarr writers omit chunks that hold only the fill value.
+/// True if the array is in an HDF5 file. Writers of zarr, unlike writers of HDF5, omit chunks that contain only the fill value.
 fn is_of_hdf5(array: &str) -> bool {
     let ends = array.match_indices('/').map(|(at, _)| at);
     let mut files = ends.filter_map(|end| ArrayFormat::of(Path::new(&array[..end])));

@@ -1,6 +1,6 @@
-//! Column in the pattern of a file name: `{n}`, padded with zeros `{n:05}`, or from 1 `{row+1:05}`.
+//! Column in the pattern of a file name: as written `{n}`, padded with zeros `{n:05}`, or from 1 `{row+1:05}`.
 
-/// Limit of digits that a number is padded to.
+/// Maximum number of digits of a padded number.
 pub(crate) const DIGITS_MAX: usize = 20;
 
 /// Column that a pattern names, with the form of its whole numbers.
@@ -13,14 +13,14 @@ pub(super) struct PatternColumn<'p> {
 /// Form of whole numbers in a file name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct NumberForm {
-    /// Addend of the row number.
+    /// Number added to the row number.
     add: u64,
-    /// Least number of digits.
+    /// Minimum number of digits.
     digits: usize,
 }
 
 impl<'p> PatternColumn<'p> {
-    /// Parses the text within `{}`. A column with exactly this name comes first, if the table `has` it.
+    /// Parses the text within `{}`. Prefers a column with exactly this name, if `has` returns true for it.
     pub(super) fn parse(text: &'p str, has: impl Fn(&str) -> bool) -> PatternColumn<'p> {
         if has(text) {
             return PatternColumn {
@@ -49,7 +49,7 @@ impl<'p> PatternColumn<'p> {
         }
     }
 
-    /// Columns of `pattern` in a table that `has` some, in order.
+    /// Columns of `pattern`, in order. `has` returns true for the existing columns.
     pub(super) fn all(
         pattern: &'p str,
         has: impl Fn(&str) -> bool,
@@ -61,7 +61,7 @@ impl<'p> PatternColumn<'p> {
 }
 
 impl NumberForm {
-    /// Writes `cell` in this form. Other texts than whole numbers are kept.
+    /// Writes `cell` in this form. Texts other than whole numbers are unchanged.
     pub(super) fn write(self, cell: &str) -> String {
         let NumberForm { add, digits } = self;
         let number = match (add, digits) {

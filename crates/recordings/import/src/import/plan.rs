@@ -26,7 +26,7 @@ use reading::Reading;
 use taceva_dataset::internal::Mapping;
 use taceva_dataset::{RecordingFacts, Table};
 
-/// Import with all labels read and converted, and all frames found. Frames are verified by [`run`](ImportPlan::run).
+/// Import with all labels read and converted, and all frames found. [`run`](ImportPlan::run) verifies the frames.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
@@ -53,9 +53,9 @@ pub struct ImportPlan {
     pub(super) signals: Option<PlannedSignals>,
     /// Summary of the map for the header.
     pub(super) mapping: Mapping,
-    /// True if samples are named by row number, because the map names no column for it.
+    /// True if row numbers are the sample names, because the map names no column for them.
     pub(super) is_numbered: bool,
-    /// Source folder, which records the files read from it.
+    /// Source folder, which records the files that were read.
     pub(super) folder: SourceFolder,
 }
 
@@ -63,16 +63,16 @@ impl ImportPlan {
     /// Reads the tables that `map` names in the folder `source`, and finds every frame.
     ///
     /// # Errors
-    /// [`ImportError::Table`] naming line and column; [`ImportError::Named`] or [`ImportError::Dataset`] if a path is missing, leaves the
-    /// folder or is no regular file, or an array cannot be used.
+    /// [`ImportError::Table`] naming line and column; [`ImportError::Named`] or [`ImportError::Dataset`] if a path is missing, leads out of the folder or is
+    /// not a regular file, or an array cannot be used.
     pub fn new(source: &Path, map: &ImportMap) -> Result<ImportPlan, ImportError> {
         ImportPlan::with_decoders(source, map, &Decoders::default())
     }
 
-    /// As [`new`](ImportPlan::new), with external programs for clips that TacEva cannot decode.
+    /// Plans an import like [`new`](ImportPlan::new), with external programs for clips that TacEva cannot decode.
     ///
     /// # Errors
-    /// As [`new`](ImportPlan::new); [`ImportError::Dataset`] naming the codec and a remedy if no decoder for a clip is available.
+    /// Errors of [`new`](ImportPlan::new); [`ImportError::Dataset`] naming the codec and a remedy if no decoder for a clip is available.
     /// ```
     /// # use taceva_core::{Channel, Channels, Clock, SourceUnit};
     /// # use taceva_dataset::{RecordingFacts, SensorFacts, Source};
@@ -122,9 +122,9 @@ impl ImportPlan {
         &self.summary
     }
 
-    /// Size of the pictures on disk, bytes: each file once. Pictures inside other files are not counted.
+    /// Total size of the image files, bytes. Each file is counted once; pictures inside other files are not counted.
     ///
-    /// A file that has vanished counts as 0. The import itself reports it.
+    /// A deleted file counts as 0. The import itself reports the error.
     pub fn frame_bytes(&self) -> u64 {
         let frames = self.frames.iter();
         let files: BTreeSet<&Path> = frames

@@ -1,4 +1,4 @@
-//! Pictures without contact that each row names.
+//! Pictures without contact that the rows name.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -15,10 +15,10 @@ pub(super) struct References {
 }
 
 impl References {
-    /// Adds the picture that a kept row names, relative to `base`; none for an empty cell.
+    /// Adds the picture that a kept row names, relative to `base`. An empty cell adds none.
     ///
     /// # Errors
-    /// [`ImportError::Named`] if there is no such file inside the folder.
+    /// [`ImportError::Named`] if the file does not exist inside the folder.
     pub(super) fn take(
         &mut self,
         folder: &SourceFolder,
@@ -38,13 +38,13 @@ impl References {
         Ok(())
     }
 
-    /// Paths of the files.
+    /// Paths of the pictures without contact.
     pub(super) fn paths(&self, folder: &SourceFolder) -> BTreeSet<PathBuf> {
         let named = self.of_rows.iter().flatten();
         named.map(|name| folder.path().join(name)).collect()
     }
 
-    /// Returns the reference of `view` if every row names the same. Otherwise stores each as an attribute of `table`.
+    /// Returns the reference of `view` if every row names the same picture. Otherwise stores the names as an attribute of `table`.
     pub(super) fn settle(
         self,
         folder: &SourceFolder,
@@ -73,8 +73,8 @@ impl References {
 /// Result of comparing the pictures without contact of all rows.
 #[derive(Debug, Default)]
 pub(super) struct Settled {
-    /// The picture that all rows share.
+    /// Picture that all rows share; `None` if rows differ.
     pub(super) reference: Option<PathBuf>,
-    /// Number of different pictures if there is no shared one.
+    /// Number of different pictures if rows differ.
     pub(super) different: usize,
 }

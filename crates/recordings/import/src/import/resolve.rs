@@ -1,4 +1,4 @@
-//! Resolves the columns that a map names into one table: from the main table, its cells, file paths and joined tables.
+//! Resolves the columns that a map names into one table. Sources are the main table, parts of its cells, file paths and joined tables.
 
 mod cell;
 mod classes;
@@ -47,18 +47,18 @@ pub(super) struct Resolved {
     pub(super) joins: Vec<JoinMatches>,
     /// Unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
-    /// Main table.
+    /// Taxel values of every row; `None` unless they are in columns of the table.
     pub(super) main: ForeignTable,
     /// Taxel values of every row, if they are in columns.
     pub(super) signals: Option<ColumnSignals>,
-    /// Cell interpretation of each class.
+    /// Interpretation of the cells of each class.
     pub(super) class_cells: Vec<ClassCells>,
     pub(super) warnings: Vec<ImportWarning>,
     /// Unread topics of the recording, each with the reason.
     pub(super) unread_topics: Vec<String>,
     /// Coordinate frames of the labels.
     pub(super) coordinate_frames: CoordinateFrames,
-    /// Folders of joined tables that name files.
+    /// Folders of the joined tables that name files.
     pub(super) named_by: NamedBy,
 }
 
@@ -68,10 +68,10 @@ struct Sources<'a> {
     main: ForeignTable,
     /// Path of the main table relative to the source folder, with `/`.
     relative: String,
-    /// Path parts of each row; a single entry if all rows share them.
+    /// Parts of the path of each row; a single entry if all rows have the same path.
     captures: Vec<Vec<String>>,
     joined: Vec<Joined<'a>>,
-    /// Time column in seconds, if the table writes times as text.
+    /// Time column in seconds; `None` if the table contains times as numbers.
     times: Option<Vec<String>>,
     warnings: Vec<ImportWarning>,
     /// Programs that read the times of clips.
@@ -181,7 +181,7 @@ pub(super) fn resolve(
 }
 
 impl Sources<'_> {
-    /// Reads the time column if it is text. Numbers are read row by row.
+    /// Reads the time column if its cells are texts. Numbers are read row by row.
     fn read_times(&mut self) -> Result<(), ImportError> {
         let Some(time) = &self.map.time else {
             return Ok(());
@@ -207,7 +207,7 @@ impl Sources<'_> {
         Ok(())
     }
 
-    /// Warns of label columns whose points may group digits.
+    /// Warns of label columns whose decimal points may be digit separators.
     fn warn_of_grouped_digits(&mut self) {
         for column in &self.map.columns {
             let base = base_of(&column.from);
@@ -225,7 +225,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Warns if only the messages before a cut of a recording are read.
+    /// Warns if only the messages before the end of a truncated recording are read.
     fn warn_of_cuts(&mut self, folder: &SourceFolder) {
         let joined = self.joined.iter().flat_map(Joined::tables);
         for table in std::iter::once(&self.main).chain(joined) {
@@ -243,7 +243,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Cell of a column, in seconds for a time column written as text.
+    /// Cell of a column; in seconds if it is a time written as text.
     fn cell_in_seconds(&self, row: usize, name: &str) -> Result<String, ImportError> {
         let is_time = self
             .map
@@ -256,7 +256,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Extracts the labels of the path.
+    /// Extracts the labels from the path.
     fn capture(&mut self) -> Result<(), ImportError> {
         let Some(pattern) = &self.map.path else {
             return Ok(());
@@ -317,7 +317,7 @@ impl Sources<'_> {
         (!self.main.has(name)).then_some((joined, column))
     }
 
-    /// Part of the path of a row.
+    /// Part of the path of a row called `part`.
     fn part(&self, row: usize, part: &str) -> Result<String, ImportError> {
         let names = self.map.path.iter().flat_map(|pattern| pattern.names());
         let names: Vec<&str> = names.collect();
@@ -336,7 +336,7 @@ impl Sources<'_> {
         }
     }
 
-    /// Replaces `{path.PART}` and `{path.PART:05}` in `text`.
+    /// Replaces `{path.PART}` and `{path.PART:05}` in `text` by parts of the path of a row.
     fn filled(&self, row: usize, text: &str) -> Result<String, ImportError> {
         let mut filled = String::new();
         let mut rest = text;

@@ -21,14 +21,14 @@ use taceva_video::Decoders;
 use views::MappedView;
 use zero::Zeros;
 
-/// Rule that drops rows in which a taxel measured nothing.
+/// Rule that drops rows in which a taxel did not measure.
 pub(super) const SIGNAL_PLACEHOLDERS: &str = "placeholders of [signals]";
 
 /// Table with resolved columns.
 pub(super) struct MappedTable<'a> {
     map: &'a ImportMap,
     table: ResolvedTable,
-    /// Columns that the map mentions nowhere.
+    /// Columns that the map does not mention.
     unmentioned: Vec<String>,
     pub(super) joins: Vec<JoinMatches>,
     pub(super) warnings: Vec<ImportWarning>,
@@ -53,17 +53,17 @@ pub(super) struct MappedTable<'a> {
     spacing: Option<usize>,
     attributes: Vec<usize>,
     classes: Vec<usize>,
-    /// Cell interpretation of each class.
+    /// Interpretation of the cells of each class.
     class_cells: Vec<ClassCells>,
     time: Option<usize>,
-    /// Columns of the original table, row and picture.
+    /// Columns with the original table, row and picture; `None` if the map does not name them.
     origin: [Option<usize>; 3],
     flags: Option<usize>,
     /// Pictures of the rows, for each view.
     pub(super) views: Vec<MappedView>,
-    /// Taxel values of every row, if they are in columns.
+    /// Taxel values of every row; `None` unless they are in columns of the table.
     signals: Option<ColumnSignals>,
-    /// Folders of joined tables that name files.
+    /// Folders of the joined tables that name files.
     pub(super) named_by: NamedBy,
     /// True if the table has a column called `row`, which replaces the row number.
     pub(super) has_row_column: bool,
@@ -150,12 +150,12 @@ impl<'a> MappedTable<'a> {
         Ok(mapped)
     }
 
-    /// Columns of the table that the map mentions nowhere.
+    /// Columns of the table that the map does not mention.
     pub(super) fn unmentioned(&self) -> Vec<String> {
         self.unmentioned.clone()
     }
 
-    /// Taxel values of a row, if they are in columns; NaN for absent ones.
+    /// Taxel values of a row, NaN for missing values. `None` unless they are in columns of the table.
     pub(super) fn signals(&self, row: usize) -> Option<&[f32]> {
         let length = self.map.signals.as_ref()?.spec.info.len();
         let first = row.checked_mul(length)?;
@@ -223,7 +223,7 @@ impl<'a> MappedTable<'a> {
         reasons
     }
 
-    /// Labels of a row. `number` is its index over all tables.
+    /// Labels of a row. `number` is the index of the row over all tables.
     pub(super) fn row(&self, row: usize, number: u64) -> Result<Row, ImportError> {
         let text = |column: Option<usize>| {
             column
@@ -265,7 +265,7 @@ impl<'a> MappedTable<'a> {
         Ok(read)
     }
 
-    /// Error for a sample name that another row has.
+    /// Error for a sample name that another row also has.
     pub(super) fn duplicate(&self, row: usize, name: &str) -> ImportError {
         let column = self.sample.unwrap_or(usize::MAX);
         table_error!(

@@ -1,4 +1,4 @@
-//! Signals of an import: planned with the kept rows, written when the import runs.
+//! Signals of an import. They are planned with the kept rows and written when the import runs.
 
 mod array;
 
@@ -24,15 +24,15 @@ pub(super) struct FoundSignals<'a> {
     kept: u64,
     /// Ranges of kept rows without contact.
     rest: Vec<[u64; 2]>,
-    /// Array rows in which a taxel measured nothing.
+    /// Rows of an array in which a taxel did not measure.
     placeholders: BTreeSet<u64>,
 }
 
 #[derive(Debug)]
 enum Found {
-    /// Values, row by row.
+    /// Values in memory, row by row.
     Numbers(Vec<f32>),
-    /// Rows of an array that is read when the import runs.
+    /// Array that is read when the import runs, and the wanted rows.
     Array(ArraySignals, Vec<u64>),
 }
 
@@ -70,12 +70,12 @@ impl<'a> FoundSignals<'a> {
         })
     }
 
-    /// True if the array row has a number that means "nothing measured". `number` counts over all tables.
+    /// True if the array row contains a number that means "not measured". `number` counts rows over all tables.
     pub(super) fn is_placeholder(&self, number: u64) -> bool {
         self.placeholders.contains(&number)
     }
 
-    /// Adds the signals of a kept row. `number` is its index over all tables.
+    /// Adds the signals of a kept row. `number` is the index of the row over all tables.
     pub(super) fn take(
         &mut self,
         rows: &MappedTable<'_>,
@@ -105,7 +105,7 @@ impl<'a> FoundSignals<'a> {
         Ok(())
     }
 
-    /// Error for a row without a number for one of its signals.
+    /// Error for a row in which one of the signals is no number.
     fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> ImportError {
         let columns = self.map.columns();
         let length = self.map.spec.info.len();
@@ -175,7 +175,7 @@ impl PlannedSignals {
         Ok(writer.finish()?)
     }
 
-    /// Appends the signals to `writer`, with only some rows of an array in memory.
+    /// Appends the signals to `writer`. Memory contains only some rows of an array at a time.
     pub(super) fn write_to(
         &self,
         writer: &mut SignalsWriter,

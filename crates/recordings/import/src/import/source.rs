@@ -8,7 +8,7 @@ use crate::error::ImportError;
 use crate::source_folder::SourceFolder;
 use taceva_dataset::internal::{limits, shown};
 
-/// Files that match `pattern`, sorted. `*` matches any characters within one name.
+/// Files that match `pattern`, sorted. `*` matches any characters within one file or folder name.
 pub(crate) fn matching_files(
     folder: &SourceFolder,
     pattern: &str,
@@ -49,7 +49,7 @@ pub(crate) fn matching_files(
     Ok(found)
 }
 
-/// Checks that no file is found twice through links, because its rows would count twice.
+/// Checks that links do not lead to the same file twice, because its rows would count twice.
 fn each_once(folder: &SourceFolder, pattern: &str, found: &[PathBuf]) -> Result<(), ImportError> {
     let mut known: BTreeMap<PathBuf, &PathBuf> = BTreeMap::new();
     for path in found {
@@ -114,11 +114,11 @@ fn is_like(name: &str, pattern: &str) -> bool {
 /// Images that no row names.
 pub(super) struct Unnamed {
     pub(super) images: Vec<PathBuf>,
-    /// True if the search ended at its limit of files.
+    /// True if the search ended at the maximum number of files.
     pub(super) has_more: bool,
 }
 
-/// Images below `folder` that are not in `named`. Links are not followed.
+/// Images below `folder` that are not in `named`. Does not follow links.
 pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Unnamed {
     let mut unnamed = Vec::new();
     let mut folders = vec![folder.to_owned()];

@@ -32,13 +32,13 @@ use taceva_dataset::{ChannelOrder, LeftOut, names_quality};
 pub struct ImportSummary {
     /// Main tables, in reading order.
     pub tables: Vec<PathBuf>,
-    /// Number of files that are rows themselves; 0 if there is a table.
+    /// Number of files that are rows themselves; 0 if the map names a table.
     pub files: u64,
     /// Number of rows in the main tables.
     pub rows_read: u64,
     /// Number of rows that become samples of the dataset.
     pub rows_kept: u64,
-    /// Dropped rows by rule. Several rules may drop the same row.
+    /// Number of rows dropped by each rule. Several rules may drop the same row.
     pub dropped: BTreeMap<String, u64>,
     /// Row matches of each join.
     pub joins: Vec<JoinSummary>,
@@ -56,17 +56,17 @@ pub struct ImportSummary {
     pub unnamed_images: u64,
     /// The first 20 of these images, sorted.
     pub first_unnamed_images: Vec<PathBuf>,
-    /// True if there may be more such images, because the search ended at its limit of files.
+    /// True if there may be more images without a row, because the search ended at the maximum number of files.
     pub has_more_files: bool,
-    /// Frames in arrays and clips that no row uses, by file.
+    /// Number of frames in arrays and clips that no row uses, by file.
     pub unused_frames: BTreeMap<String, u64>,
-    /// Unwritten chunks of arrays, by file and array, which read as their fill value.
+    /// Number of unwritten chunks of arrays, by file and array. They are read as the fill value.
     pub absent_chunks: BTreeMap<String, u64>,
     /// Columns of the tables that the map does not mention, sorted.
     pub unmentioned_columns: BTreeSet<String>,
     /// Unread topics of recordings, each with the reason.
     pub unread_topics: BTreeSet<String>,
-    /// Channels whose numbers suggest another unit.
+    /// Channels whose numbers suggest a different unit.
     pub suspicions: Vec<Suspicion>,
     /// Warnings about the map and its data, sorted.
     pub warnings: BTreeSet<ImportWarning>,
@@ -95,12 +95,12 @@ pub struct FrameSummary {
     pub channel_order: ChannelOrder,
     /// Frame without contact; `None` if unknown.
     pub reference: Option<PathBuf>,
-    /// Number of different frames without contact, if rows name different ones. These pictures are not copied. The attribute `reference`,
-    /// or `reference_VIEW`, names them.
+    /// Number of different frames without contact, if rows name different ones. These pictures are not copied. The attribute `reference` or `reference_VIEW`
+    /// contains their names.
     pub references: u64,
 }
 
-/// Limits of the unmentioned columns in a header, and of bytes per name.
+/// Limits of a header: the number of unmentioned columns, and the bytes per name.
 const REMEMBERED: usize = 256;
 const REMEMBERED_BYTES: usize = 256;
 
@@ -117,24 +117,24 @@ const REMEMBERED_BYTES: usize = 256;
 pub struct JoinSummary {
     /// Name of the join in the map.
     pub name: String,
-    /// Rows of the main table with a match.
+    /// Number of rows of the main table with a match.
     pub matched: u64,
-    /// Rows of the main table without a match.
+    /// Number of rows of the main table without a match.
     pub unmatched: u64,
-    /// Rows of the joined table that no main row uses.
+    /// Number of rows of the joined table that no main row uses.
     pub unused: u64,
-    /// Rows of the joined table excluded by `skip`.
+    /// Number of rows of the joined table excluded by `skip`.
     pub skipped: u64,
     /// Coordinate frame to which the map restricts the rows, if any.
     pub frame_id: Option<String>,
-    /// Rows of the joined table in frames other than `frame_id`.
+    /// Number of rows of the joined table in coordinate frames other than `frame_id`.
     pub in_other_frames: u64,
-    /// Greatest time difference of a match, s; `None` for joins other than by time.
+    /// Maximum time difference of a match, s; `None` unless the join is by time.
     pub greatest_gap_s: Option<f64>,
 }
 
 impl ImportSummary {
-    /// Left-out items, as the header of the dataset records them.
+    /// Left-out items, in the form that the header of the dataset stores.
     pub(super) fn left_out(&self) -> LeftOut {
         let of_joins = |count: fn(&JoinSummary) -> u64| {
             let joins = self.joins.iter();
@@ -153,14 +153,14 @@ impl ImportSummary {
         left_out
     }
 
-    /// Warnings as the dataset records them.
+    /// Warnings, in the form that the dataset stores.
     pub(super) fn warnings_in_words(&self) -> Vec<String> {
         let warnings = self.warnings.iter().map(ToString::to_string);
         let suspicions = self.suspicions.iter().map(ToString::to_string);
         warnings.chain(suspicions).collect()
     }
 
-    /// Unmentioned columns as the dataset records them, quality columns first.
+    /// Unmentioned columns, in the form that the dataset stores, columns with quality ratings first.
     pub(super) fn columns_left_behind(&self) -> Vec<String> {
         let short = |name: &&String| name.len() <= REMEMBERED_BYTES;
         let mut columns: Vec<String> = self
@@ -195,11 +195,11 @@ pub struct ZeroSummary {
     pub channel: String,
     /// Rule of the map, in words.
     pub rule: String,
-    /// Least mean of a block, in the unit of the channel.
+    /// Minimum of the means of all blocks, in the unit of the channel.
     pub least: f64,
-    /// Greatest mean of a block, in the unit of the channel.
+    /// Maximum of the means of all blocks, in the unit of the channel.
     pub greatest: f64,
-    /// Number of blocks, each with its own zero.
+    /// Number of blocks, each with a separate zero.
     pub blocks: u64,
 }
 

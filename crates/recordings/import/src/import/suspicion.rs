@@ -22,11 +22,11 @@ pub struct Suspicion {
     pub code: &'static str,
     /// Name of the channel, such as `Fz`.
     pub channel: String,
-    /// Suspicious magnitude in the channel's unit: the largest, the median, or the 95th percentile.
+    /// Suspicious magnitude in the unit of the channel: the largest, the median, or the 95th percentile.
     pub magnitude: f64,
     /// Unit of the channel in the dataset.
     pub unit: Unit,
-    /// Likely units, worded to follow `are the numbers in`.
+    /// Likely units, as the continuation of `are the numbers in`.
     pub perhaps: String,
 }
 
@@ -45,17 +45,17 @@ impl fmt::Display for Suspicion {
     }
 }
 
-/// Least number of values for a check.
+/// Minimum number of values for a check.
 const LEAST_VALUES: usize = 3;
 
-/// Plausible magnitudes of gel contacts in a unit. At least one must reach `small`; the median must not exceed `large`, nor the 95th
-/// percentile `most`. `typical` is the usual range.
+/// Plausible magnitudes of gel contacts in a unit. At least one must reach `small`. The median must not exceed `large`, and the 95th percentile must not exceed
+/// `most`. `typical` is the usual range.
 struct Plausible {
     small: f64,
     large: f64,
     most: f64,
     typical: [f64; 2],
-    /// Units that labs use for such numbers.
+    /// Units in which labs state this quantity.
     written: &'static [&'static str],
 }
 
@@ -85,7 +85,7 @@ fn plausible(channel: &Channel) -> Option<Plausible> {
 /// Detects numbers of `channel` in another unit: metres labelled as millimetres, gram-force labelled as newtons.
 ///
 /// # Units
-/// `values`: the unit of the channel.
+/// `values`: numbers in the unit of the channel.
 ///
 /// ```
 /// use taceva_core::Channel;
@@ -111,7 +111,7 @@ pub fn magnitude_suspicion(
     Some(found.suspicion(channel, perhaps))
 }
 
-/// As [`magnitude_suspicion`], for numbers converted from the unit `said`, which narrows the suggestions.
+/// Detects suspicious numbers like [`magnitude_suspicion`], for numbers converted from the unit `said`, which narrows the suggestions.
 pub(super) fn magnitude_suspicion_in(
     channel: &Channel,
     said: &SourceUnit,
@@ -130,7 +130,7 @@ pub(super) fn magnitude_suspicion_in(
     ))
 }
 
-/// Common units that would make `typical`, converted from the unit `said`, a usual number.
+/// Common units in which `typical`, converted from the unit `said`, would be a usual number.
 fn meant(plausible: &Plausible, said: &str, typical: f64) -> Vec<&'static str> {
     let in_kept = |symbol: &str| SourceUnit::parse(symbol).ok().map(|unit| unit.convert(1.0));
     let Some(said_as) = in_kept(said) else {
@@ -145,7 +145,7 @@ fn meant(plausible: &Plausible, said: &str, typical: f64) -> Vec<&'static str> {
     others.copied().filter(fits).collect()
 }
 
-/// Magnitudes that no gel produces.
+/// Magnitudes that no gel contact produces.
 struct Odd {
     code: &'static str,
     magnitude: f64,

@@ -1,4 +1,4 @@
-//! Warnings of an import: valid maps with an improbable meaning.
+//! Warnings of an import, for valid maps with an improbable meaning.
 
 use std::fmt;
 
@@ -21,16 +21,16 @@ pub enum ImportWarning {
         /// Names of the channels.
         channels: Vec<String>,
     },
-    /// Numbers of a column look like integers with points between groups of three digits.
+    /// A column contains numbers that look like integers with points between groups of three digits.
     GroupedDigits {
         /// Column as the map names it.
         column: String,
         /// Example cell.
         example: String,
-        /// Number of cells with such a point.
+        /// Number of cells that look so.
         cells: u64,
     },
-    /// Text times have no time zone, and the map states none for a clock that counts from 1970.
+    /// Text times have no time zone, and the map states no time zone for a clock that counts from 1970.
     ZoneUnstated {
         /// Column as the map names it.
         column: String,
@@ -42,58 +42,58 @@ pub enum ImportWarning {
         /// Number of midnights.
         days: u64,
     },
-    /// Zero rows spread so widely that contacts may be among them.
+    /// Rows declared as zero spread so widely that contacts may be among them.
     ZeroSpread {
         /// Name of the channel.
         channel: String,
         /// Rule of the map, in words.
         rule: String,
     },
-    /// Rows of a table that is joined by time share their times.
+    /// Rows of a table that is joined by time share their times with other rows.
     RepeatedStamps {
         /// Name of the join in the map.
         join: String,
         /// Number of rows with a time.
         rows: u64,
-        /// Number of different times, whose first rows are the ones taken.
+        /// Number of different times. The first row of each time is used.
         times: u64,
     },
-    /// Only the complete messages before the cut of a recording are read.
+    /// Only the complete messages before the end of a truncated recording are read.
     CutRecording {
-        /// File, relative to the folder of the lab.
+        /// File, relative to the lab's folder.
         file: String,
-        /// Number of messages before the cut, of all topics.
+        /// Number of messages before the truncated end, of all topics.
         messages: u64,
-        /// End of the complete records, byte.
+        /// Offset of the end of the complete records, bytes.
         end: u64,
     },
     /// The map names neither pictures nor signals, and the folder has pictures.
     NoPictures {
         /// Number of pictures in the folder.
         pictures: u64,
-        /// First of them, relative to the folder.
+        /// First picture, relative to the folder.
         first: String,
     },
-    /// Rows of a joined table are matched across its pauses.
+    /// Rows of the main table are matched with rows of a joined table across a pause.
     JoinPause {
         /// Name of the join.
         join: String,
         /// Number of rows of the main table that take labels across a pause.
         rows: u64,
-        /// Greatest distance of a match, ms.
+        /// Maximum time difference of a match, ms.
         farthest_ms: String,
         /// Usual step between rows of the joined table, ms.
         usual_ms: String,
-        /// Tolerance that leaves these rows out, ms.
+        /// Tolerance that would leave these rows out, ms.
         tolerance_ms: String,
     },
-    /// A joined table has rows at the times of the main table without the lag of the map.
+    /// A joined table has rows at the times of the main table if the lag of the map is ignored.
     JoinLag {
         /// Name of the join.
         join: String,
         /// Number of rows of the main table with a lag above 100 ms.
         rows: u64,
-        /// Number of these rows at whose time the joined table has a row.
+        /// Number of these rows at whose own time the joined table has a row.
         equal: u64,
     },
     /// Most rows of both tables have no match by time.
@@ -107,14 +107,14 @@ pub enum ImportWarning {
         /// Spans of the times of both tables, in words.
         spans: String,
     },
-    /// Times of single rows of a main table are in a wrong order.
+    /// Times of single rows of a main table are out of order.
     TimeOrder {
-        /// File and place of the first such row.
+        /// File and place of the first row out of order.
         at: String,
-        /// Number of such rows.
+        /// Number of rows out of order.
         rows: u64,
     },
-    /// A name in `frames_named` of [drop] left out no row.
+    /// A name in `frames_named` of `[drop]` excluded no row.
     DropUnmatched {
         /// Name of a picture.
         name: String,

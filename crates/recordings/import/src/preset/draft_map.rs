@@ -1,11 +1,11 @@
-//! Maps of layouts whose columns vary: a draft in the layout's units.
+//! Maps of layouts with varying columns: a draft with the units of the layout.
 
 use std::path::Path;
 
 use crate::draft::MapDraft;
 use crate::error::ImportError;
 
-/// Map for the folder at `source`, below the comments of the layout.
+/// Drafted map for the folder at `source`, preceded by the comments of the layout.
 pub(super) fn text(comments: &str, source: &Path) -> Result<String, ImportError> {
     let draft = MapDraft::of(source)?;
     let mut text = format!("{}\n", comments.trim_end());

@@ -1,4 +1,4 @@
-//! Fits built-in maps to a folder by its existing files and columns.
+//! Adapts built-in maps to the existing files and columns of a folder.
 
 use std::path::Path;
 
@@ -13,7 +13,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{decode, limits, read_capped};
 
-/// Map for the folder.
+/// Map text adapted to the folder.
 pub(super) fn text(layout: &Layout, folder: &SourceFolder) -> Result<String, ImportError> {
     let mut text = format!("{}\n", layout.map.trim_end());
     for instead in &layout.instead {
@@ -51,7 +51,7 @@ fn first(folder: &SourceFolder, pattern: &str) -> Result<std::path::PathBuf, Imp
     Ok(found.swap_remove(0))
 }
 
-/// First of the patterns that a file matches.
+/// First of `patterns` that a file matches.
 fn there<'p>(folder: &SourceFolder, patterns: &'p [String]) -> &'p str {
     let mut found = patterns
         .iter()
@@ -74,7 +74,7 @@ fn first_table(text: &str, folder: &SourceFolder) -> Result<ForeignTable, Import
     ForeignTable::read(&first(folder, &map.table)?, &map.form)
 }
 
-/// True if the table has the column or its element. Path parts, row names and joined tables always count as present.
+/// True if the table has the column, or the column of which `column` is an element. Path parts, row names and joined tables always count as present.
 fn is_there(table: &ForeignTable, column: &str) -> bool {
     let base = column.rsplit_once('[').map_or(column, |(base, _)| base);
     column.starts_with("path.") || ["group", "key", "row"].contains(&column) || table.has(base)
@@ -96,7 +96,7 @@ fn with_time(text: &str, table: &ForeignTable) -> String {
     }
 }
 
-/// Sets gray order for a gray first picture, and removes a missing reference.
+/// Sets gray as the colour order if the first picture is gray, and removes a missing reference.
 fn coloured(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     let reference = quoted(&text, "reference = \"").filter(|path| *path != "unknown");
     let text = match reference {
@@ -127,13 +127,13 @@ fn coloured(text: String, folder: &SourceFolder) -> Result<String, ImportError> 
     })
 }
 
-/// Quoted text behind `before` at the beginning of a line.
+/// Quoted text after `before` at the beginning of a line.
 fn quoted<'t>(text: &'t str, before: &str) -> Option<&'t str> {
     let rest = text.lines().find_map(|line| line.strip_prefix(before))?;
     Some(rest.split_once('"')?.0)
 }
 
-/// Handles both generations of columns, and drops forces whose columns are 0.0 throughout.
+/// Handles both generations of column names, and drops force columns that contain only 0.0.
 fn bristol(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     let table = CsvTable::read(&folder.file(folder.path(), "targets.csv")?)?;
     let mut text = match table.has("pose_1") {
@@ -159,7 +159,7 @@ fn bristol(text: String, folder: &SourceFolder) -> Result<String, ImportError> {
     })
 }
 
-/// Selects the file's first sensor, and the left-hand pictures if there are two.
+/// Selects the first sensor of the file, and the left-hand pictures if there are two.
 fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let path = folder.file(folder.path(), "all_data_direction.json")?;
     let wrong = |problem: &str| ImportError::table(&path, problem);
@@ -227,7 +227,7 @@ fn poseit(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     })
 }
 
-/// Selects the last number of the line.
+/// Selects the last number of the line as the force.
 fn tool_force(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let line = CsvTable::read_headerless(&first(folder, "*/force/force_data_*.txt")?)?;
     let last = line.names().len().saturating_sub(1);
@@ -250,7 +250,7 @@ fn univtac(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     Ok(kept(&text, |_, column| is_there(&table, column)))
 }
 
-/// Sets the store, its `data` group, the first camera and the episode ends.
+/// Sets the store, its `data` group, the first camera and the ends of episodes.
 fn diffusion_zarr(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let store = first(folder, "*.zarr")?;
     let name = store

@@ -1,11 +1,11 @@
-//! Drops map lines that name missing columns.
+//! Removes map lines that name missing columns.
 
 use std::collections::BTreeSet;
 
 /// Sections with one name and column per line.
 const OPTIONAL: [&str; 2] = ["[columns]", "[attributes]"];
 
-/// Text without channels and attributes for which `has` is false. The first remaining line of each name wins.
+/// Removes lines of channels and attributes for which `has` is false. The first remaining line of each name is kept.
 pub(super) fn kept(text: &str, has: impl Fn(&str, &str) -> bool) -> String {
     let mut section = "";
     let mut names = BTreeSet::new();
@@ -35,7 +35,7 @@ fn entry(line: &str) -> Option<(&str, &str)> {
     Some((name, column))
 }
 
-/// Text without the section that begins with `first`, up to the next section.
+/// Removes the section that begins with the line `first`, up to the next section.
 pub(super) fn without_section(text: &str, first: &str) -> String {
     let mut is_within = false;
     let mut kept = String::new();

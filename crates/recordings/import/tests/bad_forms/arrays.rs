@@ -1,4 +1,4 @@
-//! Archives, HDF5, object arrays and pickles, and signals that are no numbers.
+//! Tests of archives, HDF5, object arrays and pickles, and of signals that are no numbers.
 
 use std::fs;
 use std::path::Path;

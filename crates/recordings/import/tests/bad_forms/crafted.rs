@@ -1,4 +1,4 @@
-//! Files crafted to harm their reader.
+//! Tests of files that are crafted to harm their reader.
 
 use std::fs::File;
 use std::path::Path;
@@ -10,7 +10,7 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::parser::parse_message_type;
 
-/// A NumPy file of version 1.
+/// NumPy file of version 1.
 pub(super) fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     let length = u16::try_from(header.len()).expect("short");
@@ -18,7 +18,7 @@ pub(super) fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     [&head, header.as_bytes(), data].concat()
 }
 
-/// An archive with one deflated member `value.npy` that declares a size of `size` bytes.
+/// Archive with one deflated member `value.npy` that declares a size of `size` bytes.
 pub(super) fn archive_of_zeros(size: u64, zeros: &[u8]) -> Vec<u8> {
     let member = npy("<f8", &format!("({},)", size / 8), zeros);
     let packed = miniz_oxide::deflate::compress_to_vec(&member, 6);
@@ -48,7 +48,7 @@ pub(super) fn archive_of_zeros(size: u64, zeros: &[u8]) -> Vec<u8> {
     [local, entry, end].concat()
 }
 
-/// A table of half a million texts of 10 kB, all one dictionary entry, beside numbers.
+/// Table of half a million texts of 10 kB, all the same dictionary entry, beside numbers.
 pub(super) fn bomb_of_parquet(path: &Path) {
     const ROWS: usize = 500_000;
     let schema = "message x { required double value; required binary text (UTF8); }";

@@ -1,5 +1,5 @@
-//! Hostile input of every form in an import: refused with a message or read, in at most ten seconds and 512 MiB. Nothing is executed and nothing
-//! is left behind.
+//! Tests of hostile input of every form in an import. The input must be rejected with a message or read, in at most ten seconds and 512 MiB. No code of the
+//! input may run, and no file may remain.
 
 mod arrays;
 mod crafted;
@@ -41,7 +41,7 @@ fn most_memory() -> u64 {
     number.unwrap_or(0)
 }
 
-/// Imports the folder by a map of version 2, within the limits of time and memory. The error is the message of a refusal.
+/// Imports the folder by a map of version 2, within the limits of time and memory. The error is the message of a rejection.
 #[track_caller]
 fn imported(folder: &Path, map: &str) -> Result<Kept, String> {
     let began = Instant::now();
@@ -93,7 +93,7 @@ fn refused(folder: &Path, map: &str, words: &[&str]) {
     }
 }
 
-/// A file of the crates that read foreign forms, or of the recordings of the workspace.
+/// File of the crates that read foreign forms, or of the recordings of the workspace.
 fn workspace(path: &str) -> PathBuf {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../../..")).join(path)
 }
@@ -221,7 +221,7 @@ fn names_in_any_script_are_files_columns_and_labels() {
     );
 }
 
-/// Fewer files than a million, to keep the test short.
+/// The number of files is below a million, to keep the test short.
 #[test]
 #[expect(clippy::print_stdout, reason = "the time is the result")]
 fn thousands_of_files_that_no_row_names_are_counted_in_time() {

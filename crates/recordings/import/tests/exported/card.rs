@@ -1,4 +1,4 @@
-//! Texts of the card of a Hugging Face export.
+//! Tests of the texts in the card of a Hugging Face export.
 
 use std::fs;
 

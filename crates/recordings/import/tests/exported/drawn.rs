@@ -1,4 +1,4 @@
-//! Datasets for the tests, each with its own special content.
+//! Generated datasets for the tests, each with special content.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -15,10 +15,10 @@ use taceva_dataset::{
 };
 use taceva_import::{ExportForm, ExportPlan, ExportReport, ImportMap, ImportPlan};
 
-/// More samples than a row group of a table holds.
+/// Number of samples, larger than a row group of a table.
 const SAMPLES: u16 = 1030;
 
-/// A recording with every id, absent labels, a picture without contact, and frames stored as differences.
+/// Recording with every id, missing labels, a picture without contact, and frames stored as differences.
 pub(crate) fn recorded(folder: &Path) -> Dataset {
     let path = folder.join("recorded");
     let sensor = SensorFacts::new("gel \"π\"")
@@ -79,7 +79,7 @@ pub(crate) fn recorded(folder: &Path) -> Dataset {
     Dataset::open(&path).expect("a dataset")
 }
 
-/// A transducer and a sensor with certificates, and a robot without.
+/// Transducer and sensor with certificates, and robot without a certificate.
 fn traced() -> Vec<Traceability> {
     let day = |text: &str| text.parse().expect("a day");
     let amount = |text: &str| text.parse().expect("an amount");
@@ -101,7 +101,7 @@ fn traced() -> Vec<Traceability> {
     vec![force, robot, sensor]
 }
 
-/// A recording of taxels; the first rows are without contact.
+/// Recording of taxels, whose first rows are without contact.
 pub(crate) fn skin(folder: &Path) -> Dataset {
     let path = folder.join("skin");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, SensorFacts::new("skin"));
@@ -158,7 +158,7 @@ gel = "g'1"
 opaque = "unknown"
 "#;
 
-/// An import of BGR and JPEG pictures, with the origin of each row and names in several scripts.
+/// Import of BGR and JPEG pictures, with the origin of each row and names in several scripts.
 pub(crate) fn imported(folder: &Path) -> Dataset {
     let lab = folder.join("lab");
     fs::create_dir_all(lab.join("bilder")).expect("made");
@@ -198,7 +198,7 @@ pub(crate) fn import(source: &Path, map: &ImportMap, target: &Path) -> Dataset {
     Dataset::open(target).expect("a dataset")
 }
 
-/// Exports a dataset beside itself, on several threads.
+/// Exports a dataset to a folder beside it, on several threads.
 pub(crate) fn exported(dataset: &Dataset, form: ExportForm) -> (PathBuf, ExportReport) {
     let target = dataset.path().with_extension(form.name());
     let jobs = NonZeroUsize::new(3).expect("three");

@@ -1,4 +1,4 @@
-//! Exports read by external libraries: csv of Python and Pillow, `datasets` of Hugging Face, h5py, pyarrow, LeRobot.
+//! Tests that read exports with external libraries: csv of Python and Pillow, `datasets` of Hugging Face, h5py, pyarrow, LeRobot.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ struct ReadBack {
     signals: Vec<Vec<String>>,
 }
 
-/// A Python interpreter that has `module`; else the skip is reported.
+/// Path of a Python interpreter that has `module`. Otherwise `None`, and the skip is reported.
 fn python(variable: &str, (need, module): (Need, &str)) -> Option<PathBuf> {
     let named = std::env::var_os(variable).map(PathBuf::from);
     let installed = Path::new(env!("CARGO_MANIFEST_DIR")).join(INSTALLED);

@@ -1,5 +1,5 @@
-//! External libraries read an exported dataset correctly. Imported again by the map beside it, the dataset is the same: ids, labels to the last
-//! bit, signals, origin, pixels.
+//! Tests that external libraries read an exported dataset correctly. A second import with the map of the export must give the same ids, labels to the last bit,
+//! signals, origin and pixels.
 
 mod card;
 mod drawn;

@@ -1,4 +1,4 @@
-//! Rejected exports, and the state after an interrupted export.
+//! Tests of rejected exports, and of the state after an interrupted export.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -16,7 +16,7 @@ use taceva_import::{ExportForm, ExportPlan, ImportError};
 
 use super::drawn::{exported, skin};
 
-/// Progress that cancels at once.
+/// Progress receiver that cancels at once.
 #[derive(Debug)]
 struct Stopped;
 

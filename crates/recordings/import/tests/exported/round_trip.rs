@@ -1,4 +1,4 @@
-//! Exported datasets, imported again by the map of the export.
+//! Tests that import exported datasets again with the map of the export.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -174,7 +174,7 @@ fn the_same_dataset_gives_the_same_files() {
     }
 }
 
-/// The same export to another folder, on one thread.
+/// Repeats the export into another folder, on one thread.
 fn exported_anew(dataset: &Dataset, folder: &Path, form: ExportForm) -> (PathBuf, ExportReport) {
     let target = folder.join(format!("anew-{}", form.name()));
     let plan = ExportPlan::new(dataset, form).expect("samples");

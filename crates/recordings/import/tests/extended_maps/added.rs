@@ -1,4 +1,4 @@
-//! Rows added by a map with other joins, pictures, class names or placeholders.
+//! Tests of rows added by a map with different joins, pictures, class names or placeholders.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -81,8 +81,8 @@ fn added(folder: &Path, map: &str, target: &Path) -> Result<(), String> {
     outcome.map(drop).map_err(|error| error.to_string())
 }
 
-/// Checks that adding rows by `map`, with `from` replaced by `to`, is refused. The message names `key`, the value `own` of the dataset and the
-/// value `other` of the map.
+/// Checks that adding rows by `map`, with `from` replaced by `to`, is rejected. The message must name `key`, the value `own` of the dataset and the value
+/// `other` of the map.
 fn refused(from: &str, to: &str, [key, own, other]: [&str; 3]) {
     let [first, second] = folders();
     let target = first.path().join("dataset");
@@ -128,7 +128,7 @@ fn the_same_map_adds_rows_and_the_header_says_once_how_they_were_read() {
     );
 }
 
-/// Tests in which a text of the map is replaced by another one, each with the words of the refusal.
+/// Creates tests in which a text of the map is replaced, each with the expected words of the rejection.
 macro_rules! refusals {
     ($($name:ident: $text:expr => $other:expr, $words:expr;)+) => {$(
         #[test]

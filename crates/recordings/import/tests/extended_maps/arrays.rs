@@ -1,10 +1,10 @@
-//! Arrays as tables and as frames, and the messages of refused ones.
+//! Tests of arrays as tables and as frames, and of the messages about rejected arrays.
 
 use super::{FACTS, NO_TIME, planned};
 use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan};
 
-/// A NumPy file of version 1.
+/// NumPy file of version 1.
 pub(super) fn npy(kind: &str, shape: &str, data: &[u8]) -> Vec<u8> {
     let header = format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': {shape}, }}");
     let length = u16::try_from(header.len()).expect("short");
@@ -24,7 +24,7 @@ pub(super) fn bytes_of(numbers: &[f32]) -> Vec<u8> {
         .collect()
 }
 
-/// A folder with two forces and these frames.
+/// Folder with two forces and these frames.
 fn lab(frames: &[u8]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let forces = npy("<f4", "(2,)", &bytes_of(&[1.0, 2.0]));
@@ -259,7 +259,7 @@ fn a_column_called_row_does_not_say_which_picture_a_row_has() {
     }
 }
 
-/// Three recordings of two rows, each with its own array, and one array with all six pictures. Recording 2 has the pictures 20 and 21.
+/// Three recordings of two rows, each with a separate array, and one array with all six pictures. Recording 2 has the pictures 20 and 21.
 fn recordings() -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     let mut all = Vec::new();

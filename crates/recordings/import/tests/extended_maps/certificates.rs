@@ -1,4 +1,4 @@
-//! Certificates in a map, and rows added under the same certificate, another one or none.
+//! Tests of certificates in a map, and of rows added with the same certificate, another certificate or none.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -35,7 +35,7 @@ fn import(folder: &Path, map: &str) -> Header {
     Dataset::open(&target).expect("opens").header().clone()
 }
 
-/// The header of a dataset imported by `first`, after rows of `second` were added to it.
+/// Header of a dataset that was imported by `first`, after rows of `second` were added.
 fn extended(first: &str, second: &str, new_certificate: bool) -> Result<Header, String> {
     let [one, two] = ["1\n2\n", "3\n"].map(|rows| lab(&[("labels.csv", &format!("Fz\n{rows}"))]));
     import(one.path(), first);

@@ -1,4 +1,4 @@
-//! Classes named by whole numbers: cells as positions in the list, and refused lists.
+//! Tests of classes named by whole numbers: cells as positions in the list, and rejected lists.
 
 use super::arrays::npy;
 use super::{NO_TIME, imported, imported_from, planned, refused};

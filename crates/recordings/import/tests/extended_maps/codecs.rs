@@ -1,4 +1,4 @@
-//! Clips of several codecs in one import: the dataset records the codec of each.
+//! Tests of clips of several codecs in one import. The dataset must record the codec of each.
 
 use std::fs;
 use std::num::NonZeroUsize;

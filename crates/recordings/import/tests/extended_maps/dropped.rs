@@ -1,4 +1,4 @@
-//! Rows that a map leaves out by their number, or by a picture in a clip or an array.
+//! Tests of rows that a map leaves out by their number, or by a picture in a clip or an array.
 
 use std::fs;
 
@@ -6,7 +6,7 @@ use super::arrays::npy;
 use super::left_out::left_out;
 use super::{NO_TIME, imported, lab, planned, refused};
 
-/// A map of these tables whose [drop] holds `rows`.
+/// Map of these tables with `rows` in its section `[drop]`.
 fn map(table: &str, rows: &str) -> String {
     format!(
         "table = \"{table}\"\n[columns]\nFz = {{ from = \"Fz\", unit = \"N\" }}\n[drop]\nrows = {rows}\n{NO_TIME}"

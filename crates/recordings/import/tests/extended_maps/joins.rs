@@ -1,4 +1,4 @@
-//! Joins by row number: with several tables, each would begin with the first row again.
+//! Tests of joins by row number. With several tables, each would begin with the first row again.
 
 use super::{NO_TIME, lab, planned};
 use taceva_dataset::Dataset;

@@ -1,4 +1,4 @@
-//! Everything that an import leaves out is counted in its summary and in the dataset.
+//! Tests that everything an import leaves out is counted in its summary and in the dataset.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -11,7 +11,7 @@ use taceva_import::ImportSummary;
 use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, lab, planned};
 
-/// The summary, and the omissions recorded in the dataset.
+/// Summary of an import, and the omissions recorded in the dataset.
 pub(super) fn left_out(folder: &Path, map: &str) -> (ImportSummary, LeftOut) {
     let plan = planned(folder, map).expect("planned");
     let summary = plan.summary().clone();

@@ -1,4 +1,4 @@
-//! Maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes, and refusals.
+//! Tests of maps of version 2: labels in paths and cells, tables of other forms, joins, matrices, classes, and rejections.
 
 mod added;
 mod arrays;
@@ -32,7 +32,7 @@ opaque = "unknown"
 "#;
 const NO_TIME: &str = "[time]\nclock = \"unknown\"\n";
 
-/// A folder with files of these paths and texts.
+/// Folder with files of these paths and texts.
 fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for (path, text) in files {
@@ -58,7 +58,7 @@ fn imported(
     imported_from(lab(files).path(), map, columns)
 }
 
-/// The same for an existing folder.
+/// Imports an existing folder like [`imported`].
 fn imported_from(folder: &Path, map: &str, columns: &[&str]) -> (ImportSummary, Vec<Vec<String>>) {
     let plan = planned(folder, map).expect("an import");
     let summary = plan.summary().clone();

@@ -1,11 +1,11 @@
-//! Parses the maps of docs/your-recording.md: the complete map in a fence, and every fragment of the table of layouts.
+//! Tests that parse the maps of docs/your-recording.md: the complete map in a fence, and every fragment of the table of layouts.
 
 use taceva_import::ImportMap;
 use toml::{Table, Value};
 
 const PAGE: &str = include_str!("../../../../../docs/your-recording.md");
 
-/// Lines common to all maps.
+/// Lines that all maps share.
 const LEAST: &str = r#"
 map_version = 2
 table = "t.csv"
@@ -22,7 +22,7 @@ gel = "unknown"
 opaque = "unknown"
 "#;
 
-/// Required lines around a fragment, by its table.
+/// Lines that a fragment needs around it, by its table.
 const AROUND: [(&str, &str); 6] = [
     ("frame", "channel_order = \"gray\"\nreference = \"unknown\""),
     ("join", "name = \"j\"\ntable = \"j.csv\""),
@@ -38,7 +38,7 @@ const AROUND: [(&str, &str); 6] = [
     ("classes", ""),
 ];
 
-/// Tables of keys that the page writes without one.
+/// Table of each key that the page writes without a table.
 const OF_KEY: [(&str, &str); 15] = [
     ("table", ""),
     ("rows", "table"),
@@ -62,12 +62,12 @@ fn parsed(map: &str) -> Result<(), String> {
     read.map(drop).map_err(|error| error.to_string())
 }
 
-/// The code between backquotes in a text.
+/// Code between backquotes in a text.
 fn code(text: &str) -> Vec<&str> {
     text.split('`').skip(1).step_by(2).collect()
 }
 
-/// The second cell of each row of the table below the heading; a `|` within code separates no cells.
+/// Second cell of each row of the table below the heading. A `|` within code does not separate cells.
 fn cells() -> Vec<&'static str> {
     let (_, section) = PAGE.split_once("## Find your layout").expect("a heading");
     let (section, _) = section.split_once("\n## ").expect("another heading");
@@ -77,20 +77,20 @@ fn cells() -> Vec<&'static str> {
         .collect()
 }
 
-/// A fragment: its table, its keys, and their values if given.
+/// Fragment of a map: its table, its keys, and their values if given.
 struct Fragment {
     table: String,
     keys: Vec<String>,
     values: Option<Table>,
 }
 
-/// Replaces each `…` by a value for the key before it.
+/// Replaces each `…` by a value that fits the key before it.
 fn filled(text: &str) -> String {
     text.replace("[…]", "[\"a\", \"b\"]")
         .replace("{ … }", "{ column = \"t\", unit = \"s\" }")
 }
 
-/// The fragments of a cell; a column name is taken for a label.
+/// Fragments of a cell. A column name is treated as a label.
 fn fragments(cell: &str) -> Vec<Fragment> {
     let mut all: Vec<Fragment> = Vec::new();
     // A table name alone, as in "other topics by `[[join]]`", states no key.
@@ -125,7 +125,7 @@ fn fragments(cell: &str) -> Vec<Fragment> {
     all
 }
 
-/// The table called `name` of a map, created if missing.
+/// Returns the table called `name` of a map, which is created if missing.
 fn table_of<'m>(map: &'m mut Table, name: &str) -> &'m mut Table {
     let around = AROUND.iter().find(|(table, _)| *table == name);
     let around = around.map_or("", |(_, text)| text);
@@ -141,7 +141,7 @@ fn table_of<'m>(map: &'m mut Table, name: &str) -> &'m mut Table {
     }
 }
 
-/// The smallest map with the fragments of a cell.
+/// Smallest map that contains the fragments of a cell.
 fn map_of(fragments: &[Fragment]) -> Table {
     let mut map: Table = toml::from_str(LEAST).expect("TOML");
     for Fragment { table, values, .. } in fragments {

@@ -1,10 +1,10 @@
-//! File names with numbers that a pattern pads with zeros, or counts from another number.
+//! Tests of file names with numbers that a pattern pads with zeros, or counts from another number.
 
 use super::{NO_TIME, imported, imported_from, lab, planned};
 
 const COLUMNS: &str = "[columns]\nFz = { from = \"Fz\", unit = \"N\" }\n";
 
-/// Three presses in another order than their pictures, numbered from 1.
+/// Three presses in a different order than their pictures, which are numbered from 1.
 fn presses() -> tempfile::TempDir {
     let folder = lab(&[("log.csv", "n,Fz\n2,2.5\n1,1.5\n3,3.5\n")]);
     std::fs::create_dir(folder.path().join("cam")).expect("made");
@@ -17,14 +17,14 @@ fn presses() -> tempfile::TempDir {
     folder
 }
 
-/// A map with these lines of frames, and more lines at its end.
+/// Map with the frame lines `frames`, and the lines `more` at its end.
 fn map(frames: &str, more: &str) -> String {
     format!(
         "table = \"log.csv\"\n[frame]\n{frames}\nchannel_order = \"gray\"\nreference = \"unknown\"\n{COLUMNS}{NO_TIME}{more}"
     )
 }
 
-/// The pictures of the rows, in order.
+/// Pictures of the rows, in order.
 fn pictures(frames: &str) -> Vec<String> {
     let (_, cells) = imported_from(presses().path(), &map(frames, ""), &["source_frame"]);
     cells.into_iter().flatten().collect()

@@ -1,4 +1,4 @@
-//! Frames without contact named by rows: one of the recording if all rows name the same, else an attribute.
+//! Tests of frames without contact that rows name. If all rows name the same frame, it belongs to the recording; otherwise the names become an attribute.
 
 use std::num::NonZeroUsize;
 
@@ -78,7 +78,7 @@ fn a_reference_that_is_not_there_names_its_row() {
     assert!(problem.contains("labels.jsonl, line 2"), "{problem}");
 }
 
-/// The reference of an import of arrays of three frames each, whose levels are 10, 20 and 30.
+/// Reference of an import of arrays of three frames each, with the levels 10, 20 and 30.
 fn within(arrays: &str, reference: &str) -> Result<u8, String> {
     let folder = lab(&[("labels.csv", "run,k,Fz\n0,0,1\n0,1,2\n1,0,3\n")]);
     for run in ["0.npy", "1.npy"] {

@@ -1,4 +1,4 @@
-//! Compares attributes of files with the map, and numbers of pictures with numbers of rows.
+//! Tests that compare attributes of files with the map, and numbers of pictures with numbers of rows.
 
 use super::arrays::{bytes_of, npy};
 use super::{NO_TIME, imported_from, planned};

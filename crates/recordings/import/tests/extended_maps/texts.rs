@@ -1,4 +1,4 @@
-//! Texts in lists, and ids of several texts: none is truncated, and no two are merged.
+//! Tests of texts in lists, and of ids of several texts. No text may be truncated, and no two ids merged.
 
 use super::arrays::npy;
 use super::{NO_TIME, imported, imported_from, refused};

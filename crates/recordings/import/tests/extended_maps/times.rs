@@ -1,10 +1,10 @@
-//! Times declared in a Parquet file: read in seconds from any unit, and never scaled again by the map.
+//! Tests of times declared in a Parquet file. They are read in seconds from any unit, and the map never scales them.
 
 use std::fs;
 
 use super::{imported_from, lab, planned};
 
-/// A folder with a file written by pyarrow, and `files`.
+/// Folder with a file written by pyarrow, and with `files`.
 fn times(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = lab(files);
     let written = concat!(

@@ -1,4 +1,4 @@
-//! A lab's folder, drawn: a table, a map and frames.
+//! Generated folder of a lab: a table, a map and frames.
 
 use std::fs;
 use std::io::Cursor;
@@ -46,7 +46,7 @@ gel = "unknown"
 opaque = true
 "#;
 
-/// A folder with a good table, map and frames, which a test then damages.
+/// Folder with a valid table, map and frames, which a test then damages.
 pub(crate) struct Lab {
     pub(crate) folder: TempDir,
 }
@@ -95,7 +95,7 @@ impl Lab {
         self.import_to("set", 2)
     }
 
-    /// The message of an import that must fail and leave nothing behind.
+    /// Message of an import that must fail and leave no files.
     #[track_caller]
     pub(crate) fn refusal(&self) -> String {
         let before = names(self.folder.path());
@@ -137,7 +137,7 @@ fn names(folder: &Path) -> Vec<PathBuf> {
     names
 }
 
-/// A gray picture that differs by `seed`.
+/// Gray picture that depends on `seed`.
 pub(crate) fn png(width: u32, height: u32, seed: u32) -> Vec<u8> {
     let image = GrayImage::from_fn(width, height, |x, y| {
         Luma([(x * 31 + y * 17 + seed * 7).to_le_bytes()[0]])
@@ -145,12 +145,12 @@ pub(crate) fn png(width: u32, height: u32, seed: u32) -> Vec<u8> {
     encoded(image.into(), ImageFormat::Png)
 }
 
-/// A coloured picture that differs by `seed`.
+/// Coloured picture that depends on `seed`.
 pub(crate) fn jpeg(width: u32, height: u32, seed: u32) -> Vec<u8> {
     encoded(coloured(width, height, seed), ImageFormat::Jpeg)
 }
 
-/// A coloured picture that differs by `seed`.
+/// Coloured picture that depends on `seed`.
 pub(crate) fn rgb_png(width: u32, height: u32, seed: u32) -> Vec<u8> {
     encoded(coloured(width, height, seed), ImageFormat::Png)
 }

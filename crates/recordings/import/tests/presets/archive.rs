@@ -1,4 +1,4 @@
-//! Recordings in a tar: read like a folder, refused with a message if hostile.
+//! Tests of recordings in a tar archive, which are read like a folder, or rejected with a message if hostile.
 
 use std::fs::File;
 use std::io::Write;
@@ -36,7 +36,7 @@ fn refused(path: &Path) -> String {
     error.to_string()
 }
 
-/// A header with a name that `tar` would not write.
+/// Tar header with a name that `tar` would not write.
 fn header(name: &[u8], size: u64, kind: EntryType) -> Header {
     let mut header = Header::new_ustar();
     let field = &mut header.as_old_mut().name;

@@ -1,4 +1,4 @@
-//! Drafts of tables and arrays of taxels.
+//! Tests of drafts of tables and arrays of taxels.
 
 use taceva_import::{ImportMap, MapDraft};
 

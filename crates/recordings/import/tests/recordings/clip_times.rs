@@ -1,4 +1,4 @@
-//! Clips of a variable rate as tables: frames have the times of the container, not multiples of a period.
+//! Tests of clips of a variable rate as tables. Frames must have the times of the container, not multiples of a period.
 
 use std::num::NonZeroUsize;
 use std::process::Command;

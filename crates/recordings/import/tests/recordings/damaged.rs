@@ -1,5 +1,5 @@
-//! Every file in `tests/recordings`, truncated or with flipped bits: an import succeeds, or is refused and leaves nothing behind. A caught panic
-//! of a third-party decoder counts as a refusal.
+//! Tests of every file in `tests/recordings`, truncated or with flipped bits. An import must succeed, or be rejected and leave no files. A caught panic of a
+//! third-party decoder counts as a rejection.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use super::{copy, folder};
 const CUTS: u64 = 2;
 const FLIPS: u64 = 6;
 
-/// Files below `folder`, without pictures, which have their own tests, and without files of the tests.
+/// Files below `folder`, except pictures, which have separate tests, and files that only the tests read.
 fn files(folder: &Path, found: &mut Vec<PathBuf>) {
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
         let path = entry.path();
@@ -55,7 +55,7 @@ fn damaged(bytes: &[u8], number: u64, numbers: &mut Numbers) -> Vec<u8> {
     damaged
 }
 
-/// Imports the folder and drafts a map for it. Returns true if it is refused.
+/// Imports the folder and drafts a map for it. Returns true if the import is rejected.
 fn is_refused(folder: &Path, map: &ImportMap) -> bool {
     let targets = tempfile::tempdir().expect("a folder");
     let target = targets.path().join("dataset");

@@ -1,4 +1,4 @@
-//! Depth maps of LeRobot: stored in millimetres or refused, never stored as brightness.
+//! Tests of depth maps of LeRobot. They must be stored in millimetres or rejected, but never stored as brightness.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -13,7 +13,7 @@ use super::{copy, ffmpeg, folder, own_map};
 
 const NAME: &str = "lerobot-v3-depth";
 
-/// A copy of the recording whose description is changed.
+/// Copy of the recording with a changed description.
 fn changed(from: &str, to: &str) -> tempfile::TempDir {
     let target = tempfile::tempdir().expect("a folder");
     copy(&folder(NAME), target.path());

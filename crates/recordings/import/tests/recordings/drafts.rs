@@ -1,4 +1,4 @@
-//! Drafts of maps: recordings for which only units, signs and the name of the sensor stay open.
+//! Tests of drafts for recordings in which only units, signs and the name of the sensor may remain as gaps.
 
 use taceva_import::MapDraft;
 use taceva_needs::{Need, skip};
@@ -6,7 +6,7 @@ use taceva_needs::{Need, skip};
 use super::expected::differences;
 use super::{copy, ffmpeg, folder, own_map};
 
-/// The recording without its map and its expected results.
+/// Copy of the recording without its map and its expected results.
 fn bare(name: &str) -> tempfile::TempDir {
     let target = tempfile::tempdir().expect("a folder");
     copy(&folder(name), target.path());
@@ -54,7 +54,7 @@ fn finished_draft(name: &str) -> Result<String, String> {
     Ok(finished)
 }
 
-/// Folders whose drafts leave more open than units and signs.
+/// Folders whose drafts have more gaps than units and signs.
 const MORE_OPEN: [&str; 8] = [
     // The lag between two clocks is not in the files.
     "join-time",
@@ -71,7 +71,7 @@ const MORE_OPEN: [&str; 8] = [
     "taxels-csv",
 ];
 
-/// Clips that only ffmpeg decodes here; the program decodes AV1 in a child process.
+/// Clips that only ffmpeg decodes in these tests. The program `taceva` decodes AV1 in a child process.
 const DECODED_BY_FFMPEG: [&str; 6] = [
     "lerobot-v3-av1",
     "lerobot-v3-depth",
@@ -115,7 +115,7 @@ fn a_draft_needs_nothing_but_units_of_most_recordings() {
     );
 }
 
-/// The draft of a map for a folder with these files.
+/// Draft of a map for a folder with these files.
 fn draft_of(files: &[(&str, Vec<u8>)]) -> String {
     let folder = tempfile::tempdir().expect("a folder");
     for (path, bytes) in files {
@@ -141,7 +141,7 @@ fn a_draft_offers_the_groups_of_a_file_as_contacts_beside_the_column_of_objects(
     );
 }
 
-/// A NumPy file of bytes.
+/// NumPy file of bytes.
 fn npy(shape: &str, data: &[u8]) -> Vec<u8> {
     let header = format!("{{'descr': '|u1', 'fortran_order': False, 'shape': {shape}, }}");
     let length = u16::try_from(header.len()).expect("short");

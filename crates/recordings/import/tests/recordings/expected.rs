@@ -9,7 +9,7 @@ use taceva_dataset::{Dataset, Table};
 
 use super::{folder, import};
 
-/// Labels in `expected.json` that have other names in a dataset, or are read from elsewhere.
+/// Labels in `expected.json` that have other names in a dataset, or are read from another place.
 const ELSEWHERE: [&str; 3] = ["frame", "t_s", "file"];
 /// Recordings whose keys in `expected.json` are rows of the main table.
 const BY_SOURCE_ROW: [&str; 3] = ["join-time", "join-key", "taxels-csv"];
@@ -141,7 +141,7 @@ impl Expected<'_> {
         wrong
     }
 
-    /// Encoded pictures are kept byte for byte.
+    /// Encoded pictures. They must be equal byte for byte.
     fn packets(&self) -> Vec<String> {
         let packets = self.expected["packets_sha256"].as_object();
         let wrong = packets.into_iter().flatten().filter(|(key, digest)| {
@@ -155,7 +155,7 @@ impl Expected<'_> {
             .collect()
     }
 
-    /// Taxel values, to the last of their 32 bits.
+    /// Taxel values. They must be equal in all 32 bits.
     fn signals(&self) -> Vec<String> {
         let mut wrong = Vec::new();
         for (key, numbers) in self.expected["signals"].as_object().into_iter().flatten() {

@@ -1,5 +1,5 @@
-//! Flips single bits in labels, pictures and indices of every form: a flip under a checksum is refused, and nothing vanishes without a message.
-//! `TACEVA_FLIPS=2000 cargo test --workspace --test import recordings::flips -- --nocapture` sets the total number and prints the counts by form.
+//! Tests that flip single bits in labels, pictures and indices of every form. A flip under a checksum must be rejected, and no data may be missing without a
+//! message. `TACEVA_FLIPS=2000 cargo test --workspace --test import recordings::flips -- --nocapture` sets the total number and prints the counts by form.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -13,13 +13,13 @@ use tempfile::TempDir;
 use super::{copy, folder};
 use crate::support::Random;
 
-/// Total number by default.
+/// Default total number of flips.
 const FLIPS: usize = 100;
-/// Bytes at both ends of a file, where headers and indices lie.
+/// Number of bytes at each end of a file that contain headers and indices.
 const ENDS: usize = 512;
-/// Forms whose labels and pictures are fully covered by checksums in the file.
+/// Forms in which checksums in the file cover all labels and pictures.
 const COVERED: [&str; 4] = ["npz-", "mcap-", "bz2.bag", "packed-5.mat"];
-/// Samples of the readers, below `crates/formats`, each with its column of forces. Those without one are recordings of ROS.
+/// Samples of the readers, below `crates/formats`, each with its column of forces. Samples without a column are ROS recordings.
 const SAMPLES: [(&str, Option<&str>); 13] = [
     ("tables/tests/data/bags/bz2.bag", None),
     ("tables/tests/data/bags/lz4.bag", None),
@@ -36,7 +36,7 @@ const SAMPLES: [(&str, Option<&str>); 13] = [
     ("arrays/tests/data/matlab/seven-3.mat", Some("x_f8[0]")),
 ];
 
-/// A copy of a recording, and its map.
+/// Copy of a recording, and its map.
 struct Subject {
     name: String,
     lab: TempDir,
@@ -84,7 +84,7 @@ fn name_of(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// Text of the map of `table`, whose forces are in `column`.
+/// Text of the map of `table`, with forces in `column`.
 fn map_of(table: &str, column: &str) -> String {
     format!(
         "map_version = 2\nsource = \"synthetic\"\ntable = \"{table}\"\n[columns]\nFz = {{ from = \"{column}\", unit = \"N\" }}\n\
@@ -93,18 +93,18 @@ fn map_of(table: &str, column: &str) -> String {
     )
 }
 
-/// Result of an import, as far as a flip may change it.
+/// Result of an import, reduced to what a flip may change.
 #[derive(Clone, Debug, PartialEq)]
 struct Seen {
     digest: Digest,
     rows: usize,
-    /// Number of rows without a picture, or with a uniform one.
+    /// Number of rows without a picture, or with a uniform picture.
     bare: usize,
     /// Summary of the import, with its warnings.
     words: String,
 }
 
-/// Imports the folder; the error is the refusal.
+/// Imports the folder. The error is the rejection.
 fn seen(folder: &Path, map: &ImportMap) -> Result<Seen, ImportError> {
     let targets = tempfile::tempdir().expect("a folder");
     let target = targets.path().join("dataset");
@@ -126,7 +126,7 @@ fn seen(folder: &Path, map: &ImportMap) -> Result<Seen, ImportError> {
     })
 }
 
-/// Files of a recording, without those of the tests.
+/// Files of a recording, except files that only the tests read.
 fn files(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).expect("a folder").flatten() {
@@ -142,7 +142,7 @@ fn files(folder: &Path) -> Vec<PathBuf> {
     found
 }
 
-/// Offset in a file of this length: anywhere, or every other time near one of its ends.
+/// Offset in a file of this length: any offset, or every other time one near an end of the file.
 fn place(random: &mut Random, length: usize, number: usize) -> usize {
     let near = length.min(ENDS);
     match number % 4 {

@@ -1,5 +1,5 @@
-//! Recordings in `tests/recordings`, written by external libraries and imported by their maps: counts, labels, pixels and packets equal those
-//! that the library reads back.
+//! Tests of the recordings in `tests/recordings`, written by external libraries and imported by their maps. Counts, labels, pixels and packets must equal what
+//! the library reads back.
 
 mod clip_times;
 mod damaged;
@@ -35,7 +35,7 @@ fn copy(from: &Path, to: &Path) {
     }
 }
 
-/// The map of the recording.
+/// Map of the recording.
 fn own_map(name: &str) -> String {
     std::fs::read_to_string(folder(name).join("map.toml")).expect("it is there")
 }

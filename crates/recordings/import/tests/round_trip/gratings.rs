@@ -1,4 +1,4 @@
-//! Gratings of an imported table.
+//! Tests of gratings in an imported table.
 
 use std::fs;
 
@@ -7,7 +7,7 @@ use taceva_dataset::Dataset;
 
 use crate::lab::{Lab, MAP};
 
-/// A lab whose presses touch gratings.
+/// Lab in which presses touch gratings.
 fn gratings(kind: &str, spacing: &str) -> Lab {
     let lab = Lab::new();
     let map = MAP.replace(

@@ -1,4 +1,4 @@
-//! Tables and frames of a lab, imported.
+//! Tests of imported tables and frames of a lab.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Imported data reads back unchanged, by each reader and on any number of threads.
+//! Tests that imported data is read back unchanged, by each reader and on any number of threads.
 
 mod gratings;
 mod import;

@@ -1,4 +1,4 @@
-//! Layouts of published recordings need no map.
+//! Tests that layouts of published recordings need no map.
 
 use std::fs;
 

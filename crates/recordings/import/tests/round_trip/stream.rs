@@ -1,4 +1,4 @@
-//! Samples and frames of a dataset, pushed into a sink.
+//! Tests of samples and frames of a dataset that are passed to a sink.
 
 use std::fs;
 

@@ -1,4 +1,4 @@
-//! Angles that wrap around, and rotations with two representations.
+//! Tests of angles that wrap around, and of rotations with two representations.
 
 use std::num::NonZeroUsize;
 
@@ -10,7 +10,7 @@ use super::{FACTS, assert_near, case, imported, lab, map_of, planned};
 
 const CASE: &str = "rotation-vector-sign-flip";
 
-/// The same map with a third angle, declared as a rotation.
+/// Map with a third angle, and with the angles declared as a rotation.
 fn declared(map: &str) -> String {
     let with_rz = map.replace(
         "Ry = {",
@@ -54,7 +54,7 @@ fn a_rotation_vector_of_half_a_turn_that_changes_its_sign_is_refused_or_stays_wh
     }
 }
 
-/// The map of a table `t.csv` with a column of times, joined to `other` by time.
+/// Map of a table `t.csv` with a time column, joined to `other` by time.
 fn joined(other: &str, columns: &str, above: &str) -> String {
     format!(
         "map_version = 2\ntable = \"t.csv\"\n{above}[columns]\n{columns}[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n[[join]]\nname = \"rob\"\n\

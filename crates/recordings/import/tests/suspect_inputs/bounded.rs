@@ -1,4 +1,4 @@
-//! Memory and processor time that hostile inputs take, each in a process of its own: at most 300 MB and 20 s.
+//! Tests of the memory and processor time for hostile inputs, each in a separate process: at most 300 MB and 20 s.
 
 use std::fs;
 use std::num::NonZeroUsize;
@@ -13,13 +13,13 @@ use super::{FACTS, NO_TIME};
 const MOST_BYTES: u64 = 300_000_000;
 const MOST_S: f64 = 20.0;
 
-/// Environment variable with the folder of the input, for the process that is measured.
+/// Environment variable with the folder of the input, for the measured process.
 const FOLDER: &str = "TACEVA_BOUNDED_FOLDER";
-/// This test, which the process that is measured runs alone.
+/// Name of this test, which the measured process runs alone.
 const CHILD: &str =
     "suspect_inputs::bounded::the_input_that_another_test_names_is_imported_and_measured";
 
-/// Files of an input: a folder `lab` or an archive `lab.tar`, and a map if it is imported. Without a map, a draft is made.
+/// Files of an input: a folder `lab` or an archive `lab.tar`, and a map if the input is imported. Without a map, a draft is made.
 struct Input {
     folder: tempfile::TempDir,
 }
@@ -41,7 +41,7 @@ impl Input {
         fs::write(path, bytes).expect("written");
     }
 
-    /// Words of the outcome, after memory and time were within the limits.
+    /// Outcome in words, after a check that memory and time were within the limits.
     #[track_caller]
     fn outcome(&self) -> String {
         let program = std::env::current_exe().expect("this program");
@@ -86,7 +86,7 @@ fn the_input_that_another_test_names_is_imported_and_measured() {
     fs::write(folder.join("taken.txt"), taken).expect("written");
 }
 
-/// Imports the input in `folder`, or drafts its map. Returns what was done, or the error in words.
+/// Imports the input in `folder`, or drafts its map. Returns the action, or the error in words.
 fn taken_in(folder: &Path) -> Result<String, String> {
     let archive = folder.join("lab.tar");
     let unpacked = archive
@@ -109,7 +109,7 @@ fn taken_in(folder: &Path) -> Result<String, String> {
     Ok(format!("{rows} rows imported"))
 }
 
-/// A file of HDF5 of 375 kB: 1,200 frames of 640 by 480 in chunks of all frames.
+/// HDF5 file of 375 kB: 1,200 frames of 640 by 480 in chunks that contain all frames.
 fn planes() -> Vec<u8> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../formats/arrays/tests/data/refused/planes.h5.gz");
@@ -124,7 +124,7 @@ fn place_of(whole: &[u8], part: &[u8]) -> usize {
     places.position(|window| window == part).expect("there")
 }
 
-/// The same file with 200 frames, which are not too many to be unpacked.
+/// The same file with only 200 frames, which may be unpacked.
 fn fewer_planes() -> Vec<u8> {
     const FRAMES: u32 = 200;
     let mut bytes = planes();
@@ -152,7 +152,6 @@ fn fewer_planes() -> Vec<u8> {
     bytes
 }
 
-/// K5.
 #[test]
 fn k5_small_files_of_chunks_of_whole_planes_take_little_memory_and_time() {
     let map = format!(
@@ -171,7 +170,6 @@ fn k5_small_files_of_chunks_of_whole_planes_take_little_memory_and_time() {
     }
 }
 
-/// K9.
 #[test]
 fn k9_an_archive_of_100_000_empty_members_is_refused_with_little_memory_and_time() {
     let input = Input::new();
@@ -190,7 +188,6 @@ fn k9_an_archive_of_100_000_empty_members_is_refused_with_little_memory_and_time
     assert!(said.contains("20000 empty files and folders"), "{said}");
 }
 
-/// K9.
 #[test]
 fn k9_links_to_folders_above_them_take_little_memory_and_time() {
     let input = Input::new();
@@ -213,7 +210,6 @@ fn k9_links_to_folders_above_them_take_little_memory_and_time() {
     assert_eq!(input.outcome(), "2 rows imported");
 }
 
-/// K9.
 #[test]
 fn k9_groups_of_hdf5_that_contain_each_other_take_little_memory_and_time() {
     let cycle = Path::new(env!("CARGO_MANIFEST_DIR"))

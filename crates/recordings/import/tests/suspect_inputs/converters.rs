@@ -1,4 +1,4 @@
-//! Files of unreadable forms: the message names a package and a call that convert them.
+//! Tests of files of unreadable forms. The message must name a package and a call that convert them.
 
 use taceva_import::MapDraft;
 

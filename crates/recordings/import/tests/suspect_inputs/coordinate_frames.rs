@@ -1,4 +1,4 @@
-//! Wrenches and poses whose coordinate frame changes from row to row.
+//! Tests of wrenches and poses whose coordinate frame changes from row to row.
 
 use taceva_import::Preset;
 
@@ -6,7 +6,7 @@ use super::{FACTS, NO_TIME, case, imported, lab, map_of, mean, planned, planned_
 
 const CASE: &str = "wrench-frame-changes";
 
-/// An MCAP recording of one topic of JSON messages, without chunks and without a summary.
+/// MCAP recording of one topic of JSON messages, without chunks and without a summary.
 fn json_recording(topic: &str, messages: &[String]) -> Vec<u8> {
     let text = |text: &str| {
         let mut bytes = u32::try_from(text.len())

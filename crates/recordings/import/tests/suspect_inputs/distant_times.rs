@@ -1,4 +1,4 @@
-//! Joins by time across pauses, with a lag, a unit or an order of stamps that does not fit.
+//! Tests of joins by time across pauses, or with a wrong lag, unit or order of time stamps.
 
 use super::{FACTS, codes, lab, planned, summary};
 
@@ -9,7 +9,7 @@ fn map(more: &str) -> String {
     )
 }
 
-/// A table of times, s, with a force where `forces` says so.
+/// Table of times, s, with a column of forces if `forces` is true.
 fn table(times: &[f64], forces: bool) -> String {
     let rows = times.iter().map(|time| match forces {
         true => format!("{time:.4},{:.4}\n", (3.0 * time).sin()),

@@ -1,9 +1,9 @@
-//! Drafts of folders whose tables are joined.
+//! Tests of drafts of folders whose tables are joined.
 
 use super::drafts::{filled, with_pictures};
 use super::{draft, imported, lab, line};
 
-/// Pictures at 30 Hz beside a table of forces of 10 N a second, with so many rows a second.
+/// Pictures at 30 Hz, beside a table of forces that grow by 10 N per second, with `rate` rows per second.
 fn beside_forces(rate: u32) -> tempfile::TempDir {
     let rows = (0..12).map(|row| format!("{:.6},{row}.png\n", f64::from(row) / 30.0));
     let camera = format!("t,file\n{}", rows.collect::<String>());

@@ -1,15 +1,15 @@
-//! Drafts of folders with columns that look like a channel but are none.
+//! Tests of drafts of folders with columns that look like a channel but are none.
 
 use super::{case, draft, imported, lab, line, planned};
 
-/// Draft of a folder with one table of 40 rows, whose cells a function writes.
+/// Draft of a folder with one table of 40 rows, whose cells `row` writes.
 fn drafted(header: &str, row: impl Fn(usize) -> String) -> String {
     let rows: Vec<String> = (0..40).map(row).collect();
     let folder = lab(&[("labels.csv", &format!("{header}\n{}\n", rows.join("\n")))]);
     draft(folder.path())
 }
 
-/// A number that does not count up with the row.
+/// Number that does not count up with the row.
 fn wave(row: usize) -> f64 {
     ((row * 37 % 40) as f64 * 0.13 - 2.0) * 1.01
 }
@@ -219,7 +219,7 @@ fn a_column_of_repeats_is_drafted_as_an_id_and_refused_as_an_attribute_with_the_
 
 const PICTURE: &[u8] = include_bytes!("../cases/times-as-text/img/00.png");
 
-/// A folder with a table and copies of one picture.
+/// Folder with a table and copies of one picture.
 pub(super) fn with_pictures(files: &[(&str, &str)], pictures: &[&str]) -> tempfile::TempDir {
     let folder = lab(files);
     for path in pictures {

@@ -1,10 +1,10 @@
-//! Damage that a checksum, an index or a size shows is refused, and unwritten data is accepted only by a key of the map.
+//! Tests that damage detected by a checksum, an index or a size is rejected. Unwritten data must be accepted only with a key of the map.
 
 use super::{FACTS, NO_TIME, case, lab, map_of, planned, summary};
 use taceva_core::SilentProgress;
 use taceva_import::UnpackedArchive;
 
-/// A changed copy of a file of `tests/recordings`, in its own folder.
+/// Changed copy of a file of `tests/recordings`, in a separate folder.
 fn recording(name: &str, change: impl FnOnce(&mut Vec<u8>)) -> tempfile::TempDir {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../../tests/recordings")
@@ -78,7 +78,7 @@ fn a_chunk_of_hdf5_whose_key_was_damaged_is_refused() {
     );
 }
 
-/// A stopped logger leaves unwritten chunks.
+/// An interrupted logger leaves unwritten chunks.
 #[test]
 fn chunks_of_hdf5_that_were_never_written_need_fill_in_the_map() {
     let folder = lab(&[]);

@@ -1,4 +1,4 @@
-//! Clocks with a different lag in every run.
+//! Tests of clocks whose lag differs in every run.
 
 use super::{FACTS, assert_near, codes, imported, lab, planned, summary};
 

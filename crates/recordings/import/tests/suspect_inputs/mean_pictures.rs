@@ -1,9 +1,9 @@
-//! Arrays beside pictures that are no samples: a mean background, or the picture without contact.
+//! Tests of arrays beside pictures that are no samples: a mean background, or the picture without contact.
 
 use super::{case, lab};
 use taceva_import::MapDraft;
 
-/// An archive of NumPy with one stored array.
+/// NumPy archive with one stored array.
 fn npz(name: &str, array: &[u8]) -> Vec<u8> {
     let crc = !array.iter().fold(!0_u32, |crc, byte| {
         (0..8).fold(crc ^ u32::from(*byte), |crc, _| {

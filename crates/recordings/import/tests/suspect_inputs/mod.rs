@@ -1,4 +1,4 @@
-//! Folders that could give wrong numbers, or a wrong refusal: each is imported correctly, refused with the remedy, or warned of.
+//! Tests of folders that could give wrong numbers, or a wrong rejection. Each must be imported correctly, rejected with the remedy, or give a warning.
 
 mod angles;
 #[cfg(target_os = "linux")]
@@ -32,19 +32,19 @@ use taceva_import::{ImportMap, ImportPlan, ImportSummary, ImportWarning, MapDraf
 const FACTS: &str = "[sensor]\nmodel = \"drawn gel\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 const NO_TIME: &str = "[time]\nclock = \"unknown\"\n";
 
-/// A drawn folder of `tests/cases`.
+/// Generated folder of `tests/cases`.
 fn case(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("tests/cases")
         .join(name)
 }
 
-/// The map of a drawn folder.
+/// Map of a generated folder.
 fn map_of(name: &str) -> String {
     std::fs::read_to_string(case(name).join("map.toml")).expect("it is there")
 }
 
-/// A folder with files of these paths and texts.
+/// Folder with files of these paths and texts.
 fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for (path, text) in files {
@@ -55,13 +55,13 @@ fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
     folder
 }
 
-/// The plan of an import by a complete map.
+/// Plan of an import by a complete map.
 fn planned(folder: &Path, map: &str) -> Result<ImportPlan, String> {
     let map = ImportMap::parse("map.toml".as_ref(), map).map_err(|error| error.to_string())?;
     ImportPlan::new(folder, &map).map_err(|error| error.to_string())
 }
 
-/// The plan of an import by a map without its first and its last lines.
+/// Plan of an import by a map without its first and its last lines.
 fn planned_with(folder: &Path, map: &str) -> Result<ImportPlan, String> {
     planned(folder, &format!("map_version = 2\n{map}{FACTS}"))
 }

@@ -1,4 +1,4 @@
-//! Grouped digits, decimal commas, columns named twice, and booleans as numbers.
+//! Tests of grouped digits, decimal commas, columns named twice, and booleans as numbers.
 
 use super::{
     NO_TIME, assert_near, case, codes, imported, lab, map_of, mean, planned, planned_with, summary,

@@ -1,9 +1,9 @@
-//! Files of tactile packages with less, or other, content than their names suggest.
+//! Tests of files of tactile packages whose content differs from what their names suggest.
 
 use super::{FACTS, NO_TIME, case, draft, imported, lab, planned};
 use taceva_import::MapDraft;
 
-/// A copy of a data frame that pandas wrote, as `run.h5`.
+/// Copy of a data frame that pandas wrote, as `run.h5`.
 fn data_frame(name: &str) -> tempfile::TempDir {
     let folder = lab(&[]);
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR"))

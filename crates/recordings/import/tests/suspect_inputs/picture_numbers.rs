@@ -1,4 +1,4 @@
-//! Drafts of folders whose pictures are numbered, and of a file in place of its folder.
+//! Tests of drafts of folders whose pictures are numbered, and of a file in place of its folder.
 
 use std::num::NonZeroUsize;
 use std::path::Path;

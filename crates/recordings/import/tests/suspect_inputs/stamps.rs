@@ -1,4 +1,4 @@
-//! Joins by times that several rows share.
+//! Tests of joins by times that several rows share.
 
 use super::{FACTS, codes, lab, summary};
 
@@ -14,7 +14,7 @@ fn warned(rows: u32, [name, text, from, time]: [&str; 4]) -> (Vec<&'static str>,
     (codes(&found), found.to_string())
 }
 
-/// A table of `rows` rows under `header`.
+/// Table of `rows` rows under `header`.
 fn table(header: &str, rows: u32, row: impl Fn(u32) -> String) -> String {
     let rows: String = (0..rows)
         .map(|number| format!("{}\n", row(number)))

@@ -1,4 +1,4 @@
-//! Placeholder codes of taxels.
+//! Tests of placeholder codes of taxels.
 
 use super::{FACTS, case, draft, lab, line, map_of, summary};
 

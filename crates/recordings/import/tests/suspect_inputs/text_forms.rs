@@ -1,4 +1,4 @@
-//! Lines before the header and below it that are no rows.
+//! Tests of lines before and below the header that are no rows.
 
 use super::{FACTS, assert_near, case, draft, imported, lab, mean, planned};
 

@@ -1,4 +1,4 @@
-//! Times as text.
+//! Tests of times written as text.
 
 use super::{FACTS, case, codes, draft, imported, lab, map_of, planned, summary};
 

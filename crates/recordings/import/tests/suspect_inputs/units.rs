@@ -1,4 +1,4 @@
-//! Units in names, compared with the map for every named column.
+//! Tests of units in names, compared with the map for every named column.
 
 use super::{
     FACTS, NO_TIME, assert_near, case, imported, lab, map_of, mean, planned, planned_with,

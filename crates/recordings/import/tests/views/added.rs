@@ -1,4 +1,4 @@
-//! Rows that are added to a recording with several pictures a row, and recordings that are read as one.
+//! Tests of rows that are added to a recording with several pictures per row, and of recordings that are read as one.
 
 use std::num::NonZeroUsize;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Folders with pictures side by side in one row are drafted as views, others as before.
+//! Tests that folders with several pictures in one row are drafted with views, and other folders without views.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Every form of an export holds the pictures of every view, and its map restores them.
+//! Tests that every form of an export contains the pictures of every view, and that its map restores them.
 
 use std::num::NonZeroUsize;
 
@@ -153,7 +153,7 @@ fn two_cameras_of_lerobot_without_sides_are_drafted_as_views_and_one_is_imported
     assert_eq!(picture.bytes(), seen(&dataset, second, 4));
 }
 
-/// Units and colours that a draft leaves open.
+/// Fills in the units and colours that a draft does not state.
 fn with_units(draft: &str) -> String {
     let draft = draft.replace("\nunit = \"?\"", "\nunit = \"s\"");
     let draft = draft.replace("unit = \"?\"", "unit = \"N\"");

@@ -1,4 +1,4 @@
-//! Rows with several pictures: fingers of a gripper, eyes of a sensor.
+//! Tests of rows with several pictures: fingers of a gripper, eyes of a sensor.
 
 mod added;
 mod drafts;
@@ -18,10 +18,10 @@ use crate::lab::{png, rgb_png};
 
 pub(super) const ROWS: u32 = 6;
 
-/// Facts of the sensor.
+/// Map sections of time and sensor.
 pub(super) const FACTS: &str = "[time]\nclock = \"unknown\"\n[sensor]\nmodel = \"gripper\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 
-/// The map of two columns of pictures.
+/// Map of two columns of pictures.
 pub(super) const TWO: &str = "map_version = 2\ntable = \"labels.csv\"\n\
     [[frame]]\nname = \"left\"\ncolumn = \"left_path\"\nchannel_order = \"gray\"\nreference = \"left/rest.png\"\n\
     [[frame]]\nname = \"right\"\ncolumn = \"right_path\"\nchannel_order = \"gray\"\nreference = \"unknown\"\n\
@@ -31,14 +31,14 @@ pub(super) fn two() -> String {
     format!("{TWO}{FACTS}")
 }
 
-/// A folder of two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right, all different.
+/// Folder of two fingers: gray pictures of 48 × 36 on the left and of 60 × 36 on the right, all different.
 pub(super) fn gripper() -> TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     fill(folder.path(), 0, ROWS);
     folder
 }
 
-/// Writes rows `first` to `first + rows`.
+/// Writes `rows` rows, beginning with row `first`.
 pub(super) fn fill(folder: &Path, first: u32, rows: u32) {
     let mut table = "left_path,right_path,Fz_N,note\n".to_owned();
     for side in ["left", "right"] {
@@ -76,7 +76,7 @@ pub(super) fn import(folder: &Path, map: &str, target: &Path) -> Result<Dataset,
     Ok(Dataset::open(target)?)
 }
 
-/// Reason why an import is refused.
+/// Reason why an import is rejected.
 #[track_caller]
 pub(super) fn refusal(folder: &Path, map: &str) -> String {
     let target = tempfile::tempdir().expect("a folder");
@@ -86,19 +86,19 @@ pub(super) fn refusal(folder: &Path, map: &str) -> String {
     }
 }
 
-/// Draft of a folder with its open places filled in.
+/// Draft of a folder with its gaps filled in.
 pub(super) fn drafted(folder: &Path) -> String {
     let draft = MapDraft::of(folder).expect("a draft");
     draft.text().replace("model = \"?\"", "model = \"gripper\"")
 }
 
-/// The pixels of an encoded picture.
+/// Pixels of an encoded picture.
 pub(super) fn pixels(bytes: &[u8]) -> Vec<u8> {
     let picture = image::load_from_memory(bytes).expect("a picture");
     picture.into_luma8().into_raw()
 }
 
-/// The pixels of a row in a view.
+/// Pixels of a row in a view.
 pub(super) fn seen(dataset: &Dataset, view: &str, row: usize) -> Vec<u8> {
     let frame = dataset.seen(view).expect("a view").frame(row);
     frame.expect("read").expect("a frame").bytes().to_vec()

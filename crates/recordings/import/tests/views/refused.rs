@@ -1,4 +1,4 @@
-//! Invalid maps and requests of several pictures.
+//! Tests of invalid maps, and of invalid requests for several pictures.
 
 use super::{ROWS, gripper, import, planned, refusal, two, write};
 use taceva_dataset::DatasetError;
@@ -92,7 +92,7 @@ fn a_view_that_is_not_there_or_named_twice_or_not_named_lists_those_that_are() {
     );
 }
 
-/// A table in which one row has no picture of the right finger.
+/// Writes a table in which one row has no picture of the right finger.
 fn with_a_gap(lab: &tempfile::TempDir) {
     let mut table = "left_path,right_path,Fz_N\n".to_owned();
     for row in 0..ROWS {

@@ -22,8 +22,7 @@ pub(super) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = 
         .map(|((key, own), (_, other))| Difference { key, own, other })
 }
 
-/// Further differences that prevent adding rows to a recording: serial number, gel, clock, text columns and the order of colours must
-/// agree, too.
+/// Further differences that prevent adding rows to a recording. Serial number, gel, clock, text columns and the order of colours must also agree.
 pub fn differences_of_added(one: &Header, added: &Header) -> impl Iterator<Item = Difference> {
     let more = more(one).into_iter().zip(more(added));
     let more = more.filter(|((_, own), (_, other))| own != other);
@@ -52,7 +51,7 @@ fn more(header: &Header) -> [(&'static str, String); 5] {
     ]
 }
 
-/// Facts that must be equal, as text.
+/// Header keys that must be equal, with their values as text.
 fn facts(header: &Header) -> [(&'static str, String); 7] {
     let absent = || "absent".to_owned();
     let mut channels: Vec<String> = header
@@ -96,7 +95,7 @@ fn facts(header: &Header) -> [(&'static str, String); 7] {
     ]
 }
 
-/// Views of each sample, if there are several and none is selected.
+/// Names of the views as text, if samples have several views and none is selected.
 fn views(header: &Header) -> String {
     let views = header.views.iter();
     let views = views.map(|view| format!("{} {}", view.name, view.frames.info));

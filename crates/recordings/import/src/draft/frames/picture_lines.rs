@@ -37,7 +37,7 @@ pub(super) fn in_table(main: &SeenTable<'_>) -> Vec<FrameLines> {
     }
 }
 
-/// Frame lines of `picture`, with a comment on the `others` in the same table.
+/// Frame lines of `picture`, with a comment on `others`, further picture arrays of the same table.
 pub(super) fn in_array(
     picture: &PictureColumn,
     beside: Option<Beside>,
@@ -96,7 +96,7 @@ pub(super) fn in_array(
     }
 }
 
-/// Usual range of pictures with such numbers: 0 to 1, −1 to 1 or 0 to 255.
+/// Usual range of pictures with values between `least` and `greatest`: 0 to 1, −1 to 1 or 0 to 255.
 fn guessed_range(least: f64, greatest: f64) -> (f64, f64) {
     match (least, greatest) {
         (least, greatest) if least >= 0.0 && greatest <= 1.0 => (0.0, 1.0),

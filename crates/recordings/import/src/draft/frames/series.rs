@@ -1,4 +1,4 @@
-//! Pictures whose names differ in a number that a column holds or that counts the rows: `cam/gel_00001.png`.
+//! Series of pictures whose names differ in a number. The number is in a column or counts the rows: `cam/gel_00001.png`.
 
 use std::collections::{BTreeMap, BTreeSet, HashSet};
 
@@ -11,20 +11,20 @@ use crate::import::{DIGITS_MAX, whole_number};
 use crate::source_folder::SourceFolder;
 use taceva_core::counted;
 
-/// Picture with the digits of the last number in its name.
+/// Picture, with the digits of the last number in its name.
 struct Numbered<'g> {
     digits: &'g str,
     path: &'g str,
 }
 
-/// Pictures of a folder whose names differ in their last number.
+/// Pictures of a folder whose names differ only in the last number.
 struct Series<'g> {
     /// Folder, relative to the source folder.
     base: &'g str,
-    /// Names before and behind the number.
+    /// Parts of the names before and after the number.
     around: [&'g str; 2],
     numbers: BTreeSet<u64>,
-    /// Least number of digits; 0 for numbers without leading zeros.
+    /// Minimum number of digits; 0 for numbers without leading zeros.
     digits: usize,
     first: &'g str,
 }
@@ -47,7 +47,7 @@ impl<'g> Series<'g> {
             .collect()
     }
 
-    /// Series of `files`; `None` for a single file and for numbers that no pattern writes.
+    /// Series of `files`; `None` for a single file and for numbers that no pattern can write.
     fn of(base: &'g str, around: [&'g str; 2], files: &[Numbered<'g>]) -> Option<Series<'g>> {
         let written = || files.iter().map(|file| file.digits);
         let is_padded = written().any(|digits| digits.len() > 1 && digits.starts_with('0'));
@@ -83,7 +83,7 @@ impl<'g> Series<'g> {
         }
     }
 
-    /// Words for the pictures and their numbers.
+    /// Describes the pictures and their numbers in words.
     fn words(&self) -> String {
         let (first, last) = self.ends();
         format!(
@@ -93,7 +93,7 @@ impl<'g> Series<'g> {
         )
     }
 
-    /// Line of the pattern, in which `column` has the number.
+    /// Pattern line in which `column` contains the number.
     fn lines(&self, main: &SeenTable<'_>, column: &str, reason: &str) -> Vec<String> {
         let own = main.group.first();
         let own = own.rsplit_once('/').map_or("", |(own, _)| own);
@@ -111,7 +111,7 @@ impl<'g> Series<'g> {
         lines
     }
 
-    /// Lines of the pictures that `column` numbers.
+    /// Frame lines for pictures whose numbers are in `column`.
     fn of_column(&self, main: &SeenTable<'_>, column: &SeenColumn) -> Vec<String> {
         let are_plain = filled(column)
             .all(|cell| whole_number(cell).is_some_and(|number| number.to_string() == cell));
@@ -127,7 +127,7 @@ impl<'g> Series<'g> {
         self.lines(main, &name, &reason)
     }
 
-    /// Lines of the pictures in the order of the rows.
+    /// Frame lines for pictures in the order of the rows.
     fn of_rows(&self, main: &SeenTable<'_>) -> Vec<String> {
         let name = match (self.ends().0, self.digits) {
             (0, 0) => "row".to_owned(),
@@ -143,8 +143,8 @@ impl<'g> Series<'g> {
         self.lines(main, &name, &reason)
     }
 
-    /// True if `column` holds the number of another picture in each row, and no picture is left over. A column that counts the rows of
-    /// another number of pictures proves nothing.
+    /// True if `column` contains a different picture number in each row, and every picture belongs to a row. A column that counts the rows is no evidence if
+    /// the number of pictures differs.
     fn is_numbered_by(&self, column: &SeenColumn, rows: usize) -> bool {
         let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
         let numbers = numbers.unwrap_or_default();
@@ -159,7 +159,7 @@ impl<'g> Series<'g> {
             && self.numbers.len() == rows.saturating_sub(column.empty)
     }
 
-    /// True if the pictures are as many as `rows` and their numbers have no gap.
+    /// True if there are `rows` pictures, numbered without a gap.
     fn counts(&self, rows: usize) -> bool {
         let (first, last) = self.ends();
         self.numbers.len() == rows
@@ -174,7 +174,7 @@ fn filled(column: &SeenColumn) -> impl Iterator<Item = &str> {
     cells.filter(|cell| !cell.is_empty())
 }
 
-/// Folder of a path, the name before and behind its last number, and the digits of that number.
+/// Splits a path into its folder, the parts of the name before and after the last number, and the digits of that number.
 fn parts(path: &str) -> Option<(&str, [&str; 2], &str)> {
     let (base, name) = path.rsplit_once('/').unwrap_or(("", path));
     let (stem, _) = name.rsplit_once('.')?;
@@ -189,7 +189,7 @@ fn parts(path: &str) -> Option<(&str, [&str; 2], &str)> {
     })
 }
 
-/// Column of `main` that numbers the pictures of `series`, preferring one that counts the rows.
+/// Column of `main` that contains the picture numbers of `series`. Prefers a column that counts the rows.
 fn column_of<'t>(series: &Series<'_>, main: &'t SeenTable<'_>) -> Option<&'t SeenColumn> {
     let columns = main.columns.iter();
     let columns = columns.filter(|column| series.is_numbered_by(column, main.rows));
@@ -204,8 +204,8 @@ fn is_counting(column: &SeenColumn) -> bool {
     pairs.all(|pair| pair[1].checked_sub(pair[0]) == Some(1))
 }
 
-/// True if `column` has other whole numbers in each of `rows` rows, without a gap and in another order. Pictures may follow these numbers, though
-/// from another first one.
+/// True if the cells of `column` are different whole numbers below a span of `rows`, in an unsorted order. The picture numbers may follow these numbers with
+/// another offset.
 fn is_shuffled(column: &SeenColumn, rows: usize) -> bool {
     let numbers: Option<Vec<u64>> = filled(column).map(whole_number).collect();
     let numbers = numbers.filter(|numbers| may_name(column) && !numbers.is_sorted());
@@ -234,7 +234,7 @@ fn are_times_in_order(main: &SeenTable<'_>) -> bool {
     })
 }
 
-/// True if a column of `main` numbers pictures.
+/// True if a column of `main` contains the numbers of pictures.
 pub(super) fn has_column(groups: &[FileGroup], main: &SeenTable<'_>) -> bool {
     main.group.paths.len() == 1
         && Series::all(groups)
@@ -242,7 +242,7 @@ pub(super) fn has_column(groups: &[FileGroup], main: &SeenTable<'_>) -> bool {
             .any(|series| column_of(series, main).is_some())
 }
 
-/// Frame lines for pictures that a column of `main` numbers, or else for as many pictures as rows; one entry for each view.
+/// Frame lines for pictures whose numbers are in a column of `main`, or else for as many pictures as rows. Returns one entry for each view.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -306,10 +306,10 @@ pub(super) fn of(
     vec![first]
 }
 
-/// Open line for several series that are no views, such as colour and depth.
+/// Line with a gap, for several series that are not views of one sample, such as colour and depth.
 const SEVERAL: &str = "pattern = \"?\"   # several series fit the rows: name that of the sensor";
 
-/// Comment for a table without pictures, with the pictures of the folder that no line joins.
+/// Comment for a table without pictures, on the pictures of the folder that belong to no row.
 pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {
     let pictures = groups.iter().filter(|group| is_picture(&group.ending));
     let files: Vec<String> = pictures

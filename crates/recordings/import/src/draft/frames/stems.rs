@@ -1,4 +1,4 @@
-//! Columns whose cells are the names of pictures without their ending: `000012` for `000012.png`.
+//! Columns whose cells are picture names without the ending: `000012` for `000012.png`.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -11,9 +11,9 @@ use crate::source_folder::SourceFolder;
 
 /// Column that names pictures of a folder.
 struct Match<'t> {
-    /// Folder of the pictures, relative to that of the table; `None` outside of it.
+    /// Folder of the pictures relative to the folder of the table; `None` if it is outside that folder.
     within: Option<&'t str>,
-    /// The same, relative to the source folder.
+    /// Folder of the pictures relative to the source folder.
     base: &'t str,
     ending: &'t str,
     column: &'t SeenColumn,
@@ -29,7 +29,7 @@ impl Match<'_> {
     }
 }
 
-/// Frame lines for pictures whose names without their ending are the cells of a column. Pictures below the folder of the table go first.
+/// Frame lines for pictures whose names without the ending are the cells of a column. Prefers pictures below the folder of the table.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -84,7 +84,7 @@ pub(super) fn of(
     })
 }
 
-/// The folder `base` relative to the folder `own`; `None` outside of it.
+/// Folder `base` relative to the folder `own`; `None` if `base` is outside `own`.
 pub(super) fn within<'b>(own: &str, base: &'b str) -> Option<&'b str> {
     match own {
         "" => Some(base),
@@ -117,8 +117,8 @@ fn stems(groups: &[FileGroup]) -> BTreeMap<(&str, &str), HashSet<&str>> {
     found
 }
 
-/// True if each cell of `column` is another one of `stems`. Plain numbers also count the rows of a log: they name pictures only if there are
-/// as many numbered ones as `rows`.
+/// True if each cell of `column` is a different element of `stems`. Plain numbers may only count the rows of a log. They count as names only if `rows` pictures
+/// have plain numbers as names.
 fn names(column: &SeenColumn, stems: &HashSet<&str>, rows: usize) -> bool {
     let cells = column.cells.iter().filter(|cell| !cell.is_empty());
     let cells: Vec<&str> = cells.map(String::as_str).collect();

@@ -6,8 +6,8 @@ use super::{NAMED, NamedColumn};
 use crate::draft::roles::{Role, is_logged};
 use taceva_dataset::internal::first_names;
 
-/// Comments on the `columns` that no line of `map` names, and on those excluded from all channels. `keys` are lines of joins, which name
-/// columns of a joined table without its name.
+/// Comments on the `columns` that no line of `map` names, and on columns excluded from all channels. `keys` are lines of joins, which name columns of a joined
+/// table without its name.
 pub(super) fn lists(columns: &[&NamedColumn<'_>], map: &str, keys: &str) -> String {
     let (mut numbers, mut excluded, mut unused) = (Vec::new(), Vec::new(), Vec::new());
     for column in columns {

@@ -1,4 +1,4 @@
-//! Ids and attributes of samples, from columns and parts of paths.
+//! Ids and attributes of samples, guessed from columns and parts of paths.
 
 use super::sections::Lines;
 use crate::draft::path_parts::PathParts;
@@ -8,13 +8,13 @@ use crate::draft::tables::{SeenColumn, SeenTable};
 use crate::import::whole_number;
 use taceva_dataset::internal::is_attribute_name;
 
-/// Words of columns whose equal values mark rows that belong together.
+/// Words in names of columns in which equal values mark rows that belong together.
 const SHARED: [&str; 12] = [
     "episode", "session", "trial", "object", "video", "clip", "take", "press", "run", "repeat",
     "grasp", "sequence",
 ];
 
-/// Line for the groups of a file, which may be contacts.
+/// Line for the groups of a file, each of which may be a contact.
 pub(super) fn group_points(main: &SeenTable<'_>) -> &'static str {
     match main.has_groups() {
         true => {
@@ -24,7 +24,7 @@ pub(super) fn group_points(main: &SeenTable<'_>) -> &'static str {
     }
 }
 
-/// Column with the number of the repeat, if its name says so.
+/// Column with the number of the repeat, recognised by its name.
 pub(super) fn repeat_column<'t>(main: &'t SeenTable<'_>) -> Option<&'t str> {
     let is_repeat = |column: &&SeenColumn| {
         let mut filled = column.cells.iter().filter(|cell| !cell.is_empty());
@@ -35,7 +35,7 @@ pub(super) fn repeat_column<'t>(main: &'t SeenTable<'_>) -> Option<&'t str> {
     Some(column.name.as_str())
 }
 
-/// Line of the shared point of repeats: active for episodes, commented out for others.
+/// Line for the contact point that repeats share: active for episodes, otherwise commented out.
 pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
     let is_shared = |name: &str| {
         let words = words(name);

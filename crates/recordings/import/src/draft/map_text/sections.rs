@@ -12,7 +12,7 @@ pub(super) const HEAD: &str = "\
 map_version = 2
 ";
 
-/// Lines of a section, each key once.
+/// Lines of a section. Each key occurs once.
 #[derive(Default)]
 pub(super) struct Lines(pub(super) String);
 

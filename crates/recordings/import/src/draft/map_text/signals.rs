@@ -1,4 +1,4 @@
-//! Section of signals: taxels of each sample as a grid.
+//! Section `[signals]` of a map: taxels of each sample as a grid.
 
 use std::fmt::Write;
 
@@ -6,7 +6,7 @@ use super::NAMED;
 use crate::draft::tables::Taxels;
 use taceva_dataset::internal::first_names;
 
-/// Lines of taxels. `others` are alternative columns.
+/// Lines for `taxels`. `others` are alternative columns.
 pub(super) fn signals(taxels: &Taxels, others: &[String]) -> String {
     let names = |count: usize| match count {
         1 => "[\"value\"]".to_owned(),

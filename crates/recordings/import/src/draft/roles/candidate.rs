@@ -8,23 +8,23 @@ use super::exclusion::{Exclusion, of_words};
 use super::words::words;
 use crate::unit_suffix::UnitSuffix;
 
-/// Column, or number in its cells, that may be a channel.
+/// Column, or element of the lists in its cells, that may be a channel.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Candidate {
     pub(crate) channel: &'static str,
-    /// Position in the cell: empty, or such as `[2]`.
+    /// Index of the element in the cell, such as `[2]`; empty for the whole cell.
     pub(crate) index: String,
     pub(crate) reason: Reason,
-    /// Unit stated by its name or its file.
+    /// Unit stated by the name or by the file, with its source.
     pub(crate) unit: Option<(&'static str, UnitSource)>,
-    /// True for counts and volts, which need a scale before they are the channel.
+    /// True for counts and volts, which need a scale factor to become the channel.
     pub(crate) is_unscaled: bool,
-    /// Reason to leave the line open: only the lab knows whether it was measured.
+    /// Reason to leave a gap in the line: only the lab knows if the channel was measured.
     pub(crate) open: Option<String>,
 }
 
 impl Candidate {
-    /// Takes the unit that the file states.
+    /// Sets the unit that the file states.
     pub(crate) fn take_unit(&mut self, unit: SourceUnit) {
         if kept_unit(self.channel) == Some(unit.unit()) {
             self.unit = Some((unit.symbol(), UnitSource::File));
@@ -33,31 +33,31 @@ impl Candidate {
     }
 }
 
-/// Words for numbers without a scale.
+/// Words that mark numbers without a physical scale.
 const UNSCALED: [&str; 5] = ["adc", "count", "counts", "lsb", "raw"];
 
-/// Reason to take a column for a channel, the most certain first.
+/// Reason to take a column for a channel; the most certain reason first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Reason {
     /// The name of the channel itself.
     Name,
     /// The name of the channel with a unit.
     NameWithUnit,
-    /// The words of its own name give quantity and axis.
+    /// Quantity and axis, given by the words of its own name.
     Words,
-    /// Quantity and axis among other words: `left_force_z`.
+    /// Quantity and axis, given together with other words: `left_force_z`.
     MoreWords,
-    /// The parent's name gives the quantity.
+    /// Quantity given by the name of the parent.
     Parent,
     /// Force without an axis, usually the normal force.
     NoAxis,
     /// Position among the numbers of a wrench or a pose.
     Position,
-    /// Axis alone, or a guess from the number of columns.
+    /// Axis without a quantity, or a guess from the number of columns.
     Guess,
 }
 
-/// Place that states a unit.
+/// Source of a stated unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum UnitSource {
     Name,
@@ -88,7 +88,7 @@ impl fmt::Display for UnitSource {
     }
 }
 
-/// Unit in which a channel is stored.
+/// Unit in which the dataset stores a channel.
 pub(crate) fn kept_unit(channel: &str) -> Option<Unit> {
     match channel.as_bytes().first()? {
         b'F' => Some(Unit::Newton),
@@ -98,7 +98,7 @@ pub(crate) fn kept_unit(channel: &str) -> Option<Unit> {
     }
 }
 
-/// Quantity along an axis.
+/// Quantity with components along the axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Quantity {
     Force,
@@ -161,7 +161,7 @@ impl Quantity {
     }
 }
 
-/// Words that do not describe a quantity.
+/// Words that do not indicate a quantity.
 const NEUTRAL: [&str; 22] = [
     "sensor",
     "meas",
@@ -198,7 +198,7 @@ pub(crate) struct Named {
     suffix: Option<UnitSuffix>,
 }
 
-/// Axis, with the quantity that is written with it: `fz`, `posx`.
+/// Axis in a word, with the quantity that is written together with it: `fz`, `posx`.
 fn axis_of(word: &str) -> Option<(Option<Quantity>, usize)> {
     let (before, axis) = word.split_at_checked(word.len().checked_sub(1)?)?;
     let axis = ["x", "y", "z"].iter().position(|known| *known == axis)?;
@@ -249,7 +249,7 @@ impl Named {
         self.own.iter().find_map(|word| axis_of(word))
     }
 
-    /// Reason to exclude the name from every channel.
+    /// Reason to exclude the column from every channel, given by its name.
     pub(super) fn exclusion(&self) -> Option<Exclusion> {
         let has_axis = self.axis().is_some();
         // A single letter may be the name of a sensor.
@@ -258,13 +258,13 @@ impl Named {
         of_words(&self.own, has_axis).or_else(|| of_words(&parents, true))
     }
 
-    /// Words of a column of several numbers: its own and those of its parents.
+    /// Words that describe a column of several numbers: its own words and the words of its parents.
     pub(super) fn quantity_of_several(&self) -> Vec<&str> {
         let own = self.own.iter().chain(&self.parents);
         own.map(String::as_str).collect()
     }
 
-    /// Channel that the name gives, ignoring exclusions.
+    /// Channel indicated by the name, ignoring exclusions.
     pub(super) fn channel(&self) -> Option<(&'static str, Reason)> {
         let own = Quantity::of(&self.own);
         let parent = || {
@@ -305,7 +305,7 @@ impl Named {
         Some((quantity.channels()[axis], reason))
     }
 
-    /// Channel of a name without an axis: the normal force or the indentation.
+    /// Channel indicated by a name without an axis: the normal force or the indentation.
     fn without_axis(&self, own: Option<Quantity>) -> Option<(&'static str, Reason)> {
         let is_letter = |word: &&String| word.len() == 1;
         let is_whole = self.own.len() == 1 && !self.has_digits && self.parents.is_empty();
@@ -339,7 +339,7 @@ impl Named {
         suffix.is_some_and(|suffix| suffix.of_quantity(quantity).is_some())
     }
 
-    /// Candidate for the number at `index` of its cell; `Err` with the reason if an exclusion applies.
+    /// Candidate for the number at `index` of the cell; `Err` with the reason if the name excludes the column.
     pub(crate) fn candidate(&self, index: String) -> Option<Result<Candidate, Exclusion>> {
         let (channel, reason) = self.channel()?;
         if let Some(exclusion) = self.exclusion() {
@@ -348,7 +348,7 @@ impl Named {
         Some(self.as_channel(channel, index, reason))
     }
 
-    /// Candidate for `channel`, in the unit that the name gives.
+    /// Candidate for `channel`, with the unit in the name.
     pub(super) fn as_channel(
         &self,
         channel: &'static str,

@@ -7,9 +7,9 @@ use std::fmt;
 pub(crate) enum Exclusion {
     /// Whole numbers that count up by one.
     Counting,
-    /// The name has a word for another quantity.
+    /// Name with a word for another quantity.
     Word { word: String, said: &'static str },
-    /// The name has a unit of another quantity.
+    /// Name with a unit of another quantity.
     Unit(String),
 }
 
@@ -23,7 +23,7 @@ impl fmt::Display for Exclusion {
     }
 }
 
-/// Words for quantities that are no label, anywhere in a name.
+/// Words for quantities that are no channel, anywhere in a name.
 const QUANTITIES: &[(&[&str], &str)] = &[
     (
         &[
@@ -164,7 +164,7 @@ const QUANTITIES: &[(&[&str], &str)] = &[
     (&["temp", "temperature", "voltage"], "another quantity"),
 ];
 
-/// Words for numbers without an axis.
+/// Words that exclude numbers whose name has no axis.
 const WITHOUT_AXIS: &[(&[&str], &str)] = &[
     (
         &["total", "resultant", "sum", "rms"],
@@ -213,7 +213,7 @@ pub(super) fn of_words(words: &[String], has_axis: bool) -> Option<Exclusion> {
     })
 }
 
-/// True for at least `least` whole numbers, each one above the previous.
+/// True for at least `least` whole numbers, each larger than the previous by one.
 pub(super) fn is_counting(numbers: &[f64], least: usize) -> bool {
     numbers.len() >= least
         && numbers[0].fract() == 0.0

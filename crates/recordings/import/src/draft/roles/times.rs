@@ -6,13 +6,13 @@ use super::{Role, are_counts};
 const UNIX_S: f64 = 1e9;
 /// Upper limit of present times since 1970, s; a day in 2039.
 const UNIX_END_S: f64 = 2.2e9;
-/// Limit of the step between rows with times since 1970, s.
+/// Maximum step between rows with times since 1970, s.
 const UNIX_STEP_S: f64 = 3_600.0;
 
 /// Units of times, with the number of each in a second.
 const UNITS: [(&str, f64); 4] = [("ns", 1e9), ("us", 1e6), ("ms", 1e3), ("s", 1.0)];
 
-/// Role of a time column. The unit comes from the last word of its name, from its size if it is a recent date, or from its step.
+/// Role of a time column. The unit follows from the last word of the name, from the size of recent dates, or from the step between rows.
 pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
     let greatest = numbers.iter().copied().fold(0.0_f64, f64::max);
     let named = match words.last().map(String::as_str) {
@@ -35,7 +35,7 @@ pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
     }
 }
 
-/// Guessed unit for unlabelled times, with the reason that it may be another.
+/// Guessed unit for times without a stated unit, with the reason why the unit may be different.
 fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'static str>) {
     let step = median_step(numbers);
     let of_now = UNITS.iter().find(|(_, second)| {
@@ -63,7 +63,7 @@ fn guessed_unit(numbers: &[f64], greatest: f64) -> (&'static str, Option<&'stati
     }
 }
 
-/// True for the time at which a recorder wrote a message, which is not that of the measurement.
+/// True for the time at which a recorder wrote a message, in contrast to the time of the measurement.
 pub(crate) fn is_logged(name: &str) -> bool {
     name.starts_with("log_time") || name.starts_with("publish_time")
 }

@@ -1,6 +1,6 @@
-//! Words of the names of columns.
+//! Splits names of columns into words.
 
-/// The words of a name, in lower case: `wrench.force.x`, `Fx_mN`, `ForceX`.
+/// Words of a name, in lower case. Splits `wrench.force.x`, `Fx_mN` and `ForceX`.
 pub(crate) fn words(name: &str) -> Vec<String> {
     let mut words: Vec<String> = vec![String::new()];
     let mut before = ' ';

@@ -11,10 +11,10 @@ use crate::csv_table::text_form::TextForm;
 use crate::draft::survey::FileGroup;
 use crate::foreign::{BeforeCut, ForeignTable, TableForm, cell_list};
 
-/// Key in a map for a table whose header is numbers.
+/// Map key for a table whose header consists of numbers.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
 
-/// Map key for a cut recording, left open, with a comment.
+/// Map key with a gap and a comment, for a truncated recording.
 pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
     let BeforeCut { messages, end } = before;
     let comment = format!(
@@ -95,10 +95,10 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
     }
 }
 
-/// Number of lines of a text that must be numbers for a table.
+/// Number of lines of a text that must consist of numbers to be taken for a table.
 const LINES: usize = 20;
 
-/// True if each cell in the first lines of a text is a number: a table without a header, and no prose.
+/// True if each cell in the first lines of a text is a number. The text is then a table without a header, and no prose.
 fn is_numeric(path: &Path) -> bool {
     let Some(text) = beginning(path) else {
         return false;
@@ -114,7 +114,7 @@ fn is_numeric(path: &Path) -> bool {
     lines.len() > 1 && lines.iter().all(are_numbers)
 }
 
-/// Leading bytes of a text table from which its form is guessed.
+/// Size of the beginning of a text table from which its form is guessed, bytes.
 const BEGINNING: u64 = 1 << 16;
 
 /// First lines of a text table.
@@ -132,14 +132,14 @@ fn beginning(path: &Path) -> Option<String> {
     Some(text[..end].to_owned())
 }
 
-/// True if most column names are numbers: the file has no header.
+/// True if most column names are numbers. The file then has no header.
 fn is_of_numbers(names: &[String]) -> bool {
     let is_number =
         |name: &&String| number::number(cell_list::plain(name)).is_ok_and(|found| found.is_some());
     names.iter().filter(is_number).count() * 2 > names.len()
 }
 
-/// True if the names are column positions, as pandas writes an array without names. The pandas index before them has no name.
+/// True if the names are column positions, as pandas writes an array without names. The index column of pandas before them has no name.
 fn is_numbered(names: &[String]) -> bool {
     let names = match names {
         [index, rest @ ..] if index.is_empty() => rest,

@@ -5,24 +5,24 @@ use crate::csv_table::number;
 use crate::draft::roles::{Role, words};
 use crate::unit_suffix::UnitSuffix;
 
-/// Least and most numbers of a row that are taken for taxels.
+/// Minimum number of values per row that are taken for taxels.
 const LEAST: usize = 8;
 const MOST: usize = 4_096;
-/// Least number of numbered columns that are taken for taxels.
+/// Minimum number of numbered columns that are taken for taxels.
 const LEAST_RUN: usize = 8;
 
-/// Taxels as a map writes them.
+/// Taxels with the values of their keys in a map.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Taxels {
     /// Value of `from`, as TOML.
     pub(crate) from: String,
-    /// Shape of the lists in a cell, or number of columns.
+    /// Shape of the lists in a cell, or the number of columns.
     pub(crate) shape: Vec<usize>,
     /// Unit stated by the name.
     pub(crate) unit: Option<&'static str>,
-    /// Numbers that probably mean "nothing measured", each with the reason.
+    /// Numbers that probably mean "not measured", each with the reason.
     pub(crate) placeholders: Vec<(f64, String)>,
-    /// True if its name has a word for taxels, which makes it preferred.
+    /// True if the name contains a word for taxels. Named taxels are preferred.
     pub(crate) is_named: bool,
 }
 
@@ -44,7 +44,7 @@ const WORDS: [&str; 14] = [
     "array",
 ];
 
-/// Shape of the lists in the cells of a column, if every row holds equally many numbers.
+/// Shape of the lists in the cells of a column; `None` unless all non-empty cells have the same shape and as many numbers as taxels.
 pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
     let is_open = matches!(role, Role::Numbers(_) | Role::Other | Role::Channels(_));
     let first = cells.iter().find(|cell| !cell.is_empty())?;
@@ -58,7 +58,7 @@ pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
     (is_many && filled.all(|cell| shape_of(cell).as_ref() == Some(&shape))).then_some(shape)
 }
 
-/// Shape of the lists in a cell of numbers, from the outermost one.
+/// Shape of the nested lists in a cell of numbers, the outermost list first.
 fn shape_of(cell: &str) -> Option<Vec<usize>> {
     let separators = |letter: char| letter.is_whitespace() || "[](),;".contains(letter);
     let mut count = 0;
@@ -96,7 +96,7 @@ fn shape_of(cell: &str) -> Option<Vec<usize>> {
 }
 
 impl SeenTable<'_> {
-    /// Taxels of a single array with many numbers a row.
+    /// Taxels of a single array with many numbers per row.
     pub(crate) fn taxels(&self) -> Option<Taxels> {
         let [column] = self.columns.as_slice() else {
             return None;
@@ -105,7 +105,7 @@ impl SeenTable<'_> {
         (self.is_single_array && self.pictures.is_empty()).then(|| of_column(column, shape))
     }
 
-    /// Taxels among its columns, the most likely first.
+    /// Taxels among the columns, the most likely first.
     pub(crate) fn own_taxels(&self) -> Vec<Taxels> {
         let of_cells = self.columns.iter().filter_map(|column| {
             let shape = column.taxels.clone()?;
@@ -185,7 +185,7 @@ impl Taxels {
         self.shape.iter().product()
     }
 
-    /// True if `name` is one of its columns.
+    /// True if `name` is among the columns of the taxels.
     pub(crate) fn holds(&self, name: &str) -> bool {
         let quoted = format!("{name:?}");
         if self.from == quoted
@@ -245,7 +245,7 @@ fn of_columns(columns: &[&SeenColumn], from: String) -> Taxels {
     }
 }
 
-/// Frequent outliers of a column: codes for "nothing measured".
+/// Frequent outliers of a column, which are probably codes for "not measured".
 fn placeholders(columns: &[&SeenColumn]) -> Vec<(f64, String)> {
     let mut found: Vec<(f64, String)> = Vec::new();
     for column in columns {

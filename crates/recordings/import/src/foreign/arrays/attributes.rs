@@ -4,7 +4,7 @@ use taceva_arrays::{ArrayError, ArrayFile};
 
 use crate::foreign::columns::Stated;
 
-/// Scale factor and offset of unpacked numbers.
+/// Scale factor and offset that change nothing.
 const UNPACKED: [f64; 2] = [1.0, 0.0];
 
 /// Attributes of the numbers in an array.
@@ -20,7 +20,7 @@ pub(crate) fn stated(file: &ArrayFile, array: &str) -> Stated {
     }
 }
 
-/// Arrays with unwritten chunks, with the number of these chunks.
+/// Arrays with unwritten chunks, and the number of unwritten chunks of each.
 pub(super) fn absent_chunks<'n>(
     file: &ArrayFile,
     names: impl Iterator<Item = &'n str>,
@@ -51,7 +51,7 @@ pub(super) fn unit_of_times(file: &ArrayFile, array: &str) -> Option<&'static st
     })
 }
 
-/// Problem without the path of the file, which the outer error names.
+/// Problem without the path of the file, because the outer error names it.
 pub(super) fn problem(error: ArrayError) -> String {
     match error.array {
         Some(array) => format!("`{array}`: {}", error.problem),

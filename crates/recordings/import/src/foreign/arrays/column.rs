@@ -8,9 +8,9 @@ use super::attributes::{self, problem};
 use super::cells::Texts;
 use super::group::{Group, candidates};
 
-/// Limit of a column's text in memory, bytes.
+/// Maximum size of the text of a column in memory, bytes.
 const COLUMN_BYTES: u64 = 1 << 30;
-/// Limit of the values of a cell that holds a whole array.
+/// Maximum number of values of a cell that contains a whole array.
 const CELL_VALUES: u64 = 1 << 16;
 
 impl ArrayRows {
@@ -34,7 +34,7 @@ impl ArrayRows {
         Ok(Texts(&read.values).packed(0, &shape))
     }
 
-    /// Array of a group that the map calls `name`.
+    /// Array in a group to which `name` in a map refers.
     pub(super) fn info(&self, group: &Group, name: &str) -> Option<(String, &ArrayInfo)> {
         candidates(&group.path, name)
             .into_iter()
@@ -109,7 +109,7 @@ impl ArrayRows {
     }
 }
 
-/// Converts a NumPy time to seconds without loss of digits; "not a time" is an empty cell.
+/// Converts a NumPy time to seconds without loss of digits. "Not a time" becomes an empty cell.
 fn seconds(time: i64, unit: &str) -> String {
     let nanoseconds = match unit {
         "s" => 1_000_000_000,

@@ -1,4 +1,4 @@
-//! Rows of an array as pictures: axes, number types, or encoded bytes.
+//! Interpretation of the rows of an array as pictures: axes, number types, or encoded bytes.
 
 use std::ops::Range;
 
@@ -10,13 +10,13 @@ use crate::foreign::pictures::Picture;
 use crate::frame_names::{ArrayLayout, FrameNames, PixelRange};
 use taceva_dataset::internal::{ImageKind, limits};
 
-/// Read size of an array, bytes.
+/// Maximum number of bytes read from an array at once.
 pub(super) const READ_BYTES: u64 = 8 << 20;
 
 /// Form of frames in the rows of an array.
 #[derive(Debug)]
 pub(super) enum Form {
-    /// Bytes of a picture file.
+    /// Bytes of an image file.
     Encoded,
     Pixels {
         info: FrameInfo,
@@ -25,10 +25,10 @@ pub(super) enum Form {
     },
 }
 
-/// Least side, in pixels, of an array that a draft takes for pictures.
+/// Minimum side, in pixels, of an array that a draft takes for pictures.
 const LEAST_SIDE: u64 = 8;
 
-/// Kind of pictures in an array; `None` if it seems to hold none.
+/// Kind of pictures in an array; `None` if the array seems to contain no pictures.
 pub(super) fn kind_of(file: &ArrayFile, name: &str, info: &ArrayInfo) -> Option<PictureKind> {
     if matches!(info.element, Element::Bytes | Element::Text) && info.shape.len() == 1 {
         let first = file.read(name, 0..1).ok()?;
@@ -135,7 +135,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
     Ok((form, row_bytes.ok_or("larger than any memory")?))
 }
 
-/// Height, width and colours of the frames of an array. The last value is true for planar colours.
+/// Height, width and number of colours of the frames of an array. The last value is true if the colours are planar.
 fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, bool), String> {
     let said = || {
         let sides: Vec<String> = shape.iter().map(u64::to_string).collect();

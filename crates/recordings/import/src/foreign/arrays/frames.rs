@@ -14,7 +14,7 @@ use crate::frame_names::{ArrayFrames, FrameNames};
 use taceva_dataset::ChannelOrder;
 use taceva_dataset::internal::{guarded, listed};
 
-/// Frames of one array, or of several arrays in sequence.
+/// Frames of one array, or of several arrays one after another.
 #[derive(Debug)]
 pub(crate) struct ArrayPictures {
     path: PathBuf,
@@ -25,7 +25,7 @@ pub(crate) struct ArrayPictures {
 #[derive(Debug)]
 struct FrameArray {
     name: String,
-    /// Number of its first frame among all frames.
+    /// Number of the first frame of this array among all frames.
     first: u64,
     rows: u64,
     row_bytes: u64,
@@ -33,7 +33,7 @@ struct FrameArray {
 }
 
 impl ArrayPictures {
-    /// Opens the frames in the file at `path`, from the array that `frames` names or the only one.
+    /// Opens the frames in the file at `path`, in the array that `frames` names or in the only array.
     pub(crate) fn open(
         path: &Path,
         names: &FrameNames,

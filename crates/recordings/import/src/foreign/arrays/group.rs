@@ -13,7 +13,7 @@ pub(super) struct Group {
     pub(super) rows: usize,
 }
 
-/// Paths of arrays that `name` may refer to: in the group, a field of the table, or from the root.
+/// Paths of arrays to which `name` may refer: in the group, as a field of the table, or from the root.
 pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     let bare = name.trim_start_matches('/');
     let mut paths = Vec::new();
@@ -28,7 +28,7 @@ pub(super) fn candidates(group: &str, name: &str) -> Vec<String> {
     paths
 }
 
-/// Number of rows of a group: the most frequent length of the first axis of its arrays, the largest of equally frequent ones.
+/// Number of rows of a group: the most frequent length of the first axis of its arrays. If several are equally frequent, the largest.
 pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     let mut lengths: BTreeMap<u64, usize> = BTreeMap::new();
     let names = file.names();
@@ -69,7 +69,7 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
     }
 }
 
-/// Reason that an item in a group, or above it, is unread.
+/// Reason why an item in a group, or above the group, is unread.
 fn unread(file: &ArrayFile, group: &str) -> Option<String> {
     let mut unread = file.unread_arrays().into_iter();
     let is_of = |array: &str| {

@@ -1,4 +1,4 @@
-//! Pictures of rows, in one array per group.
+//! Pictures of rows, stored in one array per group.
 
 use std::sync::Arc;
 
@@ -9,7 +9,7 @@ use crate::frame_names::{FrameNames, OWN_ROW};
 use taceva_dataset::internal::listed;
 
 impl ArrayRows {
-    /// Opens the pictures that `names` states, group after group.
+    /// Opens the pictures that `names` describes, group after group.
     pub(super) fn pictures_of_rows(&self, names: &FrameNames) -> Result<ArrayPictures, String> {
         if let FrameNames::Array(array) = names
             && self.groups.len() > 1

@@ -1,10 +1,10 @@
-//! Tests of columns that are refused.
+//! Tests of columns that cannot be read.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::*;
 
-/// A column that cannot be read, and one whose cells are too many.
+/// Source with an unreadable column, and with a column of too many cells.
 #[derive(Debug, Default)]
 struct Refusing {
     rows: usize,
@@ -42,7 +42,7 @@ impl ColumnSource for Refusing {
     }
 }
 
-/// The error of a cell in a file with `rows` rows, and the number of attempts to read its column for ten cells.
+/// Error of a cell in a file with `rows` rows, and the number of attempts to read its column for ten cells.
 fn refused(rows: usize) -> (String, usize) {
     let file = tempfile::NamedTempFile::new().expect("a file");
     let reads = Arc::new(AtomicUsize::new(0));

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use crate::foreign::tar::{FileTape, Members, TarError};
 
-/// Place of a member in a shard, bytes.
+/// Byte range of a member in a shard.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
     at: u64,
@@ -18,7 +18,7 @@ pub(super) struct Extent {
 #[derive(Debug, Default)]
 pub(super) struct Sample {
     pub(super) key: String,
-    /// Place of each member, by the name behind its first dot.
+    /// Byte range of each member, by the part of its name after the first dot.
     pub(super) parts: BTreeMap<Arc<str>, Extent>,
 }
 

@@ -1,4 +1,4 @@
-//! Copies all frames: files on many threads, pictures inside other files in the order of those files.
+//! Copies all frames: image files on many threads, and pictures inside other files in the order of those files.
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -13,9 +13,9 @@ use crate::import::frame_plan::{FrameSource, PlannedFrames, within};
 use taceva_dataset::internal::{ImageKind, layout, ordered_map, staging::StagedFolder};
 use taceva_dataset::{DatasetError, FrameCodec, FramesInfo, ReferenceInfo, Table, ViewInfo};
 
-/// Frames that each job copies at a time. Most of the time is spent waiting for the disk, and disks write several files at once faster.
+/// Number of frames that each job copies at once. Most of the time is spent waiting for the disk, and disks write several files at once faster.
 const COPIES_A_JOB: NonZeroUsize = NonZeroUsize::new(4).expect("four");
-/// Limit of pictures from other files held in memory while they are written, bytes.
+/// Maximum size of pictures from other files in memory while they are written, bytes.
 const HELD_BYTES: usize = 16 << 20;
 
 /// Result of copying frames.
@@ -23,7 +23,7 @@ const HELD_BYTES: usize = 16 << 20;
 pub(in crate::import) struct CopiedFrames {
     /// Frames of rows with one picture.
     pub(in crate::import) frames: Option<FramesInfo>,
-    /// Frames of each view, if rows have several.
+    /// Frames of each view, if rows have several pictures.
     pub(in crate::import) views: Vec<ViewInfo>,
     /// Folders of the frames.
     pub(in crate::import) folders: Vec<String>,
@@ -57,7 +57,7 @@ pub(in crate::import) fn copy_frames(
     Ok(copied)
 }
 
-/// Copies the frames of one view. Returns their common format and their folders, which are created where missing.
+/// Copies the frames of one view. Returns their common format and their folders, which are created if missing.
 fn copy_view(
     staged: &StagedFolder,
     frames: &PlannedFrames,
@@ -129,7 +129,7 @@ struct Copying<'a> {
     table: &'a mut Table,
     jobs: NonZeroUsize,
     progress: &'a dyn Progress,
-    /// Number of the first row's frame.
+    /// Number of the frame of the first row.
     number: usize,
     /// Position of the view in the table, if rows have several pictures.
     view: Option<usize>,
@@ -172,7 +172,7 @@ impl Copying<'_> {
         Ok(())
     }
 
-    /// Copies the pictures of one file. `rows` holds their numbers, ascending, each with its row.
+    /// Copies the pictures of one file. `rows` contains their numbers in ascending order, each with the row.
     fn within(
         &mut self,
         pictures: &dyn Pictures,

@@ -90,7 +90,7 @@ impl Copied {
     }
 }
 
-/// Decodes `bytes` to their end.
+/// Decodes `bytes` to their end, so that truncated files are rejected.
 fn whole(bytes: &[u8], order: ChannelOrder) -> Result<(ImageKind, Frame), String> {
     let (kind, frame) = decode(bytes, order)?;
     check_to_the_end(bytes, kind)?;

@@ -9,7 +9,7 @@ use taceva_dataset::{Dataset, RecordingFacts};
 use super::Addition;
 use crate::error::ImportError;
 
-/// Refuses rows whose labels have another certificate than those of the dataset, or none in its place.
+/// Rejects rows whose labels have a different certificate than the labels of the dataset, or lack one that these have.
 pub(super) fn check_certificates(
     before: &Dataset,
     facts: &RecordingFacts,
@@ -43,7 +43,7 @@ pub(super) fn check_certificates(
     Ok(())
 }
 
-/// Certificates of `instrument`; `None` for labels without one.
+/// Certificates of `instrument`; `None` for labels without a certificate.
 fn certificates(of: &[Traceability], instrument: Instrument) -> Vec<Option<&Certificate>> {
     let of = of.iter().filter(|of| of.instrument == instrument);
     let certificates: Vec<Option<&Certificate>> = of.map(|of| of.certificate.as_ref()).collect();
@@ -53,7 +53,7 @@ fn certificates(of: &[Traceability], instrument: Instrument) -> Vec<Option<&Cert
     }
 }
 
-/// Difference of `new` from the certificate of the same number in the dataset, if there is one.
+/// Difference between `new` and the certificate of the dataset with the same number; `None` if equal or if no number matches.
 fn changed(own: &[Option<&Certificate>], new: &Certificate, key: &str) -> Option<String> {
     let mut own = own.iter().flatten();
     let before = own.find(|own| own.number == new.number)?;

@@ -9,12 +9,12 @@ use taceva_dataset::{Dataset, Digest, FrameEntry, SignalsInfo, Table, ViewFrames
 
 use crate::error::ImportError;
 
-/// Number of different repeated pictures that cannot be chance: no camera takes a picture twice.
+/// Number of different repeated pictures that excludes chance, because no camera takes the same picture twice.
 const SAME_PICTURES: usize = 3;
 
-/// Rejects new rows of `table` that duplicate those of `before`: by sample name, or by equal labels, time, frame and signals.
+/// Rejects new rows of `table` that duplicate rows of `before`: the same sample name, or equal labels, time, frame and signals.
 ///
-/// Rows without frame, signals and time are rejected only if all of them are present already, as single ones may share labels by chance.
+/// Rows without frame, signals and time are rejected only if all of them are present already, because single rows may have equal labels by chance.
 pub(super) fn refuse_twice(
     before: &Dataset,
     table: &Table,
@@ -85,7 +85,7 @@ pub(super) fn refuse_twice(
     }
 }
 
-/// Rejects new rows with old pictures under other labels or times, as in a second import of the same recording.
+/// Rejects new rows with pictures that the dataset has under other labels or times, as in a second import of the same recording.
 fn refuse_same_pictures(
     table: &Table,
     frames: &[Option<FrameEntry>],
@@ -120,7 +120,7 @@ fn refuse_same_pictures(
     )))
 }
 
-/// Origin of a new row, as far as its table states it.
+/// Origin of a new row, if its table states the origin.
 fn origin(table: &Table, row: usize, old: usize) -> String {
     match (&table.source_table()[row], table.source_row()[row]) {
         (Some(source), Some(number)) => format!("row {number} of {}", shown(source)),

@@ -1,4 +1,4 @@
-//! Files of the successor of a dataset: those it shares with the dataset, the signals of all rows, the table and the header.
+//! Files of the successor of a dataset: files shared with the dataset, the signals of all rows, the table and the header.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -15,7 +15,7 @@ use crate::import::copy::CopiedFrames;
 use crate::import::plan::ImportPlan;
 use crate::import::signals::PlannedSignals;
 
-/// Hard-links the frames of `before` into the staged folder under the same paths. Returns their folders.
+/// Creates hard links to the frames of `before` in the staged folder, under the same paths. Returns the folders of the frames.
 pub(super) fn share_files(
     before: &Dataset,
     staged: &StagedFolder,
@@ -46,7 +46,7 @@ pub(super) fn share_files(
     Ok(folders)
 }
 
-/// Writes the signals of all rows, those of `before` first.
+/// Writes the signals of all rows, beginning with the rows of `before`.
 pub(super) fn write_signals(
     before: &Dataset,
     new: &PlannedSignals,

@@ -3,11 +3,11 @@
 use super::SignalsMap;
 
 impl SignalsMap {
-    /// Checks that a row of this shape is in the stated order: taxel positions (rows, columns) before channels, or the reverse. Positions
-    /// may share one axis, or all numbers one axis; axes of length 1 are ignored.
+    /// Checks that the axes of a row are in the stated order: taxel positions (rows, columns) before channels, or channels first. The positions, or all
+    /// numbers, may share one axis. Axes of length 1 are ignored.
     ///
     /// # Errors
-    /// The shape found, the shape expected, and the key of the map that would accept it.
+    /// Error message with the found shape, the expected shape, and the map key that would accept the found shape.
     pub(crate) fn check_axes(&self, shape: &[u64]) -> Result<(), String> {
         let info = self.spec.info;
         let [rows, columns, channels] = [info.rows, info.columns, info.channels].map(u64::from);

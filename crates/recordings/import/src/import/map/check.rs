@@ -1,4 +1,4 @@
-//! Checks beyond the types of the map, with the line of each problem.
+//! Checks a map beyond its types. Each problem has its line.
 
 use std::path::Path;
 

@@ -19,7 +19,7 @@ use taceva_core::SourceUnit;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct ColumnMap {
-    /// Name of the column, or path to the value: `ft[2]`, `/pose/0`, `JOIN.column`.
+    /// Name of the column, or path to a value in it: `ft[2]`, `/pose/0`, `JOIN.column`.
     pub from: String,
     /// Unit of the cells.
     pub unit: SourceUnit,
@@ -43,7 +43,7 @@ impl ColumnMap {
         }
     }
 
-    /// True if an offset or a scale applies.
+    /// True if an offset or a scale is set.
     pub(crate) fn is_moved(&self) -> bool {
         self.offset.is_some() || self.scale.is_some()
     }
@@ -67,9 +67,9 @@ pub struct IdMap {
     /// Contact point. Several columns are joined with `:`; a `:` or `\` within a cell is escaped with `\`.
     #[serde(deserialize_with = "one_or_more")]
     pub point_id: Vec<String>,
-    /// Sensor unit, among several of one model.
+    /// Sensor unit, for several units of one model.
     pub unit_id: Option<String>,
-    /// Scene of the lighting, or another varied condition.
+    /// Light scene, or another varied condition.
     pub scene: Option<String>,
     /// Depth level within a press, a whole number from 0.
     pub depth_step: Option<String>,
@@ -77,11 +77,11 @@ pub struct IdMap {
     pub repeat: Option<String>,
     /// Phase of the press: cells are `load` or `unload`.
     pub phase: Option<String>,
-    /// Limit of the gel that ended a press, such as `normal-force`.
+    /// Gel limit that ended a press, such as `normal-force`.
     pub limited_by: Option<String>,
-    /// Standard uncertainty of the height from which a depth counts, mm.
+    /// Standard uncertainty of the height from which a depth is measured, mm.
     pub zero_u_mm: Option<String>,
-    /// Part of a declared split.
+    /// Declared part of a split.
     pub part: Option<String>,
     /// Relief of a grating: `line` or `dot`.
     pub kind: Option<String>,
@@ -90,7 +90,7 @@ pub struct IdMap {
 }
 
 impl IdMap {
-    /// Keys of `[ids]`, which have the same names in the table of a dataset.
+    /// Keys of `[ids]`. The dataset table has columns with the same names.
     pub(crate) const KEYS: [&'static str; 12] = [
         "sample",
         "point_id",
@@ -107,18 +107,18 @@ impl IdMap {
     ];
 }
 
-/// Columns with the origin of rows, in a table that was exported. They replace the current location of the rows. An empty cell means an
-/// unknown origin.
+/// Columns with the origin of rows, in a table that TacEva exported. The origin replaces the current location of the rows. An empty cell means an unknown
+/// origin.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields, default)]
 pub(crate) struct OriginMap {
-    /// Table of the lab.
+    /// Column with the original table.
     pub(crate) table: Option<String>,
-    /// Row in it, from 0.
+    /// Column with the row number in the original table, from 0.
     pub(crate) row: Option<String>,
-    /// Picture.
+    /// Column with the original picture.
     pub(crate) frame: Option<String>,
-    /// Picture of each view, if rows have several.
+    /// Column with the original picture of each view, if rows have several pictures.
     pub(crate) frames: BTreeMap<String, String>,
 }
 
@@ -145,9 +145,9 @@ impl OriginMap {
 pub struct TimeMap {
     /// Name of the column in the table.
     pub column: String,
-    /// Unit of its numbers.
+    /// Unit of the numbers in the column.
     pub unit: SourceUnit,
-    /// UTC offset of text times without a time zone, s, positive ahead of UTC.
+    /// UTC offset of text times without a time zone, s; positive east of Greenwich.
     pub zone_s: Option<i64>,
 }
 

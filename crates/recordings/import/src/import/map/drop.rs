@@ -1,4 +1,4 @@
-//! Rules for rows of a table that an import leaves out.
+//! Rules for table rows that an import leaves out.
 
 /// Rules for rows that are left out; each rule counts its rows.
 ///
@@ -16,9 +16,9 @@ pub struct DropRules {
     pub flag_column: String,
     /// Flags that exclude a row.
     pub quality_flags: Vec<String>,
-    /// Frame names that exclude a row.
+    /// Names of frames that exclude a row.
     pub frames_named: Vec<String>,
-    /// Placeholders that exclude a row if all of them match.
+    /// Placeholders that exclude a row if it contains all of them.
     pub placeholders: Vec<Placeholder>,
     /// Rows that are excluded by their number.
     pub rows: Vec<DroppedRow>,
@@ -38,9 +38,9 @@ pub struct DropRules {
 pub struct DroppedRow {
     /// Number of the row, from 1: the first row below the header.
     pub row: u64,
-    /// Table relative to the source folder; `None` if there is a single one.
+    /// Table relative to the source folder; `None` if the map has only one table.
     pub table: Option<String>,
-    /// Reason, which the summary and the dataset keep.
+    /// Reason for the exclusion, stored in the summary and in the dataset.
     pub reason: Option<String>,
 }
 
@@ -54,12 +54,12 @@ impl DroppedRow {
         }
     }
 
-    /// True if it is the row at `position`, from 0, of `table`.
+    /// True if this entry excludes the row at `position`, from 0, of `table`.
     pub(crate) fn is_at(&self, position: usize, table: &str) -> bool {
         self.row == position as u64 + 1 && self.table.as_deref().is_none_or(|own| own == table)
     }
 
-    /// Rule under which the row is counted.
+    /// Name of the rule under which the excluded row is counted.
     pub(crate) fn rule(&self) -> String {
         match &self.reason {
             None => "rows by number".to_owned(),
@@ -78,7 +78,7 @@ impl DroppedRow {
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Placeholder {
-    /// Channel whose column holds it, such as `Fz`.
+    /// Channel whose column contains the placeholder, such as `Fz`.
     pub channel: String,
     /// Number in the table, before conversion.
     pub number: f64,

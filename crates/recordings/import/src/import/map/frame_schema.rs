@@ -1,4 +1,4 @@
-//! Frame sources as written in a map: one table, or a list of named tables.
+//! Schema of the frame sources in a map: one section, or a list of named sections.
 
 use std::fmt;
 
@@ -15,7 +15,7 @@ use super::{
 use taceva_dataset::internal::is_attribute_name;
 use taceva_dataset::{ChannelOrder, DatasetError};
 
-/// Frames of a row: one, or one for each of several views.
+/// Frames of a row: a single frame, or a frame for each of several views.
 pub(super) enum WrittenFrames {
     One(Box<WrittenFrame>),
     Views(Vec<Spanned<WrittenFrame>>),
@@ -39,7 +39,7 @@ pub(super) struct WrittenFrame {
     reference: WrittenReference,
 }
 
-/// Path, the column that names one for each row, or the number of a frame.
+/// Frame without contact: a path, a column that names a path for each row, or the number of a frame.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -63,7 +63,7 @@ struct WrittenReferenceColumn {
     column: ColumnName,
 }
 
-/// Array: its name in the file of the table (in map version 1: its file), or with its own file.
+/// Array: the name of an array in the file of the table, or a separate file with an array. In map version 1, the name is that of the file.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -124,7 +124,7 @@ impl WrittenFrames {
         })
     }
 
-    /// Name of an array that is given as a text.
+    /// Name of an array that the map gives as a text.
     pub(super) fn array_name(&self) -> Option<&str> {
         self.each()
             .into_iter()

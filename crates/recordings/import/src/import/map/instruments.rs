@@ -1,4 +1,4 @@
-//! Instruments of the labels in a map, with their certificates.
+//! Instruments that measured the labels, as stated in a map, with their certificates.
 
 use std::collections::BTreeMap;
 
@@ -12,7 +12,7 @@ use taceva_dataset::{DatasetError, Known, SensorFacts};
 /// Entries of a certificate as written.
 type WrittenCertificate = Spanned<BTreeMap<Spanned<String>, Value>>;
 
-/// A transducer or a robot.
+/// Section of a transducer or a robot.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct WrittenInstrument {
@@ -21,7 +21,7 @@ pub(super) struct WrittenInstrument {
     certificate: Option<WrittenCertificate>,
 }
 
-/// The sensor.
+/// Section of the sensor.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct WrittenSensor {
@@ -42,7 +42,7 @@ impl WrittenSensor {
         facts
     }
 
-    /// The sensor as an instrument; `None` without a certificate.
+    /// Converts the sensor to an instrument; `None` without a certificate.
     pub(super) fn instrument(self) -> Option<WrittenInstrument> {
         let certificate = Some(self.certificate?);
         Some(WrittenInstrument {

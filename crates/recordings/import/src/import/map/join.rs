@@ -9,7 +9,7 @@ use crate::foreign::TableForm;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct JoinMap {
     pub(crate) name: String,
-    /// File relative to the source folder, in which `{path.PART}` is replaced by a part of the main table's path.
+    /// File relative to the source folder. `{path.PART}` is replaced by a part of the path of the main table.
     pub(crate) file: String,
     pub(crate) form: TableForm,
     pub(crate) by: JoinBy,
@@ -23,15 +23,15 @@ pub(crate) struct JoinMap {
 /// Rule that matches a row of the joined table to a main row.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum JoinBy {
-    /// Single row with equal cells: column of the main table, column of the joined one.
+    /// The single row with equal cells: pairs of a column of the main table and a column of the joined table.
     Columns(Vec<(String, String)>),
-    /// Row with the same number.
+    /// Row with the same row number.
     Row,
-    /// The table's only row.
+    /// The only row of the table.
     All,
     /// Row at the same time.
     Time(TimeJoin),
-    /// First row whose number in this column exceeds the main row's number, as for the end index of episodes.
+    /// First row whose number in this column exceeds the row number of the main row, such as the end index of an episode.
     Until(String),
 }
 
@@ -41,24 +41,24 @@ pub(crate) struct TimeJoin {
     /// Time of the joined table.
     pub(crate) time: TimeMap,
     pub(crate) pick: Pick,
-    /// Greatest time difference, ms.
+    /// Maximum time difference, ms.
     pub(crate) tolerance_ms: f64,
     pub(crate) lag: Lag,
 }
 
-/// Delay of the joined table's clock, ms.
+/// Offset of the clock of the joined table from the clock of the main table, ms.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Lag {
     /// Constant for all rows.
     Fixed(f64),
-    /// By the path of the main table, or of the joined one.
+    /// Offset for each file, by the path of the main or the joined table.
     Files(BTreeMap<String, f64>),
-    /// From this column of the main table.
+    /// Offset in this column of the main table.
     Column(String),
 }
 
 impl TimeJoin {
-    /// Greatest time difference, s.
+    /// Maximum time difference, s.
     pub(crate) fn tolerance_s(&self) -> f64 {
         self.tolerance_ms / 1e3
     }
@@ -68,16 +68,16 @@ impl TimeJoin {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Pick {
-    /// Nearest row; the earlier one of a tie.
+    /// Nearest row; of two equally near rows, the earlier.
     Nearest,
     /// Last row that is not later.
     Before,
-    /// Linear interpolation between both neighbours, each within the tolerance.
+    /// Linear interpolation between the row before and the row after, each within the tolerance.
     Linear,
 }
 
 impl Pick {
-    /// Word for it in a map.
+    /// Word for the choice in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Pick::Nearest => "nearest",
@@ -91,14 +91,14 @@ impl Pick {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Unmatched {
-    /// Leaves the row out and counts it.
+    /// Leaves the main row out and counts it.
     Drop,
     /// Rejects the import.
     Refuse,
 }
 
 impl Unmatched {
-    /// Word for it in a map.
+    /// Word for the handling in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Unmatched::Drop => "drop",

@@ -7,16 +7,16 @@ use taceva_core::SourceUnit;
 pub(crate) struct MatrixMap {
     /// Columns, in order.
     pub(crate) from: Vec<String>,
-    /// Offset subtracted from each column.
+    /// Offset subtracted from each column, in the unit of its cells.
     pub(crate) offset: Vec<f64>,
     pub(crate) by: MatrixRows,
-    /// Channels, one per matrix row, with the unit of the product.
+    /// Channels, one per row of the matrix, with the unit of the product.
     pub(crate) gives: Vec<(String, SourceUnit)>,
     /// True if the matrix must be a rotation.
     pub(crate) is_rotation: bool,
 }
 
-/// Source of a matrix.
+/// Source of the numbers of a matrix.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum MatrixRows {
     Written(Vec<Vec<f64>>),
@@ -24,7 +24,7 @@ pub(crate) enum MatrixRows {
     File(String),
 }
 
-/// Tolerance of a rotation: deviation from orthonormal rows and from a determinant of 1.
+/// Tolerance of a rotation matrix: deviation from orthonormal rows, and of the determinant from 1.
 const ROTATION: f64 = 1e-6;
 
 impl MatrixMap {
@@ -33,7 +33,7 @@ impl MatrixMap {
         format!("[[matrix]] {}", self.gives[position].0)
     }
 
-    /// Reason that `rows` are unusable for this map.
+    /// Reason why `rows` cannot be used for this map; `None` if they can.
     pub(crate) fn problem(&self, rows: &[Vec<f64>]) -> Option<String> {
         let (height, width) = (self.gives.len(), self.from.len());
         if rows.len() != height || rows.iter().any(|row| row.len() != width) {

@@ -1,12 +1,12 @@
 //! Labels in the names of files and folders: `{object}/unit{unit:digits}/x{x:number}_{k:digits}.png`.
 
-/// Limit of captured names in a pattern.
+/// Maximum number of captured names in a pattern.
 const NAMES_MAX: usize = 16;
 
 /// Path pattern with named captures.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct PathPattern {
-    /// Column with the path; `None` for the path of the table or of the row's file, relative to the source folder.
+    /// Column that contains the path. `None` for the path of the table or of the file of the row, relative to the source folder.
     pub(crate) of: Option<String>,
     pieces: Vec<Piece>,
 }
@@ -20,9 +20,9 @@ enum Piece {
 /// Kind of a named part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// Longest text without `/` that lets the rest match.
+    /// Text without `/`, as long as the rest of the pattern allows.
     Free,
-    /// Leading folders, each with its `/`; as many as let the rest match, possibly none.
+    /// Leading folders, each with its `/`, as many as the rest of the pattern allows, possibly none.
     Folders,
     /// Digits.
     Digits,
@@ -31,7 +31,7 @@ enum Kind {
 }
 
 impl PathPattern {
-    /// Parses a pattern. The error describes the problem.
+    /// Parses a pattern. Returns an error message.
     pub(super) fn parse(text: &str, of: Option<String>) -> Result<PathPattern, String> {
         let mut pieces = Vec::new();
         let mut rest = text;
@@ -79,7 +79,7 @@ impl PathPattern {
         }
     }
 
-    /// Names of its parts, in order.
+    /// Names of the captured parts, in order.
     pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
         self.pieces.iter().filter_map(|piece| match piece {
             Piece::Text(_) => None,
@@ -87,7 +87,7 @@ impl PathPattern {
         })
     }
 
-    /// Letters directly behind the part called `name`, usually its unit.
+    /// Letters directly after the part called `name`. They are usually its unit.
     pub(crate) fn letters_behind(&self, name: &str) -> Option<&str> {
         let is_it =
             |piece: &Piece| matches!(piece, Piece::Named { name: known, .. } if known == name);

@@ -1,4 +1,4 @@
-//! Angles in a map: channels with a period, and channels that are parts of one rotation.
+//! Angles in a map: channels with a period, and channels that together form a rotation.
 
 use serde::Deserialize;
 use taceva_core::{Channel, Channels, Orientation, SourceUnit, Unit};
@@ -9,15 +9,15 @@ use super::check::Check;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::shown;
 
-/// Greatest difference of a period in radians from whole degrees, in degrees. It allows for three decimals.
+/// Maximum rounding error of a period in radians, in degrees, when compared with whole degrees. Allows for three decimals.
 const ROUNDED_DEG: f64 = 0.03;
 
-/// A whole turn in `unit`, degrees or radians.
+/// Full turn in `unit`: 360 for degrees, 2π for radians.
 pub(crate) fn turn_in(unit: SourceUnit) -> f64 {
     360.0 / unit.convert(1.0)
 }
 
-/// Channels that are parts of one rotation.
+/// Channels that together form a rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct RotationMap {
     /// Rotation vector x, y, z, or quaternion x, y, z, w.
@@ -29,7 +29,7 @@ pub(crate) struct RotationMap {
 }
 
 impl RotationMap {
-    /// Orientation from the cells of a row; `None` for a quaternion whose norm is not 1.
+    /// Orientation of the cells of a row; `None` for a quaternion whose norm is not 1.
     pub(crate) fn orientation(&self, cells: &[f64]) -> Option<Orientation> {
         match *cells {
             [x, y, z] => {
@@ -41,7 +41,7 @@ impl RotationMap {
         }
     }
 
-    /// Message that `cells` are not a unit quaternion.
+    /// Error message for `cells` that are not a unit quaternion.
     pub(crate) fn no_rotation(cells: &[f64]) -> String {
         let length = cells.iter().map(|cell| cell * cell).sum::<f64>().sqrt();
         format!(
@@ -62,7 +62,7 @@ impl RotationMap {
         }
     }
 
-    /// Equivalent numbers: the reversed turn, or the negative quaternion; `None` for a zero vector.
+    /// Numbers for the same rotation: the reverse axis with the remaining angle, or the negative quaternion. `None` for a zero vector.
     pub(crate) fn twin(&self, cells: &[f64]) -> Option<Vec<f64>> {
         let factor = match cells.len() {
             3 => {
@@ -129,7 +129,7 @@ impl Check<'_> {
         ))
     }
 
-    /// Checks the rotations: channels exist, share a unit and are in one table.
+    /// Checks the rotations. Their channels must exist, share a unit and be in one table.
     pub(super) fn rotations(
         &self,
         written: Option<Spanned<WrittenRotations>>,
@@ -229,7 +229,7 @@ impl Check<'_> {
     }
 }
 
-/// Number of degrees from 1 to 360 that differs from `degrees` by at most `rounding`.
+/// Whole number of degrees, from 1 to 360, that differs from `degrees` by at most `rounding`.
 fn whole_degrees(degrees: f64, rounding: f64) -> Option<u16> {
     (1..=360).find(|whole| (f64::from(*whole) - degrees).abs() <= rounding)
 }

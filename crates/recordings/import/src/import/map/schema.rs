@@ -1,4 +1,4 @@
-//! Map as written, with checks beyond its types.
+//! Schema of a map, and checks beyond its types.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -86,14 +86,14 @@ fn positive() -> i64 {
     1
 }
 
-/// First line, from 1, with a value that a draft left open.
+/// Line, from 1, of the first gap that a draft left.
 fn first_open(text: &str) -> Option<u64> {
     (1..)
         .zip(text.lines())
         .find_map(|(number, line)| (open_places(line) > 0).then_some(number))
 }
 
-/// Problem of a name that no attribute or class may have.
+/// Problem with a name that is reserved and cannot be an attribute or a class.
 fn refused_name(name: &str) -> String {
     match IdMap::KEYS.contains(&name) {
         true => format!("`{name}` is a key of [ids]: write this line there"),
@@ -199,7 +199,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
 }
 
 impl Check<'_> {
-    /// Rejects versions other than 2, with the changes that version 1 needs.
+    /// Rejects versions other than 2. For version 1, the message states the necessary changes.
     fn version(&self, written: &WrittenMap) -> Result<(), DatasetError> {
         let array = written.frame.as_ref();
         let array = array.and_then(|frames| frames.get_ref().array_name());

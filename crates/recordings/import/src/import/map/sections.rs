@@ -1,4 +1,4 @@
-//! Sections of a map besides columns and frames: labels in paths, joins, matrices, classes.
+//! Schema of the map sections besides columns and frames: labels in paths, joins, matrices, classes.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Source of taxel values, as written and checked.
+//! Source of taxel values, in the schema and checked.
 
 use serde::Deserialize;
 use taceva_core::{SignalInfo, SourceUnit};
@@ -13,22 +13,22 @@ pub(crate) struct SignalsMap {
     pub(crate) from: SignalsFrom,
     /// Unit of the source.
     pub(crate) unit: SourceUnit,
-    /// Taxels in the stored unit. The rows without contact are not set yet.
+    /// Taxels in the stored unit, without the rows without contact, which are set later.
     pub(crate) spec: SignalsSpec,
-    /// Numbers that mean "nothing measured", before conversion. A row with one of them is left out.
+    /// Numbers that mean "not measured", before conversion. A row that contains one of them is left out.
     pub(crate) placeholders: Vec<f64>,
-    /// True if values are grouped by channel; false if they are grouped by taxel position.
+    /// True if values are grouped by channel; false if values are grouped by taxel position.
     pub(crate) is_channel_first: bool,
-    /// Ranges of rows without contact, in the order of reading, each by first and last row, from 0.
+    /// Ranges of rows without contact, counted in the order of reading, each as first and last row, from 0.
     pub(crate) rest: Vec<[u64; 2]>,
 }
 
 /// Source of the numbers.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum SignalsFrom {
-    /// Columns with one number each, or one column with all numbers in each cell.
+    /// Columns with one number each, or a single column with all numbers in each cell.
     Columns(Vec<String>),
-    /// Array in another file, with the rows of the table.
+    /// Array in another file, with one row per table row.
     Array { file: String, path: Option<String> },
 }
 
@@ -89,7 +89,7 @@ impl SignalsMap {
         }
     }
 
-    /// True if `number`, before conversion, means "nothing measured".
+    /// True if `number`, before conversion, means "not measured".
     pub(crate) fn is_placeholder(&self, number: f64) -> bool {
         let mut placeholders = self.placeholders.iter();
         placeholders.any(|known| {
@@ -99,7 +99,7 @@ impl SignalsMap {
         })
     }
 
-    /// True if `row`, counted over all tables, is without contact.
+    /// True if `row`, counted over all tables, is declared as without contact.
     pub(crate) fn is_rest(&self, row: u64) -> bool {
         let mut runs = self.rest.iter();
         runs.any(|[first, last]| (first..=last).contains(&&row))
@@ -204,7 +204,7 @@ impl Check<'_> {
     }
 }
 
-/// Columns that `text` names: for `1..15` the columns with these numbers after any prefix, inclusive; otherwise one column.
+/// Columns that `text` names. `1..15` names the columns with these numbers after any prefix, both ends included; another text names one column.
 fn columns_of(text: &str) -> Result<Vec<String>, String> {
     let Some((before, last)) = text.split_once("..") else {
         return Ok(vec![text.to_owned()]);

@@ -1,4 +1,4 @@
-//! Table of a map as written, with the form given by its name or `format`.
+//! Schema of the table of a map, with the form given by its path or by `format`.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::csv_table::text_form::TextForm;
 use crate::foreign::{TableForm, is_recording};
 use taceva_dataset::DatasetError;
 
-/// Table: its path, or a description.
+/// Table: only a path, or a section with keys.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -122,7 +122,7 @@ fn form_of(path: &str, format: Option<Format>) -> TableForm {
     }
 }
 
-/// Command that converts an unreadable table, by its filename extension.
+/// Command that converts a table of an unreadable form, by its filename extension.
 pub(crate) fn converter(path: &str) -> Option<String> {
     // A Lance table is a folder.
     if let Some((table, _)) = format!("{path}/").split_once(".lance/") {
@@ -246,7 +246,7 @@ impl Check<'_> {
         Ok((file, form))
     }
 
-    /// True if the messages before the cut of a recording are to be read.
+    /// True if a truncated recording is to be read up to its end.
     fn is_to_cut(
         &self,
         described: &WrittenForm,

@@ -1,4 +1,4 @@
-//! Tests of accepted maps, and of rejected maps with their line.
+//! Tests of accepted maps, and of rejected maps with the line of the problem.
 
 use super::*;
 

@@ -1,4 +1,4 @@
-//! Corrections of forces: their zero, and the weight of a tool.
+//! Corrections of forces: subtraction of the zero and of the weight of a tool.
 
 use serde::Deserialize;
 use taceva_core::{Channels, SourceUnit, Unit};
@@ -13,18 +13,18 @@ use taceva_dataset::internal::shown;
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct ZeroMap {
     pub(crate) rows: ZeroRows,
-    /// Column whose equal cells form a block with its own zero; `None` for one block per table.
+    /// Column whose equal cells form a block with a separate zero; `None` for one block per table.
     pub(crate) block: Option<String>,
-    /// Positions of the channels.
+    /// Indices of the channels, from 0.
     pub(crate) channels: Vec<usize>,
 }
 
-/// Rows of a block that read zero force.
+/// Rows of a block at zero force.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum ZeroRows {
-    /// The first rows of the block: this many.
+    /// First rows of the block, with their number.
     First(usize),
-    /// Rows with a number below or above a limit.
+    /// Rows whose number in a column is below or above a limit.
     Beside {
         column: String,
         limit: f64,
@@ -71,7 +71,7 @@ pub(crate) struct GravityMap {
     pub(crate) centre: [f64; 3],
     /// Orientation of the transducer in a frame whose z axis points up.
     pub(crate) orientation: RotationMap,
-    /// Positions of Fx, Fy, Fz, Tx, Ty and Tz among the channels.
+    /// Positions of Fx, Fy, Fz, Tx, Ty and Tz among the channels; `None` for a missing channel.
     pub(crate) channels: [Option<usize>; 6],
 }
 

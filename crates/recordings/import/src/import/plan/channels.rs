@@ -28,7 +28,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Warns of channels with equal numbers because both name the same column.
+    /// Warns of channels with equal numbers because the map names the same column for both.
     fn warn_of_columns_read_twice(&mut self) {
         let columns = &self.map.columns;
         for (position, map) in columns.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Completes the plan once all rows are read.
+//! Completes the plan after all rows are read.
 
 use std::collections::BTreeSet;
 use std::path::PathBuf;
@@ -16,11 +16,11 @@ use crate::import::summary::FrameSummary;
 use crate::import::warning::ImportWarning;
 use taceva_dataset::internal::shown;
 
-/// Limit of listed images that no row names.
+/// Maximum number of listed images that no row names.
 const LISTED_IMAGES: usize = 20;
 
 impl Reading<'_> {
-    /// Error for an import without rows, with the reasons.
+    /// Error for an import that keeps no row, with the reasons.
     pub(super) fn no_row(&self) -> ImportError {
         let summary = &self.summary;
         let dropped = summary.dropped.iter();

@@ -12,7 +12,7 @@ use crate::source_folder::SourceFolder;
 use taceva_core::counted;
 use taceva_dataset::internal::shown;
 
-/// Checks that `rows` of [drop] names tables among `tables`, and none only if there is one.
+/// Checks that `rows` of `[drop]` names existing tables. The name may be omitted only for a single table.
 pub(super) fn check_tables(
     folder: &SourceFolder,
     map: &ImportMap,
@@ -77,7 +77,7 @@ impl Reading<'_> {
         Ok(())
     }
 
-    /// Warns of names of pictures that left out no row. Marks such as `---` may be absent.
+    /// Warns of picture names that excluded no row. Marks such as `---` need not occur.
     pub(super) fn warn_of_unused_names(&mut self) {
         let is_used = |rule: &str| {
             let mut names = self.summary.dropped.keys().filter_map(|reason| {

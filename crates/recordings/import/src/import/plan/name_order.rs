@@ -1,16 +1,16 @@
-//! Detects files whose name order differs from the order of the numbers in their names.
+//! Detects files whose order by name differs from the order by the numbers in their names.
 
 use std::cmp::Ordering;
 use std::path::{Path, PathBuf};
 
-/// First two neighbours of `files`, sorted by name, that are in the opposite order by number: 10 before 2.
+/// First two neighbours in `files`, sorted by name, whose numbers are in the opposite order: 10 before 2.
 pub(super) fn counted_otherwise(files: &[PathBuf]) -> Option<[&Path; 2]> {
     let mut pairs = files.windows(2);
     let pair = pairs.find(|pair| by_numbers(&pair[0], &pair[1]).is_gt())?;
     Some([&pair[0], &pair[1]])
 }
 
-/// Order of two names by letters, with digits at the same place compared as numbers.
+/// Compares two names by letters, and digits at the same place as numbers.
 fn by_numbers(one: &Path, other: &Path) -> Ordering {
     let [one, other] = [one, other].map(|path| path.to_string_lossy());
     let (mut one, mut other) = (&*one, &*other);

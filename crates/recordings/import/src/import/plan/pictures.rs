@@ -1,4 +1,4 @@
-//! Files with pictures that rows name.
+//! Files that contain the pictures of rows.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -14,8 +14,8 @@ use crate::import::source::matching_files;
 use taceva_dataset::internal::shown;
 
 impl Reading<'_> {
-    /// Checks that no two tables use the pictures in `file` by row number without a column that selects them. Each table would begin with
-    /// the first picture again.
+    /// Checks that no two tables use the pictures in `file` by row number, without a column that selects the pictures. Each table would begin with the first
+    /// picture again.
     pub(super) fn check_counted_once(
         &mut self,
         view: usize,
@@ -55,8 +55,8 @@ impl Reading<'_> {
         ))
     }
 
-    /// Records an error if pictures and rows differ in number and the map names no index. It is raised after all tables are read, since an
-    /// error in a table is more specific.
+    /// Stores an error if the numbers of pictures and rows differ and the map names no index. The error is returned after all tables are read, because an error
+    /// in a table is more specific.
     pub(super) fn note_unequal(
         &mut self,
         view: usize,
@@ -128,7 +128,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Pictures in the file at `relative`, which is opened once. With `*`, those of all matching files, numbered consecutively.
+    /// Pictures in the file at `relative`, which is opened once. With `*`, the pictures of all matching files, numbered consecutively.
     pub(super) fn pictures(
         &mut self,
         view: usize,

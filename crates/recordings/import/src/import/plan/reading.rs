@@ -24,13 +24,13 @@ pub(super) struct Reading<'a> {
     pub(super) decoders: &'a Decoders,
     /// Number of tables.
     pub(super) count: usize,
-    /// Table being read.
+    /// Path of the table being read.
     pub(super) current: PathBuf,
     pub(super) table: Table,
     /// Pictures of each view.
     pub(super) views: Vec<ViewReading<'a>>,
     pub(super) signals: Option<FoundSignals<'a>>,
-    /// Error that pictures and rows differ in number without an index.
+    /// Error for different numbers of pictures and rows without an index; `None` if they agree.
     pub(super) unequal: Option<ImportError>,
     pub(super) joins: Vec<JoinMatches>,
     /// Coordinate frames of the labels of all tables.
@@ -119,7 +119,7 @@ impl<'a> Reading<'a> {
         Ok(())
     }
 
-    /// Records the zero and weight subtracted from the forces of a table.
+    /// Records the zero and the weight that are subtracted from the forces of a table.
     fn note_zeros(&mut self, rows: &MappedTable<'_>) {
         let gravity = self.map.gravity.as_ref();
         self.summary.gravity = gravity.map(GravityMap::rule);

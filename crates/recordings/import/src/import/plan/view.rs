@@ -14,13 +14,13 @@ use taceva_dataset::internal::shown_path;
 /// Pictures of one view during reading.
 pub(super) struct ViewReading<'a> {
     pub(super) map: &'a FrameMap,
-    /// Base folder of pictures for the table being read.
+    /// Base folder of the pictures of the table being read.
     pub(super) base: PathBuf,
-    /// Pixels of the depth map in that table's clips.
+    /// Conversion of the depth map in the clips of that table; `None` for pictures.
     pub(super) depth: Option<DepthPixels>,
     /// Opened files with pictures.
     pub(super) opened: BTreeMap<PathBuf, Arc<dyn Pictures>>,
-    /// Pictures used by row number, as the map names them, each with its table.
+    /// Pictures that are used by row number, by their name in the map, each with its table.
     pub(super) counted: BTreeMap<String, PathBuf>,
     pub(super) frames: Vec<PlannedFrame>,
     pub(super) references: References,
@@ -39,10 +39,10 @@ impl<'a> ViewReading<'a> {
         }
     }
 
-    /// Picture at `index` of the only file that holds the pictures of all rows.
+    /// Picture at `index` of the only file that contains the pictures of all rows.
     ///
     /// # Errors
-    /// [`ImportError`] if there are several files, or no such picture.
+    /// [`ImportError`] if there are several files, or if the picture does not exist.
     pub(super) fn frame_within(&self, index: u64) -> Result<FrameSource, ImportError> {
         let mut files = self.frames.iter().filter_map(|frame| match &frame.from {
             FrameSource::Within(pictures, _) => Some(pictures),
@@ -67,7 +67,7 @@ impl<'a> ViewReading<'a> {
         Ok(FrameSource::Within(Arc::clone(first), index))
     }
 
-    /// Base folder of named files: beside the table, unless the map states a folder.
+    /// Base folder of named files: the folder of the table, unless the map states another.
     pub(super) fn beside(&self, named_by: Option<&Path>) -> PathBuf {
         match self.map.folder {
             None => named_by.unwrap_or(&self.base).to_owned(),

@@ -1,4 +1,4 @@
-//! Decides whether the cells of a class are positions in its list or names.
+//! Decides if the cells of a class are names or positions in its list.
 
 use super::Sources;
 use super::columns::base_of;
@@ -10,18 +10,18 @@ use taceva_dataset::internal::shown;
 /// Interpretation of the cells of a class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(in crate::import) enum ClassCells {
-    /// Positions in the list, even if a name is the same number.
+    /// Positions in the list, even if a name is an equal number.
     Positions,
     /// Names in the list.
     Names,
-    /// Positions or names; no name is the position of another one.
+    /// Positions or names. No name is the position of another name.
     Either,
 }
 
 /// Interpretation of the cells of each class, in map order.
 ///
 /// # Errors
-/// [`ImportError::Table`] if a name is also the position of another name and the file does not resolve it.
+/// [`ImportError::Table`] if a name is also the position of another name and the file does not state the interpretation.
 pub(super) fn of(sources: &Sources<'_>) -> Result<Vec<ClassCells>, ImportError> {
     let classes = sources.map.classes.iter();
     classes
@@ -54,7 +54,7 @@ impl Sources<'_> {
         ))
     }
 
-    /// True if the file states that a column holds integers.
+    /// True if the file states that a column contains integers.
     fn holds_integers(&self, name: &str) -> bool {
         match self.joined_column(name) {
             Some((joined, column)) => joined.holds_integers(column),
@@ -63,7 +63,7 @@ impl Sources<'_> {
     }
 }
 
-/// True if the file of `table` states that the column `name`, or the column that it indexes, holds integers.
+/// True if the file of `table` states that the column `name`, or the column of which `name` is an element, contains integers.
 pub(super) fn holds_integers(table: &ForeignTable, name: &str) -> bool {
     let column = match table.has(name) {
         true => name,

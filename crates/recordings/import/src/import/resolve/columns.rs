@@ -4,14 +4,14 @@ use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};
 use crate::import::pattern_column::PatternColumn;
 
-/// Splits `ft[2,0]` into the column and the position in its cells; `None` for a name without position.
+/// Splits `ft[2,0]` into the column and the index in its cells; `None` for a name without an index.
 pub(super) fn indexed(name: &str) -> Option<(&str, Vec<usize>)> {
     let (base, index) = name.strip_suffix(']')?.rsplit_once('[')?;
     let index: Result<Vec<usize>, _> = index.split(',').map(|part| part.trim().parse()).collect();
     Some((base, index.ok()?))
 }
 
-/// Column that a name indexes.
+/// Column of a name, without an index.
 pub(super) fn base_of(name: &str) -> &str {
     indexed(name).map_or(name, |(base, _)| base)
 }

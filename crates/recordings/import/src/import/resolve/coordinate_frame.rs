@@ -1,4 +1,4 @@
-//! Coordinate frames of wrenches and poses: one frame per column, for all rows.
+//! Coordinate frames of wrenches and poses. Each column must have the same frame in all rows.
 
 use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, BTreeSet};
@@ -14,7 +14,7 @@ use crate::foreign::ForeignTable;
 use crate::import::map::{FrameNames, ImportMap};
 use taceva_dataset::internal::shown;
 
-/// Suffixes of columns that name a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
+/// Endings of columns that name a coordinate frame: `header.frame_id`, `/header/frame_id`, `wrench_reference_frame`.
 const ENDINGS: [&str; 6] = [
     "frame_id",
     "child_frame",
@@ -23,9 +23,9 @@ const ENDINGS: [&str; 6] = [
     "reference_frame",
     "_frame",
 ];
-/// Quantities whose frame column may have another prefix than their own columns: `wrench_frame` beside `Fx`.
+/// Quantities whose frame column may have a different prefix: `wrench_frame` beside `Fx`.
 const QUANTITIES: [&str; 6] = ["force", "ft", "pose", "position", "torque", "wrench"];
-/// Minimum rows for the rule that a column with a different text in each row names pictures.
+/// Minimum number of rows at which a column with a different text in each row is taken for names of pictures.
 const NAMES_OF_PICTURES: usize = 8;
 /// Number of frames listed in a message.
 const LISTED: usize = 8;
@@ -34,11 +34,11 @@ const LISTED: usize = 8;
 #[derive(Default)]
 pub(in crate::import) struct CoordinateFrames {
     stated: BTreeMap<FrameColumn, StatedFrame>,
-    /// Rows of the main table that are left out because their frame differs from the map's, with the reason.
+    /// Rows of the main table that are left out because their coordinate frame differs from the map, each with the reason.
     pub(in crate::import) left_out: BTreeMap<usize, String>,
 }
 
-/// Frame, with the first row given in it.
+/// Coordinate frame, with the first row that has it.
 struct StatedFrame {
     name: String,
     place: Place,
@@ -46,7 +46,7 @@ struct StatedFrame {
     time_s: Option<f64>,
 }
 
-/// Column that names frames, in a joined table or the main one.
+/// Column of the main or a joined table that names coordinate frames.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct FrameColumn {
     join: Option<String>,
@@ -54,7 +54,7 @@ struct FrameColumn {
 }
 
 impl CoordinateFrames {
-    /// Checks that another main table has the same frames as the previous ones.
+    /// Checks that a further main table has the same coordinate frames as the previous tables.
     pub(in crate::import) fn add(&mut self, other: CoordinateFrames) -> Result<(), ImportError> {
         for (column, stated) in other.stated {
             let name = stated.name.clone();
@@ -63,7 +63,7 @@ impl CoordinateFrames {
         Ok(())
     }
 
-    /// Records the frame `name` of a row. Rejects a frame that differs from the previous rows.
+    /// Records the coordinate frame `name` of a row. Rejects a frame that differs from the previous rows.
     fn take(
         &mut self,
         column: FrameColumn,
@@ -114,14 +114,14 @@ pub(super) fn columns(table: &ForeignTable) -> Vec<String> {
     names
 }
 
-/// Column name without its frame ending.
+/// Column name without the ending of a frame column; `None` for another column.
 fn without_ending(column: &str) -> Option<&str> {
     let lower = column.to_ascii_lowercase();
     let ending = ENDINGS.into_iter().find(|ending| lower.ends_with(ending))?;
     Some(&column[..column.len() - ending.len()])
 }
 
-/// Prefix of `column` before the frame ending, shared by the columns given in that frame: empty, `wrench.`.
+/// Prefix of the frame column `column`, shared by the columns given in that frame: empty, or `wrench.`.
 fn prefix(column: &str) -> &str {
     let mut prefix = without_ending(column).unwrap_or(column);
     for part in ["child_", "header.", "header/", "header_"] {
@@ -136,7 +136,7 @@ fn prefix(column: &str) -> &str {
     prefix
 }
 
-/// True if the last word before `_frame` is a quantity that is given in a frame.
+/// True if the last word before `_frame` is a quantity with a coordinate frame.
 fn is_quantity(prefix: &str) -> bool {
     let word = prefix.rsplit(['.', '/', '_']).next().unwrap_or(prefix);
     QUANTITIES
@@ -150,7 +150,7 @@ fn comparable(cell: &str) -> &str {
     cell.strip_prefix('/').unwrap_or(cell)
 }
 
-/// Label columns of the join `join`, or of the main table for `None`, as that table calls them.
+/// Label columns of the join `join`, or of the main table for `None`, with their names in that table.
 fn labels<'m>(map: &'m ImportMap, main: &ForeignTable, join: Option<&str>) -> Vec<&'m str> {
     let in_space = [
         Unit::Newton,
@@ -228,7 +228,7 @@ fn naming(table: &ForeignTable, labels: &[&str]) -> Result<Vec<String>, ImportEr
     Ok(found)
 }
 
-/// Rows of `table` given in the frame `frame`. Fails if no column names frames, or if no row has that frame.
+/// Rows of `table` in the coordinate frame `frame`. Fails if no column names frames, or if no row has that frame.
 pub(super) fn rows_in(
     table: &ForeignTable,
     labels: &[&str],
@@ -268,12 +268,12 @@ pub(super) fn rows_in(
 }
 
 impl Sources<'_> {
-    /// Label columns of the join `join`, or of the main table for `None`, whose numbers have a frame.
+    /// Label columns of the join `join`, or of the main table for `None`, whose numbers depend on a coordinate frame.
     pub(super) fn labels(&self, join: Option<&str>) -> Vec<&str> {
         labels(self.map, &self.main, join)
     }
 
-    /// Frame of every label column. It must be constant over all rows with a number.
+    /// Coordinate frame of every label column. The frame must be the same for all rows with a number.
     pub(super) fn coordinate_frames(&self) -> Result<CoordinateFrames, ImportError> {
         let mut frames = CoordinateFrames::default();
         let labels = self.labels(None);
@@ -342,7 +342,7 @@ impl Sources<'_> {
     }
 }
 
-/// Row of a table, with the column that names its frame.
+/// Row of a table, with the column that names its coordinate frame.
 struct Given<'a> {
     table: &'a ForeignTable,
     join: Option<&'a str>,
@@ -351,7 +351,7 @@ struct Given<'a> {
 }
 
 impl Given<'_> {
-    /// Records the row's frame if one of the labels has a number there.
+    /// Records the coordinate frame of the row if a label has a number in the row.
     fn take(
         &self,
         frames: &mut CoordinateFrames,

@@ -30,15 +30,15 @@ use timing::{TimedRow, Timing};
 
 pub(in crate::import) use matches::JoinMatches;
 
-/// Joined table, or several if its name depends on the path.
+/// Joined table; several tables if the file name depends on the path.
 pub(super) struct Joined<'a> {
     map: &'a JoinMap,
     tables: Vec<Candidates>,
     /// One match per row of the main table.
     matches: Vec<Match>,
-    /// Times, of a join by time.
+    /// Times of the rows in a join by time.
     timing: Timing,
-    /// Columns that need special interpolation between two rows.
+    /// Interpolations of columns that are not interpolated linearly.
     interpolations: Vec<Interpolation>,
 }
 
@@ -110,9 +110,9 @@ impl<'a> Joined<'a> {
         self.tables.iter().map(|candidates| &candidates.table)
     }
 
-    /// Warning on a join by time whose rows mostly share their times.
+    /// Warning for a join by time in which most rows share their time with another row.
     pub(super) fn repeated_stamps(&self) -> Option<ImportWarning> {
-        /// Least number of rows for a warning: a few equal times are no clock of whole seconds.
+        /// Minimum number of rows for a warning. A few equal times do not indicate a clock with whole seconds.
         const LEAST: usize = 10;
         let rows: usize = self.tables.iter().map(|of| of.timed).sum();
         let times: usize = self.tables.iter().map(|of| of.by_time.len()).sum();
@@ -127,12 +127,12 @@ impl<'a> Joined<'a> {
         self.matches[row].at != At::Nowhere
     }
 
-    /// Folder of the table that `row` is matched with.
+    /// Folder of the table that is matched with `row`.
     pub(super) fn folder(&self, row: usize) -> &Path {
         taceva_files::parent_of(self.tables[self.matches[row].table].table.path())
     }
 
-    /// True if every file states that `column` holds integers.
+    /// True if every file states that `column` contains integers.
     pub(super) fn holds_integers(&self, column: &str) -> bool {
         let mut tables = self.tables.iter();
         !self.tables.is_empty() && tables.all(|joined| holds_integers(&joined.table, column))
@@ -154,7 +154,7 @@ impl<'a> Joined<'a> {
         columns.iter().map(|(own, _)| own.as_str()).chain(lag)
     }
 
-    /// Cell of the row matched with `row` in `column`; empty without a match.
+    /// Cell in `column` of the row that is matched with `row`; empty without a match.
     pub(super) fn cell(&self, row: usize, column: &str) -> Result<String, ImportError> {
         let Match { table, at } = self.matches[row];
         let table = &self.tables[table].table;
@@ -191,7 +191,7 @@ impl<'a> Joined<'a> {
         })
     }
 
-    /// Example cell of the joined tables whose point may group digits, with the number of such cells.
+    /// Example of a cell of the joined tables whose decimal point may be a digit separator, with the number of these cells.
     pub(super) fn grouped_digits(&self, column: &str) -> Option<(String, u64)> {
         let mut tables = self.tables.iter();
         tables.find_map(|candidates| candidates.table.grouped_digits(column))
@@ -215,7 +215,7 @@ impl<'a> Joined<'a> {
         tables.try_for_each(|candidates| candidates.table.count_absent_chunks(folder, &own, into))
     }
 
-    /// Warning of rows of the main table whose times are in a wrong order.
+    /// Warning for rows of the main table whose times are out of order.
     pub(super) fn wrong_order(&self, sources: &Sources<'_>) -> Option<ImportWarning> {
         let (first, rows) = self.timing.swapped()?;
         let mut place = sources.main.place(first, "");
@@ -268,7 +268,7 @@ impl<'a> Joined<'a> {
         }
     }
 
-    /// Delay of the joined table's clock at `row`, ms; positive if it shows a later time.
+    /// Offset of the clock of the joined table at `row`, ms; positive if that clock shows a later time.
     fn lag_ms(&self, sources: &Sources<'_>, row: usize, lag: &Lag) -> Result<f64, ImportError> {
         match lag {
             Lag::Fixed(lag) => Ok(*lag),
@@ -371,7 +371,7 @@ impl<'a> Joined<'a> {
     }
 }
 
-/// Columns of the joined table among the names that a map mentions.
+/// Columns of the join `join` among `names`, the names that a map mentions.
 fn own_columns<'n>(names: &'n [String], join: &str) -> Vec<&'n str> {
     let own = names.iter().filter_map(|name| {
         let (prefix, column) = name.split_once('.')?;

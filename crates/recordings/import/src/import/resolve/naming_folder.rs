@@ -1,4 +1,4 @@
-//! Folders of joined tables that name pictures; such paths are relative to the naming table.
+//! Folders of joined tables that name pictures. Paths are relative to the folder of the table that names them.
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ pub(in crate::import) struct NamedBy {
     views: Vec<ViewNamedBy>,
 }
 
-/// Folder of the joined table that names each row's picture and reference; `None` if the main table names them.
+/// Folder of the joined table that names the picture and the reference of each row; `None` if the main table does.
 #[derive(Debug)]
 struct ViewNamedBy {
     frames: Option<Vec<PathBuf>>,
@@ -43,7 +43,7 @@ impl NamedBy {
         Some(self.views.get(view)?.frames.as_ref()?.get(row)?)
     }
 
-    /// Folder of the joined table that names its picture without contact.
+    /// Folder of the joined table that names the picture without contact of `row`; `None` if the main table does.
     pub(in crate::import) fn reference(&self, view: usize, row: usize) -> Option<&Path> {
         Some(self.views.get(view)?.references.as_ref()?.get(row)?)
     }

@@ -1,13 +1,13 @@
-//! Unwraps rotations, so that consecutive rows are close.
+//! Selects among equivalent rotations, so that consecutive rows are close.
 
 use super::table::ResolvedTable;
 use crate::error::ImportError;
 use crate::import::map::RotationMap;
 
-/// Least distance gained by equivalent numbers before they are used, in the unit of the cells.
+/// Minimum distance that equivalent numbers must gain, in the unit of the cells.
 const LEAST_GAIN: f64 = 1e-9;
 
-/// Replaces each rotation by the equivalent nearest to the previous row. Robots alternate between v and -v near half a turn.
+/// Replaces each rotation by the equivalent rotation nearest to the previous row. Robots alternate between v and -v near half a turn.
 ///
 /// # Errors
 /// [`ImportError::Table`] naming the row for a quaternion whose norm is not 1.

@@ -6,7 +6,7 @@ use crate::error::{ImportError, table_error};
 use crate::import::map::SignalsMap;
 use taceva_core::single;
 
-/// Values of every row, grouped by taxel, in the stored unit. A cell without a number gives NaN, which is an error if the row is kept.
+/// Values of every row, grouped by taxel, in the stored unit. A cell without a number becomes NaN, which is an error if the row is kept.
 pub(super) fn numbers(
     sources: &Sources<'_>,
     map: &SignalsMap,
@@ -56,11 +56,11 @@ pub(super) fn numbers(
     })
 }
 
-/// Taxel values in columns.
+/// Taxel values in the columns of a table.
 pub(in crate::import) struct ColumnSignals {
     /// Values of every row, grouped by taxel.
     pub(in crate::import) numbers: Vec<f32>,
-    /// True for each row with a number that means "nothing measured".
+    /// True for each row with a number that means "not measured".
     pub(in crate::import) are_placeholders: Vec<bool>,
 }
 
@@ -70,10 +70,10 @@ impl Sources<'_> {
     }
 }
 
-/// Lengths of the nested lists in a cell, from the outermost one; empty for a cell without brackets.
+/// Lengths of the nested lists in a cell, the outermost first; empty for a cell without brackets.
 ///
 /// # Errors
-/// Reason that the lists are irregular.
+/// Error message stating why the lists are irregular.
 fn nested(cell: &str) -> Result<Vec<u64>, String> {
     let mut open: Vec<u64> = Vec::new();
     let mut sides: Vec<Option<u64>> = Vec::new();
@@ -122,7 +122,7 @@ fn packed(cell: &str) -> impl Iterator<Item = &str> {
     parts.filter(|part| !part.is_empty())
 }
 
-/// Number in a cell, in the stored unit; NaN if there is none.
+/// Number in a cell, in the stored unit; NaN if the cell contains no number.
 fn read(cell: &str, map: &SignalsMap) -> f32 {
     let number = number::number_in_unit(cell.trim(), &map.unit);
     // Numbers beyond single precision are absent as well.
@@ -132,7 +132,7 @@ fn read(cell: &str, map: &SignalsMap) -> f32 {
         .unwrap_or(f32::NAN)
 }
 
-/// Numbers of a row reordered by taxel, then by channel.
+/// Numbers of a row, reordered by taxel and then by channel.
 pub(in crate::import) fn place_first<'v>(
     map: &SignalsMap,
     values: &'v [f32],

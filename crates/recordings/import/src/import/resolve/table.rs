@@ -19,7 +19,7 @@ pub(in crate::import) struct ResolvedTable {
     cells: Vec<Vec<String>>,
     /// Place of each row, for messages.
     places: Vec<Place>,
-    /// For each row, the first join that has no match for it, if any. Such a row is left out.
+    /// For each row, the first join without a match. The row is left out. `None` if all joins match.
     unmatched: Vec<Option<String>>,
 }
 
@@ -88,7 +88,7 @@ impl ResolvedTable {
         self.unmatched[row].as_deref()
     }
 
-    /// Position of the column called `name`. Every column of the map exists.
+    /// Position of the column called `name`. Every column of the map exists; `None` for others.
     pub(in crate::import) fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
     }

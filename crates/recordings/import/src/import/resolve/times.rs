@@ -1,4 +1,4 @@
-//! Times that a file marks as times or writes as text. They are read in seconds and never scaled.
+//! Times that a file marks as times or writes as text. They are always converted to seconds, without a scale of the map.
 
 use taceva_core::SourceUnit;
 
@@ -10,7 +10,7 @@ use crate::import::warning::ImportWarning;
 use crate::instant::TextInstant;
 use taceva_dataset::internal::shown;
 
-/// Checks that the map states seconds for the column `name` if the file marks it as times.
+/// Checks that the map states seconds for the column `name` if the file marks the column as times.
 pub(super) fn check(
     table: &ForeignTable,
     name: &str,
@@ -33,20 +33,20 @@ pub(super) fn check(
 pub(super) struct TextTimes {
     /// Seconds as decimal text; empty for an empty cell.
     pub(super) seconds: Vec<String>,
-    /// True if a dated text has no zone and the map states none.
+    /// True if a text with a date has no time zone and the map states none.
     has_no_zone: bool,
-    /// Number of midnights that the times of day cross.
+    /// Number of midnights between the first and the last time of day.
     midnights: i64,
 }
 
-/// Decrease of a time of day between rows that means a midnight, s.
+/// Decrease of the time of day between rows that indicates a midnight, s.
 const HALF_A_DAY_S: i64 = 43_200;
 
 impl TextTimes {
-    /// Parses the times in `cells`; `None` if they are numbers.
+    /// Parses the times in `cells`; `None` if the cells are numbers.
     ///
     /// # Errors
-    /// First row whose time does not match the previous form, with the problem.
+    /// First row whose time has a different form than the previous rows, with the problem.
     pub(super) fn of(
         cells: &[String],
         map: &TimeMap,

@@ -1,4 +1,4 @@
-//! Compares units and packing stated by a file with the map. A contradiction would mean a wrong factor.
+//! Compares units and packing stated by a file with the map. A contradiction indicates a wrong factor.
 
 use taceva_core::SourceUnit;
 
@@ -9,7 +9,7 @@ use crate::error::{ImportError, Place};
 use crate::foreign::{ForeignTable, Stated};
 use crate::unit_suffix::UnitSuffix;
 
-/// Interpretation of a column by a map.
+/// Interpretation of a column by a map: unit, scale and quantity.
 #[derive(Clone, Copy)]
 pub(super) struct Reading<'a> {
     pub(super) unit: &'a SourceUnit,
@@ -55,7 +55,7 @@ pub(super) fn check(
     }
 }
 
-/// Contradiction between the map and the first of `names` with a unit of the quantity. An element's name precedes that of its column.
+/// Contradiction between the map and the first of `names` that contains a unit of the quantity. The name of an element precedes the name of its column.
 pub(in crate::import) fn problem_of_names<'n>(
     names: impl IntoIterator<Item = &'n str>,
     unit: &SourceUnit,
@@ -74,7 +74,8 @@ pub(in crate::import) fn problem_of_names<'n>(
     None
 }
 
-/// Stated unit, if it has the map's quantity and another factor. An array of forces and torques has one attribute for both.
+/// Stated unit, if it has the same quantity as `unit` but a different factor. Other quantities are ignored, because an array of forces and torques has one
+/// attribute for both.
 fn contradicted(stated: &str, unit: &SourceUnit) -> Option<&'static str> {
     let own = SourceUnit::parse(stated.trim()).ok()?;
     let is_other =
@@ -141,7 +142,7 @@ impl Sources<'_> {
         Ok(())
     }
 
-    /// Checks a number in a path against its name and the following letters: `Fz{fz:number}mN`.
+    /// Checks a number in a path against its name and the letters after it: `Fz{fz:number}mN`.
     fn check_part(&self, part: &str, reading: Reading<'_>) -> Result<(), ImportError> {
         let pattern = self.map.path.as_ref();
         let behind = pattern.and_then(|pattern| pattern.letters_behind(part));

@@ -1,4 +1,4 @@
-//! Labels of a row: numbers in the stored units, and texts from closed lists.
+//! Labels of a row: numbers in the stored units, and texts of closed lists.
 
 use taceva_core::{GratingKind, Limit, Nanometre, Phase, is_scorable};
 
@@ -23,7 +23,7 @@ impl MappedTable<'_> {
         Ok(labels)
     }
 
-    /// Numbers of a row in the stored units, with the table's signs.
+    /// Numbers of a row in the stored units, with the signs of the table.
     fn converted(&self, row: usize) -> Result<Vec<Option<f64>>, ImportError> {
         self.truth
             .iter()
@@ -96,7 +96,7 @@ impl MappedTable<'_> {
         })
     }
 
-    /// Value of a cell; `None` without the column or without a text. Texts that `from` does not know are refused.
+    /// Value of a cell, parsed by `from`. `None` without the column or without a text; an error for a text that `from` does not accept.
     fn value<T>(
         &self,
         row: usize,
@@ -132,7 +132,7 @@ impl MappedTable<'_> {
         Ok(texts)
     }
 
-    /// Class name for a cell that holds a name or a position.
+    /// Class name for a cell that contains a name or a position.
     pub(super) fn class(
         &self,
         row: usize,

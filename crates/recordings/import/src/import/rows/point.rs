@@ -17,7 +17,7 @@ impl MappedTable<'_> {
     }
 }
 
-/// Cells joined with `:` without ambiguity: a `:` or `\` within a cell is escaped with `\`.
+/// Joins cells with `:`. A `:` or `\` within a cell is escaped with `\`, so that the result is unambiguous.
 fn joined(cells: &[&str]) -> String {
     let mut joined = String::new();
     for (at, cell) in cells.iter().enumerate() {

@@ -14,13 +14,13 @@ use taceva_dataset::internal::shown;
 /// Pictures of one view, as the rows of a table name them.
 pub(in crate::import) struct MappedView {
     cells: FrameCells,
-    /// Column of each row's frame without contact.
+    /// Column that names the frame without contact of each row.
     reference: Option<usize>,
     /// Column of the original picture.
     pub(super) origin: Option<usize>,
-    /// Pictures inside the table.
+    /// Pictures inside the file of the table; `None` for separate files.
     pub(in crate::import) pictures: Option<Arc<dyn Pictures>>,
-    /// Pixels of the depth map in its clips.
+    /// Conversion of the depth map in the clips; `None` for pictures.
     pub(in crate::import) depth: Option<DepthPixels>,
 }
 
@@ -68,7 +68,7 @@ impl MappedView {
 }
 
 impl MappedTable<'_> {
-    /// Name of a row's frame in the view at position `view`, with its place.
+    /// Name of the frame of a row in the view at position `view`, with its place.
     pub(in crate::import) fn frame_name(
         &self,
         view: usize,
@@ -104,7 +104,7 @@ impl MappedTable<'_> {
         Ok((name, self.table.place(row, column)))
     }
 
-    /// Name of a row's frame without contact, with its place; `None` if the map names no such column.
+    /// Name of the frame without contact of a row, with its place; `None` if the map names no column for it.
     pub(in crate::import) fn reference_name(
         &self,
         view: usize,
@@ -114,13 +114,13 @@ impl MappedTable<'_> {
         Some((self.table.cell(row, column), self.table.place(row, column)))
     }
 
-    /// Original picture of a row in a view, if the map of an export names it.
+    /// Original picture of a row in a view; `None` unless the map is from an export.
     pub(in crate::import) fn origin_of(&self, view: usize, row: usize) -> Option<String> {
         let cell = self.table.cell(row, self.views[view].origin?);
         (!cell.is_empty()).then(|| cell.to_owned())
     }
 
-    /// Rules that drop the row by a picture in a clip or an array, such as `clip.mp4#12`.
+    /// Rules that exclude the row because of a picture in a clip or an array, such as `clip.mp4#12`.
     pub(super) fn names_within_left_out(&self, row: usize) -> Vec<String> {
         let rules = &self.map.drop.frames_named;
         if !rules.iter().any(|rule| rule.contains('#')) {
@@ -139,7 +139,7 @@ impl MappedTable<'_> {
             .collect()
     }
 
-    /// Rules that drop the row by the names of its pictures.
+    /// Rules that exclude the row because of the names of its pictures.
     pub(super) fn names_left_out(&self, row: usize) -> Vec<String> {
         let rules = &self.map.drop.frames_named;
         let views = self.map.frames.iter().zip(&self.views);
@@ -178,7 +178,7 @@ impl MappedTable<'_> {
     }
 }
 
-/// True if two relative paths lead to one file.
+/// True if two relative paths refer to the same file.
 fn is_same(one: &Path, other: &Path) -> bool {
     let is_name = |part: &Component<'_>| *part != Component::CurDir;
     let one = one.components().filter(is_name);

@@ -8,21 +8,21 @@ use crate::import::map::{GravityMap, RotationMap, ZeroMap, ZeroRows};
 use crate::import::warning::ImportWarning;
 use taceva_dataset::internal::shown;
 
-/// Standard gravity, m/s².
+/// Standard acceleration of gravity, m/s².
 const FREE_FALL: f64 = 9.806_65;
-/// Limit of the spread of zero rows, as a share of the spread of all rows. Above it the import warns.
+/// Limit of the spread of zero rows, as a fraction of the spread of all rows. The import warns above the limit.
 const SPREAD: f64 = 0.2;
 
 /// Zero of each block of rows.
 pub(in crate::import) struct Zeros {
-    /// Block of each row.
+    /// Index of the block of each row.
     blocks: Vec<usize>,
-    /// Zero of each channel of the map, by block.
+    /// Zero of each channel of the map, by block, in the unit of the channel.
     means: Vec<Vec<f64>>,
 }
 
 impl Zeros {
-    /// Least and greatest zero of the channel at `position` of the map, with the number of blocks.
+    /// Minimum and maximum zero of the channel at `position` of the map, with the number of blocks.
     pub(in crate::import) fn range(&self, position: usize) -> ([f64; 2], u64) {
         let means = self.means.iter().map(|block| block[position]);
         let least = means.clone().fold(f64::INFINITY, f64::min);
@@ -31,7 +31,7 @@ impl Zeros {
     }
 }
 
-/// Kept rows that share a zero; true for those that read zero.
+/// Kept rows that share a zero. The second value is true for rows at zero force.
 type Block = Vec<(usize, bool)>;
 
 impl MappedTable<'_> {
@@ -50,7 +50,7 @@ impl MappedTable<'_> {
     /// Computes the zeros of `map`.
     ///
     /// # Errors
-    /// [`ImportError::Table`] for a block with too few zero rows, or whose cells are no numbers.
+    /// [`ImportError::Table`] for a block with too few zero rows, or with cells that are no numbers.
     pub(super) fn find_zeros(&mut self, map: &ZeroMap) -> Result<(), ImportError> {
         let column = match &map.rows {
             ZeroRows::First(_) => None,
@@ -196,7 +196,7 @@ impl MappedTable<'_> {
     }
 }
 
-/// Range of `numbers`: greatest minus least.
+/// Range of `numbers`: maximum minus minimum.
 fn spread(numbers: &[f64]) -> f64 {
     let least = numbers.iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = numbers.iter().copied().fold(f64::NEG_INFINITY, f64::max);

@@ -14,7 +14,7 @@ use crate::source_folder::SourceFolder;
 use taceva_dataset::DatasetError;
 use taceva_dataset::internal::{SignalsWriter, guarded};
 
-/// Numbers per read: 8 MiB as `f64`.
+/// Number of values per read: 8 MiB as `f64`.
 const READ_VALUES: u64 = 1 << 20;
 
 /// Array of signals.
@@ -28,7 +28,7 @@ pub(super) struct ArraySignals {
 }
 
 impl ArraySignals {
-    /// Opens the array `name`, or the only one, of the file at `path`, and checks its axes against `map`.
+    /// Opens the array `name` of the file at `path`, or its only array, and checks the axes against `map`.
     pub(super) fn open(
         path: &Path,
         name: Option<&str>,
@@ -107,7 +107,7 @@ impl ArraySignals {
         }
     }
 
-    /// Checks that the array has `rows` rows, as the table.
+    /// Checks that the array has `rows` rows, as many as the table.
     pub(super) fn check_rows(&self, rows: u64) -> Result<(), ImportError> {
         match rows == self.rows {
             true => Ok(()),
@@ -119,7 +119,7 @@ impl ArraySignals {
         }
     }
 
-    /// Counts the array's unwritten chunks.
+    /// Counts the unwritten chunks of the array.
     pub(super) fn count_absent_chunks(
         &self,
         folder: &SourceFolder,
@@ -134,7 +134,7 @@ impl ArraySignals {
         Ok(())
     }
 
-    /// Rows with a number that means "nothing measured".
+    /// Rows that contain a number that means "not measured".
     pub(super) fn placeholders(&self, map: &SignalsMap) -> Result<BTreeSet<u64>, ImportError> {
         let step = (READ_VALUES / self.length).max(1);
         let length = usize::try_from(self.length).unwrap_or(usize::MAX);
@@ -151,7 +151,7 @@ impl ArraySignals {
         Ok(found)
     }
 
-    /// Writes the signals of `rows`, which ascend.
+    /// Writes the signals of `rows`, which must be ascending.
     pub(super) fn write(
         &self,
         map: &SignalsMap,

@@ -13,7 +13,7 @@ use crate::import::resolve::times::TextTimes;
 use crate::import::resolve::unit_statement::{self, Of, Reading};
 use taceva_dataset::internal::shown;
 
-/// Least number of steps for the usual one.
+/// Minimum number of steps for a usual step.
 const LEAST_STEPS: usize = 10;
 
 /// Table with its candidate rows.
@@ -26,9 +26,9 @@ pub(super) struct Candidates {
     pub(super) by_key: HashMap<Vec<String>, Vec<usize>>,
     /// For a join by time: time, s, and row, in order of time.
     pub(super) by_time: Vec<(f64, usize)>,
-    /// For a join by time: number of rows with a time, of which `by_time` has the first of each time.
+    /// For a join by time: number of rows with a time. Of rows with equal times, `by_time` contains only the first.
     pub(super) timed: usize,
-    /// For a join by time: usual step between its rows, s.
+    /// For a join by time: usual step between rows, s.
     pub(super) usual_s: Option<f64>,
     /// For a join with `until`: number and row, in order of the number.
     pub(super) until: Vec<(u64, usize)>,
@@ -47,7 +47,7 @@ impl<'a> TakenRow<'a> {
         &self.candidates.table
     }
 
-    /// Time, s, in a join by time.
+    /// Time of the row, s; `None` unless the join is by time.
     pub(crate) fn time_s(&self) -> Option<f64> {
         let mut times = self.candidates.by_time.iter();
         let found = times.find(|(_, row)| *row == self.row);
@@ -176,7 +176,7 @@ impl Candidates {
     }
 }
 
-/// Usual of `steps_s`: three quarters are at most as long. `None` for few steps.
+/// Usual step: the third quartile of `steps_s`. `None` for few steps.
 fn usual_step_s(mut steps_s: Vec<f64>) -> Option<f64> {
     steps_s.sort_by(f64::total_cmp);
     let usual_s = steps_s.get(steps_s.len() * 3 / 4).copied();

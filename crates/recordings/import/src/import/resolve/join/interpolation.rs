@@ -1,4 +1,4 @@
-//! Interpolates a cell between two rows of a joined table: numbers linearly, angles the short way, rotations by the shortest turn.
+//! Interpolates a cell between two rows of a joined table: numbers linearly, angles and rotations along the shortest path.
 
 use taceva_core::Unit;
 
@@ -27,7 +27,7 @@ enum Way {
     },
     /// Angle with a period, in the unit of the cells.
     Periodic(f64),
-    /// Component of a rotation, whose columns are named as in the joined table.
+    /// Component of a rotation. The columns have their names in the joined table.
     Rotation {
         map: RotationMap,
         columns: Vec<String>,
@@ -35,7 +35,7 @@ enum Way {
     },
 }
 
-/// Limit of the angle between two rotations with a unique shortest path, degrees.
+/// Maximum angle between two rotations with a unique shortest path, degrees.
 const OPPOSITE_DEG: f64 = 179.0;
 
 impl Interpolation {
@@ -89,7 +89,7 @@ impl Interpolation {
     }
 }
 
-/// Two rows of a joined table with an instant between them.
+/// Two neighbouring rows of a joined table, and an instant between them.
 pub(super) struct Gap<'a> {
     pub(super) table: &'a ForeignTable,
     pub(super) rows: [usize; 2],
@@ -98,10 +98,10 @@ pub(super) struct Gap<'a> {
 }
 
 impl Gap<'_> {
-    /// Interpolated cell of `column`; empty if either row is empty.
+    /// Interpolated cell of `column`; empty if the cell of either row is empty.
     ///
     /// # Errors
-    /// [`ImportError::Table`] for a cell that is no number, and for angles or rotations without a unique path.
+    /// [`ImportError::Table`] for a cell that is no number, and for angles or rotations without a unique shortest path.
     pub(super) fn cell(
         &self,
         column: &str,
@@ -134,7 +134,7 @@ impl Gap<'_> {
         Ok(format!("{number:?}"))
     }
 
-    /// Numbers in both rows; `None` if either is empty.
+    /// Numbers of `column` in both rows; `None` if either cell is empty.
     fn ends(&self, column: &str) -> Result<Option<[f64; 2]>, ImportError> {
         let of = |row| -> Result<Option<f64>, ImportError> {
             let cell = cell_of(self.table, row, column)?;
@@ -188,7 +188,7 @@ impl Gap<'_> {
     }
 }
 
-/// Angle at `share` of the shorter path, in the range of both ends.
+/// Angle at `share` of the shorter path from `before` to `after`, in the same range.
 fn wrapped(before: f64, after: f64, share: f64, period: f64) -> f64 {
     let turns = ((after - before) / period).round();
     let angle = before + share * (after - before - turns * period);

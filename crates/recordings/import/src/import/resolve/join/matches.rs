@@ -14,11 +14,11 @@ pub(in crate::import) struct JoinMatches {
     pub(super) name: String,
     /// Coordinate frame to which the map restricts the rows.
     pub(super) frame_id: Option<String>,
-    /// Key of the map for a join by row number; `None` for other joins.
+    /// Map key that counts rows, for a join by row number; `None` for other joins.
     pub(super) counted_by: Option<&'static str>,
     pub(super) matched: u64,
     pub(super) unmatched: u64,
-    /// Times, of a join by time.
+    /// Times of the rows in a join by time.
     pub(super) timing: Timing,
     /// Use of each joined table.
     pub(super) tables: BTreeMap<PathBuf, TableUses>,
@@ -46,8 +46,8 @@ impl JoinMatches {
         }
     }
 
-    /// Checks that no table joined by row number serves two main tables, as each would begin with its first row. `main` is the table of
-    /// `other`, one of `tables`. `are_files` is true if each main table is a file that is one row.
+    /// Checks that no table joined by row number is used by two main tables, because each would begin with its first row. `main` is the table of `other`, and
+    /// is among `tables`. `are_files` is true if each main table is a file that forms one row.
     pub(in crate::import) fn check_counted_once(
         &self,
         other: &JoinMatches,
@@ -84,7 +84,7 @@ impl JoinMatches {
         &self.name
     }
 
-    /// Warnings about its times.
+    /// Warnings about the times of the join.
     pub(in crate::import) fn warnings(&self) -> Vec<ImportWarning> {
         let tables = self.tables.values();
         let used: usize = tables.clone().map(|uses| uses.used.len()).sum();
@@ -93,7 +93,7 @@ impl JoinMatches {
             .warnings(&self.name, self.matched, 2 * used < candidates)
     }
 
-    /// Spans of the times of both sides in words, if no row of a join by time has a match.
+    /// Time spans of both tables in words, if a join by time has no match at all; otherwise `None`.
     pub(in crate::import) fn apart(&self) -> Option<String> {
         let spans = self.timing.spans(&self.name);
         spans.filter(|_| self.matched == 0)

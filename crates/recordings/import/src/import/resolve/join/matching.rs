@@ -6,15 +6,15 @@ use crate::foreign::cell_list;
 use crate::import::map::{Pick, TimeJoin, TimeMap};
 use taceva_dataset::internal::shown;
 
-/// Upper limit of the `f64` rounding error of seconds since 1970.
+/// Maximum rounding error of seconds since 1970 as `f64`, s.
 const ROUNDING_S: f64 = 1e-6;
 
-/// Matched row.
+/// Position of a match in a joined table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum At {
     Nowhere,
     Row(usize),
-    /// Between two rows, with the weight of the second, from 0 to 1.
+    /// Between two rows, with the weight of the second row, from 0 to 1.
     Between([usize; 2], f64),
 }
 
@@ -32,7 +32,7 @@ pub(super) fn comparable(cell: &str) -> String {
     }
 }
 
-/// Time in a cell, s; `None` if it is empty.
+/// Time in a cell, s; `None` if the cell is empty.
 pub(super) fn seconds(
     cell: &str,
     time: &TimeMap,
@@ -42,7 +42,7 @@ pub(super) fn seconds(
         .map_err(|problem| table_error!(place(), "`{}`: {problem}", shown(cell)))
 }
 
-/// Match of `instant` in `times`, which are sorted, with its distance, s.
+/// Match for `instant` among the sorted `times`, with the time difference, s.
 pub(super) fn about(times: &[(f64, usize)], instant: f64, join: &TimeJoin) -> Option<(At, f64)> {
     let behind = times.partition_point(|(time, _)| *time <= instant);
     let before = behind.checked_sub(1).map(|at| times[at]);

@@ -1,22 +1,22 @@
-//! Times of a join by time: spans, distances, and signs of a wrong lag, unit, order or tolerance.
+//! Times of a join by time: spans, time differences, and signs of a wrong lag, unit, order or tolerance.
 
 use super::candidates::Candidates;
 use crate::import::map::Pick;
 use crate::import::warning::ImportWarning;
 
-/// Least number of rows for a statement about a join.
+/// Minimum number of rows for a statement about a join.
 const LEAST: u64 = 10;
-/// Distance of a match across a pause: a multiple of the usual step, and a time, s.
+/// Limits above which a match is across a pause: a multiple of the usual step, and a time difference, s.
 const FAR: f64 = 3.0;
 const FAR_S: f64 = 0.05;
-/// Greatest lag that a delay of pictures explains, s.
+/// Maximum lag that a delay of pictures can explain, s.
 const DELAY_S: f64 = 0.1;
-/// Greatest difference of equal times, s, and of times that are equal by a regular clock, as a share of its step.
+/// Maximum difference of equal times, s. For times of a regular clock, a fraction of its step.
 const EQUAL_S: f64 = 1e-6;
 const REGULAR: f64 = 0.01;
-/// Greatest difference of a ratio of times from the factor of a unit, as a share.
+/// Maximum relative difference between a ratio of times and the factor of a unit.
 const FACTOR: f64 = 0.01;
-/// Greatest share of rows in a wrong order, as their inverse: a table with more was sorted otherwise.
+/// Inverse of the maximum fraction of rows that are out of order. A table with a larger fraction has a different order.
 const SWAPPED: u64 = 10;
 
 /// Row of a main table with its time.
@@ -26,7 +26,7 @@ pub(super) struct TimedRow {
     pub(super) time_s: f64,
     pub(super) lag_s: f64,
     pub(super) pick: Pick,
-    /// Distance of its match, s; `None` without one.
+    /// Time difference of the match, s; `None` without a match.
     pub(super) gap_s: Option<f64>,
 }
 
@@ -41,30 +41,30 @@ struct Span {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Timing {
     rows: u64,
-    /// Span of the rows, in the clock of the joined table.
+    /// Time span of the rows, on the clock of the joined table.
     own: Option<Span>,
     joined: Option<Span>,
-    /// Greatest distance of a match, s.
+    /// Maximum time difference of a match, s.
     pub(super) greatest_gap_s: Option<f64>,
-    /// Rows with a match across a pause of the joined table.
+    /// Number of rows with a match across a pause of the joined table.
     far: u64,
-    /// Greatest usual step of the joined tables of these rows, s.
+    /// Maximum usual step of the joined tables of these rows, s.
     usual_s: f64,
     lagged: Lagged,
-    /// The two rows before the next one.
+    /// The last two rows added.
     recent: [Option<TimedRow>; 2],
-    /// Rows earlier than the row before them, whose next row is later than both.
+    /// Number of rows that are earlier than the previous row, while the next row is later than both.
     swapped: u64,
     first_swapped: Option<usize>,
 }
 
-/// Rows with a long lag, and those of them that equal the time of a joined row.
+/// Numbers of rows with a long lag, and of those at whose time the joined table has a row.
 #[derive(Clone, Debug, Default)]
 struct Lagged {
     rows: u64,
     without_lag: u64,
     with_lag: u64,
-    /// Equal to a time that is shifted by whole steps.
+    /// Number of rows with an equal time after a shift by whole steps, by chance.
     by_chance: u64,
 }
 
@@ -79,7 +79,7 @@ impl Span {
 }
 
 impl Timing {
-    /// Adds a row of the main table, matched among `candidates`.
+    /// Adds a row of the main table that was matched among `candidates`.
     pub(super) fn add(&mut self, row: TimedRow, candidates: &Candidates) {
         self.rows += 1;
         let shown_s = row.time_s + row.lag_s;
@@ -130,13 +130,13 @@ impl Timing {
         self.lagged.by_chance += other.lagged.by_chance;
     }
 
-    /// First of a few rows whose times are in a wrong order, with the number of these rows.
+    /// First row whose time is out of order, with the number of these rows; `None` if there are none or too many.
     pub(super) fn swapped(&self) -> Option<(usize, u64)> {
         let first = self.first_swapped?;
         (self.swapped * SWAPPED <= self.rows).then_some((first, self.swapped))
     }
 
-    /// Spans of both tables in words, with the factor of a wrong unit.
+    /// Time spans of both tables in words, with the factor of a wrong unit.
     pub(super) fn spans(&self, join: &str) -> Option<String> {
         let (own, joined) = self.own.zip(self.joined)?;
         let is_near = |ratio: f64| (ratio - 1.0).abs() < FACTOR;
@@ -159,8 +159,8 @@ impl Timing {
         ))
     }
 
-    /// Warnings about the lag, the tolerance and the matches of `join`, of which `matched` rows have one. Single presses match few rows of a
-    /// stream: few matches are a fault only if `most_unused`, that is if most joined rows serve none.
+    /// Warnings about the lag, the tolerance and the matches of `join`. `matched` rows have a match. Few matches are a fault only if `most_unused`, that is,
+    /// most joined rows are unused, because single presses match few rows of a stream.
     pub(super) fn warnings(
         &self,
         join: &str,
@@ -218,7 +218,7 @@ impl Lagged {
         self.by_chance += u64::from(steps.any(|step| has(row.time_s + step * usual_s, near_s)));
     }
 
-    /// True if nearly all rows have a joined row at their own time, but neither with their lag nor by a regular clock.
+    /// True if nearly all rows have a joined row at their own time. Few rows may have one at the time with their lag, or by a regular clock.
     fn is_of_one_clock(&self) -> bool {
         self.rows >= LEAST
             && 10 * self.without_lag >= 9 * self.rows
