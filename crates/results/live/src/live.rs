@@ -91,9 +91,9 @@ impl Live {
         self.shared.inside().state.predicted = Some(frames);
     }
 
-    /// Sets the callback `heard` for pictures with a prediction sent to a browser. It receives the stamp of each frame once, s.
+    /// Sets the callback `heard` for pictures with a prediction sent to a browser. Each call receives the stamp of one frame, s.
     ///
-    /// The callback runs on a thread of the page; only the first one is kept.
+    /// The callback runs on a thread of the page. Later callbacks are ignored.
     pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {
         drop(self.shared.on_sent.set(Box::new(heard)));
     }
