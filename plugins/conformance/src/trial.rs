@@ -15,7 +15,7 @@ use crate::report::{Outcome, Report, Tested};
 /// Settings of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Arguments for opening, in the form after the colon of a selector.
+    /// Arguments for opening, as written after the colon of a selector.
     pub arguments: String,
     /// Deadline of calls that should succeed, on the clock of the device.
     pub deadline: Deadline,

@@ -1,6 +1,6 @@
 //! Open devices, rigs and fitted models. The host gets their numbers as handles.
 //!
-//! A handle is a number and never an address. A closed or unknown handle is rejected and never dereferenced.
+//! A handle is a number and never an address. Calls reject closed and unknown handles without dereferencing them.
 
 use std::any::Any;
 use std::collections::BTreeMap;
