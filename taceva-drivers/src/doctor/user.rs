@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::Metadata;
 
-/// A user, the groups of this session, and the names of all groups.
+/// User, with the groups of this session and the names of all groups.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct User {
     id: u32,

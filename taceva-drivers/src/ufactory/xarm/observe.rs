@@ -24,7 +24,7 @@ pub(super) struct Observation {
     pub(super) pose: [f32; 6],
     /// Time on the monotonic clock.
     pub(super) at: Duration,
-    /// Number of its report; 0 for a query.
+    /// Number of the report; 0 for a query.
     number: u64,
 }
 
