@@ -123,8 +123,8 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
     Ok(rules)
 }
 
-/// Allowed `ioctl` requests: queries and flags of open files. A process with a device may send all except those that inject input into a
-/// terminal or take one over.
+/// Allowed `ioctl` requests: queries and flags of open files. A process with a device may send all requests except those that inject input into a terminal or
+/// take over a terminal.
 fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
     let has_device = needs.iter().any(|need| {
         matches!(
