@@ -45,7 +45,7 @@ variants!(Label, "the plugin to serve" {
     1 => Module { folder, name, preload, manifest },
 });
 
-/// Function that examines the plugin of a source as the file orders, instead of serving it.
+/// Function that examines a plugin instead of serving it. The file contains the order.
 ///
 /// Success is a session; failure is an error kind and a message.
 pub type Examiner = fn(File, Source, &Manifest) -> Result<Arc<dyn Session>, (ErrorKind, String)>;

@@ -106,7 +106,7 @@ impl Measured {
         self.absent.push(Missing::new(figure, reason));
     }
 
-    /// Takes the certificate of the reference, if the result has one for the channel.
+    /// Adds the certificate of the reference for the channel, if the result has one.
     fn add_certificate(&mut self, found: &Found, channel: &Channel) {
         let stated = &found.report.provenance.traceability;
         match reference_certificate(stated, &channel.name, self.recorded_on) {
