@@ -1,4 +1,4 @@
-//! Open devices, rigs and fitted models. The host gets their numbers as handles.
+//! Open devices, rigs and fitted models. The host receives their numbers as handles.
 //!
 //! A handle is a number and never an address. Calls reject closed and unknown handles without dereferencing them.
 

@@ -1,6 +1,6 @@
 //! The last writer before a terminal or a file: no control character in a name reaches the terminal.
 //!
-//! Messages already escape names by [`taceva_core::shown`]; this is a second check of all output.
+//! Messages already escape names by [`taceva_core::shown`]. This module escapes all output again.
 
 use std::io::{self, Write};
 

@@ -66,10 +66,10 @@ impl SimulatedRig {
         Ok(())
     }
 
-    /// Names the next press. From the next tare in the air on, all its random numbers depend only on the name and the place. An interrupted and
-    /// resumed run therefore meets the same errors.
+    /// Names the next press. From the next tare in the air on, all its random numbers depend only on the name and the place. A resumed run therefore has the
+    /// same errors.
     ///
-    /// Without names, visits to a place are counted.
+    /// Without a name, the numbers depend on the count of visits to the place.
     pub fn name_press(&self, name: u64) {
         self.state().name_visits(name);
     }

@@ -1,7 +1,7 @@
 //! System-call filter of a child: a fixed list of allowed calls. Every other call fails with "not permitted".
 //!
-//! Filters accumulate. The first is set before the library is loaded, the second afterwards, because only loading maps code. No memory is ever both
-//! writable and executable.
+//! Filters accumulate. The first filter is set before the library is loaded. The second filter is set afterwards, because only loading maps code. No memory is
+//! ever both writable and executable.
 
 mod numbers;
 
