@@ -4,7 +4,7 @@
 //! cargo run --example draw_taxels -- examples/taxels
 //! ```
 //!
-//! No sensor was pressed: taxels follow closed forms of the labels, with noise of a fixed seed. Only their number, arrangement and unit are those
+//! No sensor was pressed: taxels follow closed forms of the labels, with noise of a fixed seed. Only the number, arrangement and unit of the taxels are those
 //! of real sensors.
 
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ use std::path::Path;
 
 /// Number of contact points.
 const POINTS: u32 = 60;
-/// Depths of the presses at a point, mm; at 0 nothing is touched.
+/// Depths of the presses at a point, mm. At 0 the tip does not touch the sensor.
 const DEPTHS_MM: [f64; 6] = [0.0, 0.25, 0.5, 0.75, 1.0, 1.25];
 /// Positions of five magnetometers, mm: one in the middle and four around it.
 const CHIPS_MM: [[f64; 2]; 5] = [[0.0, 0.0], [6.0, 0.0], [-6.0, 0.0], [0.0, 6.0], [0.0, -6.0]];
@@ -28,13 +28,13 @@ struct Press {
 }
 
 impl Press {
-    /// Response of a taxel at a position: 1 at the centre of the press, less further away.
+    /// Response of a taxel at a position: 1 at the centre of the press, decreasing with distance.
     fn near(&self, [x_mm, y_mm]: [f64; 2], reach_mm2: f64) -> f64 {
         let (away_x, away_y) = (self.x_mm - x_mm, self.y_mm - y_mm);
         (-(away_x * away_x + away_y * away_y) / reach_mm2).exp()
     }
 
-    /// The labels as cells.
+    /// Labels of the press as CSV cells.
     fn labels(&self) -> String {
         format!(
             "{},{:.3},{:.3},{:.2},{:.4},{:.4}",
@@ -43,7 +43,7 @@ impl Press {
     }
 }
 
-/// Numbers from -1 to 1, the same on every machine: a linear congruential generator.
+/// Random numbers from -1 to 1, equal on every machine, by a linear congruential generator.
 struct Noise(u64);
 
 impl Noise {
@@ -54,7 +54,7 @@ impl Noise {
         f64::from(high) / 8_388_608.0 - 1.0
     }
 
-    /// All presses on a surface of these half widths, in mm.
+    /// All presses on a surface with the half widths `half_mm`, mm.
     fn presses(&mut self, half_mm: [f64; 2]) -> Vec<Press> {
         let mut presses = Vec::new();
         for point in 0..POINTS {
@@ -78,7 +78,7 @@ impl Noise {
 
 const LABELS: &str = "point,x_mm,y_mm,depth_mm,shear_N,force_N";
 
-/// Five magnetometers of three axes each, in µT, below magnets that a press moves.
+/// Table of five magnetometers with three axes each, in µT, below magnets that a press moves.
 pub(crate) fn magnetic() -> String {
     let mut noise = Noise(1);
     let mut text = LABELS.to_owned();
@@ -104,7 +104,7 @@ pub(crate) fn magnetic() -> String {
     text
 }
 
-/// Twelve taxels in four rows of three, in counts of 8 bits that fall while a taxel is pressed.
+/// Table of twelve taxels in four rows of three, in counts of 8 bits that decrease while a taxel is pressed.
 pub(crate) fn capacitive() -> String {
     let mut noise = Noise(2);
     let mut text = LABELS.to_owned();

@@ -21,7 +21,7 @@ use taceva_dataset::{Footprint, Recorder, RecordingFacts, RecordingSpec, SensorF
 
 const SIZE: u32 = 96;
 const DEPTHS: u32 = 4;
-/// The radius of the gel that is pressed; the picture shows a little more.
+/// Radius of the pressed area of the gel, mm. The picture shows a slightly larger area.
 const RADIUS_MM: f64 = 5.0;
 const PIXELS_A_MM: f64 = 6.4;
 
@@ -42,7 +42,7 @@ impl Default for Drawing {
 }
 
 impl Drawing {
-    /// Parses the number of points and the seed, with defaults for missing words; `None` if a word is no number, or for 0 points.
+    /// Parses the number of points and the seed, with defaults for missing words. `None` for 0 points, or if a word is no number.
     fn of(mut words: impl Iterator<Item = String>) -> Option<Drawing> {
         let mut drawing = Drawing::default();
         if let Some(points) = words.next() {
@@ -65,7 +65,7 @@ struct Press {
 }
 
 impl Press {
-    /// Points lie on a sunflower spiral; depth and shear are drawn by their place in the protocol, so any press can be made alone.
+    /// Press of a point and step. Points are on a sunflower spiral. Depth and shear depend only on the arguments, so each press can be computed alone.
     fn planned(drawing: Drawing, point: u32, step: u32) -> Press {
         let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
         let radius = RADIUS_MM * (f64::from(point) + 0.5).sqrt() / f64::from(drawing.points).sqrt();
@@ -81,7 +81,7 @@ impl Press {
         }
     }
 
-    /// Hertz for a sphere: F ∝ δ^1.5; shear stiffness grows with the contact radius, ∝ δ^0.5.
+    /// Forces by Hertz for a sphere: F ∝ δ^1.5. Shear stiffness is proportional to the contact radius, ∝ δ^0.5.
     fn forces_newton(&self) -> [f64; 3] {
         let stiffness = 1.2 * self.depth_mm.sqrt();
         [
@@ -91,7 +91,7 @@ impl Press {
         ]
     }
 
-    /// Displaced position of a marker at rest in `(x, y)`, mm: the shear drags it, the indentation pushes it outward.
+    /// Displaced position of the marker whose rest position is `(x, y)`, mm. Shear moves the marker along, indentation moves it outward.
     fn displaced(&self, x: f64, y: f64) -> (f64, f64) {
         let (from_x, from_y) = (x - self.x_mm, y - self.y_mm);
         let near = (-(from_x * from_x + from_y * from_y) / (2.0 * 1.6 * 1.6)).exp();
@@ -102,7 +102,7 @@ impl Press {
         )
     }
 
-    /// Light lost to the dent.
+    /// Brightness lost in the dent at a position.
     fn shade(&self, x: f64, y: f64) -> f64 {
         let (from_x, from_y) = (x - self.x_mm, y - self.y_mm);
         28.0 * self.depth_mm * (-(from_x * from_x + from_y * from_y) / (2.0 * 1.1 * 1.1)).exp()
@@ -140,7 +140,7 @@ impl Press {
     }
 }
 
-/// A white pin of 0.25 mm, blurred, drawn where it touches pixels.
+/// Adds a white pin of 0.25 mm with a blurred edge, in the pixels that it touches.
 fn add_marker(light: &mut [f64], side: usize, x_mm: f64, y_mm: f64) {
     let middle = to_f64(side - 1) / 2.0;
     let (x, y) = (x_mm * PIXELS_A_MM + middle, y_mm * PIXELS_A_MM + middle);
@@ -155,7 +155,7 @@ fn add_marker(light: &mut [f64], side: usize, x_mm: f64, y_mm: f64) {
     }
 }
 
-/// Random number in [0, 1) that depends on its arguments alone.
+/// Random number in [0, 1) that depends only on the arguments.
 fn unit_draw(seed: u64, point: u32, step: u32, purpose: u32) -> f64 {
     let place = [point, step, purpose]
         .into_iter()

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-/// `1.5 GB`: three digits and a unit of a thousand.
+/// Size as text, `1.5 GB`, with three digits and a decimal unit.
 pub(crate) fn bytes(count: u64) -> String {
     let units = ["kB", "MB", "GB", "TB"];
     if count < 1000 {
@@ -22,7 +22,7 @@ pub(crate) fn bytes(count: u64) -> String {
     format!("{number:.decimals$} {}", units[unit])
 }
 
-/// `3 days`, `5 h`, `2 min`, `40 s`: one unit is enough to tell old from new.
+/// Age as text with one unit: `3 days`, `5 h`, `2 min`, `40 s`.
 pub(crate) fn age(time: Duration) -> String {
     let seconds = time.as_secs();
     match seconds {

@@ -1,4 +1,4 @@
-//! Arguments of the program. `cmd/` executes them; nothing here has a side effect.
+//! Definitions of the arguments of the program, without side effects. Modules of `cmd/` execute the commands.
 
 mod bench;
 mod budget;
@@ -59,7 +59,7 @@ pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
 };
 
-/// First commands of a new user, by the data at hand.
+/// First commands for a new user, by kind of data.
 pub(crate) const START: &str = "\
 I have a recording: pictures and labels in a folder
   taceva init recording my-folder                           asks for units and names; writes map.toml
@@ -90,7 +90,7 @@ pub(crate) struct Cli {
 }
 
 impl Cli {
-    /// The commands and options, with examples in the help of each.
+    /// Commands and options, with examples in the help of each command.
     pub(crate) fn documented() -> clap::Command {
         examples::add_examples(Cli::command())
     }

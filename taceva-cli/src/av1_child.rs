@@ -1,12 +1,12 @@
-//! Child process of this program that decodes AV1 and can do nothing else.
+//! Child process of this program that only decodes AV1, without other rights.
 
 use std::ffi::OsString;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Second argument of the child process.
+/// Argument that starts this program as the child process.
 const WORD: &str = "decode-av1-for-its-parent";
 
-/// True if the `main` of this program serves such a child process.
+/// True if the `main` of this program calls `main_if_child`.
 static CAN_BE_CHILD: AtomicBool = AtomicBool::new(false);
 
 /// Decodes for the parent and exits, if this is the child process.
@@ -25,7 +25,7 @@ pub(crate) fn main_if_child() {
     std::process::exit(i32::from(served.is_err()));
 }
 
-/// The program and argument that decode AV1; `None` without the feature, or without [`main_if_child`](crate::main_if_child) in `main`.
+/// Command line that starts the child process; `None` without the feature, or without [`main_if_child`](crate::main_if_child) in `main`.
 pub(crate) fn command() -> Option<Vec<OsString>> {
     if !CAN_BE_CHILD.load(Ordering::Relaxed) {
         return None;

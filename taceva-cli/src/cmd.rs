@@ -1,4 +1,4 @@
-//! One file for each command: resolve the arguments, call, render.
+//! Implementation of the commands, one file each: resolves the arguments, calls a library, and renders the result.
 
 pub(crate) mod accept;
 mod attachments;
@@ -63,7 +63,7 @@ use crate::{exit, output};
 pub(crate) use crate::context::Context;
 use attachments::Attachments;
 
-/// Arguments that parse but contradict each other.
+/// Error for arguments that parse but contradict each other.
 #[derive(Debug)]
 pub(crate) struct Usage(String);
 
@@ -85,7 +85,7 @@ impl std::fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
-/// Rejects an instruction set that TACEVA_ISA names and this processor lacks: a measurement would use another one.
+/// Rejects an instruction set in TACEVA_ISA that this processor lacks, because a measurement would use another set.
 pub(crate) fn check_isa() -> anyhow::Result<()> {
     match taceva_metrics::Isa::requested() {
         Ok(_) => Ok(()),
@@ -93,7 +93,7 @@ pub(crate) fn check_isa() -> anyhow::Result<()> {
     }
 }
 
-/// `taceva` without a command: prints the first commands of a new user.
+/// Executes `taceva` without a command: prints the first commands for a new user.
 pub(crate) fn start() -> anyhow::Result<u8> {
     output::write(None, |out| {
         writeln!(
@@ -112,14 +112,14 @@ pub(crate) fn open(path: &Path) -> anyhow::Result<Dataset> {
     Ok(Dataset::open(path)?)
 }
 
-/// The recordings at `paths` as one; a single one unchanged.
+/// Opens the recordings at `paths` as one joined dataset.
 pub(crate) fn open_all(paths: &[PathBuf]) -> anyhow::Result<Dataset> {
     let recordings = paths.iter().map(|path| open(path));
     let recordings = recordings.collect::<anyhow::Result<Vec<_>>>()?;
     Ok(Dataset::joined(recordings)?)
 }
 
-/// The same recordings, seen in the view of the arguments, or else of the model.
+/// Opens the recordings with the view of the arguments, otherwise with the view of the model.
 pub(crate) fn open_seen(
     paths: &[PathBuf],
     view: &ViewArgs,
@@ -135,7 +135,7 @@ pub(crate) fn open_seen(
     })
 }
 
-/// Rejects overwriting the files of `scoring` and `output` before any work.
+/// Fails before any work if a file of `scoring` or `output` already exists and must not be replaced.
 fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     let files = output.path.iter().chain(&scoring.state_out);
     let files = files.chain(&scoring.page.path).chain(&scoring.samples_out);
@@ -148,7 +148,7 @@ fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// The scores in a table of `format`; JSON holds every number.
+/// Scores that a table of `format` contains. Fails if `--scores` is combined with JSON, which contains every number.
 pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<TableScores> {
     match (args.scores, format) {
         (Some(_), Format::Json) => Err(Usage::error(
@@ -159,7 +159,7 @@ pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<T
     }
 }
 
-/// Use of a model file in words: `m.taceva on monday, tuesday`.
+/// Model file and recordings as text: `m.taceva on monday, tuesday`.
 fn applied(model: &Path, datasets: &[PathBuf]) -> String {
     let datasets: Vec<String> = datasets
         .iter()
@@ -168,7 +168,7 @@ fn applied(model: &Path, datasets: &[PathBuf]) -> String {
     format!("model {} on {}", shown(&model), datasets.join(", "))
 }
 
-/// Names the requested metrics that the main table leaves out.
+/// Prints the requested metrics that the main table omits.
 fn say_left_out(
     asked: &[String],
     report: &EvaluationReport,
@@ -191,7 +191,7 @@ fn say_left_out(
     }
 }
 
-/// The fit that the arguments describe.
+/// Request for the fit that the arguments describe.
 pub(crate) fn fit_request(
     name: &str,
     settings: &SettingArgs,

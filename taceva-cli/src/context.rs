@@ -1,4 +1,4 @@
-//! Common state of all commands.
+//! State that all commands share.
 
 use std::num::NonZeroUsize;
 
@@ -9,7 +9,7 @@ use crate::invocation::Invocation;
 use crate::progress::TerminalProgress;
 use crate::stderr;
 
-/// The options of every command, resolved.
+/// Resolved values of the options that every command has.
 pub(crate) struct Context {
     pub(crate) progress: TerminalProgress,
     pub(crate) jobs: NonZeroUsize,
@@ -43,7 +43,7 @@ impl Context {
         }
     }
 
-    /// The threads, progress and cache of a stage.
+    /// Number of threads, progress and cache for a stage.
     pub(crate) fn work<'a>(&'a self, cache: Option<&'a Cache>) -> Work<'a> {
         Work {
             jobs: self.jobs,

@@ -4,19 +4,19 @@ use std::path::Path;
 
 use crate::amount::bytes;
 
-/// Compression factor of pictures in the best case: a run is rejected only if a fiftieth of their bytes exceeds the free space.
+/// Compression factor of pictures in the best case. A run is rejected only if a fiftieth of the bytes of its pictures exceeds the free space.
 const PACKED: u64 = 50;
 
 /// Bytes that a command will write.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Need {
-    /// The lower bound.
+    /// Lower bound, bytes.
     pub(crate) at_least: u64,
-    /// The upper bound.
+    /// Upper bound, bytes.
     pub(crate) at_most: u64,
 }
 
-/// Error of files that exceed the free space.
+/// Error for files that exceed the free space.
 #[derive(Debug)]
 pub(crate) struct NoRoom {
     need: Need,
@@ -39,7 +39,7 @@ impl std::fmt::Display for NoRoom {
 impl std::error::Error for NoRoom {}
 
 impl Need {
-    /// The need of a run with `bytes` bytes of uncompressed pictures.
+    /// Need of a run whose uncompressed pictures have `bytes` bytes.
     pub(crate) fn of_pictures(bytes: u64) -> Need {
         Need {
             at_least: bytes / PACKED,
@@ -47,7 +47,7 @@ impl Need {
         }
     }
 
-    /// The bytes needed and the bytes free, in words; `None` if nothing will be written.
+    /// Text on needed and free bytes; `None` if nothing will be written.
     ///
     /// # Errors
     /// [`NoRoom`] if even the lower bound exceeds the free space.
@@ -81,13 +81,13 @@ impl Need {
     }
 }
 
-/// The nearest existing folder above `target`.
+/// Nearest existing folder above `target`.
 fn holder(target: &Path) -> &Path {
     let above = target.ancestors().find(|folder| folder.is_dir());
     above.unwrap_or(Path::new("."))
 }
 
-/// Free bytes on the disk of `target`, without those reserved for the administrator; `None` if unknown.
+/// Free bytes on the disk of `target`, without the reserve of the administrator; `None` if unknown.
 pub(crate) fn free(target: &Path) -> Option<u64> {
     #[cfg(unix)]
     {

@@ -1,8 +1,8 @@
 //! Exit codes. Scripts rely on them.
 
-/// Done.
+/// The command succeeded.
 pub(crate) const DONE: u8 = 0;
-/// Done, but a limit or a check failed.
+/// The command succeeded, but a limit or a check failed.
 pub(crate) const CHECK_FAILED: u8 = 1;
 /// The arguments are wrong.
 pub(crate) const USAGE: u8 = 2;
@@ -10,7 +10,7 @@ pub(crate) const USAGE: u8 = 2;
 pub(crate) const BAD_INPUT: u8 = 3;
 /// A device failed; the run can be resumed.
 pub(crate) const DEVICE: u8 = 4;
-/// Stopped by a signal; files written before are complete.
+/// A signal stopped the command. Files that it wrote before are complete.
 pub(crate) const STOPPED: u8 = 5;
 /// An internal error.
 pub(crate) const BUG: u8 = 70;

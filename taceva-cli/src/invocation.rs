@@ -1,10 +1,10 @@
-//! The command line as it was typed.
+//! Command line as the user typed it.
 
 use std::ffi::{OsStr, OsString};
 
 use taceva_dataset::internal::shell_word;
 
-/// The words of a command line, the name of the program first.
+/// Words of a command line, beginning with the name of the program.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Invocation {
     words: Vec<String>,
@@ -18,7 +18,7 @@ impl Invocation {
         }
     }
 
-    /// Shell-quoted command line that repeats this command with additional `options` and without the flag `without`.
+    /// Shell-quoted command line of this command, with additional `options` and without the flag `without`.
     pub(crate) fn with(&self, options: &[&OsStr], without: &str) -> String {
         let kept = self.words.iter().filter(|word| *word != without);
         let mut words: Vec<String> = kept.map(|word| shell_word(word)).collect();

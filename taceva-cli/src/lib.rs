@@ -1,7 +1,7 @@
 //! The commands of `taceva`: how well does a vision-based tactile sensor measure?
 //!
-//! Arguments in, renderings out. The work of each command is done in `taceva-study`, `taceva-evaluate` and `taceva-import`, which other programs can use. The
-//! program is [`main_if_child`] and then [`main_with`]; a program in another language that has the commands built in calls the latter alone.
+//! This crate parses arguments and renders results. Other crates do the work: `taceva-study`, `taceva-evaluate` and `taceva-import`. The program calls
+//! [`main_if_child`] and then [`main_with`]. A program in another language with these commands calls only [`main_with`].
 
 mod amount;
 mod args;
@@ -43,9 +43,9 @@ use invocation::Invocation;
 
 pub use metrology::{Metrology, metrology};
 
-/// Serves as the child process of another `taceva` and exits, if this process was started for that; else returns. A `main` that does not
-/// begin with it has no child processes. Plugins in libraries are then rejected unless an interpreter was named for them
-/// ([`taceva_host::run_within`]), and AV1 clips are decoded by an ffmpeg, if there is one.
+/// Serves another `taceva` and exits, if this process was started as its child process; otherwise returns. A `main` that does not begin with it has no child
+/// processes. Plugins in libraries are then rejected unless an interpreter was named for them ([`taceva_host::run_within`]), and AV1 clips are decoded by an
+/// ffmpeg, if there is one.
 ///
 /// ```
 /// taceva_cli::main_if_child();
@@ -126,8 +126,8 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// Time in which `command` must end after a signal: enough to finish a picture, or the 5 s of a plugin that fits a model. `None` for commands with
-/// devices, processes or several recordings of their own, which end in order.
+/// Time in which `command` must end after a signal: enough for a picture, or the 5 s of a plugin that fits a model. `None` for commands with devices, processes
+/// or several recordings, which end by themselves.
 fn patience(command: &Command) -> Option<Duration> {
     match command {
         Command::Sweep(_)
@@ -145,12 +145,12 @@ fn patience(command: &Command) -> Option<Duration> {
     }
 }
 
-/// Prints an error and its causes in one line.
+/// Prints an error and its causes on one line.
 fn complain(error: &Error) {
     stderr::say(format_args!("{}", one_line(error)));
 }
 
-/// An error and its causes in one line, with advice for a folder that is no dataset.
+/// Text of an error and its causes on one line, with advice for a folder that is not a dataset.
 ///
 /// ```
 /// let refused = taceva_cli::metrology(["taceva", "budget", "nowhere.toml"]).expect_err("no such file");
@@ -172,7 +172,7 @@ pub fn one_line(error: &Error) -> String {
     text
 }
 
-/// The folder that was named as a dataset but is none.
+/// Folder that was named as a dataset but is not a dataset; `None` for other errors.
 fn missing_dataset(error: &Error) -> Option<&Path> {
     error.chain().find_map(|cause| {
         let study = cause.downcast_ref::<StudyError>();
@@ -202,13 +202,13 @@ fn missing_dataset(error: &Error) -> Option<&Path> {
     })
 }
 
-/// The error of a dataset that `cause` is, or that an import has.
+/// Dataset error in `cause`, directly or within an import error.
 fn dataset_error<'a>(cause: &'a (dyn std::error::Error + 'static)) -> Option<&'a DatasetError> {
     let import = cause.downcast_ref::<ImportError>();
     import.map_or_else(|| cause.downcast_ref(), ImportError::dataset)
 }
 
-/// The parsed arguments; help goes to standard output, and wrong arguments end the program.
+/// Parses the arguments. For help and for wrong arguments, prints the text and returns the exit code as the error.
 fn typed(words: &[OsString]) -> Result<Cli, u8> {
     let matches = Cli::documented().try_get_matches_from(words);
     matches
@@ -225,7 +225,7 @@ fn typed(words: &[OsString]) -> Result<Cli, u8> {
         })
 }
 
-/// The exit code of an error.
+/// Exit code of an error.
 fn code_of(error: &Error) -> u8 {
     if progress::is_stopped() {
         return exit::STOPPED;
@@ -261,7 +261,7 @@ fn code_of(error: &Error) -> u8 {
     exit::BAD_INPUT
 }
 
-/// The exit code of an error of acquisition or evaluation.
+/// Exit code of an error of acquisition or evaluation; `None` for other errors.
 fn code_of_study(cause: &(dyn std::error::Error + 'static)) -> Option<u8> {
     let (is_usage, is_of_device, kind) = if let Some(error) = cause.downcast_ref::<EvaluateError>()
     {

@@ -1,4 +1,4 @@
-//! Gauge studies, calibration curves and budgets for a program that has the commands built in.
+//! Gauge studies, calibration curves and budgets for programs that embed these commands.
 
 use std::ffi::OsString;
 use std::num::NonZeroUsize;
@@ -28,7 +28,7 @@ use crate::cmd;
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Metrology {
-    /// Table for people.
+    /// Table for readers.
     pub table: Table,
     /// Table for programs.
     pub numbers: Table,
@@ -39,7 +39,7 @@ pub struct Metrology {
 /// Computes the `gauge`, `curve` or `budget` of `arguments`, which begin with the name of the program. Writes nothing and handles no signal.
 ///
 /// # Errors
-/// Errors of the command, and arguments of another one. [`one_line`](crate::one_line) has their text.
+/// Errors of the command, and an error for arguments of another command. [`one_line`](crate::one_line) formats them.
 pub fn metrology<W: Into<OsString> + Clone>(
     arguments: impl IntoIterator<Item = W>,
 ) -> anyhow::Result<Metrology> {

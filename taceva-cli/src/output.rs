@@ -1,4 +1,4 @@
-//! Output of results: to standard output, or to a file that appears atomically.
+//! Writes results to standard output, or atomically to a file.
 
 mod guard;
 
@@ -33,7 +33,7 @@ impl From<ListFormat> for Form {
     }
 }
 
-/// Rejects overwriting `path` without `force`, before any work.
+/// Fails before any work if `path` exists, unless `force` is set.
 pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
     if path.exists() && !force {
         bail!("{} exists already; --force replaces it", shown(path));
@@ -41,7 +41,7 @@ pub(crate) fn check_free(path: &Path, force: bool) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Rejects overwriting any of `paths` without `force`, before any work.
+/// Fails before any work if one of `paths` exists, unless `force` is set.
 pub(crate) fn check_all_free<'p>(
     paths: impl IntoIterator<Item = &'p PathBuf>,
     force: bool,
@@ -50,7 +50,7 @@ pub(crate) fn check_all_free<'p>(
     paths.try_for_each(|path| check_free(path, force))
 }
 
-/// Width of the terminal that shows standard output, in characters; `None` if it is no terminal.
+/// Width of the terminal at standard output, in characters; `None` without a terminal.
 pub(crate) fn terminal_width() -> Option<usize> {
     let (width, _) = terminal_size::terminal_size_of(io::stdout())?;
     Some(usize::from(width.0))
@@ -58,7 +58,7 @@ pub(crate) fn terminal_width() -> Option<usize> {
 
 /// Writes text to standard output, or a file of any kind to `path`.
 ///
-/// A file is written to a temporary path, synced and renamed, so that it is absent or complete.
+/// Writes a file to a temporary path, syncs and renames it, so that the file is either absent or complete.
 pub(crate) fn write(
     path: Option<&Path>,
     render: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -69,7 +69,7 @@ pub(crate) fn write(
     }
 }
 
-/// Writes a result in `form` to `path`, or to standard output, with control characters escaped as the form requires.
+/// Writes a result in `form` to `path`, or to standard output. Escapes control characters as the form requires.
 pub(crate) fn write_as(
     form: impl Into<Form>,
     path: Option<&Path>,

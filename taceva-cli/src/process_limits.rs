@@ -1,13 +1,13 @@
-//! Process limits handled before any work: a closed standard output, and the limit of file sizes.
+//! Checks before any work: a closed standard output, and the limit of file sizes.
 
-/// True if standard output was closed when the program started (`>&-`). Rust replaces it with `/dev/null` before `main`, where every result
-/// would be lost without a message.
+/// True if standard output was closed when the program started (`>&-`). Rust replaces a closed output by `/dev/null` before `main`, so that results would be
+/// lost without a message.
 #[cfg(unix)]
 pub(crate) fn standard_output_is_closed() -> bool {
     before_main::WAS_CLOSED.load(std::sync::atomic::Ordering::Relaxed)
 }
 
-/// Other systems report a closed standard output as a write error.
+/// Returns false, because other systems report a closed standard output as a write error.
 #[cfg(not(unix))]
 pub(crate) fn standard_output_is_closed() -> bool {
     false
@@ -23,7 +23,7 @@ mod before_main {
     pub(super) static WAS_CLOSED: AtomicBool = AtomicBool::new(false);
 
     ctor::declarative::ctor! {
-        /// One system call and one store, because it runs before the runtime of `main` is set up.
+        /// Checks standard output. Makes only one system call and one store, because the Rust runtime is not yet initialised.
         #[ctor(unsafe)]
         fn look() {
             let is_closed = fcntl_getfd(stdout()) == Err(Errno::BADF);
@@ -45,6 +45,6 @@ pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {
     drop(flag::register(SIGXFSZ, Arc::new(AtomicBool::new(false))));
 }
 
-/// Other systems have no such signal.
+/// Does nothing, because other systems have no such signal.
 #[cfg(not(unix))]
 pub(crate) fn refuse_to_end_at_the_limit_of_file_sizes() {}

@@ -1,4 +1,4 @@
-//! Progress of long work: a bar on a terminal, plain lines when piped, nothing with `--quiet`; and its interruption by Ctrl-C.
+//! Shows progress of long work: a bar on a terminal, plain lines in a pipe, nothing with `--quiet`. Also handles Ctrl-C.
 
 use std::io::IsTerminal;
 use std::sync::Mutex;
@@ -10,17 +10,17 @@ use taceva_core::{Progress, shown};
 
 use crate::stderr;
 
-/// Set by the first signal, read by all work.
+/// True after the first signal. All long work reads this flag.
 static STOPPED: AtomicBool = AtomicBool::new(false);
-/// Set by a second signal.
+/// True after a second signal.
 static INSISTED: AtomicBool = AtomicBool::new(false);
-/// The bar on the terminal, if one is drawn.
+/// Progress bar on the terminal; `None` if no bar is drawn.
 static BAR: Mutex<Option<ProgressBar>> = Mutex::new(None);
-/// Time to halt a robot before the program ends.
+/// Delay before the end of the program in which a robot is halted.
 const HALTING: Duration = Duration::from_millis(250);
 
-/// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and the recording stays complete. A second signal halts the robot in place and
-/// ends the program. With a `patience`, the first signal ends it too, once this time has passed.
+/// Stops work on SIGINT and SIGTERM: a robot leaves the gel, and the recording is complete. A second signal halts the robot in place and ends the program. With
+/// a `patience`, the program ends at the latest after this time.
 pub(crate) fn listen_for_signals(patience: Option<Duration>) {
     let listening = ctrlc::set_handler(move || {
         if STOPPED.swap(true, Ordering::SeqCst) {
@@ -37,7 +37,7 @@ pub(crate) fn listen_for_signals(patience: Option<Duration>) {
     drop(listening);
 }
 
-/// Ends the program, unless it ends by itself within `patience`. For work that holds no device and whose files are whole or absent.
+/// Ends the program after `patience`, if it still runs. Only for work without devices that writes files atomically.
 fn end_after(patience: Duration) {
     std::thread::sleep(patience);
     taceva_files::remove_before_exit();
@@ -45,7 +45,7 @@ fn end_after(patience: Duration) {
     std::process::exit(i32::from(crate::exit::STOPPED));
 }
 
-/// Stops work like a signal, for a page. A second call halts a robot in place; the program then ends with the run.
+/// Stops work like a signal, for the stop button of a page. A second call halts a robot in place. The program then ends with the run.
 pub(crate) fn stop() {
     if STOPPED.swap(true, Ordering::SeqCst) {
         INSISTED.store(true, Ordering::SeqCst);
@@ -64,10 +64,10 @@ pub(crate) struct TerminalProgress {
     pace: Mutex<Option<Pace>>,
 }
 
-/// The interval between two plain lines of progress.
+/// Interval between two plain lines of progress.
 const EVERY: Duration = Duration::from_secs(30);
 
-/// The progress of one stage in plain lines.
+/// Progress of one stage that is shown in plain lines.
 struct Pace {
     stage: String,
     steps: Option<u64>,
@@ -88,7 +88,7 @@ impl Pace {
         }
     }
 
-    /// Counts `steps` more; returns a line if it is time to print one.
+    /// Adds `steps` to the count. Returns a line if it is time to print one.
     fn advance(&mut self, steps: u64, now: Instant) -> Option<String> {
         self.done = self.done.saturating_add(steps);
         if now.duration_since(self.said) < EVERY {
@@ -105,7 +105,7 @@ impl Pace {
     }
 }
 
-/// Estimated time left at the current pace; `None` if too little is done.
+/// Estimated remaining time at the current pace; `None` if too few steps are done.
 fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
     if done == 0 || done > all || elapsed < Duration::from_secs(1) {
         return None;
@@ -114,7 +114,7 @@ fn left(done: u64, all: u64, elapsed: Duration) -> Option<Duration> {
     Duration::try_from_secs_f64(elapsed.as_secs_f64() * share).ok()
 }
 
-/// `40 s`, `12 min`, `3 h 5 min`.
+/// Duration as text: `40 s`, `12 min`, `3 h 5 min`.
 pub(crate) fn spoken(time: Duration) -> String {
     let seconds = time.as_secs();
     match seconds {
@@ -145,7 +145,7 @@ impl Mode {
 }
 
 impl TerminalProgress {
-    /// Progress that prints stages of one step in plain lines only if `is_verbose`.
+    /// Creates the progress. Plain lines for stages of one step are printed only if `is_verbose`.
     pub(crate) fn new(quiet: bool, is_verbose: bool) -> TerminalProgress {
         TerminalProgress {
             mode: Mode::of(quiet),
@@ -168,7 +168,7 @@ fn with_bar(act: impl FnOnce(&mut Option<ProgressBar>)) {
     }
 }
 
-/// Result of `ask`, during which no bar is drawn, so that a question and its answer stay readable.
+/// Calls `ask` without drawing a bar, so that a question and its answer are readable.
 pub(crate) fn without_bar<T>(ask: impl FnOnce() -> T) -> T {
     let bar = BAR.lock().ok().and_then(|bar| bar.clone());
     match bar {
@@ -218,13 +218,13 @@ impl Progress for TerminalProgress {
         INSISTED.load(Ordering::SeqCst)
     }
 
-    /// Prints the line even with `--quiet`, and without the lock of the bar, which a question holds.
+    /// Prints the line even with `--quiet`. Does not use the lock of the bar, which is held during a question.
     fn remark(&self, words: &str) {
         stderr::say(format_args!("{words}"));
     }
 }
 
-/// Plain line at the start of a stage: `leaving groups out (13)`. A stage of one step has none, unless `is_verbose`.
+/// Plain line at the start of a stage: `leaving groups out (13)`. `None` for a stage of one step, unless `is_verbose`.
 fn first_line(stage: &str, steps: Option<u64>, is_verbose: bool) -> Option<String> {
     match steps {
         Some(0 | 1) if !is_verbose => None,
@@ -233,7 +233,7 @@ fn first_line(stage: &str, steps: Option<u64>, is_verbose: bool) -> Option<Strin
     }
 }
 
-/// A status line on standard error for work without a known end: updated in place on a terminal, else printed every half minute.
+/// Status line on standard error for work without a known end. Updated in place on a terminal, otherwise printed every 30 s.
 pub(crate) struct StatusLine {
     mode: Mode,
     bar: ProgressBar,

@@ -32,7 +32,7 @@ use taceva_study::bench::KernelBench;
 
 use crate::args::{Format, TableScores};
 
-/// Writes an evaluation in the requested format. The main table has the rows of `channels`, or of planes and single channels if it is empty.
+/// Writes an evaluation in the requested format. The main table has the rows of `channels`. If `channels` is empty, the rows are planes and single channels.
 pub(crate) fn evaluation(
     report: &EvaluationReport,
     format: Format,
@@ -57,8 +57,7 @@ pub(crate) fn evaluation(
     }
 }
 
-/// Writes the main scores in `format`, which must not be JSON; text in lines of at most `width` characters. Scores that do not fit into one
-/// table go to further ones.
+/// Writes the main scores in `format`, except JSON. Text has lines of at most `width` characters. Scores that do not fit form further tables.
 pub(crate) fn main_scores(
     scores: &ScoreTable,
     format: Format,
@@ -89,7 +88,7 @@ pub(crate) fn main_scores(
     Ok(())
 }
 
-/// Writes the evaluations of the studies of a scene: as text side by side if there are several, else in sequence.
+/// Writes the evaluations of the studies of a scene. Text shows several studies side by side; other formats have them in sequence.
 pub(crate) fn profiles(
     reports: &[EvaluationReport],
     format: Format,
@@ -115,7 +114,7 @@ pub(crate) fn profiles(
     Ok(())
 }
 
-/// Writes the findings of each recording in the requested format: in sequence, or as a JSON list if there are several.
+/// Writes the findings of each recording in the requested format, in sequence. JSON of several recordings is a list.
 pub(crate) fn findings(
     reports: &[(String, CheckReport)],
     format: Format,

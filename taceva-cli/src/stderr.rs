@@ -10,7 +10,7 @@ pub(crate) fn say(words: Arguments<'_>) {
     write(&format!("taceva: {words}\n"));
 }
 
-/// Writes text of several lines. A closed standard error is ignored: there is nowhere to report it.
+/// Writes text of several lines. Ignores a closed standard error, because no other output exists for the message.
 pub(crate) fn write(text: &str) {
     let _ = std::io::stderr().write_all(shown_lines(text).as_bytes());
 }

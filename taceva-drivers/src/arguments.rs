@@ -14,7 +14,7 @@ pub(crate) fn optional_number(args: &Args, key: &str) -> Option<f64> {
     args.get(key).and_then(ArgValue::as_number)
 }
 
-/// Argument for a device fact that no protocol reports. The value comes from a data sheet or a measurement; absent means unknown.
+/// Argument for a device fact that no protocol reports. Its value is from a data sheet or a measurement; without a value the fact is unknown.
 #[cfg(any(
     feature = "gcode",
     feature = "hid",

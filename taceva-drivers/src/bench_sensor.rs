@@ -1,4 +1,4 @@
-//! Sensor with its own clock, run over a simulated bench.
+//! Sensor with its own clock, used with a simulated bench.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -8,7 +8,7 @@ use taceva_core::{
     Deadline, DriverError, FrameInfo, FrameMut, Interrupt, Lighting, Sensor, SimulatedBench, Stamp,
 };
 
-/// Sensor outside a simulated bench, whose frames get time stamps of the bench.
+/// Sensor that is not simulated, with time stamps on the clock of a simulated bench.
 ///
 /// Between two frames, at least as much time passes on the bench as on the sensor's clock. More passes if other devices keep the bench busy. The
 /// bench does not simulate the sensor, so its frames show presses only if the real sensor is pressed.

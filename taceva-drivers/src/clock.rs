@@ -4,8 +4,7 @@ use std::time::Duration;
 
 /// Clock of the machine, which stamps readings of all real devices.
 ///
-/// `CLOCK_MONOTONIC`, as for plugins, so that processes on one machine share the clock. On other systems than Unix it counts from its first
-/// use in this process.
+/// All processes of a machine share this clock, `CLOCK_MONOTONIC`. On systems other than Unix, time counts from the first use in this process.
 ///
 /// ```
 /// use taceva_drivers::MonotonicClock;

@@ -21,7 +21,7 @@ pub struct Devices {
     pub failed: Vec<DriverError>,
 }
 
-/// Data of the command `taceva devices`.
+/// Lists drivers and devices for the command `taceva devices`.
 pub fn devices(drivers: &Drivers) -> Devices {
     let mut devices = Devices {
         drivers: Vec::new(),
@@ -49,14 +49,14 @@ impl Devices {
     }
 }
 
-/// A device that was found.
+/// Device that a search found.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ListedDevice {
     /// Selector that opens the device.
     pub selector: String,
     /// Title of the device.
     pub title: String,
-    /// Access to the device, with the remedy if it is denied.
+    /// Access of the user to the device, with the remedy if access is denied.
     pub access: String,
 }
 
@@ -71,16 +71,16 @@ impl ListedDevice {
     }
 }
 
-/// Driver with the known facts about its device. Unknown facts are absent.
+/// Driver with facts about its device. Unknown facts are absent.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedDriver {
     /// Key of the driver.
     pub key: String,
     /// Title of the driver.
     pub title: String,
-    /// Kind of its device.
+    /// Kind of device that the driver opens.
     pub kind: DriverKind,
-    /// Source of its readings.
+    /// Origin of the readings: a real device, a simulation or a replay.
     pub source: DriverSource,
     /// Size and format of its frames.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -106,7 +106,7 @@ pub struct ListedDriver {
     /// Speed limit of a robot, mm/s.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_max_mm_s: Option<f64>,
-    /// Lighting scenes.
+    /// Names of the lighting scenes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub scenes: Vec<String>,
     /// Names of the items that a changer holds.
@@ -143,7 +143,7 @@ impl ListedSwitch {
 /// Argument of a driver.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ListedArgument {
-    /// Description of the accepted values.
+    /// Name of the argument.
     pub key: String,
     /// Accepted values, in words.
     pub takes: String,

@@ -1,7 +1,6 @@
 //! Diagnosis of the machine: usable devices, problems and remedies. Opens nothing.
 //!
-//! Only permissions are read. A permitted device may still be in use by another program. Opening a serial port to find out would reset its
-//! device.
+//! The diagnosis reads only permissions, because opening a serial port may reset its device. Another program may therefore still use a permitted device.
 
 mod diagnosis;
 mod machine;
@@ -21,7 +20,7 @@ pub use usb::UsbDevice;
 use crate::devices::{Devices, devices};
 use crate::drivers::Drivers;
 
-/// Examines the drivers of the program and `machine`. Findings come in a fixed order.
+/// Examines the drivers of the program and `machine`. The order of the results is fixed.
 pub fn examine(drivers: &Drivers, machine: &Machine) -> Vec<Diagnosis> {
     let listed = devices(drivers);
     let keys: Vec<&str> = listed

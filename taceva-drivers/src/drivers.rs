@@ -1,4 +1,4 @@
-//! Drivers of a program, and opening of devices.
+//! Drivers of a program, and functions that open devices.
 
 use taceva_core::{
     Changer, Device, ForceTransducer, Lighting, Registry, RegistryError, Rig, Robot, Sensor,
@@ -44,7 +44,7 @@ impl Drivers {
         })
     }
 
-    /// Adds the drivers of the plugins of `host`, which run as the user's settings say. Opens no library.
+    /// Adds the drivers of the plugins of `host`, which run in the process that the user's settings choose. Opens no library.
     ///
     /// # Errors
     /// [`RegistryError`] if a plugin's key is already taken.

@@ -1,4 +1,4 @@
-//! G-code machines on a serial port: mills and printers that carry an indenter.
+//! G-code machines on a serial port: mills and printers that move an indenter.
 
 #[cfg(feature = "grbl")]
 pub mod grbl;

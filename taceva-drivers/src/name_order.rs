@@ -29,7 +29,7 @@ fn split(text: &str) -> (&str, &str) {
     text.split_at(end)
 }
 
-/// Digits without leading zeros; `None` for other text. Of two results, the longer is the larger number.
+/// Digits without leading zeros; `None` for other text. Of two results with different lengths, the longer is the larger number.
 fn number(part: &str) -> Option<&str> {
     part.starts_with(|letter: char| letter.is_ascii_digit())
         .then(|| part.trim_start_matches('0'))

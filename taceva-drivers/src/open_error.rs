@@ -12,9 +12,9 @@ pub enum OpenError {
     /// Invalid arguments.
     #[error("{selector}: {source}")]
     Arguments {
-        /// The selector.
+        /// Text of the selector.
         selector: String,
-        /// Error in the arguments.
+        /// Error in an argument.
         source: ArgError,
     },
     /// The device did not open.

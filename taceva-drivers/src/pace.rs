@@ -1,22 +1,22 @@
-//! Clock of a device that stands in for a real one: a replay, or a wrapper that fails on purpose.
+//! Clock of a device that replaces a real device: a replay, or a wrapper that fails on purpose.
 
 use std::time::Duration;
 
 use crate::clock::MonotonicClock;
 
-/// Clock that can be waited for.
+/// Clock for which a device can wait.
 pub trait Pace: Send {
-    /// Current time, s since an arbitrary start; never goes back.
+    /// Current time, s since an arbitrary start. Never decreases.
     fn now_s(&self) -> f64;
 
     /// Waits until `time_s`; returns at once if it has passed.
     fn wait_until(&mut self, time_s: f64);
 
-    /// True if time passes while no caller waits, so that a slow caller may miss frames.
+    /// True if time passes even if no caller waits. A slow caller may then miss frames.
     fn runs_by_itself(&self) -> bool;
 }
 
-/// Virtual time, which passes only during waits. A recording is read at full speed and no frame is missed.
+/// Virtual time, which passes only during waits. A replay then runs at full speed without missed frames.
 #[derive(Clone, Copy, Debug)]
 pub struct VirtualPace {
     now_s: f64,

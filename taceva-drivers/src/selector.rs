@@ -3,7 +3,7 @@
 use std::fmt;
 use std::str::FromStr;
 
-/// A driver and its arguments, as the user writes them. Not checked for existence.
+/// Driver and arguments, as the user writes them. The driver may not exist.
 ///
 /// ```
 /// use taceva_drivers::Selector;
@@ -29,7 +29,7 @@ impl Selector {
         &self.arguments
     }
 
-    /// Serial number that chooses the device among several of its kind; `None` if the arguments state none.
+    /// Serial number that selects one of several connected devices; `None` without the argument.
     ///
     /// ```
     /// use taceva_drivers::Selector;

@@ -13,12 +13,12 @@ pub use folder::{FolderSource, Timing};
 
 use taceva_core::{FrameInfo, FrameMut};
 
-/// Source of a recording's frames: a folder here, a dataset elsewhere.
+/// Source of the frames of a recording: a folder in this crate, a dataset in others.
 pub trait FrameSource: Send {
     /// Size and format of every frame.
     fn info(&self) -> FrameInfo;
 
-    /// Time at which each frame was taken.
+    /// Time of each frame.
     ///
     /// # Shapes
     /// One time per frame, at least one; finite and strictly increasing.
@@ -29,7 +29,7 @@ pub trait FrameSource: Send {
     /// Writes the frame at `position` into the caller's buffer.
     ///
     /// # Errors
-    /// [`SourceError`] if the frame is missing, damaged, or differs in size or format. Other frames stay readable.
+    /// [`SourceError`] if the frame is missing, damaged, or differs in size or format. Other frames remain readable.
     /// # Panics
     /// If `position` is out of range, or `into` does not match [`info`](FrameSource::info): bugs of the caller.
     fn read(&mut self, position: usize, into: FrameMut<'_>) -> Result<(), SourceError>;

@@ -19,7 +19,7 @@ struct Entry {
     open: Open,
 }
 
-/// Driver of enabling switches that is linked into the program, submitted from its folder.
+/// Driver of enabling switches that is linked into the program.
 pub(crate) struct LinkedSwitch {
     /// Key of the driver.
     pub(crate) key: DriverKey,
@@ -33,7 +33,7 @@ pub(crate) struct LinkedSwitch {
 
 inventory::collect!(LinkedSwitch);
 
-/// Enabling switches by driver key. They are not devices of a recording, since they measure nothing.
+/// Enabling switches by driver key. Switches measure nothing, so a recording does not list them as devices.
 ///
 /// ```
 /// use taceva_drivers::Switches;
@@ -62,7 +62,7 @@ impl Switches {
         switches
     }
 
-    /// Adds or replaces the driver `key`, whose switches `open` opens.
+    /// Adds or replaces the driver `key`. `open` opens a switch.
     pub fn add(
         &mut self,
         key: DriverKey,

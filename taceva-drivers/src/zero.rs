@@ -1,4 +1,4 @@
-//! Zero offset and range of a transducer whose zero this program subtracts.
+//! Zero offset that this program subtracts, and range of a transducer.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ pub(crate) struct HostZero {
     zero: Wrench,
     /// Measuring range of each force, N; `None` if unknown.
     ranges_n: Option<[f64; 3]>,
-    /// Greatest accepted zero of a force, N; `None` accepts any zero within the range.
+    /// Greatest accepted zero offset of a force, N; `None` accepts any offset within the range.
     zero_max_n: Option<f64>,
 }
 
@@ -22,9 +22,9 @@ pub(crate) struct HostZero {
 pub(crate) const READ: &str = "read the force";
 /// Operation name of a tare, for errors.
 pub(crate) const ZERO: &str = "zero the force";
-/// Averaging time of a zero.
+/// Time over which readings are averaged for a zero offset.
 const MEAN_OVER: Duration = Duration::from_millis(250);
-/// Maximum zero as a share of a stated range, so that the rest suffices for measurements.
+/// Maximum zero offset as a share of the stated range. The rest of the range is for measurements.
 const ZERO_MAX: f64 = 0.5;
 
 impl HostZero {
@@ -36,7 +36,7 @@ impl HostZero {
         }
     }
 
-    /// Creates a zero offset of 0 for forces with separate ranges, which the device states. Any zero within the ranges is accepted.
+    /// Creates a zero offset of 0 for forces with separate ranges, which the device states. Any zero offset within the ranges is accepted.
     pub(crate) fn of_axes(driver: DriverKey, ranges_n: Option<[f64; 3]>) -> HostZero {
         HostZero {
             driver,
@@ -76,7 +76,7 @@ impl HostZero {
         Ok(left)
     }
 
-    /// Resets the zero offset after the box itself was zeroed.
+    /// Resets the zero offset to 0, after the box itself set its zero.
     #[cfg(feature = "sri")]
     pub(crate) fn forget(&mut self) {
         self.zero = Wrench::default();

@@ -1,5 +1,4 @@
-//! Records the frame without contact, a sample, and a second frame without contact: `two_references FOLDER`. Prints `ACK n` once the n-th
-//! is durable.
+//! Records the frame without contact, a sample, and a second frame without contact: `two_references FOLDER`. Prints `ACK n` once the n-th record is durable.
 #![expect(clippy::print_stdout, reason = "the power-cut test reads the output")]
 
 use std::error::Error;

@@ -80,7 +80,7 @@ fn build(what: &[&str], name: &str) -> PathBuf {
         .into_std_path_buf()
 }
 
-/// Arguments that put the program into this test's profile folder, so that nothing is built twice.
+/// Arguments that select the profile folder of this test, so that nothing is built twice.
 fn as_this_test() -> Vec<std::ffi::OsString> {
     let test = std::env::current_exe().expect("a test knows where it is");
     // target/debug/deps/test-0123

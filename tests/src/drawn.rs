@@ -27,7 +27,7 @@ impl Form {
     }
 }
 
-/// File of a gray picture of 48×36 pixels: a slope with noise, so that all pictures differ and no pixel can be guessed.
+/// File of a gray picture of 48×36 pixels: a slope with noise, so that all pictures differ and no pixel is predictable.
 ///
 /// # Panics
 /// If the encoder fails on it, which ends the test.
@@ -121,7 +121,7 @@ impl Lab {
     }
 }
 
-/// A new folder in memory if possible, otherwise among temporary files: the tests create thousands of files.
+/// Creates a folder in memory if possible, otherwise among temporary files, because tests create thousands of files.
 ///
 /// # Panics
 /// If it cannot be created, which ends the test.

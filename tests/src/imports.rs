@@ -21,8 +21,8 @@ struct Source {
     body: String,
 }
 
-/// Imports between the files below `src`. Excluded are unit tests, names that a parent only re-exports from its children, and names that a
-/// child takes from its parent: both are one folder, and the parent declares what its files share.
+/// Imports between the files below `src`. Excluded are unit tests, names that a parent only re-exports from its children, and names that a child takes from its
+/// parent: both belong to one folder, whose parent declares shared names.
 ///
 /// # Panics
 /// If a file cannot be read, which ends the test.
@@ -80,10 +80,10 @@ fn imported(
     found
 }
 
-/// Most re-exports that are followed for one name.
+/// Maximum number of re-exports that are followed for one name.
 const HANDED_ON: usize = 8;
 
-/// File that declares what `path` means in `module`; `None` for other crates.
+/// File with the declaration to which `path` refers in `module`; `None` for other crates.
 fn declared_in(
     sources: &BTreeMap<Module, Source>,
     module: &Module,

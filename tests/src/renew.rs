@@ -1,6 +1,6 @@
 //! Generated numbers in documents: their commands, checks and renewal.
 //!
-//! A generated passage of a Markdown file stands between two comments, which readers do not see:
+//! A generated passage of a Markdown file is between two comments, which readers do not see:
 //!
 //! ```text
 //! <!-- from: taceva catalogue list --format md -->

@@ -33,7 +33,7 @@ impl Protocol {
         Protocol::JournalUnframed,
     ];
 
-    /// True if it keeps its promise.
+    /// True if the protocol keeps its promise.
     pub fn is_right(self) -> bool {
         matches!(self, Protocol::RenameSyncedFolder | Protocol::Journal)
     }
@@ -53,11 +53,11 @@ impl fmt::Display for Protocol {
     }
 }
 
-/// The file that is replaced.
+/// Name of the file that is replaced.
 pub const HEADER: &str = "header";
-/// The file that is appended to.
+/// Name of the file to which records are appended.
 pub const JOURNAL: &str = "journal";
-/// Records of a journal.
+/// Number of records in a journal.
 pub const RECORDS: usize = 6;
 
 /// Old content of the header.
@@ -108,7 +108,7 @@ pub fn recovered(protocol: Protocol, bytes: &[u8]) -> Result<usize, String> {
     Ok(RECORDS)
 }
 
-/// FNV-1a, 64 bits.
+/// Checksum FNV-1a, 64 bits.
 fn check(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
         (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3)

@@ -131,7 +131,7 @@ pub fn finished(mut study: Command) -> Result<Duration, String> {
     }
 }
 
-/// A running study, which is killed on drop.
+/// Running study, killed on drop.
 #[derive(Debug)]
 pub struct UnderWay(Child);
 
@@ -145,7 +145,7 @@ impl UnderWay {
         UnderWay(child.expect("the program was built"))
     }
 
-    /// True if it ended successfully, false if it failed; `None` while it runs.
+    /// True if the study ended successfully, false if it failed; `None` while it runs.
     ///
     /// # Panics
     /// If the system returns an error, which ends the test.
@@ -154,7 +154,7 @@ impl UnderWay {
         status.map(|status| status.success())
     }
 
-    /// Kills it, like `kill -9`.
+    /// Kills the study, like `kill -9`.
     ///
     /// # Panics
     /// If the system does not confirm the end, which ends the test.

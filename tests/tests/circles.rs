@@ -1,4 +1,4 @@
-//! No crate has an import cycle of three or more files, except for the listed ones: such files cannot be read one at a time.
+//! Tests that no crate has an import cycle of three or more files, except for listed cycles. Files of a cycle cannot be read one at a time.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -6,7 +6,7 @@ use std::fs;
 use taceva_tests::imports::{circles, graph};
 use taceva_tests::metadata;
 
-/// Fewest files of a rejected cycle.
+/// Least number of files in a rejected cycle.
 const LEAST: usize = 3;
 
 /// Accepted cycles: package, one of the files, most files, and the reason.

@@ -43,17 +43,17 @@ fn import(lab: &Lab, target: &Path) -> Result<Dataset, ImportError> {
 struct Counts {
     /// Damaged copies in a dataset.
     copies: usize,
-    /// Rejected ones of these.
+    /// Number of rejected copies.
     refused: usize,
     /// Truncations at import.
     truncations: usize,
-    /// Rejected ones of these.
+    /// Number of rejected truncations.
     truncations_refused: usize,
     /// Flips at import.
     flips: usize,
-    /// Rejected ones of these.
+    /// Number of rejected flips.
     flips_refused: usize,
-    /// Accepted ones of these with other pixels.
+    /// Number of accepted flips with other pixels.
     flips_seen_wrong: usize,
 }
 

@@ -285,7 +285,7 @@ fn copied(from: &Path, to: &Path) {
     }
 }
 
-/// A folder of another user, which looks like a dataset and holds more.
+/// Creates a folder of another user, which looks like a dataset and contains further files.
 fn theirs(folder: &Path) {
     if folder.exists() {
         std::fs::remove_dir_all(folder).expect("removed");

@@ -1,4 +1,4 @@
-//! Links in place of the files of a recording that exists: what they lead to keeps its bytes.
+//! Tests of links in place of files of an existing recording: the link targets keep their bytes.
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -8,15 +8,15 @@ use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, Sourc
 use taceva_tests::power_cut::{read_tree, write_tree};
 use taceva_tests::{Form, Lab, scratch, taceva};
 
-/// The end of a command on a recording with a link in it.
+/// End of a command on a recording that contains a link.
 struct Ended {
-    /// Name at which the link stood.
+    /// Path that the link replaced.
     name: String,
     code: Option<i32>,
     message: String,
 }
 
-/// Runs `words`, in which `DATA` stands for a copy of `recording`, once for each file and folder of it, in whose place a link stands.
+/// Runs `words` once for each file and folder of `recording`. `DATA` in `words` is a copy of the recording in which a link replaces this entry.
 fn with_links(recording: &Path, words: &[&str]) -> Vec<Ended> {
     let whole = read_tree(recording).expect("readable");
     let mut ended = Vec::new();
@@ -54,7 +54,7 @@ fn with_links(recording: &Path, words: &[&str]) -> Vec<Ended> {
     ended
 }
 
-/// An interrupted recording with a frame and a reference.
+/// Creates an interrupted recording with a frame and a reference.
 fn interrupted(path: &Path) {
     let facts = RecordingFacts::new(Source::Recorded, Clock::Monotonic, SensorFacts::new("gel"));
     let spec = RecordingSpec::new(facts, Channels::new([Channel::FZ]).expect("one"));
@@ -72,7 +72,6 @@ fn interrupted(path: &Path) {
         .expect("recorded");
 }
 
-/// K3.
 #[test]
 fn an_interrupted_recording_with_a_link_in_it_is_refused_in_words() {
     let folder = scratch();
@@ -91,7 +90,6 @@ fn an_interrupted_recording_with_a_link_in_it_is_refused_in_words() {
     }
 }
 
-/// K3.
 #[test]
 fn rows_are_added_to_a_dataset_with_links_in_it_without_a_change_elsewhere() {
     let (lab, more) = (Lab::drawn(Form::Png, 6), Lab::drawn_from(Form::Png, 500, 6));

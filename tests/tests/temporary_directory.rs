@@ -166,7 +166,6 @@ fn a_temporary_directory_of_another_owner_is_used_where_it_may_be_and_named_wher
     }
 }
 
-/// K4.
 #[test]
 fn drafts_of_one_archive_at_once_all_succeed() {
     let bench = Bench::new();
@@ -186,7 +185,6 @@ fn drafts_of_one_archive_at_once_all_succeed() {
     assert_eq!(count(&bench.path("temporary")), 0);
 }
 
-/// K11.
 #[test]
 fn a_home_that_is_no_folder_stops_only_the_command_that_lists_the_cache() {
     let bench = Bench::new();

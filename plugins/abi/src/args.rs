@@ -2,7 +2,7 @@
 
 use crate::text::Text;
 
-/// `taceva_arg`: one argument.
+/// `taceva_arg`: one argument. The host writes a number both as text and as a number; a driver may read either.
 ///
 /// A number is given both as text and as a number. A driver may read either.
 ///
@@ -18,9 +18,9 @@ pub struct Arg {
     pub key: Text,
     /// Value as text, for every type.
     pub text: Text,
-    /// Value of a whole number; 0 or 1 for a flag.
+    /// Value of an integer argument; 0 or 1 for a flag.
     pub whole: i64,
-    /// Value of a number, in the unit that the manifest declares.
+    /// Value of a real-number argument, in the unit that the manifest declares.
     pub number: f64,
     /// [`Arg::TEXT`], [`Arg::WHOLE`], [`Arg::NUMBER`] or [`Arg::FLAG`].
     pub kind: u32,

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::{TakeText, Text};
 
-/// `taceva_stamp`: the time of an observation, and of its reception.
+/// `taceva_stamp`: times at which an observation was valid and received. Frozen, because other structs contain a `Stamp`.
 ///
 /// Frozen: it is part of other structs.
 ///
@@ -22,11 +22,12 @@ use crate::text::{TakeText, Text};
 pub struct Stamp {
     /// Time at which the observation was valid, in ns of the clock of the device.
     pub valid_ns: u64,
-    /// Time at which the host's side received it, in ns; 0 if unknown.
+    /// Time at which the host received the observation, in ns; 0 if unknown.
     pub received_ns: u64,
 }
 
-/// `taceva_rig`: the devices that are opened together, opaque.
+/// `taceva_rig`: opaque handle of the devices that are opened together. Only the plugin reads its contents. A host keeps the pointer that `open_rig` wrote and
+/// passes the pointer back.
 ///
 /// Only the plugin knows its contents. A host keeps the pointer that `open_rig` wrote and passes it back.
 ///
@@ -41,7 +42,7 @@ pub struct Rig {
     not_movable: PhantomData<(*mut u8, PhantomPinned)>,
 }
 
-/// `taceva_device_calls`: the calls that every device has. Frozen: it never grows.
+/// `taceva_device_calls`: the calls that every device has. Frozen: the struct never grows.
 ///
 /// ```
 /// use std::ffi::c_void;
@@ -53,19 +54,19 @@ pub struct Rig {
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct DeviceCalls {
-    /// Size of the whole table of the kind, bytes.
+    /// Size of the whole table for the kind of device, bytes.
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` Stops the device and frees it; the last call.
     pub close: Option<unsafe extern "C" fn(handle: *mut c_void)>,
-    /// `[any & open]` A blocked call returns `INTERRUPTED` within 50 ms. No effect without one.
+    /// `[any & open]` Makes a blocked call return `INTERRUPTED` within 50 ms. No effect if no call is blocked.
     pub interrupt: Option<unsafe extern "C" fn(handle: *mut c_void)>,
     /// `[owner & open]` Returns a table of calls on the device, or NULL.
     pub extension: Option<unsafe extern "C" fn(handle: *mut c_void, id: Text) -> *const c_void>,
 }
 
-/// `taceva_device`: an open device, filled in by `open`.
+/// `taceva_device`: an open device, filled in by `open`. Frozen, because the caller allocates exactly this size.
 ///
 /// Frozen: the caller has memory for exactly this size.
 ///
@@ -79,7 +80,7 @@ pub struct DeviceCalls {
 pub struct Device {
     /// Plugin's own handle of the device, passed with every call.
     pub handle: *mut c_void,
-    /// Table of its kind. Lives as long as the library.
+    /// Table of calls for the kind of device. Valid as long as the library is loaded.
     pub calls: *const DeviceCalls,
 }
 
@@ -99,12 +100,12 @@ pub struct Factory {
     pub size: u32,
     /// Number of drivers of this kind in the plugin.
     pub drivers: u32,
-    /// `[any]` Writes the `[[provides]]` table of the manifest for the arguments. NULL requests it for any arguments. Accesses no device.
+    /// `[any]` Writes the `[[provides]]` table of the manifest for the given arguments; NULL means any arguments. Accesses no device.
     pub describe:
         Option<unsafe extern "C" fn(u32, *const Args, TakeText, *mut c_void, *mut Error) -> Status>,
     /// `[any]` Lists the connected devices, each by the arguments that select it.
     pub discover: Option<unsafe extern "C" fn(u32, TakeText, *mut c_void, *mut Error) -> Status>,
-    /// `[any]` Opens a device; nothing moves and no light changes.
+    /// `[any]` Opens a device without any motion or change of light.
     pub open:
         Option<unsafe extern "C" fn(u32, *const Args, *mut Rig, *mut Device, *mut Error) -> Status>,
 }

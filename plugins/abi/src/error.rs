@@ -6,7 +6,7 @@ use core::mem::size_of;
 /// Length of a message with its NUL, bytes.
 pub const MESSAGE_SIZE: usize = 504;
 
-/// `taceva_error`.
+/// `taceva_error`: failure of a call. New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
@@ -27,13 +27,13 @@ pub struct Error {
     pub size: u32,
     /// Out: error number of the device, 0 for none.
     pub vendor_code: i32,
-    /// Out: UTF-8 with a final NUL, truncated if it does not fit.
+    /// Out: UTF-8 text with a final NUL, truncated to the size of this field.
     pub message: [c_char; MESSAGE_SIZE],
-    /// Out, since minor 1: the [`FaultNumber`] for which the device stopped by itself. A plugin writes it only if `size` covers it.
+    /// Out, since minor 1: reason for which the device stopped by itself. A plugin writes this field only if `size` covers the field.
     pub fault: FaultNumber,
 }
 
-/// `taceva_fault`: fault for which a device stopped by itself. Nothing moves after it until a person has looked.
+/// `taceva_fault`: fault for which a device stopped by itself. The device moves again only after a person has checked it.
 ///
 /// A number rather than an enum, because a plugin may write any number. An unlisted number with the same upper 16 bits counts as
 /// [`SERVO`](FaultNumber::SERVO), never as no fault. No text begins with these bits, so a message of an old plugin that overran into this field is no
@@ -54,7 +54,7 @@ impl FaultNumber {
     pub const EMERGENCY_STOP: FaultNumber = FaultNumber(0xfa17_0001);
     /// The device struck something.
     pub const COLLISION: FaultNumber = FaultNumber(0xfa17_0002);
-    /// The device reached the limit of its workspace.
+    /// The device reached a boundary of its workspace.
     pub const BOUNDARY: FaultNumber = FaultNumber(0xfa17_0003);
     /// A servo, a brake or its controller failed.
     pub const SERVO: FaultNumber = FaultNumber(0xfa17_0004);
@@ -78,7 +78,7 @@ impl Error {
         }
     }
 
-    /// Writes a message. Truncates it between two characters if it does not fit.
+    /// Writes a message. Truncates a too long message between two characters.
     pub fn write(&mut self, message: &str) {
         let mut end = message.len().min(MESSAGE_SIZE - 1);
         while !message.is_char_boundary(end) {
@@ -90,7 +90,7 @@ impl Error {
         self.message[end] = 0;
     }
 
-    /// Bytes of the message up to its NUL; all bytes without a NUL.
+    /// Bytes of the message before its NUL, or all bytes if there is no NUL.
     pub fn bytes(&self) -> impl Iterator<Item = u8> + '_ {
         self.message
             .iter()

@@ -1,4 +1,4 @@
-//! Models that are fitted and predict. All arrays belong to the caller and are contiguous, sample by sample.
+//! Models with functions to fit and to predict. The caller owns all arrays. Arrays are contiguous, sample by sample.
 
 use core::ffi::c_void;
 
@@ -34,7 +34,7 @@ use crate::text::{TakeText, Text};
 pub struct TrainingSet {
     /// Size of this struct, bytes.
     pub size: u32,
-    /// Columns of the targets.
+    /// Number of target channels.
     pub channels: u32,
     /// Number of samples.
     pub samples: u64,
@@ -46,13 +46,13 @@ pub struct TrainingSet {
     pub depth: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[samples, height, width, depth]`
+    /// Features, `[samples, height, width, depth]`.
     pub features: *const f32,
-    /// `[samples, channels]`
+    /// True values, `[samples, channels]`.
     pub targets: *const f64,
-    /// `[samples]`: contact point of each sample; NULL if unknown.
+    /// Contact point of each sample, `[samples]`; NULL if unknown.
     pub groups: *const u32,
-    /// `[channels]`: such as `Px` and `Fz`.
+    /// Names of the channels, such as `Px` and `Fz`: `[channels]`.
     pub channel_names: *const Text,
 }
 
@@ -88,7 +88,7 @@ pub struct RegressorCalls {
     pub reserved: u32,
     /// `[owner & open]` Closes the model; the last call.
     pub close: Option<unsafe extern "C" fn(*mut c_void)>,
-    /// `[any & open]` Writes `[samples, channels]`. Accesses neither array if the lengths do not match the model's shape.
+    /// `[any & open]` Writes predictions, `[samples, channels]`. Accesses neither array if the lengths do not match the shape of the model.
     pub predict: Option<
         unsafe extern "C" fn(
             *const c_void,
@@ -100,7 +100,7 @@ pub struct RegressorCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any & open]` Writes the model as bytes; `OUT_OF_RANGE` with the required length if they do not fit.
+    /// `[any & open]` Writes the model as bytes. Returns `OUT_OF_RANGE` with the required length if the buffer is too small.
     pub save: Option<
         unsafe extern "C" fn(*const c_void, into: *mut u8, length: *mut u64, *mut Error) -> Status,
     >,
@@ -108,7 +108,7 @@ pub struct RegressorCalls {
 
 /// `taceva_regressor`: a fitted model, filled in by `fit` or `load`.
 ///
-/// Frozen: the caller has memory for exactly this size.
+/// Frozen, because the caller allocates exactly this size.
 ///
 /// ```
 /// use taceva_abi::Regressor;
@@ -120,7 +120,7 @@ pub struct RegressorCalls {
 pub struct Regressor {
     /// Plugin's own handle of the model, passed with every call.
     pub handle: *mut c_void,
-    /// Table of its calls. Lives as long as the library.
+    /// Table of the calls of the model. Valid as long as the library is loaded.
     pub calls: *const RegressorCalls,
 }
 
@@ -142,7 +142,7 @@ pub struct EstimatorFactory {
     pub estimators: u32,
     /// `[any]` Writes the `[[provides]]` table of the manifest.
     pub describe: Option<unsafe extern "C" fn(u32, TakeText, *mut c_void, *mut Error) -> Status>,
-    /// `[any]` `validation` may be NULL.
+    /// `[any]` Fits a model to training samples. `validation` may be NULL.
     pub fit: Option<
         unsafe extern "C" fn(
             u32,
@@ -155,7 +155,7 @@ pub struct EstimatorFactory {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any]` Loads the bytes of `save`. Rejects other bytes.
+    /// `[any]` Loads a model from the bytes of `save`. Rejects other bytes.
     pub load: Option<
         unsafe extern "C" fn(
             u32,

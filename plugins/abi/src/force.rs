@@ -8,7 +8,7 @@ use crate::status::Status;
 
 /// `taceva_wrench`: force and torque on the gel.
 ///
-/// Frozen: the caller has memory for exactly this size.
+/// Frozen, because the caller allocates exactly this size.
 ///
 /// ```
 /// use taceva_abi::Wrench;
@@ -41,7 +41,7 @@ pub struct ForceCalls {
     pub device: DeviceCalls,
     /// `[owner & open]` Starts the readings; idempotent.
     pub start: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
-    /// `[owner & started]` Waits for the next reading.
+    /// `[owner & started]` Waits for the next reading and writes it.
     pub read: Option<
         unsafe extern "C" fn(
             *mut c_void,

@@ -4,7 +4,8 @@ use core::ffi::c_void;
 
 use crate::text::Text;
 
-/// `taceva_host`: table that outlives all objects of a plugin.
+/// `taceva_host`: table of services. The table outlives all objects of a plugin. New versions append fields. Each side reads at most the bytes that the other
+/// side's `size` states.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
@@ -29,9 +30,9 @@ use crate::text::Text;
 pub struct Host {
     /// Size of this struct, bytes.
     pub size: u32,
-    /// Minor version of the interface that the host knows.
+    /// Minor version of the interface that the host implements.
     pub abi_minor: u32,
-    /// Context, passed with every call.
+    /// Context of the host, passed with every call.
     pub context: *mut c_void,
     /// `[any]` Logs a line.
     pub log: Option<unsafe extern "C" fn(*mut c_void, level: i32, target: Text, message: Text)>,
@@ -39,7 +40,7 @@ pub struct Host {
     pub now_ns: Option<unsafe extern "C" fn(*mut c_void) -> u64>,
 }
 
-/// Level of a log line.
+/// Level of a log line, passed as a number. The host treats an unlisted number as [`Level::Debug`].
 ///
 /// Passed as a number. An unlisted number counts as [`Level::Debug`].
 ///

@@ -22,7 +22,7 @@ use crate::text::Text;
 pub struct LightingCalls {
     /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]` Sets a scene. Returns once the light is steady.
+    /// `[owner & open]` Sets a light scene. Returns once the light is steady.
     pub set: Option<
         unsafe extern "C" fn(*mut c_void, scene: Text, timeout_ns: u64, *mut Error) -> Status,
     >,

@@ -8,11 +8,11 @@ use crate::host::Host;
 use crate::status::Status;
 use crate::text::Text;
 
-/// "TAE1", little-endian. It identifies a wrong file before any call.
+/// Magic number "TAE1", little-endian. The host reads it before any call and rejects a library with another value.
 pub const MAGIC: u32 = 0x3145_4154;
-/// Major version of the interface. The host rejects a library with another one.
+/// Major version of the interface. The host rejects a library with another major version.
 pub const ABI_MAJOR: u32 = 1;
-/// Minor version of the interface. It may differ between host and library.
+/// Minor version of the interface. Host and library may have different minor versions.
 pub const ABI_MINOR: u32 = 3;
 /// Name of the exported symbol.
 pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
@@ -30,7 +30,7 @@ pub const CHANGER_FACTORY: &str = "taceva.changer/1";
 /// Id of the [`EstimatorFactory`](crate::EstimatorFactory).
 pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 
-/// `taceva_plugin`: the export of a plugin, as data.
+/// `taceva_plugin`: the exported data of a plugin. New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
@@ -57,13 +57,13 @@ pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 #[derive(Clone, Copy, Debug)]
 #[repr(C)]
 pub struct Plugin {
-    /// [`MAGIC`].
+    /// Equals [`MAGIC`].
     pub magic: u32,
     /// Size of this struct, bytes.
     pub size: u32,
-    /// [`ABI_MAJOR`].
+    /// Equals [`ABI_MAJOR`].
     pub abi_major: u32,
-    /// [`ABI_MINOR`].
+    /// Equals [`ABI_MINOR`] of the headers of the plugin.
     pub abi_minor: u32,
     /// Id of the plugin, reverse DNS, as in the manifest.
     pub id: Text,
@@ -71,16 +71,16 @@ pub struct Plugin {
     pub version: Text,
     /// `[once, first]` Initialises the plugin.
     pub init: Option<unsafe extern "C" fn(*const Host, *mut Error) -> Status>,
-    /// `[once, last; not after a failed init]` Ends the plugin.
+    /// `[once, last]` Ends the plugin. Not called after a failed `init`.
     pub deinit: Option<unsafe extern "C" fn()>,
     /// `[any]` Returns the factory of a kind, or NULL.
     pub factory: Option<unsafe extern "C" fn(id: Text) -> *const c_void>,
-    /// `[any]` Opens a rig: shared objects of its devices.
+    /// `[any]` Opens a rig: the objects that its devices share.
     pub open_rig: Option<unsafe extern "C" fn(*mut *mut Rig, *mut Error) -> Status>,
     /// `[owner]` Closes a rig, after its last device.
     pub close_rig: Option<unsafe extern "C" fn(*mut Rig)>,
     /// `[owner]` Returns a table of calls on the rig, or NULL.
     pub rig_extension: Option<unsafe extern "C" fn(*mut Rig, id: Text) -> *const c_void>,
-    /// Since minor 1: outside needs, one need of the manifest per line; empty if not stated.
+    /// Since minor 1: external needs of the plugin, one need of the manifest per line; empty if not stated.
     pub needs: Text,
 }

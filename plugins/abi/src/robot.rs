@@ -6,7 +6,7 @@ use crate::device::{DeviceCalls, Stamp};
 use crate::error::Error;
 use crate::status::Status;
 
-/// `taceva_pose`: pose of the tip in the frame of the sensor, m and a unit quaternion.
+/// `taceva_pose`: pose of the tip in the frame of the sensor: position in m and a unit quaternion. Frozen, because other structs contain a `Pose`.
 ///
 /// Frozen: it is part of other structs.
 ///
@@ -26,15 +26,15 @@ pub struct Pose {
     pub z: f64,
     /// Real part of the unit quaternion.
     pub qw: f64,
-    /// Component about x.
+    /// Component of the quaternion about x.
     pub qx: f64,
-    /// Component about y.
+    /// Component of the quaternion about y.
     pub qy: f64,
-    /// Component about z.
+    /// Component of the quaternion about z.
     pub qz: f64,
 }
 
-/// `taceva_motion`.
+/// `taceva_motion`: a requested motion. New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
@@ -72,7 +72,7 @@ pub struct Motion {
 pub struct RobotCalls {
     /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// `[owner & open]` Reads the pose.
+    /// `[owner & open]` Reads the pose of the tip.
     pub pose: Option<
         unsafe extern "C" fn(
             *mut c_void,
@@ -82,7 +82,7 @@ pub struct RobotCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[owner & open]` Returns once the motion is accepted. May leave the motion itself to `wait`.
+    /// `[owner & open]` Starts a motion. Returns once the robot accepts the motion. The motion may continue during `wait`.
     pub move_to: Option<
         unsafe extern "C" fn(*mut c_void, *const Motion, token: *mut u64, *mut Error) -> Status,
     >,
@@ -96,9 +96,9 @@ pub struct RobotCalls {
             *mut Error,
         ) -> Status,
     >,
-    /// `[any & open]` Stops the tip within 50 ms, and latches; idempotent.
+    /// `[any & open]` Stops the tip within 50 ms; idempotent. The robot stays halted until `clear_halt`.
     pub halt: Option<unsafe extern "C" fn(*mut c_void, *mut Error) -> Status>,
-    /// `[owner & open]` Ends the halt.
+    /// `[owner & open]` Ends the halted state, so that the robot accepts motions again.
     pub clear_halt:
         Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
 }

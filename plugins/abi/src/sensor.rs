@@ -6,7 +6,7 @@ use crate::device::{DeviceCalls, Stamp};
 use crate::error::Error;
 use crate::status::Status;
 
-/// Storage format of one pixel.
+/// Storage format of one pixel. A number rather than an enum, so that a later version of the interface can add a format. An older host rejects a new format.
 ///
 /// A number rather than an enum, so a later interface can add a format. An older host rejects it.
 ///
@@ -29,7 +29,7 @@ impl PixelFormat {
     pub const RGB16: PixelFormat = PixelFormat(4);
 }
 
-/// Flag: frames were lost since the last one.
+/// Flag: the device lost frames between the last frame and this frame.
 pub const FRAME_DROPPED: u32 = 1;
 
 /// `taceva_frame`: a picture, row by row from the top, without padding.
@@ -72,21 +72,21 @@ pub struct Frame {
     pub flags: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// Frame number of the device. A gap means lost frames.
+    /// Frame number, assigned by the device. A gap means lost frames.
     pub sequence: u64,
-    /// Stamp of the frame. It is valid at the middle of the exposure, if known.
+    /// Times of the frame. A frame is valid at the middle of the exposure, if known.
     pub stamp: Stamp,
     /// In: buffer of the caller, or NULL.
     pub buffer: *mut u8,
     /// In: length of the buffer, bytes.
     pub buffer_length: u64,
-    /// Out: pixels, in `buffer` or in lent memory.
+    /// Out: first byte of the pixels, in `buffer` or in lent memory.
     pub data: *const u8,
     /// Out: length of `data`, bytes.
     pub length: u64,
-    /// Out: `[any]` releases lent memory and sets itself to NULL. NULL if nothing was lent.
+    /// Out: `[any]` function that releases lent memory and sets this field to NULL. NULL if no memory is lent.
     pub release: Option<unsafe extern "C" fn(frame: *mut Frame)>,
-    /// For use by the plugin while it lends the frame.
+    /// Data for the plugin while it lends the frame. The host does not change the field.
     pub private_data: *mut c_void,
 }
 
@@ -105,13 +105,13 @@ pub struct Frame {
 pub struct SensorCalls {
     /// Calls that every device has. The table begins with them.
     pub device: DeviceCalls,
-    /// Maximum number of frames lent at once; 0 for a sensor that never lends.
+    /// Maximum number of frames that the sensor lends at once; 0 if the sensor never lends.
     pub max_lent: u32,
     /// Reserved, 0.
     pub reserved: u32,
     /// `[owner & open]` Starts the frames; idempotent.
     pub start: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
-    /// `[owner & started]` Waits for the next frame.
+    /// `[owner & started]` Waits for the next frame and writes it.
     pub capture: Option<
         unsafe extern "C" fn(*mut c_void, *mut Frame, timeout_ns: u64, *mut Error) -> Status,
     >,

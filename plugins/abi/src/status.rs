@@ -2,7 +2,7 @@
 
 /// `taceva_status`: 0, or a negative number from the closed list of failures.
 ///
-/// A number rather than an enum, because a plugin may return any number. An unlisted one is an error of the interface.
+/// A number rather than an enum, because a plugin may return any number. The host treats an unlisted number as an error of the interface.
 ///
 /// ```
 /// use taceva_abi::Status;
@@ -20,11 +20,11 @@ impl Status {
     pub const NOT_FOUND: Status = Status(-1);
     /// This user lacks the permission.
     pub const PERMISSION_DENIED: Status = Status(-2);
-    /// Another program holds the device.
+    /// Another program uses the device.
     pub const BUSY: Status = Status(-3);
     /// The timeout expired; the device stays usable.
     pub const TIMEOUT: Status = Status(-4);
-    /// The device has gone.
+    /// The device is no longer connected.
     pub const DISCONNECTED: Status = Status(-5);
     /// The operation is not supported.
     pub const UNSUPPORTED: Status = Status(-6);
@@ -32,7 +32,7 @@ impl Status {
     pub const INVALID_ARGUMENT: Status = Status(-7);
     /// The device sent malformed data.
     pub const PROTOCOL: Status = Status(-8);
-    /// A value beyond a limit of the device.
+    /// A value exceeds a limit of the device.
     pub const OUT_OF_RANGE: Status = Status(-9);
     /// `interrupt` or `halt` ended the call.
     pub const INTERRUPTED: Status = Status(-10);
@@ -42,9 +42,9 @@ impl Status {
     pub const ABI: Status = Status(-12);
     /// No more data will come.
     pub const END_OF_STREAM: Status = Status(-13);
-    /// A caught bug of the plugin. The handle is dead.
+    /// The plugin caught its own panic or exception. The handle is unusable.
     pub const PANICKED: Status = Status(-14);
-    /// A detected bug.
+    /// Host or plugin detected a bug.
     pub const INTERNAL: Status = Status(-15);
 
     /// True if the call succeeded.

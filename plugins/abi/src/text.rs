@@ -1,4 +1,4 @@
-//! Text that is borrowed for a call.
+//! Text that a caller lends for the duration of a call.
 
 #![expect(
     unsafe_code,
@@ -10,7 +10,7 @@ use core::str::Utf8Error;
 
 /// `taceva_text`: UTF-8 with a length, borrowed for the call.
 ///
-/// Frozen: it is part of other structs.
+/// Frozen, because other structs contain a `Text`.
 ///
 /// ```
 /// use taceva_abi::Text;

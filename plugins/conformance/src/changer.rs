@@ -8,7 +8,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused, skipped};
 use crate::report::Report;
 use crate::trial::{Alarm, Promise, Trial, Tried, report, was_within};
 
-/// Tests a changer. It moves each of its items into place.
+/// Tests a changer. The test moves each item of the changer into place.
 pub fn changer(factory: &dyn Factory<dyn Changer>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }
@@ -36,7 +36,7 @@ fn declared<'a>(tried: &'a Subject<'_>) -> Result<&'a [String], Unmet> {
     }
 }
 
-/// Opens the changer and lists its items. Skips the promise without any item.
+/// Opens the changer and lists its items. Skips the promise if there are none.
 fn holding(tried: &Subject<'_>) -> Result<(Box<dyn Changer>, Vec<String>), Unmet> {
     let changer = tried.open()?;
     match changer.holds().to_vec() {
@@ -45,7 +45,7 @@ fn holding(tried: &Subject<'_>) -> Result<(Box<dyn Changer>, Vec<String>), Unmet
     }
 }
 
-/// Two rounds, so each item follows another and itself.
+/// Brings all items twice, so that each item follows another item and itself.
 fn brings_each(tried: &Subject<'_>) -> Result<(), Unmet> {
     tried.may_move()?;
     let (mut changer, holds) = holding(tried)?;

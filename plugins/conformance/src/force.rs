@@ -36,7 +36,7 @@ fn facts<'a>(tried: &'a Subject<'_>) -> Result<&'a ForceFacts, Unmet> {
     facts.ok_or_else(|| broken("does not declare itself a force transducer"))
 }
 
-/// Numbers are finite and within the declared range on the declared axes, and 0 on all others.
+/// Readings are finite and within the declared range on declared axes, and 0 on other axes.
 fn measures(tried: &Subject<'_>) -> Result<(), Unmet> {
     let facts = facts(tried)?;
     let mut transducer = started(tried)?;
@@ -81,7 +81,7 @@ fn tares(tried: &Subject<'_>) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// Each reading has a new number if the driver declares numbers, and no number otherwise.
+/// Each reading has a new number if the driver declares numbered readings, and no number otherwise.
 fn numbers(tried: &Subject<'_>) -> Result<(), Unmet> {
     let declared = facts(tried)?.numbered;
     let mut transducer = started(tried)?;

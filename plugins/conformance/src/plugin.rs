@@ -1,8 +1,8 @@
-//! Promises of a plugin. Each is checked in a separate confined process with a time limit. A start may take seconds, so one process first tries all
-//! harmless checks together. If it fails, they run separately.
+//! Promises of a plugin. Each promise is checked in a separate confined process with a time limit. The start of a process may take seconds, so one process
+//! first runs all harmless checks. If that process fails, the checks run separately.
 //!
-//! A check runs in the child, in the plugin's process. It calls the functions of the plugin's tables as a host would, and as no host should. The
-//! other checks continue even if it damages its process. A trusted plugin is checked in an unconfined process, as in normal use.
+//! A check runs in the child, in the plugin's process. A check calls the functions of the plugin's tables correctly and incorrectly. Damage to the process does
+//! not affect other checks. A trusted plugin is checked in an unconfined process, as in normal use.
 
 mod attempt;
 mod changer_table;
@@ -39,25 +39,25 @@ use crate::report::Outcome;
 use crate::trial::{Promise, Tried};
 use crate::{changer, force, lighting, robot, sensor};
 
-/// One promise of a plugin.
+/// Check of one promise of a plugin.
 #[derive(Clone, Copy)]
 pub struct Check {
-    /// Name: the group, and the promise.
+    /// Name: group and promise, separated by `/`.
     pub name: &'static str,
     pub(crate) of: Of,
     pub(crate) test: Test,
 }
 
-/// The subject of a check.
+/// Subject of a check.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Of {
-    /// The library as a whole.
+    /// Checked once for the library as a whole.
     Plugin,
-    /// Each driver.
+    /// Checked for each driver.
     Driver,
-    /// Each driver of a kind.
+    /// Checked for each driver of one kind.
     Kind(DriverKind),
-    /// Each estimator.
+    /// Checked for each estimator.
     Estimator,
 }
 
@@ -72,7 +72,7 @@ impl Of {
     }
 }
 
-/// Test of a check: on a bare table, or on a device like any driver of its kind.
+/// Test function of a check. It uses a bare table, or an open device through the interface of its kind.
 #[derive(Clone, Copy)]
 pub(crate) enum Test {
     Table(fn(&Subject) -> Result<(), Unmet>),
@@ -139,7 +139,7 @@ pub fn checks() -> Vec<Check> {
     .concat()
 }
 
-/// Promises of a kind, and those of its table. A promise of the table replaces one with the same name, because the host would answer in place of the
+/// Promises of a kind, and those of its table. A promise of the table replaces a device promise of the same name, which would test the host instead of the
 /// plugin.
 fn of_kind<D: ?Sized>(
     kind: DriverKind,
@@ -159,12 +159,12 @@ fn of_kind<D: ?Sized>(
 
 /// Serves as the child of a host and exits, if this process was started as one. Such a child also runs checks.
 ///
-/// A program that checks plugins calls this instead of [`taceva_host::main_if_child`].
+/// A program that checks plugins calls this function instead of [`taceva_host::main_if_child`].
 pub fn main_if_child() {
     taceva_host::main_if_child_examining(run);
 }
 
-/// As [`taceva_host::serve_as_child`], with checks of the module.
+/// Same as [`taceva_host::serve_as_child`], with the checks of this module.
 pub fn serve_as_child(import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>) -> i32 {
     taceva_host::serve_as_child(import, Some(run))
 }
@@ -176,7 +176,7 @@ pub struct CheckRequest {
     pub seed: u64,
     /// Name prefixes of the checks to run; empty for all checks.
     pub only: Vec<String>,
-    /// Arguments of drivers, by key. Other drivers are opened with their defaults.
+    /// Arguments for opening drivers, by driver key. Other drivers open with their defaults.
     pub arguments: BTreeMap<DriverKey, String>,
     /// True if real robots and changers may move.
     pub moves: bool,
@@ -207,7 +207,7 @@ pub struct CheckResult {
     /// Outcome of the check.
     #[serde(flatten)]
     pub outcome: Outcome,
-    /// Duration, seconds.
+    /// Duration of the check, s.
     pub took_s: f64,
 }
 
@@ -267,7 +267,7 @@ pub fn check(
     Ok(())
 }
 
-/// Driver or estimator keys of a check; a single `None` for the plugin as a whole.
+/// Keys of the drivers or estimators that a check tests; a single `None` for the plugin as a whole.
 fn subjects<'a>(check: &Check, plugin: &'a Plugin) -> Vec<Option<&'a DriverKey>> {
     if check.of == Of::Plugin {
         return vec![None];

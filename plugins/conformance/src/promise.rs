@@ -1,13 +1,13 @@
-//! Broken promises, and helpers that describe the breach.
+//! Errors of broken promises, and helpers that create them.
 
 use std::fmt;
 
 use taceva_core::{DriverError, ErrorKind, ModelError, Stamp};
 
-/// Reason why a promise is not shown to hold.
+/// Reason why a promise did not pass.
 #[derive(Debug)]
 pub(crate) enum Unmet {
-    /// The driver broke it.
+    /// The driver broke the promise.
     Broken(String),
     /// The promise could not be tested, or does not apply to this driver.
     Skipped(String),
@@ -25,12 +25,12 @@ impl From<ModelError> for Unmet {
     }
 }
 
-/// Reason of a broken promise.
+/// Creates the reason of a broken promise.
 pub(crate) fn broken(why: impl Into<String>) -> Unmet {
     Unmet::Broken(why.into())
 }
 
-/// Reason of a promise that was not tested.
+/// Creates the reason of a promise that was not tested.
 pub(crate) fn skipped(why: impl Into<String>) -> Unmet {
     Unmet::Skipped(why.into())
 }
@@ -40,7 +40,7 @@ pub(crate) fn expect(holds: bool, why: impl FnOnce() -> String) -> Result<(), Un
     if holds { Ok(()) } else { Err(broken(why())) }
 }
 
-/// An error with a kind.
+/// Error with a kind.
 pub(crate) trait Kinded: fmt::Display {
     /// Kind of the error.
     fn of_kind(&self) -> ErrorKind;
@@ -74,7 +74,7 @@ pub(crate) fn refused<T, E: Kinded>(
     Err(broken(format!("{doing} {found}, expected {expected}")))
 }
 
-/// Fails unless `result` is a success or an error of kind `otherwise`.
+/// Fails unless `result` is `Ok` or an error of the kind `otherwise`.
 pub(crate) fn answered<T>(
     doing: &str,
     result: Result<T, DriverError>,
@@ -86,7 +86,7 @@ pub(crate) fn answered<T>(
     }
 }
 
-/// Fails unless times are finite and increasing, and no reception time is before its valid time.
+/// Fails unless times are finite and increasing, and each reception time is at or after its valid time.
 pub(crate) fn in_order(stamps: &[Stamp]) -> Result<(), Unmet> {
     for Stamp {
         valid_s,

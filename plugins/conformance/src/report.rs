@@ -1,11 +1,11 @@
-//! Outcomes of a suite.
+//! Outcomes of the promises of a driver.
 
 use std::fmt;
 
 use serde::Serialize;
 use taceva_core::DriverKey;
 
-/// Promises of a suite, in order.
+/// Outcomes of all promises of one driver, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Report {
     /// Tested driver.
@@ -17,7 +17,7 @@ pub struct Report {
 /// One tested promise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tested {
-    /// Name: the kind, and the promise.
+    /// Name: kind and promise, separated by `/`.
     pub name: &'static str,
     /// Outcome of the promise.
     pub outcome: Outcome,
@@ -27,16 +27,16 @@ pub struct Tested {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(tag = "outcome", content = "why", rename_all = "lowercase")]
 pub enum Outcome {
-    /// The promise holds.
+    /// The driver kept the promise.
     Passed,
-    /// The promise is broken, for this reason.
+    /// The driver broke the promise, for this reason.
     Failed(String),
     /// The promise was not tested or does not apply, for this reason.
     Skipped(String),
 }
 
 impl Report {
-    /// True if no promise is broken and at least one holds.
+    /// True if at least one promise passed and none failed.
     pub fn passed(&self) -> bool {
         let some = |wanted: fn(&Outcome) -> bool| {
             let mut outcomes = self.promises.iter().map(|tested| &tested.outcome);
@@ -46,7 +46,7 @@ impl Report {
             && !some(|outcome| matches!(outcome, Outcome::Failed(_)))
     }
 
-    /// Outcome of the promise `name`.
+    /// Outcome of the promise `name`; `None` if the suite lacks it.
     pub fn outcome(&self, name: &str) -> Option<&Outcome> {
         let tested = self.promises.iter().find(|tested| tested.name == name);
         tested.map(|tested| &tested.outcome)

@@ -36,7 +36,7 @@ pub(crate) const PROMISES: &[Promise<dyn Robot>] = &[
 
 type Subject<'a> = Tried<'a, dyn Robot>;
 
-/// Poses agree and are in the workspace, and their stamps never decrease. A passed deadline returns a pose at once.
+/// Poses agree and are in the workspace, and stamps never decrease. After its deadline, a call returns a pose at once.
 fn poses(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let (first, mut last) = robot.pose(tried.trial.deadline)?;
@@ -135,7 +135,7 @@ fn refuses_too_fast(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// A motion without enough time is aborted, the robot stands still, and the next motion is accepted.
+/// A motion that exceeds its deadline is aborted. The robot stops and accepts the next motion.
 fn timeout_stops(tried: &Subject<'_>) -> Result<(), Unmet> {
     tried.may_move()?;
     let deadline = tried.trial.deadline;
@@ -246,7 +246,7 @@ fn halts_from_another_thread(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// Halts from four threads all succeed. The handle of a dropped robot stops no other robot.
+/// Halts from four threads succeed. The halt handle of a dropped robot stops no other robot.
 fn halts_from_all_sides(tried: &Subject<'_>) -> Result<(), Unmet> {
     let mut robot = tried.open()?;
     let handle = robot.halt_handle();
@@ -298,14 +298,14 @@ fn guards_as_declared(tried: &Subject<'_>) -> Result<(), Unmet> {
     course.still_home(tried, &mut *robot)
 }
 
-/// A short path away from the gel, with its speed.
+/// Short path away from the gel, with the speed.
 struct Course {
     home: Pose,
     away: Pose,
     speed: Speed,
 }
 
-/// Default speed of a trial, mm/s, if the robot can reach it.
+/// Default speed of a trial, mm/s. A slower robot uses its own speed limit.
 const UNHURRIED: f64 = 5.0;
 
 impl Course {

@@ -1,4 +1,4 @@
-//! Promises of devices that are started and then yield items: frames of a sensor, or readings of a transducer.
+//! Promises of devices that yield items after their start: frames of a sensor, or readings of a transducer.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -10,11 +10,11 @@ use taceva_core::{
 use crate::promise::{Unmet, answered, expect, in_order, refused, skipped};
 use crate::trial::{Alarm, Tried, was_within};
 
-/// A device that yields a sequence of items.
+/// Device that yields a sequence of items.
 pub(crate) trait Stream {
-    /// Name of an item.
+    /// Name of an item in messages: `frame` or `reading`.
     const ITEM: &'static str;
-    /// Number of items that a promise examines.
+    /// Number of items that each promise examines.
     const COUNT: usize;
 
     fn begin(&mut self, deadline: Deadline) -> Result<(), DriverError>;
@@ -69,7 +69,7 @@ impl Stream for dyn ForceTransducer {
     }
 }
 
-/// The next frame of a sensor, with its stamp.
+/// Captures the next frame of a sensor. Returns the frame and its stamp.
 pub(crate) fn capture(
     sensor: &mut dyn Sensor,
     deadline: Deadline,
@@ -92,7 +92,7 @@ fn next<D: Stream + ?Sized>(tried: &Tried<'_, D>, device: &mut D) -> Result<Stam
     tried.reading(device.next(tried.trial.deadline))
 }
 
-/// The device yields [`Stream::COUNT`] items, and stops.
+/// The device yields [`Stream::COUNT`] items and then stops.
 pub(crate) fn gives<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = started(tried)?;
     for _ in 0..D::COUNT {
@@ -107,7 +107,7 @@ pub(crate) fn stamps<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unm
     in_order(&stamps.collect::<Result<Vec<_>, _>>()?)
 }
 
-/// Before the start, an item is delivered or rejected. The device works afterwards.
+/// A request before the start either returns an item or fails. The device works afterwards.
 pub(crate) fn before_start<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = tried.open()?;
     let doing = format!("a {} before the start", D::ITEM);
@@ -155,12 +155,12 @@ pub(crate) fn dropped<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Un
     Ok(())
 }
 
-/// With a passed deadline, a wait ends at once, and the device keeps working.
+/// A wait whose deadline has passed ends at once. The device works afterwards.
 pub(crate) fn passed_deadline<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     keeps(tried, 5, Duration::ZERO)
 }
 
-/// With a short deadline, a wait ends soon after it.
+/// A wait with a short deadline ends soon after the deadline.
 pub(crate) fn keeps_deadlines<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     keeps(tried, 10, Duration::from_millis(5))
 }
@@ -189,7 +189,7 @@ fn keeps<D: Stream + ?Sized>(
     Ok(())
 }
 
-/// An interrupt from another thread ends a wait in time, and the device keeps working.
+/// An interrupt from another thread ends a wait in time. The device works afterwards.
 pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), Unmet> {
     let mut device = started(tried)?;
     let alarm = Alarm::set(device.interrupter())?;
@@ -215,7 +215,7 @@ pub(crate) fn interrupt<D: Stream + ?Sized>(tried: &Tried<'_, D>) -> Result<(), 
     Ok(())
 }
 
-/// A simulation yields the same items for the same arguments.
+/// A simulated device yields equal items for equal arguments.
 pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     tried: &Tried<'_, D>,
     item: fn(&mut D, Deadline) -> Result<T, DriverError>,
@@ -233,7 +233,7 @@ pub(crate) fn repeats<D: Stream + ?Sized, T: PartialEq>(
     })
 }
 
-/// Passes for an ability that is present and declared, and skips one that is neither. Fails if only one of both is true.
+/// Passes if the ability is both declared and present. Skips the promise if it is neither; fails otherwise.
 pub(crate) fn as_declared(ability: &str, declared: bool, has: bool) -> Result<(), Unmet> {
     match (has, declared) {
         (true, true) => Ok(()),

@@ -1,4 +1,4 @@
-//! Trial of a driver: its settings, and the repeatedly opened device.
+//! Trial of a driver: settings, and functions that open and test the device.
 
 use std::sync::{Arc, mpsc};
 use std::thread;
@@ -15,7 +15,7 @@ use crate::report::{Outcome, Report, Tested};
 /// Settings of a trial.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// Arguments for opening, in the form after the colon of a selector.
+    /// Arguments for opening, as written after the colon of a selector.
     pub arguments: String,
     /// Deadline of calls that should succeed, on the clock of the device.
     pub deadline: Deadline,
@@ -23,7 +23,7 @@ pub struct Trial {
     pub at_once: Duration,
     /// Time limit for the effect of an interrupt or a halt.
     pub acts_within: Duration,
-    /// Distance that a robot moves away from the gel.
+    /// Distance that a robot moves away from the gel, mm.
     pub travel: Millimetre,
     /// False if promises that move a robot or a changer are skipped.
     pub moves: bool,
@@ -49,14 +49,14 @@ impl Default for Trial {
     }
 }
 
-/// One promise of the devices `D`: its name, `kind/words`, and its test.
+/// Name, `kind/words`, and test of one promise of the devices `D`.
 pub(crate) type Promise<D> = (&'static str, fn(&Tried<'_, D>) -> Result<(), Unmet>);
 
 /// Driver under test.
 pub(crate) struct Tried<'a, D: ?Sized> {
     factory: &'a dyn Factory<D>,
     args: Args,
-    /// Description of the driver for these arguments.
+    /// Description of the driver for the arguments of the trial.
     pub(crate) descriptor: Descriptor,
     pub(crate) trial: &'a Trial,
 }
@@ -121,7 +121,7 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         opened.map_err(|error| unopened(error, is_real))
     }
 
-    /// Required reading. Skips the promise if a recording has ended.
+    /// Returns a reading that the test needs. Skips the promise if the recording of a replay has ended.
     pub(crate) fn reading<T>(&self, read: Result<T, DriverError>) -> Result<T, Unmet> {
         let is_recording = self.descriptor.source() == DriverSource::Recorded;
         read.map_err(|error| match error.kind() {
@@ -130,7 +130,7 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         })
     }
 
-    /// Skips a promise about simulations for any other driver.
+    /// Skips a promise about simulations unless the driver is simulated.
     pub(crate) fn is_simulated(&self) -> Result<(), Unmet> {
         match self.descriptor.source() {
             DriverSource::Simulated => Ok(()),
@@ -146,12 +146,12 @@ impl<'a, D: ?Sized> Tried<'a, D> {
         Err(skipped("it would move a real device; `--move` allows it"))
     }
 
-    /// Result of `call`. Fails unless it returns at once.
+    /// Returns the result of `call`. Fails unless `call` returns at once.
     pub(crate) fn at_once<T>(&self, doing: &str, call: impl FnOnce() -> T) -> Result<T, Unmet> {
         self.in_time(doing, Duration::ZERO, call)
     }
 
-    /// Result of `call`. Fails unless it returns within `given` plus the limit of an immediate call.
+    /// Returns the result of `call`. Fails unless `call` returns within `given` plus the limit of an immediate call.
     pub(crate) fn in_time<T>(
         &self,
         doing: &str,
@@ -165,10 +165,10 @@ impl<'a, D: ?Sized> Tried<'a, D> {
     }
 }
 
-/// Beginning of the reason for skipping a promise that needs a device.
+/// Beginning of the reason why a promise without a connected device is skipped.
 pub(crate) const NO_DEVICE: &str = "no device is connected";
 
-/// Reason why a device did not open. If a real device is missing, promises are skipped.
+/// Reason why a device did not open. A missing real device gives a skipped promise.
 pub(crate) fn unopened(error: DriverError, is_real: bool) -> Unmet {
     match error.kind() {
         ErrorKind::NotFound | ErrorKind::Disconnected if is_real => {
@@ -185,13 +185,13 @@ pub(crate) fn was_within(doing: &str, took: Duration, most: Duration) -> Result<
     })
 }
 
-/// An interrupt from another thread, 20 ms after [`Alarm::set`].
+/// Thread that interrupts a call 20 ms after [`Alarm::set`].
 pub(crate) struct Alarm {
     rung: mpsc::Receiver<Instant>,
 }
 
 impl Alarm {
-    /// Sets the alarm.
+    /// Starts the thread of the alarm.
     pub(crate) fn set(interrupt: Option<Arc<dyn Interrupt>>) -> Result<Alarm, Unmet> {
         let interrupt = interrupt.ok_or_else(|| skipped("it cannot be interrupted"))?;
         let (sender, rung) = mpsc::channel();
@@ -205,7 +205,7 @@ impl Alarm {
         Ok(Alarm { rung })
     }
 
-    /// Time of the interrupt, if it has returned.
+    /// Time of the interrupt; `None` before its end.
     pub(crate) fn rang(&self) -> Option<Instant> {
         self.rung.try_recv().ok()
     }

@@ -15,7 +15,7 @@ use std::fmt;
 use taceva_abi as abi;
 use taceva_core::{Deadline, DriverError, DriverKey, ErrorKind, Fault, shown};
 
-/// A failed call, with the message of the plugin or of the host.
+/// Failed call, with the message of the plugin or of the host.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Failure {
     kind: ErrorKind,
@@ -69,7 +69,7 @@ impl fmt::Display for Failure {
 
 impl std::error::Error for Failure {}
 
-/// Calls `run` with an empty error and converts the status into a result.
+/// Calls `run` with an empty error, and converts the returned status into a result.
 pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Failure> {
     let mut error = abi::Error::new();
     let status = run(&mut error);
@@ -102,7 +102,7 @@ pub fn call(run: impl FnOnce(&mut abi::Error) -> abi::Status) -> Result<(), Fail
     })
 }
 
-/// Converts a fault number. An unknown fault number counts as [`Fault::Servo`], because it too ends the motion.
+/// Converts a fault number. An unknown fault number becomes [`Fault::Servo`], because every fault ends the motion.
 fn fault(number: abi::FaultNumber) -> Option<Fault> {
     match number {
         number if !number.is_fault() => None,

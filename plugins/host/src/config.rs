@@ -35,10 +35,10 @@ pub struct PluginConfig {
     /// Plugins whose code may run in this process.
     #[serde(default)]
     pub trust_in_process: BTreeSet<PluginId>,
-    /// Plugin folders that take precedence over others with the same id.
+    /// Folders whose plugins have priority over other plugins with the same id.
     #[serde(default)]
     pub prefer: Vec<PathBuf>,
-    /// Python interpreters whose environments are searched for plugins. The first one runs plugins from other places.
+    /// Python interpreters whose environments are searched for plugins. The first interpreter also runs Python plugins from other folders.
     #[serde(default)]
     pub python: Vec<PathBuf>,
     /// Needs of each plugin that the user allows.

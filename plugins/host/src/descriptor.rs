@@ -10,7 +10,7 @@ pub(crate) fn changes_facts(descriptor: &Descriptor, args: &Args) -> bool {
     arguments.any(|argument| argument.changes_facts && argument.is_set_by(args))
 }
 
-/// As [`difference`], for a library's description with `args`. Facts are not compared if `args` may change them.
+/// Same as [`difference`], for a library's description with `args`. Facts are not compared if `args` may change them.
 pub(crate) fn difference_with(
     manifest: &Descriptor,
     library: &Descriptor,
@@ -28,7 +28,7 @@ pub(crate) fn difference_with(
         .or_else(rest)
 }
 
-/// First difference between `manifest` and `library`, as its name and both values. Titles and help texts are not compared.
+/// First difference between `manifest` and `library`: name of the item, and both values. Titles and help texts are not compared.
 pub(crate) fn difference(manifest: &Descriptor, library: &Descriptor) -> Option<[String; 3]> {
     let source = [manifest, library].map(Descriptor::source);
     differ("source", source)

@@ -1,4 +1,4 @@
-//! Examination of a plugin: a child examines the plugin with code of this program instead of serving it.
+//! Examination of a plugin: code of this program tests the plugin in a child process.
 
 use std::fs::File;
 use std::io::{self, Write};
@@ -31,7 +31,7 @@ pub struct ExaminationOrder<'a> {
     pub arguments: &'a str,
     /// Timeout after which the child is killed.
     pub limit: Duration,
-    /// Receives log lines. Those with the target [`CALL`](crate::bare::CALL) name the pending call.
+    /// Callback for log lines. A line with the target [`CALL`](crate::bare::CALL) names the pending call.
     pub log: Log,
 }
 

@@ -35,14 +35,14 @@ impl Grant {
 
 /// Needs that a plugin declares and its user does not allow.
 ///
-/// Displays as the command that allows them.
+/// The displayed text is the command that allows these needs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Withheld {
     plugin: String,
     /// Folder of a plugin that is not installed.
     folder: Option<String>,
     needs: BTreeSet<Need>,
-    /// True if the manifest of a confined plugin declares no needs. A permission would then have no effect.
+    /// True if the manifest of a confined plugin declares no needs. A permission has then no effect.
     asks_for_nothing: bool,
 }
 

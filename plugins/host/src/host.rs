@@ -42,7 +42,7 @@ pub type PluginLog = Arc<dyn Fn(&PluginId, Level, &str, &str) + Send + Sync>;
 pub struct Children {
     /// Program whose `main` begins with `main_if_child`; `None` for this program.
     pub program: Option<PathBuf>,
-    /// Quarantine of crashed libraries. Without it, they start again.
+    /// Quarantine of crashed libraries. Without a quarantine, a crashed library starts again.
     #[cfg(target_os = "linux")]
     pub quarantine: Option<Quarantine>,
 }
@@ -58,10 +58,10 @@ impl Children {
     }
 }
 
-/// A session and the digest of its library.
+/// Session, with the digest of its library.
 type Started = (Arc<dyn Session>, Sha256Digest);
 
-/// Isolation tried so far, by the child's needs. For Python also by interpreter and profile.
+/// Results of isolation trials, by the needs of the child. The key for Python also has interpreter and profile.
 type Tried = BTreeMap<(BTreeSet<Need>, Option<(PathBuf, Profile)>), Keeping>;
 
 /// Plugins of a program, with their settings. Each runs in the process that the user's settings choose.
@@ -106,7 +106,7 @@ impl PluginHost {
         })
     }
 
-    /// Plugins that were found, and rejections.
+    /// Plugins that were found, and rejected plugins with their reasons.
     pub fn plugins(&self) -> &Plugins {
         &self.plugins
     }
@@ -121,8 +121,8 @@ impl PluginHost {
         self.config.grant(plugin).withheld
     }
 
-    /// Needs of a device of `driver` that the user does not allow, for `arguments` as `key=value;key=value`. `None` if no plugin has the driver, or
-    /// the arguments are invalid.
+    /// Needs of a device of `driver` that the user does not allow, for `arguments` as `key=value;key=value`. `None` for a driver of no plugin, or for invalid
+    /// arguments.
     pub fn withheld_from(&self, driver: &str, arguments: &str) -> Option<Withheld> {
         let mut drivers = self.plugins.iter().flat_map(|plugin| {
             let drivers = plugin.manifest.drivers();
@@ -226,8 +226,7 @@ impl PluginHost {
         }
     }
 
-    /// Reason of the quarantine of `plugin`'s library; `None` if it is not in quarantine. Reads only libraries of plugins with a quarantine
-    /// entry.
+    /// Reason of the quarantine of `plugin`'s library; `None` outside quarantine. Reads only libraries of plugins with a quarantine entry.
     pub fn quarantined(&self, plugin: &Plugin) -> Option<String> {
         #[cfg(target_os = "linux")]
         {

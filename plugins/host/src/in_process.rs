@@ -1,4 +1,4 @@
-//! Plugin in this process: a trusted plugin in the host, any other in a confined child.
+//! Session with a plugin in this process, which is the host for a trusted plugin, otherwise a confined child.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! Loaded library: read as data, compared with its manifest, initialised. It is never unloaded.
+//! Loads a library: reads its data, compares it with the manifest and initialises it. The library is never unloaded.
 
 #![expect(
     unsafe_code,
@@ -41,7 +41,7 @@ use crate::call::{call, table};
 use crate::id::PluginId;
 use crate::manifest::Manifest;
 
-/// Flag that keeps the library's code mapped, because its threads and thread-locals may outlive every handle.
+/// Flag that keeps the code of the library mapped. Threads and thread-locals of the library may exist longer than every handle.
 const RTLD_NODELETE: i32 = if cfg!(target_os = "linux") {
     0x1000
 } else {
@@ -55,7 +55,7 @@ pub fn libraries_loaded() -> u64 {
     LOADED.load(Ordering::Relaxed)
 }
 
-/// A plugin's library, loaded, initialised and consistent with its manifest.
+/// Library of a plugin that is loaded, initialised and consistent with its manifest.
 pub struct Library {
     id: PluginId,
     path: PathBuf,

@@ -1,4 +1,4 @@
-//! Manifest of a plugin, with all data for listing and planning. Reading it runs no code of the plugin.
+//! Manifest of a plugin, with all data for listing and planning. Reading a manifest runs no code of the plugin.
 
 mod argument;
 mod device_facts;
@@ -111,7 +111,7 @@ pub struct AbiVersion {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Written {
-    /// Checked first, by [`Versioned`].
+    /// Format version, already checked by [`Versioned`].
     #[serde(rename = "manifest_version")]
     _version: u32,
     id: Spanned<String>,
@@ -287,7 +287,7 @@ fn meant(written: Written) -> Result<Manifest, Refused> {
     })
 }
 
-/// Rejects a need unless one driver declares all its arguments.
+/// Rejects a need unless a driver declares all arguments in the need.
 fn check_arguments(
     written: &Spanned<String>,
     needs: &BTreeSet<DeclaredNeed>,

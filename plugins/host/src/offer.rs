@@ -1,8 +1,8 @@
-//! Offer of a library, from which a manifest is written.
+//! Data that a library states about itself, from which a manifest is written.
 
 mod edit;
 
-/// Contents of the manifest as the library states them. They are unchecked until the resulting manifest is parsed.
+/// Contents of the manifest as the library states them. These are checked only when the resulting manifest is parsed.
 ///
 /// ```
 /// use taceva_host::{LibraryFile, Offer};
@@ -26,6 +26,6 @@ pub struct Offer {
     pub version: String,
     /// Needs of the plugin; empty if it states none.
     pub needs: Vec<String>,
-    /// One `[[provides]]` table for each driver and estimator, without that header. Its `[[provides.args]]` are called `[[args]]`.
+    /// One `[[provides]]` table for each driver and estimator, without that header. The arguments are `[[args]]` instead of `[[provides.args]]`.
     pub provides: Vec<String>,
 }

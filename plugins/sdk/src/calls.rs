@@ -1,4 +1,4 @@
-//! Calls on an open device, by kind. Every function checks its arguments through [`guard`] and [`memory`](crate::memory).
+//! Calls on an open device, by kind. Every function runs in a [`guard`] and checks its arguments with [`memory`](crate::memory).
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -20,7 +20,7 @@ use crate::guard::{caught, guard};
 use crate::handles::{self, Handle};
 use crate::memory;
 
-/// A kind of device: the type behind its handles, and the calls on them.
+/// Kind of device: its type behind a handle, and its calls.
 pub(crate) trait Kind: 'static {
     /// Type behind a handle.
     type Opened: Any + Send;
@@ -31,7 +31,7 @@ pub(crate) trait Kind: 'static {
     /// Drivers of this kind.
     fn drivers(loaded: &Loaded) -> &Drivers<Self>;
 
-    /// Creates the handle of a device with these `facts`.
+    /// Stores the open device and creates its handle. `facts` are those of its driver.
     fn handle(device: Box<Self>, facts: &Facts) -> Handle<Self::Opened>;
 }
 
@@ -79,7 +79,7 @@ unsafe fn call<O: Any + Send>(
     unsafe { guard(error, || handles::find::<Handle<O>>(handle)?.call(work)) }
 }
 
-/// Returns the table `calls` if `id` is its `name` and the device `has` that ability; otherwise NULL.
+/// Returns the table `calls` if `id` equals `name` and `has` is true for the device; otherwise NULL.
 ///
 /// # Safety
 /// `id` is borrowed for the call.

@@ -1,4 +1,4 @@
-//! Conversion between numbers of the plugin boundary and of core. Numbers that are not finite are rejected in both directions.
+//! Conversion between numbers of the plugin boundary and of core. Both directions reject numbers that are not finite.
 //!
 //! Positions are in m at the boundary and in mm in core. Forces are in N and torques in N·mm on both sides.
 
@@ -15,12 +15,12 @@ pub(crate) fn deadline(timeout_ns: u64) -> Deadline {
     Deadline::after(Duration::from_nanos(timeout_ns))
 }
 
-/// Converts to nanoseconds. Saturates after 584 years.
+/// Converts a duration to nanoseconds. Times above 584 years become the greatest number.
 pub(crate) fn nanoseconds(time: Duration) -> u64 {
     u64::try_from(time.as_nanos()).unwrap_or(u64::MAX)
 }
 
-/// Target pose and speed of a requested motion.
+/// Converts the target pose and the speed of a requested motion.
 pub(crate) fn motion(motion: &Motion) -> Result<(Pose, Speed), Failure> {
     let AbiPose {
         x,

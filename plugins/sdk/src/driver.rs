@@ -8,7 +8,7 @@ use crate::estimator::EstimatorFactory;
 
 /// Driver or estimator that a plugin provides, as the function that makes its factory.
 ///
-/// [`export_plugin!`](crate::export_plugin) creates these from its arguments.
+/// [`export_plugin!`](crate::export_plugin) creates drivers from its arguments.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
@@ -28,19 +28,19 @@ use crate::estimator::EstimatorFactory;
 /// ```
 #[non_exhaustive]
 pub enum Driver {
-    /// A sensor.
+    /// Driver of a sensor.
     Sensor(Builtin<dyn Sensor>),
-    /// A robot.
+    /// Driver of a robot.
     Robot(Builtin<dyn Robot>),
-    /// A force transducer.
+    /// Driver of a force transducer.
     Force(Builtin<dyn ForceTransducer>),
-    /// A lighting.
+    /// Driver of a lighting.
     Lighting(Builtin<dyn Lighting>),
-    /// A changer.
+    /// Driver of a changer.
     Changer(Builtin<dyn Changer>),
     /// An estimator.
     Estimator(MakeEstimator),
-    /// A factory made at run time.
+    /// Factory that was created at run time.
     Made(Made),
 }
 
@@ -77,7 +77,7 @@ pub enum Made {
     Estimator(Box<dyn EstimatorFactory>),
 }
 
-/// Makes the factory of an estimator.
+/// Function that makes the factory of an estimator.
 ///
 /// ```
 /// # use taceva_core::{DriverKey, ModelError, Saved, SavedRegressor};
@@ -96,7 +96,7 @@ pub enum Made {
 /// ```
 pub type MakeEstimator = fn() -> Box<dyn EstimatorFactory>;
 
-/// A kind of driver or estimator that a plugin can provide, as named in [`export_plugin!`](crate::export_plugin): for example `dyn Sensor`.
+/// Kind of driver or estimator, such as `dyn Sensor`, for the arguments of [`export_plugin!`](crate::export_plugin).
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};
@@ -119,11 +119,11 @@ pub trait Provide {
     /// Function that makes the factory.
     type Make;
 
-    /// Creates the driver whose factory `make` makes.
+    /// Creates the driver from the function that makes its factory.
     fn provide(make: Self::Make) -> Driver;
 }
 
-/// Makes the factory of a device driver.
+/// Function that makes the factory of a device driver.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Deadline, Descriptor, DescriptorError, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory};

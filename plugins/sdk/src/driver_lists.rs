@@ -10,10 +10,10 @@ use taceva_core::{
 
 use crate::failure::Failure;
 
-/// Drivers of one kind, by number.
+/// Drivers of one kind, indexed by their number.
 pub(crate) type Drivers<D> = Vec<Box<dyn CoreFactory<D>>>;
 
-/// Drivers by kind, and the tables through which a host calls them.
+/// Drivers by kind, and the tables with which a host calls the drivers.
 pub(crate) struct Loaded {
     pub(crate) sensors: Drivers<dyn Sensor>,
     pub(crate) robots: Drivers<dyn Robot>,
@@ -21,12 +21,12 @@ pub(crate) struct Loaded {
     pub(crate) lightings: Drivers<dyn Lighting>,
     pub(crate) changers: Drivers<dyn Changer>,
     pub(crate) estimators: Vec<Box<dyn EstimatorFactory>>,
-    /// Keys of the drivers up to their last `/`.
+    /// Prefix of each driver key, up to the last `/`.
     pub(crate) prefixes: BTreeSet<String>,
     pub(crate) tables: Tables,
 }
 
-/// Table of each kind for which the plugin has drivers.
+/// Table of calls for each kind of driver in the plugin.
 pub(crate) struct Tables {
     pub(crate) sensor: Option<Factory>,
     pub(crate) robot: Option<Factory>,
@@ -36,7 +36,7 @@ pub(crate) struct Tables {
     pub(crate) estimator: Option<EstimatorTable>,
 }
 
-/// A library contains one plugin and loads it once.
+/// Drivers of the plugin, set once. A library contains one plugin.
 static LOADED: OnceLock<Loaded> = OnceLock::new();
 
 /// Drivers of the plugin. Fails before the plugin is initialised.
@@ -46,7 +46,7 @@ pub(crate) fn loaded() -> Result<&'static Loaded, Failure> {
         .ok_or_else(|| Failure::argument("the plugin is not initialised"))
 }
 
-/// Keeps `drivers` for the life of the library. Two threads that initialise it at once have loaded equal drivers.
+/// Stores `drivers` until the process ends. Ignores `drivers` if another thread has already stored equal ones.
 pub(crate) fn keep(drivers: Loaded) {
     LOADED.get_or_init(|| drivers);
 }

@@ -94,7 +94,7 @@ fn table<D: Kind + ?Sized>(drivers: usize) -> Option<Factory> {
     count(drivers).map(factory::table::<D>)
 }
 
-/// Number of drivers; `None` for 0.
+/// Number of drivers for a table; `None` for 0.
 fn count(drivers: usize) -> Option<u32> {
     u32::try_from(drivers).ok().filter(|count| *count > 0)
 }

@@ -1,8 +1,8 @@
-//! A crate that is exported as a plugin.
+//! Trait of a crate that is exported as a plugin.
 
 use crate::driver::Driver;
 
-/// A crate that is exported as a plugin. [`export_plugin!`](crate::export_plugin) implements this trait.
+/// Id, version and drivers of a crate that is exported as a plugin. [`export_plugin!`](crate::export_plugin) implements this trait.
 ///
 /// ```
 /// use taceva_plugin::{Driver, Export, plugin};
@@ -22,7 +22,7 @@ pub trait Export {
     const ID: &'static str;
     /// Version of the plugin, as in the manifest.
     const VERSION: &'static str;
-    /// Outside needs of the plugin, one per line, as in `needs` of the manifest. `taceva plugin manifest --write` copies them to the manifest.
+    /// External needs of the plugin, one per line, as in `needs` of the manifest. `taceva plugin manifest --write` copies the needs to the manifest.
     const NEEDS: &'static str = "";
 
     /// Drivers and estimators that the plugin provides.

@@ -1,4 +1,4 @@
-//! Drivers of one kind: their description, discovery and opening.
+//! Calls of the host that describe, discover and open drivers of one kind.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -18,7 +18,7 @@ use crate::memory;
 use crate::rig::with_rig;
 use crate::table::provides_table;
 
-/// Table of calls on `drivers` drivers.
+/// Table of calls for a plugin with `drivers` drivers of the kind.
 pub(crate) fn table<D: Kind + ?Sized>(drivers: u32) -> Table {
     #[expect(clippy::cast_possible_truncation, reason = "forty bytes")]
     let size = size_of::<Table>() as u32;
@@ -71,7 +71,7 @@ unsafe extern "C" fn describe<D: Kind + ?Sized>(
     unsafe { guard(error, work) }
 }
 
-/// True if the host does not know the arguments yet: it passes NULL, or none although one is required.
+/// True if the host requests a description before it has arguments: `given` is NULL, or lacks all although one is required.
 ///
 /// # Safety
 /// As for [`args`].

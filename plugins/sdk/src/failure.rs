@@ -1,9 +1,9 @@
-//! Failures of calls across the boundary.
+//! Failures of calls of the host.
 
 use taceva_abi::{FaultNumber, MESSAGE_SIZE, Status};
 use taceva_core::{DriverError, ErrorKind, Fault, ModelError};
 
-/// Failure for the host: a status, and a message that is complete together with the name of the call.
+/// Failure for the host: a status and a message. The host adds the name of the call to the message.
 #[derive(Debug)]
 pub(crate) struct Failure {
     pub(crate) status: Status,
@@ -21,19 +21,19 @@ impl Failure {
         }
     }
 
-    /// Failure because of a wrong argument of the caller.
+    /// Creates the failure for a wrong argument of the caller.
     pub(crate) fn argument(message: impl Into<String>) -> Failure {
         Failure::new(ErrorKind::InvalidArgument, message)
     }
 
-    /// Failure because of a fault of the device.
+    /// Creates the failure for a fault of the device.
     pub(crate) fn device(message: impl Into<String>) -> Failure {
         Failure::new(ErrorKind::DeviceFault, message)
     }
 }
 
 impl From<DriverError> for Failure {
-    /// Message with the operation and the reason, or only the reason if both exceed the length of a message. The host knows the driver and the call.
+    /// Message with the operation and the reason, or only the reason if both exceed the length of a message. The host itself adds the driver and the call.
     fn from(error: DriverError) -> Failure {
         let message = match std::error::Error::source(&error) {
             Some(reason) => {

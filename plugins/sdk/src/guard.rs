@@ -1,4 +1,4 @@
-//! Guard of every function that a host calls. No panic unwinds into the host, and every failure becomes a status.
+//! Guard of every function that a host calls. Converts panics and failures to a status, so that no panic unwinds into the host.
 
 #![expect(unsafe_code, reason = "the caller's memory for the message is written")]
 
@@ -9,7 +9,7 @@ use taceva_core::ErrorKind;
 
 use crate::failure::Failure;
 
-/// Runs `work` and returns its status. No panic unwinds into the host. A failure leaves its message in `error`.
+/// Runs `work` and returns its status. No panic unwinds into the host. Writes the message of a failure to `error`.
 ///
 /// # Safety
 /// `error` is NULL, or points to memory of the length in its `size`, which belongs to the callee during the call.
@@ -30,7 +30,7 @@ pub(crate) unsafe fn guard(
     failure.status
 }
 
-/// Result of `work`. A panic becomes a failure.
+/// Runs `work` and returns its result. A panic becomes a failure.
 pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
     // A panic can leave only one handle half changed, and that handle is dead from then on.
     taceva_core::caught(work).map_err(|message| {
@@ -41,7 +41,7 @@ pub(crate) fn caught<T>(work: impl FnOnce() -> T) -> Result<T, Failure> {
     })
 }
 
-/// Writes `message` to the caller's error. Truncates it between two characters if it does not fit.
+/// Writes `message` to the caller's error. Truncates a too long message between two characters.
 unsafe fn write_message(error: *mut Error, message: &str) {
     const HEAD: usize = offset_of!(Error, message);
     if error.is_null() || !error.is_aligned() {
@@ -65,7 +65,7 @@ unsafe fn write_message(error: *mut Error, message: &str) {
     }
 }
 
-/// Writes `fault` to the caller's error, if the error has space for it.
+/// Writes `fault` to the caller's error, if the `size` of the error covers the field.
 unsafe fn write_fault(error: *mut Error, fault: FaultNumber) {
     const END: usize = offset_of!(Error, fault) + size_of::<FaultNumber>();
     if error.is_null() || !error.is_aligned() {

@@ -1,6 +1,6 @@
-//! Open devices, rigs and fitted models. The host gets their numbers as handles.
+//! Open devices, rigs and fitted models. The host receives their numbers as handles.
 //!
-//! A handle is a number and never an address. A closed or unknown handle is rejected and never dereferenced.
+//! A handle is a number and never an address. Calls reject closed and unknown handles without dereferencing them.
 
 use std::any::Any;
 use std::collections::BTreeMap;
@@ -19,7 +19,7 @@ type Thing = Arc<dyn Any + Send + Sync>;
 static OPEN: RwLock<BTreeMap<usize, Thing>> = RwLock::new(BTreeMap::new());
 static NEXT: AtomicUsize = AtomicUsize::new(1);
 
-/// Stores `thing` until it is closed, and returns its handle.
+/// Stores `thing` and returns its handle, which is valid until [`close`].
 pub(crate) fn keep(thing: impl Any + Send + Sync) -> *mut c_void {
     let number = NEXT.fetch_add(1, Ordering::Relaxed);
     let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
@@ -27,7 +27,7 @@ pub(crate) fn keep(thing: impl Any + Send + Sync) -> *mut c_void {
     without_provenance_mut(number)
 }
 
-/// Object of a handle.
+/// Finds the object of a handle. Fails for a closed or unknown handle, or another type.
 pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>, Failure> {
     let open = OPEN.read().unwrap_or_else(PoisonError::into_inner);
     let thing = open.get(&handle.addr()).map(Arc::clone);
@@ -37,7 +37,7 @@ pub(crate) fn find<T: Any + Send + Sync>(handle: *const c_void) -> Result<Arc<T>
         .ok_or_else(|| Failure::argument("the handle is closed or of another kind"))
 }
 
-/// Removes a handle and drops its object. If a call on another thread still uses the object, that call drops it.
+/// Removes a handle and drops its object. A call that still uses the object on another thread drops the object at its end.
 pub(crate) fn close(handle: *const c_void) {
     let mut open = OPEN.write().unwrap_or_else(PoisonError::into_inner);
     let thing = open.remove(&handle.addr());
@@ -46,11 +46,11 @@ pub(crate) fn close(handle: *const c_void) {
     drop(caught(|| drop(thing)));
 }
 
-/// An open device, which is dead after a panic.
+/// Open device. A panic of the device makes the handle unusable.
 pub(crate) struct Handle<T> {
     is_dead: AtomicBool,
     device: Mutex<T>,
-    /// Interrupt of a pending call; below it, halt of a motion. Both are called without waiting for the device.
+    /// Interrupts a pending call. The next field halts a motion. Calls of either do not wait for the device.
     pub(crate) interrupt: Option<Arc<dyn Interrupt>>,
     pub(crate) halt: Option<Arc<dyn Halt>>,
 }
@@ -76,7 +76,7 @@ impl<T> Handle<T> {
         Handle { halt, ..self }
     }
 
-    /// Runs `work` with exclusive access to the device. A panic kills only this handle.
+    /// Runs `work` with exclusive access to the device. A panic makes only this handle unusable.
     pub(crate) fn call<R>(
         &self,
         work: impl FnOnce(&mut T) -> Result<R, Failure>,

@@ -1,4 +1,4 @@
-//! Log and clock of the host.
+//! Log and clock of the host, for drivers in a plugin.
 
 #![expect(unsafe_code, reason = "functions of the host are called")]
 
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use taceva_abi::{Host, Level, Text};
 
-/// The host, between `init` and `deinit`.
+/// Services of the host, set between `init` and `deinit`, otherwise NULL.
 static HOST: AtomicPtr<Host> = AtomicPtr::new(null_mut());
 
 /// Stores the host.
@@ -17,7 +17,7 @@ pub(crate) fn remember(host: *const Host) {
     HOST.store(host.cast_mut(), Ordering::Release);
 }
 
-/// Forgets the host. None of its functions is called afterwards.
+/// Forgets the host. No later call uses its functions.
 pub(crate) fn forget() {
     HOST.store(null_mut(), Ordering::Release);
 }
@@ -28,7 +28,7 @@ fn host() -> Option<&'static Host> {
     unsafe { host.as_ref() }
 }
 
-/// Writes a line to the host's log. Does nothing in a linked driver.
+/// Writes a line to the log of the host. Does nothing in a driver that is linked into the program.
 ///
 /// ```
 /// taceva_plugin::log(taceva_plugin::Level::Warn, "the camera is warm");
@@ -42,7 +42,7 @@ pub fn log(level: Level, message: &str) {
     unsafe { log(host.context, level as i32, target, Text::from(message)) };
 }
 
-/// Time of the host's monotonic clock. Real devices use it for stamps.
+/// Time of the monotonic clock of the host, for the stamps of real devices.
 ///
 /// In a linked driver, or before the plugin is initialised, the time counts from the first call.
 ///

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use taceva_core::{DriverError, Halt, Interrupt};
 
-/// Interrupts the pending call of a device: the `interrupt_handle` of a sensor, a force transducer or a changer.
+/// Interrupts the pending call of a device. Provides the `interrupt_handle` of a sensor, a force transducer or a changer.
 ///
 /// ```
 /// use std::{sync::Arc, thread, time::Duration};
@@ -53,7 +53,7 @@ impl fmt::Display for Interrupted {
 
 impl std::error::Error for Interrupted {}
 
-/// A call that can be interrupted, from its start until this value is dropped.
+/// Call that another thread can interrupt until this value is dropped.
 ///
 /// ```
 /// use std::time::Duration;
@@ -76,7 +76,7 @@ impl Interruption {
         Some(Arc::clone(self) as Arc<dyn Interrupt>)
     }
 
-    /// Begins a call.
+    /// Begins a call that can be interrupted.
     pub fn call(&self) -> InterruptibleCall<'_> {
         self.pending().calls += 1;
         InterruptibleCall { interruption: self }
@@ -126,7 +126,7 @@ impl Interrupt for Interruption {
     }
 }
 
-/// A halt that latches: the `halt_handle` of a robot without its own.
+/// Latch of a halted robot. Provides the `halt_handle` of a robot without a halt of its own.
 ///
 /// A motion in steps that waits on this latch ends within one step. A robot that moves without further commands must also be stopped.
 ///
@@ -155,7 +155,7 @@ impl HaltLatch {
     /// Waits for `time`. Returns earlier if halted.
     ///
     /// # Errors
-    /// [`Interrupted`] if a halt occurs during the wait, or was in force before.
+    /// [`Interrupted`] if the robot is halted before or during the wait.
     pub fn rest(&self, time: Duration) -> Result<(), Interrupted> {
         let latch = self.latch();
         let (is_halted, _) = self

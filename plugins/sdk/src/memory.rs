@@ -1,4 +1,4 @@
-//! Pointers from the host, checked before they are read or written.
+//! Checks pointers from the host before memory is read or written.
 
 #![expect(unsafe_code, reason = "pointers of the host are followed")]
 
@@ -8,7 +8,7 @@ use taceva_abi::{TakeText, Text};
 
 use crate::failure::Failure;
 
-/// Reads the object at `pointer`. NULL and misaligned addresses are rejected.
+/// Reads the object at `pointer`. Rejects NULL and misaligned addresses.
 ///
 /// # Safety
 /// `pointer` is NULL, misaligned, or points to a `T` that stays unchanged during `'a`.
@@ -18,7 +18,7 @@ pub(crate) unsafe fn given<'a, T>(name: &str, pointer: *const T) -> Result<&'a T
     Ok(unsafe { &*pointer })
 }
 
-/// Object at `pointer`, for writing.
+/// Returns the object at `pointer` for writing. Rejects NULL and misaligned addresses.
 ///
 /// # Safety
 /// `pointer` is NULL, misaligned, or points to a `T` that belongs to the callee during `'a`.
@@ -28,7 +28,7 @@ pub(crate) unsafe fn place<'a, T>(name: &str, pointer: *mut T) -> Result<&'a mut
     Ok(unsafe { &mut *pointer })
 }
 
-/// A struct that begins with its own size. It is rejected if it is shorter than `T`.
+/// Reads a struct whose first field is its size. Rejects a struct shorter than `T`.
 ///
 /// # Safety
 /// `pointer` is NULL, misaligned, or points to as many bytes as its first `u32` states.
@@ -41,7 +41,7 @@ pub(crate) unsafe fn sized<'a, T>(name: &str, pointer: *const T) -> Result<&'a T
     Ok(unsafe { &*pointer })
 }
 
-/// As [`sized`], for writing.
+/// Same as [`sized`], for writing.
 ///
 /// # Safety
 /// As [`sized`], and the bytes belong to the callee during `'a`.
@@ -76,7 +76,7 @@ fn long_enough<T>(name: &str, size: u32) -> Result<(), Failure> {
     Ok(())
 }
 
-/// List of `length` objects that begins at `first`.
+/// Reads a list of `length` objects that begins at `first`.
 ///
 /// # Safety
 /// `first` is NULL, misaligned, or the start of `length` objects that stay unchanged during `'a`.
@@ -94,7 +94,7 @@ pub(crate) unsafe fn list<'a, T>(
     Ok(unsafe { std::slice::from_raw_parts(first, length) })
 }
 
-/// As [`list`], for writing.
+/// Same as [`list`], for writing.
 ///
 /// # Safety
 /// As [`list`], and the objects belong to the callee during `'a`.
@@ -135,7 +135,7 @@ pub(crate) unsafe fn text<'a>(name: &str, text: Text) -> Result<&'a str, Failure
     unsafe { text.to_str() }.map_err(|error| Failure::argument(format!("`{name}`: {error}")))
 }
 
-/// Passes `text` to the host.
+/// Passes `text` to the callback `take` of the host.
 ///
 /// # Safety
 /// `take` may be called with `context` and any text.

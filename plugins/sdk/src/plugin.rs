@@ -5,7 +5,7 @@ use taceva_abi::{ABI_MAJOR, ABI_MINOR, MAGIC, Plugin, Text};
 use crate::export::Export;
 use crate::{entry, rig};
 
-/// Table that a library exports for `E`. The example of [`Export`] uses it.
+/// Creates the table that a library exports for `E`. See the example of [`Export`].
 pub const fn plugin<E: Export>() -> Plugin {
     #[expect(clippy::cast_possible_truncation, reason = "a hundred bytes")]
     let size = size_of::<Plugin>() as u32;
@@ -28,7 +28,7 @@ pub const fn plugin<E: Export>() -> Plugin {
 
 /// Exports the drivers of a crate of type `cdylib` as the plugin `id`. The plugin has the version of the crate.
 ///
-/// `needs: ["usb"],` may follow the id: outside needs of the plugin, as in the manifest.
+/// `needs: ["usb"],` may follow the id and states external needs of the plugin, as in the manifest.
 ///
 /// Each entry of `drivers` has a kind of device and a `fn` that makes a factory, as in `taceva_core::submit_builtin!`.
 ///

@@ -1,4 +1,4 @@
-//! A driver's description as the `[[provides]]` table of a manifest.
+//! Writes the description of a driver as the `[[provides]]` table of a manifest.
 
 mod toml;
 
@@ -11,7 +11,7 @@ use taceva_core::{
 
 use self::toml::{Number, Text, written};
 
-/// Table of a driver below `[[provides]]` of a manifest, as TOML. It has `[[args]]` in place of `[[provides.args]]`.
+/// Table of a driver below `[[provides]]` of a manifest, as TOML, with `[[args]]` in place of `[[provides.args]]`.
 ///
 /// The key is the last part of the driver's key: a plugin `org.example.digit` provides `org.example.digit/finger` as `finger`.
 ///
@@ -47,7 +47,7 @@ pub fn provides_table(descriptor: &Descriptor) -> String {
     table.text
 }
 
-/// As [`provides_table`], for an estimator.
+/// Same as [`provides_table`], for an estimator.
 ///
 /// ```
 /// # use taceva_core::{DriverKey, ModelError, Saved, SavedRegressor};
@@ -95,7 +95,7 @@ impl Table {
         }
     }
 
-    /// Writes an inline table of the known fields. Writes nothing if none is known.
+    /// Writes an inline table of the known fields. Writes nothing without known fields.
     fn inline(&mut self, key: &str, fields: &[(&str, Option<String>)]) {
         let known: Vec<String> = fields
             .iter()

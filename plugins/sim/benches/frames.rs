@@ -1,7 +1,7 @@
 //! Pictures per second of each simulated sensor on one core, from contact to bytes.
 //!
-//! `cargo bench -p taceva-sim --bench frames`. Frames have 19,200 pixels unless the name states otherwise, with noise. A sample is 64 frames, and the
-//! press moves from frame to frame, so all samples have equally difficult presses.
+//! `cargo bench -p taceva-sim --bench frames`. Frames have 19,200 pixels unless the name states otherwise, with noise. A sample is 64 frames. The press moves
+//! from frame to frame, so that all samples are equally difficult.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -46,7 +46,7 @@ fn dragged(bencher: Bencher<'_, '_>, model: Model) {
     frames(bencher, model, SMALL, &contacts(model, Touch::Dragged));
 }
 
-/// Sixty-four contacts over the probed surface, at various depths.
+/// Contacts for [`FRAMES`] frames over the probed surface, at various depths.
 fn contacts(model: Model, touch: Touch) -> Vec<Contact> {
     let parameters = model.parameters();
     let solid = Solid::new(&parameters);

@@ -16,7 +16,7 @@ use crate::rig::{Label, Touch, TransducerModel, search};
 use crate::specimen::GratingPose;
 use crate::unit::Unit;
 
-/// Sensor unit in a rig, with seeded noise. Results are pure functions of the arguments: order, threads and interruptions do not affect them.
+/// Sensor unit in a rig, with seeded noise. Results depend only on the arguments, not on order, threads or interruptions.
 ///
 /// ```
 /// use taceva_sim::{Bench, Model, Press};

@@ -25,7 +25,7 @@ use crate::displacement::Load;
 /// True state of a contact; all zero without contact.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Contact {
-    /// Centre of the ball over the gel, shear included.
+    /// Position of the centre of the ball over the gel, including shear.
     pub position_mm: [f64; 2],
     /// Depth below first touch, along the axis of the sensor.
     pub depth_mm: f64,
@@ -35,7 +35,7 @@ pub struct Contact {
     pub normal: [f64; 3],
     /// Direction of the displacement along the surface; zero without displacement.
     pub tangent: [f64; 3],
-    /// Displacement up to which the surface sticks to the ball. Beyond it, the ball slides.
+    /// Displacement of the surface with the ball. The ball slides beyond this displacement.
     pub carried_mm: f64,
     /// Sliding distance of the ball over the surface.
     pub slip_mm: f64,
@@ -55,7 +55,7 @@ pub struct Contact {
     pub shear_force_n: f64,
     /// Force of the ball on the sensor: along x, along y, and into the gel along the sensor's axis.
     pub force_n: [f64; 3],
-    /// Travel of the robot after first contact: as commanded, or less if the force limit stopped the press.
+    /// Travel of the robot after first contact: the commanded travel, or less if the force limit stopped the press.
     pub travel_mm: f64,
     /// True if the force limit stopped the press before its depth.
     pub limited: bool,
@@ -72,7 +72,7 @@ impl Contact {
         self.slip_mm > 0.0
     }
 
-    /// Load that displaces the points of a flat gel.
+    /// Load of the contact, as input for the displacements of a flat gel.
     pub fn load(&self) -> Load {
         Load {
             centre_mm: self.position_mm,

@@ -1,15 +1,15 @@
 //! Displacement of the points of a gel under a press: radial tables, computed once per sensor and interpolated at each pixel.
 //!
-//! The pressure is Hertz's over the contact radius a. The shear stress, for contact without slip, is q = Q/(2π a √(a² − r²)). Both are
-//! convolved with the [`Kernel`](crate::elastic::kernel::Kernel) of the bonded layer in a Hankel integral. All factors except the depth below the surface are scaled
-//! out, so one [`Tables`] serves every force, modulus and place. A [`Profile`] is its row for one press, and a [`Field`] is that row at its place.
+//! The pressure is Hertz's over the contact radius a. The shear stress, for contact without slip, is q = Q/(2π a √(a² − r²)). Both are convolved with the
+//! [`Kernel`](crate::elastic::kernel::Kernel) of the bonded layer in a Hankel integral. The tables are independent of force, modulus and place, so that one
+//! [`Tables`] per depth suffices. A [`Profile`] contains the values for one press, and a [`Field`] places a profile at a contact.
 //!
 //! With r the place relative to the centre of the contact, s the unit vector of the shear and r² = r·r, a profile gives
 //!
 //! * along the surface: r·outward + s·along − r (r·s)·radial,
 //! * upwards: −sink + (r·s)·bulge, with the gradient −r·sink_slope + s·bulge + r (r·s)·bulge_slope.
 //!
-//! Each factor depends only on r², so a pixel needs no square root and no trigonometric function.
+//! Each factor depends only on r². A pixel therefore needs no square root and no trigonometric function.
 
 mod field;
 mod index;

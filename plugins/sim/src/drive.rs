@@ -1,5 +1,5 @@
-//! The bench as devices: `sim/vitactip`, `sim/magictac`, `sim/gelsight`, `sim/gelsight-wm`, `sim/robot`, `sim/force-transducer` and `sim/lighting`.
-//! Every program that links this crate has them.
+//! The bench as devices: `sim/vitactip`, `sim/magictac`, `sim/gelsight`, `sim/gelsight-wm`, `sim/robot`, `sim/force-transducer` and `sim/lighting`. Every
+//! program that links this crate has these drivers.
 //!
 //! Devices opened with one `rig` argument in one [`Rig`](taceva_core::Rig) share one gel and one virtual clock, [`SimulatedRig`]. The clock advances
 //! as fast as the simulation runs: while the robot moves, while the transducer averages, and until the next frame.

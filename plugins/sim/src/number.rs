@@ -1,4 +1,4 @@
-//! The two casts of displacements and pictures, justified once.
+//! Number casts for displacements and pictures.
 
 /// Converts a binary64 value for a table or a picture.
 #[expect(

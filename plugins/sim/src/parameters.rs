@@ -25,7 +25,7 @@ pub use sections::{
 use read::Document;
 use section::Section;
 
-/// Body of a sensor. It responds to a press.
+/// Body of a sensor, which determines the response to a press.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Body {
     /// A flat gel on a rigid plate.
@@ -133,7 +133,7 @@ impl Parameters {
         &self.digest
     }
 
-    /// Rejects values that are each in range but contradict each other.
+    /// Rejects values that are in range but contradict each other.
     fn check(&self) -> Result<(), ParameterError> {
         let Probing {
             depth_min_mm,

@@ -1,10 +1,10 @@
-//! Provenance of simulated numbers. It marks them as not measured.
+//! Provenance of simulated numbers, which identifies them as not measured.
 
 use std::fmt;
 
 use crate::parameters::ParameterDigest;
 
-/// Version of the physical model. It increases if the same parameters and seed give different numbers.
+/// Version of the physical model. The version increases if the same parameters and seed give different numbers.
 pub const MODEL_VERSION: u32 = 2;
 
 /// Provenance of a product of the bench.

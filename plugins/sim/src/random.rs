@@ -1,4 +1,4 @@
-//! Random numbers by lookup. Each is a function of its purpose, identity and index.
+//! Random numbers that are functions of purpose, identity and index.
 //!
 //! The key of a number is the seed, a [`Purpose`], an identity (a press, a point, a frame) and an index. A press is therefore independent
 //! of earlier presses, of threads and of interruptions.

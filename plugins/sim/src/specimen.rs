@@ -11,9 +11,9 @@ pub enum Indenter {
     /// Radius 2 mm: calibration.
     #[default]
     Ball2,
-    /// Radius 4 mm.
+    /// Ball of radius 4 mm.
     Ball4,
-    /// Radius 10 mm: the alternative for surface maps.
+    /// Ball of radius 10 mm, an alternative for surface maps.
     Ball10,
 }
 
@@ -44,7 +44,7 @@ impl fmt::Display for Indenter {
     }
 }
 
-/// A board with a relief of equal ridges or bumps and gaps, 10 mm square. Its period is twice the spacing.
+/// A board with a relief of equal ridges or bumps and gaps, 10 mm square. The period is twice the spacing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct Grating {
     kind: GratingKind,
@@ -80,7 +80,7 @@ impl Grating {
         })
     }
 
-    /// Lines or dots.
+    /// Kind of the relief: lines or dots.
     pub fn kind(&self) -> GratingKind {
         self.kind
     }

@@ -1,7 +1,7 @@
 //! One sensor unit: its differences from other units, and between places.
 //!
-//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run. It is the same gel in every run. Unit 0 has the
-//! nominal modulus and sag.
+//! A unit depends on the name of the sensor and the number of the unit, not on the seed of a run. Every run therefore uses the same gel. Unit 0 has the nominal
+//! modulus and sag.
 
 use std::f64::consts::TAU;
 
@@ -40,7 +40,7 @@ struct Blister {
 
 /// Number of blisters. The second may have height 0.
 const BLISTERS: usize = 2;
-/// Distances along x and y at which the sag is specified.
+/// Distances along x and y at which parameters state the sag, mm.
 const SAG_STATED_MM: [f64; 2] = [7.0, 9.0];
 /// Bound of the rounding error of sums of a few lengths.
 const ROUNDING_MM: f64 = 1e-9;

@@ -7,7 +7,7 @@ use taceva_core::Date;
 
 use super::{Output, PageArgs};
 
-/// Greatest number of draws that `--mc` takes; they are kept in memory.
+/// Greatest number of draws that `--mc` accepts. All draws are stored in memory.
 const MOST_DRAWS: u64 = 100_000_000;
 
 /// An example of a file of sources.

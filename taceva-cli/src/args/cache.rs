@@ -92,7 +92,7 @@ impl From<StageArg> for CachedStage {
     }
 }
 
-/// A number and its unit.
+/// Splits a text into a number and its unit; `None` for other text.
 fn parts(text: &str) -> Option<(f64, &str)> {
     let text = text.trim();
     let end = text
@@ -102,7 +102,7 @@ fn parts(text: &str) -> Option<(f64, &str)> {
     Some((number, text[end..].trim()))
 }
 
-/// A length of time: a number of hours, days or weeks.
+/// Parses a duration: a number of hours, days or weeks.
 fn age(text: &str) -> Result<Duration, String> {
     let expected = || "expected a number of hours, days or weeks: 12h, 30d, 8w".to_owned();
     let (number, unit) = parts(text).ok_or_else(expected)?;
@@ -115,7 +115,7 @@ fn age(text: &str) -> Result<Duration, String> {
     Duration::try_from_secs_f64(number * hours * 3600.0).map_err(|_| expected())
 }
 
-/// A number of bytes.
+/// Parses a number of bytes with an optional unit.
 fn size(text: &str) -> Result<u64, String> {
     let expected = || "expected a number of bytes: 2GiB, 500MB, 0".to_owned();
     let (number, unit) = parts(text).ok_or_else(expected)?;

@@ -80,7 +80,7 @@ pub(crate) struct CatalogueCheckArgs {
     pub(crate) output: Output,
 }
 
-/// Address of a bundle.
+/// Parses the address of a bundle.
 fn address(text: &str) -> Result<String, String> {
     match text.starts_with("https://") {
         true => Ok(text.to_owned()),

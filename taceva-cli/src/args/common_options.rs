@@ -6,7 +6,7 @@ use clap::{Args, ValueEnum};
 
 use super::FigureArgs;
 
-/// The names of models, for the two options that take one.
+/// Help for names of models, for both options that accept a model.
 const MODEL_HELP: &str = "\
 The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-process, knn, lda, random-forest, \
 gradient-boosting, cnn, resnet10, resnet18, resnet34, cnn-ensemble; fast: cnn with size=up-to-80x60 epochs=170 color=auto difference=in-color appearance=auto; \
@@ -200,7 +200,7 @@ pub(crate) enum TableScores {
 }
 
 impl TableScores {
-    /// Default scores of a table: the main ones for LaTeX, else all.
+    /// Default scores of a table: main scores for LaTeX, otherwise all.
     pub(crate) fn usual(format: Format) -> TableScores {
         match format {
             Format::Tex => TableScores::Main,

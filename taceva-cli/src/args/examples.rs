@@ -10,7 +10,7 @@ pub(crate) fn add_examples(command: Command) -> Command {
     below(command, &mut Vec::new())
 }
 
-/// Adds examples to `command`, whose words are `path`, and to its subcommands.
+/// Adds examples to `command`, which is called by the words in `path`, and to its subcommands.
 fn below(mut command: Command, path: &mut Vec<String>) -> Command {
     let names: Vec<String> = command
         .get_subcommands()
@@ -35,7 +35,7 @@ fn below(mut command: Command, path: &mut Vec<String>) -> Command {
     command.after_help(text)
 }
 
-/// Blocks of examples: the words of a command, and its lines.
+/// Blocks of examples, each with the words of a command and the lines of its example.
 fn blocks() -> impl Iterator<Item = (&'static str, Vec<&'static str>)> {
     let blocks = EXAMPLES.split("# ").filter(|block| !block.is_empty());
     blocks.filter_map(|block| {

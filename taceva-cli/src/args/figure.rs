@@ -3,7 +3,7 @@
 use clap::Args;
 use taceva_report::FigureStyle;
 
-/// The lengths of a point (1/72 in), a millimetre, a centimetre and an inch, in mm.
+/// Units of length with their values in mm: point (1/72 in), millimetre, centimetre and inch.
 const LENGTHS: [(&str, f64); 4] = [("pt", 25.4 / 72.0), ("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
 
 /// Size and lettering of every figure file.
@@ -21,7 +21,7 @@ pub(crate) struct FigureArgs {
 }
 
 impl FigureArgs {
-    /// True if an option is set.
+    /// True if at least one option is set.
     pub(crate) fn is_set(&self) -> bool {
         self.width_mm.is_some() || self.font.is_some() || self.letters_pt.is_some()
     }
@@ -45,7 +45,7 @@ fn letters_pt(text: &str) -> Result<f64, String> {
     Ok(millimetres * 72.0 / 25.4)
 }
 
-/// A length with its unit, in mm and between both `ends`.
+/// Parses a length with its unit and returns it in mm. Fails outside `ends`, which are in mm.
 fn length_mm(text: &str, ends: [f64; 2], example: &str) -> Result<f64, String> {
     let parts = LENGTHS.iter().find_map(|(unit, length_mm)| {
         let number = text.trim().strip_suffix(unit)?.trim_end();

@@ -99,7 +99,7 @@ pub(crate) struct Choose {
     pub(crate) output: Output,
 }
 
-/// The needs that `--need` knows.
+/// Needs that `--need` accepts, as text for the help.
 fn needs_help() -> String {
     format!(
         "Needs, separated by commas:\n{}\nA bound on the price names its currency, such as EUR; prices are not converted. \

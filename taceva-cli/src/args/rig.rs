@@ -59,10 +59,10 @@ pub(crate) struct RigCheckArgs {
     pub(crate) output: Output<ListFormat>,
 }
 
-/// Greatest accepted mass, in g.
+/// Greatest accepted mass, g.
 const GREATEST_MASS_G: f64 = 100_000.0;
 
-/// Mass in g.
+/// Parses a mass and returns it in g.
 fn mass_g(text: &str) -> Result<f64, String> {
     let is_of_unit = |letter: char| letter.is_ascii_alphabetic();
     let (number, unit) = text.split_at(text.find(is_of_unit).unwrap_or(text.len()));

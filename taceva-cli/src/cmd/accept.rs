@@ -78,7 +78,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// The units of one process. Refuses a second result of a known serial number of one sensor, since it is no other unit.
+/// Results of units of one process. Rejects a second result with the same sensor and serial number, because it is the same unit.
 fn units_of(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     results::check_distinct(named)?;
     let mut units: Vec<Study> = Vec::new();
@@ -105,7 +105,7 @@ fn units_of(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     Ok(units)
 }
 
-/// The share of wrongly accepted units that `--target-risk` allows.
+/// Target consumer's risk from `--target-risk`: the allowed share of wrongly accepted units.
 fn target_risk(args: &Accept) -> anyhow::Result<Option<f64>> {
     match args.target_risk {
         Some(share) if !(share > 0.0 && share < 1.0) => Err(Usage::error(format!(
@@ -115,7 +115,7 @@ fn target_risk(args: &Accept) -> anyhow::Result<Option<f64>> {
     }
 }
 
-/// The single sensor of a result.
+/// Reads a result with a single sensor.
 fn study_of(result: &Path) -> anyhow::Result<Study> {
     let mut studies = results::read(result)?;
     match (studies.pop(), studies.len()) {
@@ -128,8 +128,7 @@ fn study_of(result: &Path) -> anyhow::Result<Study> {
     }
 }
 
-/// The pictures of the sensor, if `result` is a report of a run with its recording. A read failure is reported and does not stop the
-/// command, since limits apply to numbers.
+/// Pictures of the sensor, if `result` is a report of a run with its recording. A read failure is only printed, because limits do not need pictures.
 fn pictures(result: &Path, context: &Context) -> Option<Triple> {
     let recording = recording_of(result)?;
     let found = Dataset::open(&recording)
@@ -141,7 +140,7 @@ fn pictures(result: &Path, context: &Context) -> Option<Triple> {
     })
 }
 
-/// `recordings/1-gelsight` of the run whose `reports/1-gelsight.json` is `result`.
+/// Path of the recording of a run: `recordings/1-gelsight` for the result `reports/1-gelsight.json`. `None` for other results.
 fn recording_of(result: &Path) -> Option<PathBuf> {
     let reports = result.parent()?;
     let name = result.file_stem()?;

@@ -10,7 +10,7 @@ use crate::args::ScoringArgs;
 use crate::output;
 use crate::report::page::Page;
 
-/// Requested files beside the scores.
+/// Files beside the scores that the arguments request.
 pub(super) struct Attachments<'a> {
     page: Option<&'a Path>,
     figures: Option<&'a Path>,
@@ -50,7 +50,7 @@ impl<'a> Attachments<'a> {
     }
 }
 
-/// Adds the digest of the table of samples to a report, which ties the two files together.
+/// Adds the digest of the table of samples to a report, so that later commands can find and check the table.
 pub(super) fn note_samples(report: &mut EvaluationReport) -> anyhow::Result<()> {
     if let Some(samples) = &report.samples {
         let mut table = Vec::new();

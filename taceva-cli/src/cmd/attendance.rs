@@ -1,4 +1,4 @@
-//! Operator and viewer of a run: at the terminal, at a page, or none.
+//! Operator and viewer of a run, at the terminal or on a page.
 
 use std::sync::{Arc, Mutex};
 
@@ -11,7 +11,7 @@ use super::operator;
 use crate::args::Run;
 use crate::stderr;
 
-/// The page of a run, if requested, and the operator, if any.
+/// Page of a run and operator, each if available.
 pub(super) struct Attended {
     page: Option<OnPage>,
     operator: Option<Box<Mutex<dyn Operator + Send>>>,
@@ -19,7 +19,7 @@ pub(super) struct Attended {
 }
 
 impl Attended {
-    /// Opens the page of `args` and prints its address even with `--quiet`, because the page cannot be found without it.
+    /// Opens the page of `args`. Prints the address even with `--quiet`, because users need it to open the page.
     pub(super) fn open(args: &Run, scene: &str) -> anyhow::Result<Attended> {
         let page = args
             .page
@@ -43,17 +43,17 @@ impl Attended {
         })
     }
 
-    /// The operator who can be asked, if any.
+    /// Operator who can answer questions; `None` without terminal and page.
     pub(super) fn operator(&self) -> Option<&Mutex<dyn Operator + Send>> {
         self.operator.as_deref()
     }
 
-    /// The viewer of the devices, if any.
+    /// Viewer that shows the devices on the page; `None` without a page.
     pub(super) fn viewer(&self) -> Option<&Arc<dyn Viewer>> {
         self.viewer.as_ref()
     }
 
-    /// Shows the end of the run on the page.
+    /// Shows `words` on the page as the result of the run.
     pub(super) fn ended(&self, words: &str) {
         let live: Option<Live> = self.page.as_ref().map(OnPage::live);
         if let Some(live) = live {

@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Budget) -> anyhow::Result<u8> {
     })
 }
 
-/// Budgets of the sources.
+/// Computes the budgets of the file of sources.
 pub(crate) fn report(args: &Budget) -> anyhow::Result<BudgetReport> {
     let Some(path) = &args.sources else {
         return Err(Usage::error("expected BUDGET.toml"));
@@ -91,7 +91,7 @@ fn read(path: &Path) -> anyhow::Result<String> {
     fs::read_to_string(path).with_context(|| format!("cannot read {}", shown(path)))
 }
 
-/// The budget at the values of `--at`, which must be one for JSON.
+/// Sets the values of `--at` in the budget. JSON allows only one value.
 fn at(budget: BudgetText, args: &Budget) -> anyhow::Result<BudgetText> {
     let asked = args.at.iter();
     let asked = asked.map(|written| amount("--at", written, &budget).map(|found| found.value));
@@ -109,7 +109,7 @@ fn at(budget: BudgetText, args: &Budget) -> anyhow::Result<BudgetText> {
     Ok(budget)
 }
 
-/// The value of `option`, in the unit of the measurand.
+/// Parses the value of `option`, converted to the unit of the measurand.
 fn amount(option: &str, written: &str, budget: &BudgetText) -> anyhow::Result<Quantity> {
     let found = Quantity::read(option, written)?;
     match found.unit.symbol() == budget.unit() {
@@ -123,7 +123,7 @@ fn amount(option: &str, written: &str, budget: &BudgetText) -> anyhow::Result<Qu
     }
 }
 
-/// Takes the certificate of `--certificate` in place of that of the result.
+/// Uses the certificate of `--certificate` instead of the certificate of the result.
 fn certify(measured: &mut Measured, args: &Budget, channel: &Channel) -> anyhow::Result<()> {
     let Some(path) = &args.certificate else {
         return Ok(());
@@ -136,7 +136,7 @@ fn certify(measured: &mut Measured, args: &Budget, channel: &Channel) -> anyhow:
     Ok(())
 }
 
-/// Sources for the figures of a result.
+/// Text of a file with sources for the figures of a result.
 fn template(args: &Budget, result: &Path) -> anyhow::Result<String> {
     let report = evidence::report_of(result)?;
     let channel = report.channel(args.channel.as_deref())?;

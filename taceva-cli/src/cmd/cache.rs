@@ -17,7 +17,7 @@ pub(crate) fn run(args: &CacheCommand, context: &Context) -> anyhow::Result<u8> 
     }
 }
 
-/// The named folder, or that of the user.
+/// Folder of the cache: `named`, or otherwise the folder of the user.
 fn folder_of(named: Option<PathBuf>) -> anyhow::Result<PathBuf> {
     named.or_else(of_user).ok_or_else(|| {
         Usage::error(
@@ -35,14 +35,14 @@ pub(super) fn of(args: &CacheArgs) -> Option<Cache> {
     Some(Cache::new(folder, bench::models()))
 }
 
-/// Reports problems of the cache.
+/// Prints problems of the cache.
 pub(super) fn note(cache: Option<&Cache>, context: &Context) {
     for note in cache.into_iter().flat_map(Cache::notes) {
         context.say(format_args!("{note}"));
     }
 }
 
-/// The folder `taceva` in the user's cache folder; relative paths are ignored, as the XDG specification requires.
+/// The folder `taceva` in the user's cache folder. Ignores relative paths, as the XDG specification requires.
 fn of_user() -> Option<PathBuf> {
     let folder = |variable| std::env::var_os(variable).map(PathBuf::from);
     let caches = folder("XDG_CACHE_HOME").filter(|path| path.is_absolute());

@@ -168,7 +168,7 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
     Ok((spec, live))
 }
 
-/// Line at the begin of a recording, with what ends it: `press; Ctrl-C ends it, or 20 frames`.
+/// Line for the start of a recording, which states how to end it: `press; Ctrl-C ends it, or 20 frames`.
 fn call_to_press(args: &Capture) -> String {
     let frames = args.frames.map(|frames| counted(frames, "frame"));
     let ends = frames.into_iter().chain(args.lasts.map(spoken));
@@ -177,7 +177,7 @@ fn call_to_press(args: &Capture) -> String {
     })
 }
 
-/// `1203 frames, 60.0 a second, 0 lost, 14 contacts, Fz 1.25 N`.
+/// Status line: `1203 frames, 60.0 a second, 0 lost, 14 contacts, Fz 1.25 N`.
 fn line(state: &CaptureState, has_force: bool) -> String {
     let mut line = format!(
         "{}, {:.1} a second, {} lost",
@@ -195,7 +195,7 @@ fn line(state: &CaptureState, has_force: bool) -> String {
     line
 }
 
-/// Causes of frames without a force: `: 1 before the first reading, 3 in gaps between readings`; empty if none is known.
+/// Reasons for frames without a force: `: 1 before the first reading, 3 in gaps between readings`; empty if none is known.
 fn causes(state: &CaptureState) -> String {
     let causes = [
         (state.before_force, "before the first reading"),
@@ -212,7 +212,7 @@ fn causes(state: &CaptureState) -> String {
     }
 }
 
-/// Force below which a reading means pulling, N; a hand does not pull a gel.
+/// Readings below this force, N, mean that the sign is wrong, because a hand does not pull a gel.
 const PULLED_N: f64 = -0.3;
 
 fn summarise(

@@ -71,7 +71,7 @@ fn site(args: &CatalogueSite, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Rejects two pages with one name.
+/// Fails if two pages have the same file name.
 fn check_names(pages: &[SitePage]) -> anyhow::Result<()> {
     let mut known = BTreeSet::new();
     match pages.iter().find(|page| !known.insert(&page.file)) {
@@ -83,7 +83,7 @@ fn check_names(pages: &[SitePage]) -> anyhow::Result<()> {
     }
 }
 
-/// Sensors of the catalogue, with the entries of the catalogue in `folder`.
+/// Sensors of the built-in catalogue, merged with the entries of the catalogue in `folder`.
 pub(super) fn sensors(folder: Option<&Path>) -> anyhow::Result<Vec<Sensor>> {
     Ok(match folder {
         None => catalogue::all(),

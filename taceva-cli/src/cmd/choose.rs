@@ -55,7 +55,7 @@ pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Sensors of the catalogue, and those of the catalogue in `folder` by each of their measured bundles.
+/// Sensors of the built-in catalogue, and one candidate for each measured bundle of the catalogue in `folder`.
 fn candidates(folder: Option<&Path>) -> anyhow::Result<Vec<Sensor>> {
     let mut sensors = catalogue::sensors(folder)?;
     let measured: Vec<Sensor> = sensors

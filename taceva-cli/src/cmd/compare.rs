@@ -88,7 +88,7 @@ pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Comparability and answers, folded to the width of the terminal if there is one.
+/// Text on comparability, then all answers, wrapped to `width` characters if given.
 fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> String {
     let narrow = width.map(|width| width.min(OVERVIEW_WIDTH));
     match (args.output.format, args.all) {
@@ -98,7 +98,7 @@ fn answers(comparison: &Comparison, args: &Compare, width: Option<usize>) -> Str
     }
 }
 
-/// `METRIC[.CHANNEL]=NUMBER`.
+/// Parses a margin, `METRIC[.CHANNEL]=NUMBER`.
 fn margin(word: &str) -> anyhow::Result<(String, f64)> {
     let number = |(name, number): (&str, &str)| Some((name.to_owned(), number.parse().ok()?));
     word.split_once('=')

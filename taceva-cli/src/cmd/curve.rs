@@ -18,11 +18,11 @@ use super::{Context, Usage, origin, results};
 use crate::args::{Curve, Format};
 use crate::{exit, output};
 
-/// Column of contact points in tables of samples.
+/// Usual column of contact points in tables of samples.
 const POINT: &str = "point_id";
-/// Least reference value of relative errors, as a share of the greatest.
+/// Least reference value for relative errors, as a share of the greatest.
 const LEAST_SHARE: f64 = 0.2;
-/// Number of bands without `--at`.
+/// Number of reference values with bands, without `--at`.
 const BANDS: u8 = 5;
 
 pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
@@ -36,7 +36,7 @@ pub(crate) fn run(args: &Curve, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Curve with the figures of the arguments.
+/// Fitted curve with the figures that the arguments request.
 pub(crate) struct Fitted {
     curve: CalibrationCurve,
     request: CurveRequest,
@@ -57,7 +57,7 @@ impl Fitted {
     }
 }
 
-/// Curve of the table.
+/// Fits the curve to the table.
 pub(crate) fn fitted(args: &Curve, jobs: NonZeroUsize) -> anyhow::Result<Fitted> {
     let (table, digest) = read_table(&args.table, jobs)?;
     let [x, y] = [axis(&table, &args.x)?, axis(&table, &args.y)?];
@@ -113,7 +113,7 @@ impl Axis {
     }
 }
 
-/// The column called `word`; `truth.Fz` and `prediction.Fz` name columns of a table of samples.
+/// Finds the column called `word`. `truth.Fz` and `prediction.Fz` select columns of a table of samples.
 fn axis(table: &CsvTable, word: &str) -> Result<Axis, ImportError> {
     let predicted = word.strip_prefix("prediction.");
     let predicted = predicted.map(|name| format!("{name}{}", Samples::PREDICTED));
@@ -129,7 +129,7 @@ fn axis(table: &CsvTable, word: &str) -> Result<Axis, ImportError> {
     })
 }
 
-/// Rows with both numbers.
+/// Readings and reference values of the rows that have both.
 struct Readings {
     rows: Vec<CurveRow>,
     points: Option<usize>,
@@ -165,7 +165,7 @@ fn readings(table: &CsvTable, axes: [&Axis; 2], args: &Curve) -> Result<Readings
     })
 }
 
-/// Reference values of the bands.
+/// Reference values at which bands are computed.
 fn places(args: &Curve, rows: &[CurveRow]) -> Vec<f64> {
     if !args.at.is_empty() {
         return args.at.clone();
@@ -178,21 +178,21 @@ fn places(args: &Curve, rows: &[CurveRow]) -> Vec<f64> {
     (0..BANDS).map(place).collect()
 }
 
-/// Rows from a fifth of the greatest reference value on.
+/// Rows whose reference value is at least a fifth of the greatest.
 fn indicated(rows: &[CurveRow]) -> impl Iterator<Item = &CurveRow> {
     let greatest = rows.iter().map(|row| row.x).fold(0.0, f64::max);
     rows.iter()
         .filter(move |row| row.x >= LEAST_SHARE * greatest)
 }
 
-/// Number of contact points of rows.
+/// Number of distinct contact points of `rows`.
 fn points_of<'r>(rows: impl Iterator<Item = &'r CurveRow>) -> usize {
     rows.filter_map(|row| row.point)
         .collect::<BTreeSet<u64>>()
         .len()
 }
 
-/// Readings to invert, in the unit of y.
+/// Readings to invert, converted to the unit of y.
 fn inverted(args: &Curve, y: &Axis) -> anyhow::Result<Vec<f64>> {
     let mut readings = Vec::with_capacity(args.invert.len());
     for word in &args.invert {
@@ -218,7 +218,7 @@ fn inverted(args: &Curve, y: &Axis) -> anyhow::Result<Vec<f64>> {
     Ok(readings)
 }
 
-/// Error of the arguments, or of the rows of a table.
+/// Error about the arguments, or about the rows of a table.
 fn refused(error: CurveUndefined, table: &CsvTable, args: &Curve) -> anyhow::Error {
     match error {
         CurveUndefined::Probability(_) => Usage::error(format!("--band: {error}")),

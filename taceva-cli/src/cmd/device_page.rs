@@ -1,4 +1,4 @@
-//! Devices shown on a page.
+//! Page that shows devices.
 
 use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -12,14 +12,14 @@ use taceva_protocol::{ContentId, Event, Plan};
 
 use crate::progress;
 
-/// An open page, and its writer.
+/// Open page, with the state that it shows.
 pub(crate) struct OnPage {
     page: Page,
     shown: Arc<Shown>,
 }
 
 impl OnPage {
-    /// Opens a page called `title` whose stop button acts like a signal.
+    /// Opens a page called `title`. Its stop button acts like a signal to the program.
     pub(crate) fn open(title: &str, port: u16) -> anyhow::Result<OnPage> {
         let live = Live::new(title);
         let page = Page::open(&live, port, progress::stop)?;
@@ -33,27 +33,27 @@ impl OnPage {
         })
     }
 
-    /// The address for a browser.
+    /// Address for a browser.
     pub(crate) fn url(&self) -> String {
         self.page.url()
     }
 
-    /// The state that the page shows.
+    /// State that the page shows.
     pub(crate) fn live(&self) -> Live {
         self.shown.live.clone()
     }
 
-    /// The viewer that shows the devices on the page.
+    /// Viewer that shows the devices on the page.
     pub(crate) fn viewer(&self) -> Arc<dyn Viewer> {
         Arc::clone(&self.shown) as Arc<dyn Viewer>
     }
 }
 
-/// Writes device data to the page.
+/// Viewer that writes data of devices to the page.
 struct Shown {
     live: Live,
     presses: Mutex<Presses>,
-    /// Number of frames of a run that were retried.
+    /// Number of frames that were captured again during a run.
     retried: AtomicU64,
 }
 

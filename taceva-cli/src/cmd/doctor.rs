@@ -28,7 +28,7 @@ pub(crate) fn run(args: &Output<ListFormat>, context: &Context) -> anyhow::Resul
     })
 }
 
-/// The plugins with needs that their user does not allow.
+/// Diagnosis of the plugins with needs that the user does not allow.
 fn permissions(host: &PluginHost) -> Vec<Diagnosis> {
     let findings = host.plugins().iter().filter_map(|plugin| {
         let remedy = report::plugin::remedy(host, plugin)?;

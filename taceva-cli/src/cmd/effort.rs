@@ -1,4 +1,4 @@
-//! The cost of long work, printed before it begins: time to read its pictures, and disk space for their features.
+//! Prints the cost of long work before its start: time to read pictures, and disk space for features.
 
 use std::path::Path;
 use std::time::{Duration, Instant};
@@ -12,10 +12,10 @@ use crate::amount::bytes;
 use crate::disk_space;
 use crate::progress::spoken;
 
-/// Minimum duration of announced work, and minimum number of bytes written.
+/// Minimum duration of work whose cost is printed; the next constant is the minimum number of written bytes.
 const LONG: Duration = Duration::from_secs(5);
 const MUCH: u64 = 50_000_000;
-/// Number of pictures up to which no time is estimated, and number of pictures read for an estimate.
+/// Number of pictures above which time is estimated. The next constant is the number of pictures read for an estimate.
 const MANY: usize = 200;
 const TRIED: usize = 4;
 
@@ -30,7 +30,7 @@ pub(super) fn print(effort: &Effort, dataset: &Dataset, cache: Option<&Cache>, c
     }
 }
 
-/// Estimated time to read the pictures of `rows`; `None` if they are few, or if a sample cannot be read, which the work reports.
+/// Estimated time to read the pictures of `rows`. `None` for few pictures, or if a sample cannot be read; the work itself reports this error.
 fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
     if rows.len() < MANY {
         return None;
@@ -47,7 +47,7 @@ fn time_of(rows: &[usize], dataset: &Dataset, jobs: usize) -> Option<Duration> {
     each.checked_mul(all)
 }
 
-/// The lines to print.
+/// Lines that state the cost.
 fn lines(
     frames: usize,
     time: Option<Duration>,

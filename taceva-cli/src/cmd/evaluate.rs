@@ -101,7 +101,7 @@ pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Rejects tables in the place of datasets.
+/// Fails if a table is given instead of a dataset.
 fn check_folders(datasets: &[PathBuf]) -> anyhow::Result<()> {
     let is_table = |path: &&PathBuf| {
         let extension = path.extension().and_then(|extension| extension.to_str());
@@ -121,7 +121,7 @@ fn check_folders(datasets: &[PathBuf]) -> anyhow::Result<()> {
     }
 }
 
-/// The model that is fitted where none is named: a small network for pictures, ridge regression for signals of taxels.
+/// Default model: a small network for pictures, ridge regression for signals of taxels.
 fn default_model(dataset: &Dataset, context: &Context) -> &'static str {
     let name = match dataset.fields().contains(Field::Frame) {
         true => "fast",

@@ -50,7 +50,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Checkpoints are written beside the model file.
+/// Settings of checkpoints, which are written beside the model file.
 fn checkpoints(args: &Fit) -> Checkpoints {
     let mut path = args.out.clone().into_os_string();
     path.push(".checkpoint");
@@ -65,7 +65,7 @@ fn checkpoints(args: &Fit) -> Checkpoints {
     }
 }
 
-/// The training samples, the chosen settings, and the model file.
+/// Prints the number of training samples, the chosen settings, and the path of the model file.
 fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     let card = fitted.model.card();
     writeln!(out, "model    {} on {}", card.model, card.features)?;
@@ -148,7 +148,7 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "wrote    {}", shown(&args.out))
 }
 
-/// Groups that `split` leaves out as a whole.
+/// Kind of groups that `split` leaves out as a whole.
 fn groups_of(split: &str) -> FoldGroups {
     match split.parse::<SplitSpec>().map(|spec| spec.kind) {
         Ok(SplitKind::Folds(folds)) => folds.by,
@@ -159,7 +159,7 @@ fn groups_of(split: &str) -> FoldGroups {
     }
 }
 
-/// Groups that the fit left out as a whole to choose settings: those of its cross-validation, or of its division, else contact points.
+/// Kind of groups that the fit left out as a whole to choose settings: that of its cross-validation or split, otherwise contact points.
 fn left_out(fitted: &Fitted) -> FoldGroups {
     let validation = fitted.model.card().provenance.validation.as_ref();
     let by = match (validation, &fitted.divided.groups) {
@@ -173,7 +173,7 @@ fn left_out(fitted: &Fitted) -> FoldGroups {
     }
 }
 
-/// One of the groups `by`, in words.
+/// Name of one of the groups `by`.
 fn in_words(by: &FoldGroups) -> String {
     match by {
         FoldGroups::Column(name) => format!("group of `{}`", shown(name)),
@@ -185,7 +185,7 @@ fn in_words(by: &FoldGroups) -> String {
     }
 }
 
-/// The samples of the error by which settings were chosen, in words.
+/// Name of the samples whose error decided the settings.
 fn measured_on(by: ChosenBy, group: &str) -> String {
     match by {
         ChosenBy::Nobody | ChosenBy::Validation | ChosenBy::Likelihood => {

@@ -33,7 +33,7 @@ pub(crate) fn run(args: &Gauge, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Studies of the channels of the table.
+/// Computes the studies of the channels of the table.
 pub(crate) fn studies(args: &Gauge, jobs: NonZeroUsize) -> anyhow::Result<GaugeStudies> {
     let tolerance = args.tolerance.as_deref();
     let tolerance = tolerance.map(|written| Quantity::read("--tolerance", written));
@@ -88,7 +88,7 @@ struct Readings<'a> {
 }
 
 impl Readings<'_> {
-    /// Study of one channel.
+    /// Computes the study of one channel.
     fn study(&self, of: &Response, settings: &GaugeSettings) -> anyhow::Result<ChannelGauge> {
         let mut study = GaugeStudy::default();
         let mut rows_left_out = 0;
@@ -132,7 +132,7 @@ impl Readings<'_> {
         )
     }
 
-    /// Error with the place of its rows in the table.
+    /// Adds the position of the affected rows in the table to an error.
     fn refused(&self, error: GaugeError, of: &Response) -> anyhow::Error {
         let place = match &error {
             GaugeError::Setting {

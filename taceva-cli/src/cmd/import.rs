@@ -110,15 +110,15 @@ pub(crate) fn run(args: &Import, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Maximum length of a line, characters; also the length without a terminal.
+/// Maximum length of a printed line, characters. Also the length without a terminal.
 const LINE: usize = 110;
 
-/// Length of a line of the terminal.
+/// Length of a printed line, characters, by the width of the terminal.
 fn line() -> usize {
     output::terminal_width().map_or(LINE, |width| width.min(LINE))
 }
 
-/// The folder to import: the named one, or the content of an archive.
+/// Source of an import: a folder, or the unpacked content of an archive.
 enum Source {
     Folder(PathBuf),
     Archive(UnpackedArchive),
@@ -149,7 +149,7 @@ impl Source {
         }
     }
 
-    /// The folder, or the named file of it, for which a draft is made.
+    /// Path for which a draft is written: the folder, or the named file in the folder.
     fn drafted<'a>(&'a self, args: &'a Import) -> &'a Path {
         match (self, args.source.as_deref()) {
             (Source::Folder(_), Some(named)) => named,
@@ -157,7 +157,7 @@ impl Source {
         }
     }
 
-    /// Converts an error to name the member of an archive instead of its unpacked path.
+    /// Replaces the unpacked path in an error by the name of the archive member.
     fn named<T>(&self, outcome: Result<T, ImportError>) -> Result<T, ImportError> {
         outcome.map_err(|error| match self {
             Source::Folder(_) => error,
@@ -165,7 +165,7 @@ impl Source {
         })
     }
 
-    /// Converts a message to name the member of an archive instead of its unpacked path.
+    /// Replaces the unpacked path in a message by the name of the archive member.
     fn said(&self, what: &impl std::fmt::Display) -> String {
         match self {
             Source::Folder(_) => what.to_string(),
@@ -174,7 +174,7 @@ impl Source {
     }
 }
 
-/// The folder of a recording that is named by itself, or by one of its files. An archive stands for its content.
+/// Folder of a recording, from the path of the folder or of one of its files. Returns an archive unchanged.
 pub(super) fn folder_of(source: &Path) -> &Path {
     match source.is_file() && !UnpackedArchive::is_archive(source) {
         true => parent_of(source),
@@ -182,7 +182,7 @@ pub(super) fn folder_of(source: &Path) -> &Path {
     }
 }
 
-/// Writes a map for the folder.
+/// Writes a map for the folder and prints the next steps.
 fn map_written(
     text: &str,
     args: &Import,
@@ -220,7 +220,7 @@ fn map_written(
     Ok(exit::DONE)
 }
 
-/// The programs that decode unsupported clips.
+/// Programs that decode clips of unsupported formats.
 fn decoders(args: &Import) -> anyhow::Result<Decoders> {
     let named = args.ffmpeg.clone();
     let named = named.or_else(|| std::env::var_os("TACEVA_FFMPEG").map(PathBuf::from));
@@ -239,7 +239,7 @@ fn decoders(args: &Import) -> anyhow::Result<Decoders> {
     })
 }
 
-/// Path of the program of this name on PATH.
+/// Path of the program called `name` on PATH; `None` if not found.
 fn on_path(name: &Path) -> Option<PathBuf> {
     let folders = std::env::var_os("PATH")?;
     let mut programs = std::env::split_paths(&folders).map(|folder| folder.join(name));
@@ -273,7 +273,7 @@ fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
     Ok(ImportMap::read(path)?)
 }
 
-/// The named preset.
+/// Preset that the arguments name; `None` without a name.
 fn preset(args: &Import) -> anyhow::Result<Option<Preset>> {
     let Some(name) = &args.preset else {
         return Ok(None);

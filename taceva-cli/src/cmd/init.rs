@@ -1,4 +1,4 @@
-//! `taceva init`: the files that people write, by questions with defaults.
+//! `taceva init`: writes initial files by questions with defaults.
 
 mod answers;
 mod interview;
@@ -52,14 +52,14 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// File to write: the named one, or `default`. Without `--force`, an existing file is an error.
+/// Path of the file to write: the named path or `default`. Fails for an existing file without `--force`.
 fn target(args: &InitTarget, default: &str) -> anyhow::Result<PathBuf> {
     let path = args.path.clone().unwrap_or_else(|| PathBuf::from(default));
     output::check_free(&path, args.force)?;
     Ok(path)
 }
 
-/// Writes the file and prints the commands that come next.
+/// Writes the file and prints the next commands.
 fn finish(path: &Path, text: &str, next: &[String]) -> anyhow::Result<u8> {
     output::write(Some(path), |out| out.write_all(text.as_bytes()))?;
     output::write(None, |out| {

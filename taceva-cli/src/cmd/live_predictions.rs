@@ -1,4 +1,4 @@
-//! Predictions of a fitted model while a camera runs: over the picture of a page, on the terminal, and as a summary at the end.
+//! Shows predictions of a fitted model for a running camera: over the picture of a page and on the terminal, with a final summary.
 
 use std::path::Path;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -10,7 +10,7 @@ use taceva_live::{Live, Overlay, PredictedFrames, PredictedValue};
 
 use super::Context;
 
-/// Target latency of pictures after their stamps, ms.
+/// Target for the delay between the stamp of a picture and its display, ms.
 const SOON_MS: usize = 100;
 /// Share of pictures that should meet the target.
 const MOST: f64 = 0.95;
@@ -20,18 +20,18 @@ pub(super) fn read_model(path: &Path, context: &Context) -> anyhow::Result<LiveM
     Ok(LiveModel::new(context.models()?.open(path)?, path)?)
 }
 
-/// Predictions on a page and on the terminal.
+/// Receiver of predictions that shows them on a page and on the terminal.
 pub(super) struct LivePredictions<'a> {
     model: &'a LiveModel,
     page: Live,
-    /// The newest prediction in words.
+    /// Newest prediction as text.
     latest: Mutex<String>,
-    /// Latencies from the stamps of frames until their pictures were sent to a browser.
+    /// Latencies, ms, from the stamp of a frame until its picture was sent to a browser.
     sent: Arc<Mutex<Latencies>>,
 }
 
 impl<'a> LivePredictions<'a> {
-    /// Predictions of `model` on `page`, which shows the name of the model.
+    /// Shows predictions of `model` on `page`, with the name of the model.
     pub(super) fn new(model: &'a LiveModel, page: Live, context: &Context) -> LivePredictions<'a> {
         let words = by(model);
         page.predictor(&words);
@@ -71,12 +71,12 @@ impl<'a> LivePredictions<'a> {
         *lock(&self.latest) = in_words(channels, prediction);
     }
 
-    /// The newest prediction: `predicted Fz 1.25 N, Pz 0.412 mm`.
+    /// Newest prediction as text: `predicted Fz 1.25 N, Pz 0.412 mm`.
     pub(super) fn line(&self) -> String {
         lock(&self.latest).clone()
     }
 
-    /// Prints the statistics of the frames, however the work ended.
+    /// Prints the statistics of the frames, also after an error.
     pub(super) fn summarise(&self, counts: &PredictionCounts, context: &Context) {
         for line in summary(self.model, counts, &lock(&self.sent)) {
             context.say(format_args!("{line}"));
@@ -84,7 +84,7 @@ impl<'a> LivePredictions<'a> {
     }
 }
 
-/// `ridge sha256:0123456789ab (presses.taceva)`.
+/// Name of the model with digest and file: `ridge sha256:0123456789ab (presses.taceva)`.
 fn by(model: &LiveModel) -> String {
     let digest = model.digest().to_string();
     let short = digest.get(..19).unwrap_or(&digest);
@@ -146,7 +146,7 @@ fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Ve
     lines
 }
 
-/// `95 % within 43 ms of their stamps, 99.8 % within 100 ms`.
+/// Latencies as text: `95 % within 43 ms of their stamps, 99.8 % within 100 ms`.
 fn soon(latencies: &Latencies) -> String {
     let within = latencies.within_ms(MOST);
     let within = within.map_or_else(|| "2 s or longer".to_owned(), |ms| format!("{ms} ms"));

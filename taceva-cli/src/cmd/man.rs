@@ -31,7 +31,7 @@ pub(crate) fn run(args: &ManArgs, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Writes the page of `command`, and of every command below it, into `folder`. A link at the name of a page is replaced.
+/// Writes the pages of `command` and of all its subcommands into `folder`. Replaces a symbolic link with the name of a page.
 fn write_pages(command: &clap::Command, folder: &Path) -> anyhow::Result<()> {
     for below in command
         .get_subcommands()

@@ -1,4 +1,4 @@
-//! The operator of a rig, asked at the terminal.
+//! Operator of a rig who answers at the terminal.
 
 use std::io::{BufRead, BufReader, IsTerminal, Read, Stdin};
 use std::time::Duration;
@@ -10,19 +10,19 @@ use taceva_core::shown;
 
 use crate::{progress, stderr};
 
-/// An interactive terminal.
+/// Interactive terminal.
 pub(in crate::cmd) struct Terminal<I: Read> {
     input: BufReader<I>,
     say: fn(&str),
     is_stopped: fn() -> bool,
-    /// The page that shows each question too; the first answer is used.
+    /// Page that also shows each question; the first answer is used.
     page: Option<Live>,
 }
 
-/// The terminal of this program.
+/// Terminal of this program.
 pub(in crate::cmd) type AtTerminal = Terminal<Stdin>;
 
-/// The terminal of this program, if it is interactive; questions are also shown on `page`.
+/// Terminal of this program; `None` if it is not interactive. Questions also appear on `page`.
 pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
     let is_there = std::io::stdin().is_terminal() && std::io::stderr().is_terminal();
     is_there.then(|| Terminal {
@@ -33,7 +33,7 @@ pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
     })
 }
 
-/// The keys for each answer.
+/// Text on the keys for each answer.
 fn keys(question: &Question) -> String {
     match question {
         Question::Enable { robot, .. } => {
@@ -99,7 +99,7 @@ impl<I: Read + Waits> Terminal<I> {
     }
 }
 
-/// The answer in a line. Only the name of a robot permits its motion.
+/// Parses the answer in `line`. Only the name of a robot permits its motion.
 fn answer(question: &Question, line: &str) -> Option<Answer> {
     let typed = line.trim_end_matches(['\r', '\n']).trim();
     match (question, typed) {
@@ -113,9 +113,9 @@ fn answer(question: &Question, line: &str) -> Option<Answer> {
     }
 }
 
-/// Input that can be waited for without reading.
+/// Input for which a caller can wait without reading.
 pub(in crate::cmd) trait Waits {
-    /// Waits for at most a tenth of a second; true if there is input, or an end.
+    /// Waits for at most 0.1 s. True if input is available or has ended.
     fn has_input(&self) -> bool;
 }
 

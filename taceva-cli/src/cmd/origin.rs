@@ -8,10 +8,10 @@ use super::results;
 
 /// Column with the origin of each sample.
 const SOURCE: &str = "source";
-/// Origin of samples of which nothing is known.
+/// Origin of samples without a stated origin.
 const UNKNOWN: &str = "unknown";
 
-/// Origins by the column `source`, or by the result beside the table.
+/// Origins of the samples, from the column `source` or from the result beside the table.
 pub(super) fn of(table: &CsvTable) -> anyhow::Result<Vec<String>> {
     if !table.has(SOURCE) {
         let source = results::source_of(table.path())?;

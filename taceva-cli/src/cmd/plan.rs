@@ -30,7 +30,7 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Prints the devices of the scene with needs that their user does not allow, each once; returns true if there are any.
+/// Prints each device of the scene with needs that the user does not allow. True if there is such a device.
 fn say_withheld(planned: &PlannedScene, host: &PluginHost) -> bool {
     let mut said = BTreeSet::new();
     for (_, device) in planned.scene.drivers() {

@@ -1,4 +1,4 @@
-//! The plugins of this program, and its drivers including theirs.
+//! Plugins of this program, and all drivers and models including those of plugins.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -16,7 +16,7 @@ use taceva_models::Models;
 use super::Context;
 use crate::stderr;
 
-/// The built-in models.
+/// Built-in models.
 fn compiled() -> Models {
     Models::builtin().with_libraries(taceva_models::library_models())
 }
@@ -28,20 +28,20 @@ impl Context {
         Ok(Drivers::builtin()?.with_plugins(&host)?)
     }
 
-    /// All models: those built in, those of libraries, and those of plugins.
+    /// All models: built-in models, models of linked libraries, and models of plugins.
     pub(crate) fn models(&self) -> anyhow::Result<Models> {
         let host = self.plugins(None)?;
         Ok(compiled().with(host.models()))
     }
 
-    /// All drivers and models, also of plugins beside the scene at `scene`.
+    /// All drivers and models, including those of plugins beside the scene at `scene`.
     pub(crate) fn equipment(&self, scene: &Path) -> anyhow::Result<(Drivers, Models)> {
         let host = self.plugins(Some(scene))?;
         let drivers = Drivers::builtin()?.with_plugins(&host)?;
         Ok((drivers, compiled().with(host.models())))
     }
 
-    /// The plugins that are found, isolated as the user configured.
+    /// Plugins that were found, isolated by the settings of the user.
     pub(crate) fn plugins(&self, scene: Option<&Path>) -> anyhow::Result<Arc<PluginHost>> {
         let mut config = match user_config_file() {
             Some(path) => PluginConfig::read(&path)?,
@@ -64,7 +64,7 @@ impl Context {
         Ok(PluginHost::new(plugins, config, self.plugin_log()))
     }
 
-    /// The interpreters to ask for plugins: those of the arguments, those of the settings, and that of the environment of this program.
+    /// Interpreters whose environments are searched for plugins: from arguments, from settings, and from the environment of this program.
     fn interpreters(&self, config: &PluginConfig) -> anyhow::Result<Vec<PathBuf>> {
         let typed = self
             .plugins
@@ -79,7 +79,7 @@ impl Context {
         Ok(interpreters)
     }
 
-    /// Logs of plugins on standard error: warnings always, everything with `-v`.
+    /// Callback that prints log lines of plugins on standard error: warnings always, all lines with `-v`.
     fn plugin_log(&self) -> PluginLog {
         let least = match (self.quiet, self.verbose) {
             (true, _) => Level::Error,

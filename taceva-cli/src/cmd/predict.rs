@@ -70,7 +70,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Pictures unlike those of the fit, and predictions beyond the bounds of the model.
+/// Prints the numbers of pictures outside the training data and of predictions beyond the bounds of the model.
 fn beyond(predicted: &Predicted, is_unbounded: bool, out: &mut dyn Write) -> io::Result<()> {
     let rows = predicted.rows();
     if let Some(count) = predicted.outside().filter(|count| *count > 0) {

@@ -1,21 +1,21 @@
-//! A number with its unit, as an option states it.
+//! Value of an option that is a number with a unit.
 
 use taceva_core::{Channel, SourceUnit, Unit, shown};
 
 use super::Usage;
 
-/// A number in the unit of a channel.
+/// Number in the unit of a channel.
 pub(super) struct Quantity {
     pub(super) value: f64,
     pub(super) unit: Unit,
-    /// True if the value is not the written number, as for 100mN.
+    /// True if the unit was converted, so that the value differs from the written number, such as for 100mN.
     pub(super) is_converted: bool,
     /// The number with its unit as the user wrote them.
     pub(super) written: String,
 }
 
 impl Quantity {
-    /// Reads `0.1N` or `100 mN`, the value of `option`.
+    /// Parses `0.1N` or `100 mN`, the value of `option`.
     pub(super) fn read(option: &str, written: &str) -> anyhow::Result<Quantity> {
         let refused =
             |problem: &str| Usage::error(format!("{option} `{}`: {problem}", shown(written)));

@@ -54,13 +54,13 @@ pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The `reports` of these channels and planes.
+/// Limits the scores of `reports` to the named channels and planes.
 fn of_channels(reports: Vec<EvaluationReport>, channels: &[String]) -> Vec<EvaluationReport> {
     let reports = reports.into_iter();
     reports.map(|report| report.of_channels(channels)).collect()
 }
 
-/// Output folder: the requested one, or that of the results.
+/// Output folder: the requested folder, or the folder of the results.
 fn folder(args: &ReportArgs) -> PathBuf {
     let beside = || match args.result.is_dir() {
         true => args.result.clone(),
@@ -72,7 +72,7 @@ fn folder(args: &ReportArgs) -> PathBuf {
     args.folder.clone().unwrap_or_else(beside)
 }
 
-/// The title of the page: the name of a run's scene, that of the one sensor, or the name of the folder or file.
+/// Title of the page: the name of the scene of a run, of the only sensor, or of the folder or file.
 fn title(result: &Path, reports: &[EvaluationReport]) -> String {
     let is_run = result
         .file_name()

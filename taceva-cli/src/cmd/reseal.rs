@@ -15,7 +15,7 @@ use crate::{exit, output};
 
 /// Name of the header of a dataset.
 const HEADER: &str = "dataset.toml";
-/// Maximum file size, bytes: larger files are not edited by hand.
+/// Maximum file size, bytes. Larger files are never edited by hand.
 const MOST: u64 = 1 << 30;
 
 pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &Reseal, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The sealed file; for a dataset its header.
+/// Path of the sealed file. For a dataset, the path of its header.
 fn file_of(named: &Path) -> PathBuf {
     match named.is_dir() {
         true => named.join(HEADER),
@@ -72,7 +72,7 @@ fn text_of(path: &Path) -> anyhow::Result<String> {
     })
 }
 
-/// Replaces the file by the accepted text if that can be read back; else leaves it unchanged.
+/// Replaces the file by the accepted text. Leaves the file unchanged if the text cannot be read back.
 fn replace(path: &Path, before: &str, accepted: &str, is_header: bool) -> anyhow::Result<()> {
     let write = |text: &str| output::write(Some(path), |out| out.write_all(text.as_bytes()));
     write(accepted)?;

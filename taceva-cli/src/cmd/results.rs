@@ -1,4 +1,4 @@
-//! Reader of existing results.
+//! Reads existing results.
 
 mod samples;
 
@@ -19,7 +19,7 @@ use crate::output;
 
 pub(super) use samples::source_of;
 
-/// The file of all results in the folder of a run.
+/// Name of the file with all results in the folder of a run.
 pub(super) const RESULTS: &str = "results.json";
 /// Header of a dataset.
 const HEADER: &str = "dataset.toml";
@@ -29,11 +29,11 @@ const HEADER: &str = "dataset.toml";
 pub(super) struct Found {
     /// The studies, each with its samples if they were found.
     pub(super) studies: Vec<Study>,
-    /// A message for each study whose samples were not found.
+    /// Message for each study whose samples were not found.
     pub(super) missing: Vec<String>,
 }
 
-/// Rejects a result that is named twice: a run by its folder and by its file too, or a sensor of the catalogue by two names.
+/// Rejects a result that is named twice, such as a run by folder and file, or a sensor of the catalogue by two names.
 pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
     for (position, path) in named.iter().enumerate() {
         let mut before = named[..position].iter();
@@ -67,7 +67,7 @@ pub(super) fn check_channels<'a>(
     }
 }
 
-/// The file that `path` names, or the sensor of the catalogue by its own name.
+/// Canonical path of the file `path`, or main name of the sensor called `path` in the catalogue.
 fn meant(path: &Path) -> PathBuf {
     let of_run = path.join(RESULTS);
     let file = if of_run.is_file() {
@@ -81,12 +81,12 @@ fn meant(path: &Path) -> PathBuf {
     })
 }
 
-/// The studies of all results: files, folders of runs, or names of the catalogue if there is no such file.
+/// Studies of all results. A name is a file, the folder of a run, or otherwise a sensor of the catalogue.
 pub(super) fn find_all(named: &[PathBuf]) -> anyhow::Result<Found> {
     find_among(named, None)
 }
 
-/// The studies of all results, by names of `sensors` in place of the catalogue.
+/// Same as [`find_all`], with the names of `sensors` instead of the catalogue.
 pub(super) fn find_among(named: &[PathBuf], sensors: Option<&[Sensor]>) -> anyhow::Result<Found> {
     let mut all = Found::default();
     for path in named {
@@ -97,17 +97,17 @@ pub(super) fn find_among(named: &[PathBuf], sensors: Option<&[Sensor]>) -> anyho
     Ok(all)
 }
 
-/// The studies of all results, without messages about samples.
+/// Studies of all results, without messages about samples.
 pub(super) fn read_all(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     find_all(named).map(|found| found.studies)
 }
 
-/// The studies of one result.
+/// Studies of one result.
 pub(super) fn read(path: &Path) -> anyhow::Result<Vec<Study>> {
     find(path, None).map(|found| found.studies)
 }
 
-/// A line for each sensor of the catalogue that is named by an alias.
+/// Line for each sensor of the catalogue that is named by an alias.
 pub(super) fn aliases(named: &[PathBuf]) -> Vec<String> {
     let names = named.iter().filter(|path| !path.exists());
     let lines = names.filter_map(|path| {
@@ -144,11 +144,11 @@ fn find(path: &Path, sensors: Option<&[Sensor]>) -> anyhow::Result<Found> {
 /// Evaluation reports with the samples behind them.
 pub(super) struct Reports {
     pub(super) reports: Vec<EvaluationReport>,
-    /// A remark for each report whose samples were not found.
+    /// Remark for each report whose samples were not found.
     pub(super) missing: Vec<String>,
 }
 
-/// The reports of the folder of a run or of a file, with their samples and recordings where they are beside them.
+/// Reports of a run or of a file, with samples and recordings if these are in the expected places.
 pub(super) fn reports(path: &Path) -> anyhow::Result<Reports> {
     let file = file_of(path)?;
     let text =
@@ -167,7 +167,7 @@ pub(super) fn reports(path: &Path) -> anyhow::Result<Reports> {
     })
 }
 
-/// File of results at `path`: in the folder of a run, or the path itself.
+/// Path of the file of results for `path`, which is the folder of a run or the file itself.
 fn file_of(path: &Path) -> anyhow::Result<PathBuf> {
     let is_page = path
         .extension()
@@ -212,12 +212,12 @@ fn runs_in(path: &Path) -> Vec<PathBuf> {
     runs
 }
 
-/// The width of the terminal that is written to; `None` for a file or a pipe.
+/// Width of the terminal for output, in characters; `None` for a file or a pipe.
 pub(super) fn width(to: &Output) -> Option<usize> {
     to.path.is_none().then(output::terminal_width).flatten()
 }
 
-/// Writes `values` for people, in text or Markdown, and below them `rest`.
+/// Writes `values` for readers, as text or Markdown, followed by `rest`.
 pub(super) fn write_values(
     values: &Table,
     rest: impl FnOnce(Option<usize>) -> String,
@@ -238,7 +238,7 @@ pub(super) fn write_values(
     })
 }
 
-/// Writes a table to the path and in the format of `to`; `json` makes JSON.
+/// Writes a table to the path and in the format of `to`. `json` creates the JSON.
 pub(super) fn write(
     table: &Table,
     to: &Output,

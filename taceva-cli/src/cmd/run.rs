@@ -18,9 +18,9 @@ use super::{Context, Usage, cache, scene};
 use crate::args::{Format, Run, TableScores};
 use crate::{exit, output, progress, report};
 
-/// The parent folder of numbered runs.
+/// Default parent folder of numbered runs.
 const RUNS: &str = "runs";
-/// Every number of a run.
+/// Name of the file with every number of a run.
 const RESULTS: &str = "results.json";
 
 pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
@@ -136,7 +136,7 @@ fn resumption(args: &Run, path: &Path, context: &Context) -> String {
     context.invocation.with(&options, "--force")
 }
 
-/// Executes `taceva run --air`.
+/// Executes `taceva run --air`: visits all places without contact.
 fn rehearse(
     planned: &PlannedScene,
     drivers: &Drivers,
@@ -165,7 +165,7 @@ fn rehearse(
     Ok(exit::DONE)
 }
 
-/// The formats of the reports in the folder: those of the scene, and always text and JSON.
+/// Formats of the reports in the folder: text and JSON, and the formats of the scene.
 fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>> {
     let mut formats = vec![(Format::Json, "json"), (Format::Text, "txt")];
     for name in &planned.scene.report.formats {
@@ -190,7 +190,7 @@ fn formats(planned: &PlannedScene) -> anyhow::Result<Vec<(Format, &'static str)>
     Ok(formats)
 }
 
-/// Writes every report beside its recording.
+/// Writes all reports of the run into its folder.
 fn write_files(
     planned: &PlannedScene,
     folder: &RunFolder,

@@ -1,4 +1,4 @@
-//! The named scene: a file or a built-in one.
+//! Reads the named scene: a file or a built-in scene.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -16,10 +16,10 @@ use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
 use crate::disk_space::{self, Need};
 
-/// Number of contact points whose test part, a tenth, is enough for an interval.
+/// Least number of contact points for intervals, because the test part has a tenth of the points.
 const ENOUGH_POINTS: usize = 10 * LEAST_CLUSTERS;
 
-/// The scene of `args`, planned with `drivers`.
+/// Plans the scene of `args` with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
     let instead = Overrides {
         seed: args.seed,
@@ -29,7 +29,7 @@ pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<Pla
     Ok(PlannedScene::with(text(&args.scene)?, drivers, &instead)?)
 }
 
-/// The scene of a run, with its overrides.
+/// Plans the scene of a run, with the overrides of the arguments.
 pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
     let instead = Overrides {
         seed: args.scene.seed,
@@ -48,7 +48,7 @@ pub(super) fn to_run(args: &Run, drivers: &Drivers) -> anyhow::Result<PlannedSce
 /// Prints the cost of a scene: presses, the time of their motion on a rig, and bytes on the disk of `target`.
 ///
 /// # Errors
-/// If its pictures exceed the free space there.
+/// If the pictures exceed the free space on this disk.
 pub(super) fn print_cost(
     planned: &PlannedScene,
     target: &Path,
@@ -109,7 +109,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
     }
 }
 
-/// Force in the air that halts the robot, compared with the stated noise of the transducer.
+/// Text on the force that halts the robot in the air, compared with the noise of the transducer.
 fn threshold(plan: &Plan, limits: &RigLimits) -> String {
     let threshold_n = plan.contact.threshold_n.value;
     let noise_n = limits.signals.force_noise_n;
@@ -123,7 +123,7 @@ fn threshold(plan: &Plan, limits: &RigLimits) -> String {
     }
 }
 
-/// Presses of `plan` with a motion sideways in contact; `None` without such a press.
+/// Text on the presses of `plan` with a lateral motion in contact; `None` without such presses.
 fn shifted(plan: &Plan) -> Option<String> {
     let shears = plan.presses.iter();
     let shears = shears.map(|planned| planned.press.greatest_shear_mm());
@@ -138,10 +138,10 @@ fn shifted(plan: &Plan) -> Option<String> {
     })
 }
 
-/// Refuses a scene that would measure nothing, because no study keeps a metric.
+/// Rejects a scene without any metric to measure.
 ///
 /// # Errors
-/// [`Usage`] with the missing line of the footprint, or else the reason that skips most metrics.
+/// [`Usage`] with the missing line of the footprint, or otherwise the most frequent reason for a skipped metric.
 pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
     let studies = &planned.studies;
     if studies.iter().any(|study| !study.plan.metrics.is_empty()) {
@@ -167,7 +167,7 @@ pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
     )))
 }
 
-/// Warns of each study whose test part has too few contact points for intervals.
+/// Prints a warning for each study whose test part has too few contact points for intervals.
 pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
     for study in &planned.studies {
         let Some(points) = tested_points(&study.plan).filter(|points| *points < LEAST_CLUSTERS)
@@ -182,7 +182,7 @@ pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
     }
 }
 
-/// The number of contact points in the test part of the fit, if metrics read its predictions there.
+/// Number of contact points in the test part of the fit; `None` if no metric uses predictions of the test part.
 fn tested_points(plan: &Plan) -> Option<usize> {
     let is_fitted = plan.fits.iter().any(|fit| fit.field == Field::Prediction);
     let mut metrics = plan.metrics.iter();
@@ -203,7 +203,7 @@ fn tested_points(plan: &Plan) -> Option<usize> {
     Some(tested.len())
 }
 
-/// The text of a scene; a file of that name comes first, so that a built-in scene never hides it.
+/// Text of the scene `named`. A file with this name has priority over a built-in scene.
 fn text(named: &str) -> anyhow::Result<SceneText> {
     let path = Path::new(named);
     if path.is_file() {

@@ -10,7 +10,7 @@ use super::{Context, Usage};
 use crate::args::{Format, Score};
 use crate::{exit, output, report};
 
-/// Notes on columns without a stated unit.
+/// Beginnings of notes on columns without a stated unit.
 const UNSTATED: [&str; 2] = [
     "scored as a channel with the unit 1",
     "as angles in radians do, but are scored as degrees",
@@ -129,7 +129,7 @@ fn by_shard(
     Ok(Some(tables.score(request, shard, &context.progress)?))
 }
 
-/// `NAME=UNIT`: a unit without conversion, since tables of scores are not converted.
+/// Parses `NAME=UNIT`. Rejects a unit with a conversion, because `score` converts no tables.
 fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
     let (name, symbol) = word
         .split_once('=')
@@ -150,7 +150,7 @@ fn unit(word: &str) -> anyhow::Result<(String, Unit)> {
     Ok((name.to_owned(), unit))
 }
 
-/// `NAME=PERIOD`: an angle with this period.
+/// Parses `NAME=PERIOD`, the period of an angle.
 fn period(word: &str) -> anyhow::Result<(String, Period)> {
     let parts = word.split_once('=');
     let read = parts.and_then(|(name, period)| Some((name.to_owned(), period.parse().ok()?)));

@@ -1,6 +1,6 @@
 //! The last writer before a terminal or a file: no control character in a name reaches the terminal.
 //!
-//! Messages already escape names by [`taceva_core::shown`]; this is a second check of all output.
+//! Messages already escape names by [`taceva_core::shown`]. This module escapes all output again.
 
 use std::io::{self, Write};
 
@@ -9,24 +9,24 @@ use taceva_core::{is_obeyed, shown_lines};
 /// Kind of output, which decides how control characters are escaped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Form {
-    /// Text: control characters become `\u{1b}`; lines and tabs stay.
+    /// Text. Control characters become `\u{1b}`, except line feeds and tabs.
     Words,
-    /// JSON: control characters become `\u001b`, the same character to a program.
+    /// JSON. Control characters become `\u001b`, which programs read as the same character.
     Json,
-    /// Tables for programs: unchanged, but on a terminal escaped as in text.
+    /// Table for programs. Unchanged in files; on a terminal, escaped like text.
     Table,
 }
 
-/// A writer that escapes control characters.
+/// Writer that escapes control characters.
 pub(crate) struct Guard<W: Write> {
     out: W,
     form: Form,
-    /// The beginning of a character whose end is not written yet.
+    /// First bytes of a character that is not yet complete.
     begun: Vec<u8>,
 }
 
 impl<W: Write> Guard<W> {
-    /// Guards `out` for text of the form [`Form::Words`] or [`Form::Json`].
+    /// Creates a writer to `out` for [`Form::Words`] or [`Form::Json`].
     pub(crate) fn new(out: W, form: Form) -> Guard<W> {
         Guard {
             out,
@@ -35,7 +35,7 @@ impl<W: Write> Guard<W> {
         }
     }
 
-    /// Writes the rest and returns the writer.
+    /// Writes the rest, and returns the inner writer.
     pub(crate) fn finish(mut self) -> io::Result<W> {
         let rest = String::from_utf8_lossy(&std::mem::take(&mut self.begun)).into_owned();
         self.pass(&rest)?;
@@ -72,7 +72,7 @@ impl<W: Write> Write for Guard<W> {
     }
 }
 
-/// Number of bytes that form complete characters; at most three at the end may begin another.
+/// Number of bytes that form complete characters. At most three further bytes belong to an incomplete character.
 fn whole_letters(bytes: &[u8]) -> usize {
     match std::str::from_utf8(bytes) {
         Err(error) if error.error_len().is_none() => error.valid_up_to(),
@@ -80,7 +80,7 @@ fn whole_letters(bytes: &[u8]) -> usize {
     }
 }
 
-/// JSON with escaped control characters; outside strings only line breaks occur.
+/// JSON with escaped control characters. Line breaks are unchanged, because they occur only outside strings.
 fn escaped(json: &str) -> String {
     let mut written = String::with_capacity(json.len() + 16);
     for letter in json.chars() {

@@ -18,7 +18,7 @@ fn what_is_left_follows_from_what_was_measured_and_nothing_is_said_before() {
     assert_eq!(said, ["0 s", "89 s", "2 min", "90 min", "1 h 30 min"]);
 }
 
-/// A terminal that counts what is drawn.
+/// Terminal that counts draw calls.
 #[derive(Clone, Debug, Default)]
 struct Drawn(Arc<AtomicUsize>);
 

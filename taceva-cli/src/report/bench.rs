@@ -1,4 +1,4 @@
-//! Benchmarks as tables: one row for each candidate, the Pareto front marked.
+//! Benchmarks as tables with one row for each candidate and marks for the Pareto front.
 
 use std::io::{self, Write};
 
@@ -6,7 +6,7 @@ use taceva_metrics::Better;
 use taceva_report::{Align, Column, Direction, Table};
 use taceva_study::bench::KernelBench;
 
-/// The table as text.
+/// Writes the table as text.
 pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     let machine = &bench.machine;
     let load = machine
@@ -39,7 +39,7 @@ pub(super) fn text(bench: &KernelBench, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Every number, for programs.
+/// Table of every number, for programs.
 pub(super) fn every_number(bench: &KernelBench) -> Table {
     let names = [
         "scores",
@@ -75,7 +75,7 @@ pub(super) fn every_number(bench: &KernelBench) -> Table {
     table
 }
 
-/// One row for each kernel.
+/// Table with one row for each kernel.
 pub(super) fn rows(bench: &KernelBench) -> Table {
     let number = |name: &str, better: Better| {
         let column = Column::new(name).direction(Direction::Is(better));
@@ -108,7 +108,7 @@ pub(super) fn rows(bench: &KernelBench) -> Table {
     table
 }
 
-/// The same table, with the conditions in a sentence below.
+/// Same as [`rows`], with the conditions in a sentence below the table.
 pub(super) fn for_pages(bench: &KernelBench) -> Table {
     let mut table = rows(bench);
     table.note(format!(
@@ -122,7 +122,7 @@ pub(super) fn for_pages(bench: &KernelBench) -> Table {
     table
 }
 
-/// For each input, the candidate with the fewest digits on it.
+/// Sentence for each input: the candidate with the fewest correct digits.
 fn inputs(bench: &KernelBench) -> Vec<String> {
     let names = bench.rows.first().map_or(&[][..], |row| &row.digits);
     let worst = |position: usize| {

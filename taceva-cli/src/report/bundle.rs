@@ -1,4 +1,4 @@
-//! Bundles: how deep their claims were computed again, and what differs.
+//! Reports on bundles: levels to which claims were recomputed, and differences.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -21,7 +21,7 @@ pub(crate) fn levels(claims: &[Claim], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Writes a verification: levels, what is not equal, and the sum.
+/// Writes a verification: levels, unequal claims, and a summary.
 pub(crate) fn verification(
     found: &Verification,
     format: ListFormat,
@@ -118,7 +118,7 @@ pub(crate) fn verification(
     Ok(())
 }
 
-/// Reasons why claims do not differ and yet are not verified to the last level, with the number of claims of each.
+/// Reasons why equal claims were not verified to the last level, with the number of claims for each reason.
 fn reasons(found: &Verification) -> BTreeMap<String, u64> {
     let mut counts = BTreeMap::new();
     for claim in &found.claims {
@@ -131,7 +131,7 @@ fn reasons(found: &Verification) -> BTreeMap<String, u64> {
     counts
 }
 
-/// Writes what differs between two bundles.
+/// Writes the differences between two bundles.
 pub(crate) fn comparison(
     found: &BundleComparison,
     format: ListFormat,

@@ -44,7 +44,7 @@ pub(super) fn text(report: &CheckReport, out: &mut dyn Write) -> io::Result<()> 
     )
 }
 
-/// All columns of each finding.
+/// Table with all columns of each finding.
 pub(super) fn every_column(report: &CheckReport) -> Table {
     let names = [
         "code", "name", "severity", "message", "count", "samples", "hint",
@@ -64,7 +64,7 @@ pub(super) fn every_column(report: &CheckReport) -> Table {
     table
 }
 
-/// Code, severity and message of each finding.
+/// Table with code, severity and message of each finding.
 pub(super) fn main_columns(report: &CheckReport) -> Table {
     let mut table = Table::new("Findings", ["code", "severity", "finding"]);
     for finding in &report.findings {

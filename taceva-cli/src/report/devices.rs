@@ -117,7 +117,7 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{drivers}, {found} that they see")
 }
 
-/// One driver: its name, facts about its device, and its arguments.
+/// Writes one driver: key, facts about its device, and arguments.
 pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<()> {
     let (key, kind) = (&driver.key, driver.kind.to_string());
     let source = driver.source.to_string();
@@ -132,7 +132,7 @@ pub(super) fn driver(driver: &ListedDriver, out: &mut dyn Write) -> io::Result<(
     arguments(&driver.arguments, out)
 }
 
-/// The arguments of a driver, one a line.
+/// Writes the arguments of a driver, one on each line.
 fn arguments(arguments: &[ListedArgument], out: &mut dyn Write) -> io::Result<()> {
     let lengths = arguments.iter().map(|argument| argument.key.len());
     let width = lengths.max().unwrap_or(0);
@@ -169,7 +169,7 @@ fn facts(driver: &ListedDriver) -> Vec<String> {
     .collect()
 }
 
-/// One argument, with its key in a column of `width` characters.
+/// Writes one argument, with the key in a column of `width` characters.
 fn describe(argument: &ListedArgument, width: usize, out: &mut dyn Write) -> io::Result<()> {
     let presence = match (&argument.default, argument.required) {
         (Some(default), _) => format!(" [{default}]"),

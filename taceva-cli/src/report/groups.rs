@@ -5,7 +5,7 @@ use std::io::{self, Write};
 use taceva_report::{Align, Column, Table, escape_terminal};
 use taceva_results::EvaluationReport;
 
-/// One row for each group and channel; nothing without groups.
+/// Writes one row for each group and channel. Writes nothing without groups.
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     let Some(group) = report
         .provenance

@@ -9,7 +9,7 @@ pub(super) fn write(report: &impl Serialize, out: &mut dyn Write) -> io::Result<
     writeln!(out)
 }
 
-/// The same, with a seal that detects later changes.
+/// Same as `write`, with a seal that detects later changes.
 pub(super) fn write_sealed(report: &impl Serialize, out: &mut dyn Write) -> io::Result<()> {
     let sealed = taceva_results::sealed(report).map_err(io::Error::other)?;
     writeln!(out, "{sealed}")

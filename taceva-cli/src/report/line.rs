@@ -1,4 +1,4 @@
-//! Scores and their variants in sequence: the rows of tables.
+//! Sequence of scores and their variants, for rows of tables.
 
 use std::collections::BTreeMap;
 
@@ -6,7 +6,7 @@ use taceva_core::Unit;
 use taceva_metrics::{Better, Standing};
 use taceva_results::{EvaluationReport, Interval, Score, Value, described_method};
 
-/// One number of a report, or the reason why there is none.
+/// Line for one number of a report, or for the reason of its absence.
 pub(super) struct Line<'a> {
     /// The metric, with the name of the variant: `mae`, `r_spatial.within`.
     pub(super) name: String,
@@ -16,13 +16,13 @@ pub(super) struct Line<'a> {
     pub(super) unit: Unit,
     /// Interval; `None` if the number cannot have one.
     pub(super) interval: Option<&'a Interval>,
-    /// The score it belongs to.
+    /// Score to which the number belongs.
     pub(super) score: &'a Score,
     /// True for the score itself, false for one of its variants.
     pub(super) is_headline: bool,
 }
 
-/// Every score, each followed by its variants with a single number; maps and curves are in JSON only.
+/// Lines of every score and of its variants with a single number. Only JSON contains maps and curves.
 pub(super) fn lines(scores: &[Score]) -> Vec<Line<'_>> {
     let mut lines = Vec::new();
     for score in scores {
@@ -53,7 +53,7 @@ pub(super) fn lines(scores: &[Score]) -> Vec<Line<'_>> {
     lines
 }
 
-/// The lines for readers. Reference constants are no scores, and an undefined score has no variants to read: both are in JSON and CSV only.
+/// Lines for readers. Omits reference constants and variants of undefined scores, which only JSON and CSV contain.
 pub(super) fn read_lines(scores: &[Score]) -> Vec<Line<'_>> {
     let has_value = |line: &Line<'_>| {
         line.is_headline || line.value.number().is_some() || line.score.value.number().is_some()
@@ -70,7 +70,7 @@ impl Line<'_> {
         Better::named(&self.name)
     }
 
-    /// True for the reference constant of a score, which is no claim of the model.
+    /// True for the reference constant of a score. It is not a score of the model.
     pub(super) fn is_reference(&self) -> bool {
         matches!(
             self.name.as_str(),
@@ -126,7 +126,7 @@ pub(super) fn flags(scores: &[Score]) -> Vec<String> {
         .collect()
 }
 
-/// Limits in the definitions of scores with a value: `tolerance: within 0.05 of the truth, in the unit of the channel`.
+/// Parameters in the definitions of scores with a value: `tolerance: within 0.05 of the truth, in the unit of the channel`.
 pub(super) fn limits(scores: &[Score]) -> Vec<String> {
     let of = |metric: &str, parameter: &str| {
         let own = scores.iter().filter(|score| score.metric == metric);
@@ -175,7 +175,7 @@ pub(super) fn standings(scores: &[Score]) -> Vec<String> {
     said
 }
 
-/// Steps that may let verdicts use the scores of `report` that they exclude, each once.
+/// Steps after which verdicts may use scores of `report` that they now exclude. Each step occurs once.
 pub(super) fn remedies(report: &EvaluationReport) -> Vec<&'static str> {
     let scores = &report.scores;
     let is_cross_validated = report.provenance.cross_validation().is_some();
@@ -193,7 +193,7 @@ pub(super) fn remedies(report: &EvaluationReport) -> Vec<&'static str> {
     remedies
 }
 
-/// The maps, curves and matrices that only JSON contains, one line for each metric: `r_spatial Px Py Fz: distance, depth`.
+/// Names of maps, curves and matrices that only JSON contains, one line for each metric: `r_spatial Px Py Fz: distance, depth`.
 pub(super) fn pictures(scores: &[Score]) -> Vec<String> {
     let mut pictures: Vec<(&str, Vec<&str>, String)> = Vec::new();
     for score in scores {

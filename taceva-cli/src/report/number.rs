@@ -1,16 +1,16 @@
-//! Formatted scores, by the rule of all reports.
+//! Formats scores by the rule that all reports share.
 
 use taceva_report::FormattedValue;
 use taceva_results::Interval;
 
 use super::line::Line;
 
-/// A score as printed: its value and the ends of its interval, or the reason why there is none.
+/// Formats a score: value and ends of the interval, or the reason why there is no value.
 pub(super) fn formatted(line: &Line<'_>) -> FormattedValue {
     FormattedValue::of(line.value, line.interval)
 }
 
-/// The reason why there is no interval, in words.
+/// Reason for a missing interval, as text; `None` if there is an interval.
 pub(super) fn no_interval(interval: &Interval) -> Option<String> {
     match interval {
         Interval::Absent(reason) => Some(format!("none: {reason}")),

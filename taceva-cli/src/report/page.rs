@@ -1,4 +1,4 @@
-//! One-file pages of finished evaluations.
+//! Pages of finished evaluations, each in one file.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -21,15 +21,15 @@ use crate::output;
 use super::thumbnail::{MEDIA_TYPE, thumbnail};
 use super::triple::triple;
 
-/// The page among the files of a report.
+/// File name of the page in a report.
 pub(crate) const PAGE: &str = "report.html";
-/// The folder of figures among the files of a report.
+/// Name of the folder of figures in a report.
 const FIGURES: &str = "figures";
 
-/// The folder of tables and figures in the form of the TacEva study.
+/// Name of the folder of tables and figures in the form of the TacEva study.
 const LIKE_TACEVA: &str = "like-taceva";
 
-/// The contents of a page.
+/// Data for a page.
 pub(crate) struct Page {
     title: String,
     studies: Vec<Study>,
@@ -38,7 +38,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// A page of `reports`, with pictures of the worst and best predicted samples if the recordings have frames.
+    /// Creates a page of `reports`. Adds pictures of the worst and best predicted samples if the recordings have frames.
     pub(crate) fn of(title: &str, reports: &[EvaluationReport]) -> anyhow::Result<Page> {
         let studies = reports.iter().map(study).collect::<anyhow::Result<_>>()?;
         let mut page = Page {
@@ -89,7 +89,7 @@ impl Page {
         Ok(())
     }
 
-    /// Writes the page, every figure and every table into `folder`; returns the path of the page.
+    /// Writes the page, all figures and all tables into `folder`. Returns the path of the page.
     pub(crate) fn write_files(
         &self,
         folder: &Path,
@@ -224,7 +224,7 @@ pub(crate) fn write_figures(
     Ok(())
 }
 
-/// A finished evaluation parsed from its JSON, with its samples.
+/// Converts a finished evaluation to a study, with its samples.
 pub(crate) fn study(report: &EvaluationReport) -> anyhow::Result<Study> {
     // Parsed as from a file, so that a page shows what others read.
     let mut studies = Study::read(&taceva_results::sealed(report)?)?;

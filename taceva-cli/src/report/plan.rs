@@ -7,7 +7,7 @@ use taceva_acquire::PlannedScene;
 use super::json;
 use crate::args::ListFormat;
 
-/// The plan of every study of `scene`.
+/// Writes the plan of every study of `scene`.
 pub(crate) fn write(
     scene: &PlannedScene,
     format: ListFormat,

@@ -10,7 +10,7 @@ use taceva_host::{Delivery, Place, Plugin, PluginHost, PythonModule, ReasonKind,
 use super::{devices, json};
 use crate::args::ListFormat;
 
-/// Writes the plugins that were found; with `all`, also unused ones.
+/// Writes the list of found plugins. With `all`, also lists unused plugins.
 pub(crate) fn list(
     host: &PluginHost,
     all: bool,
@@ -92,7 +92,7 @@ pub(crate) fn info(
     Ok(())
 }
 
-/// One line of the table of plugins.
+/// Writes one line of the table of plugins.
 fn columns([id, version, delivery, place, name]: [&str; 5], out: &mut dyn Write) -> io::Result<()> {
     writeln!(
         out,
@@ -149,22 +149,22 @@ struct Listed {
     folder: String,
     /// Path of the library; empty for a Python module.
     library: String,
-    /// The digest of the library that the manifest requires, if any.
+    /// Digest of the library that the manifest requires; empty if it requires none.
     sha256: String,
-    /// The Python module of the plugin, if it is one.
+    /// Python module of the plugin; `None` for a library.
     #[serde(skip_serializing_if = "Option::is_none")]
     module: Option<PythonModule>,
-    /// The interpreter that runs the module, and its version.
+    /// Interpreter that runs the module, with its version.
     #[serde(skip_serializing_if = "Option::is_none")]
     interpreter: Option<String>,
     delivery: Delivery,
-    /// Isolation from the rest of the machine, tested by confining a process without the plugin.
+    /// Isolation from the rest of the machine, tested with a confined process that does not load the plugin.
     isolation: String,
     #[serde(skip)]
     can_run: bool,
     needs: Vec<String>,
     allowed: Vec<String>,
-    /// The command that allows its remaining needs.
+    /// Command that allows the remaining needs of the plugin; `None` if all are allowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     remedy: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]

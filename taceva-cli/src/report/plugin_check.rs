@@ -8,7 +8,7 @@ use taceva_conformance::{CheckResult, Outcome};
 use super::json;
 use crate::args::ListFormat;
 
-/// All checks; in text without the lines that were already shown, and with the reasons of skipped checks at the end.
+/// Writes all checks. Text omits lines that were already shown, and ends with the reasons of skipped checks.
 pub(crate) fn write(
     plugin: &str,
     seed: u64,
@@ -52,7 +52,7 @@ pub(crate) fn write(
         .try_for_each(|(why, checks)| writeln!(out, "{checks} skipped: {why}"))
 }
 
-/// Reasons for which checks were skipped, with the number of those checks, the most frequent reason last.
+/// Reasons of skipped checks with the number of checks for each, the most frequent reason last.
 fn skips(results: &[CheckResult]) -> Vec<(&str, usize)> {
     let mut skips: Vec<(&str, usize)> = Vec::new();
     for result in results {
@@ -68,7 +68,7 @@ fn skips(results: &[CheckResult]) -> Vec<(&str, usize)> {
     skips
 }
 
-/// A check that was tried; a skipped one has no line, but counts in the reasons at the end.
+/// Writes the line of a check. A skipped check has no line, but counts in the reasons at the end.
 pub(crate) fn line(result: &CheckResult, out: &mut dyn Write) -> io::Result<()> {
     let subject = result.subject.as_deref().unwrap_or("");
     let (word, why) = match &result.outcome {

@@ -11,7 +11,7 @@ use crate::args::ListFormat;
 /// Indent of the description of a preset, characters.
 const INDENT: usize = 16;
 
-/// Writes every preset; text has lines of at most `line` characters.
+/// Writes all presets. Text has lines of at most `line` characters.
 pub(crate) fn list(format: ListFormat, line: usize, out: &mut dyn Write) -> io::Result<()> {
     if format == ListFormat::Json {
         return json::write(&WrittenPresets::all(), out);
@@ -33,7 +33,7 @@ pub(crate) fn list(format: ListFormat, line: usize, out: &mut dyn Write) -> io::
     )
 }
 
-/// Wraps text to lines of at most `letters` characters; a longer word has its own line.
+/// Wraps text to lines of at most `letters` characters. A longer word has its own line.
 fn wrapped(text: &str, letters: usize) -> Vec<String> {
     let mut lines = vec![String::new()];
     for word in text.split(' ') {

@@ -1,4 +1,4 @@
-//! Several sensors side by side, one column each.
+//! Table of several sensors side by side, with one column each.
 
 use std::io::{self, Write};
 
@@ -12,7 +12,7 @@ use super::number::formatted;
 use super::page;
 use super::text::{over_seeds, presses};
 
-/// The key of a row: metric, channel, unit.
+/// Key of a row: metric, channel and unit.
 type Row = [String; 3];
 
 pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
@@ -82,8 +82,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
     Ok(())
 }
 
-/// Prints sensors that classify equal shares of gratings correctly. The spacing that each resolves is computed from its samples, only for
-/// equal shares.
+/// Prints sensors with equal shares of correctly classified gratings. For these sensors, computes the resolved spacing from samples.
 fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     let shares = |report: &EvaluationReport| -> Vec<(String, u64)> {
         let lines = lines(&report.scores).into_iter();
@@ -109,7 +108,7 @@ fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// The published values of the sensor, one for each row; empty if no row has one of the same definition.
+/// Published values of the sensor, one for each row; empty if no row has a published value with the same definition.
 fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec<String> {
     let Some(sensor) = taceva_report::catalogue::find(&report.subject.sensor) else {
         return Vec::new();
@@ -131,7 +130,7 @@ fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec
         .collect()
 }
 
-/// Text to the left, numbers to the right.
+/// Columns of the table: text is left-aligned, numbers are right-aligned.
 fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Column> {
     let sensors = reports.iter().zip(published).flat_map(|(report, cells)| {
         let beside = (!cells.is_empty()).then_some("published");
@@ -146,7 +145,7 @@ fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Colum
         .collect()
 }
 
-/// The scores themselves, of planes where there are any.
+/// Scores without variants. Scores of planes replace those of their axes.
 fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
     let lines = lines(&report.scores);
     let has = |name: &str, channel: &str| {
@@ -163,7 +162,7 @@ fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
         .collect()
 }
 
-/// Every row of any report, in the order of the catalogue.
+/// Keys of all rows of the reports, in catalogue order.
 fn rows(reports: &[Vec<Line<'_>>]) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     for line in reports.iter().flatten() {

@@ -1,4 +1,4 @@
-//! Joined recordings: their list, and the scores of each and of all.
+//! Tables of joined recordings: a list, and scores of each recording and of all together.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -9,7 +9,7 @@ use taceva_results::EvaluationReport;
 use super::line::read_lines;
 use super::number::formatted;
 
-/// Two tables: the recordings with their digests, and one column for each recording; nothing for a single one.
+/// Writes two tables: the recordings with their digests, and the scores of each recording. Writes nothing for a single recording.
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     if report.by_recording.is_empty() {
         return Ok(());
@@ -36,7 +36,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     out.write_all(side_by_side(report).text().as_bytes())
 }
 
-/// One row for each score of predictions, one column for each recording.
+/// Table with one row for each score of predictions and one column for each recording.
 fn side_by_side(report: &EvaluationReport) -> Table {
     let head = ["metric", "channel", "all"].map(str::to_owned);
     let names = report.by_recording.iter();

@@ -1,4 +1,4 @@
-//! Findings on a rig.
+//! Reports of checks of a rig.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use taceva_protocol::{Contact, calm_threshold_n};
 
 use crate::args::ListFormat;
 
-/// Schema `taceva.rig-check/1`.
+/// Content of the JSON with the schema `taceva.rig-check/1`.
 #[derive(Serialize)]
 struct WrittenCheck<'a> {
     schema: &'static str,
@@ -17,7 +17,7 @@ struct WrittenCheck<'a> {
     check: &'a RigCheck,
 }
 
-/// Schema `taceva.rig-tap/1`.
+/// Content of the JSON with the schema `taceva.rig-tap/1`.
 #[derive(Serialize)]
 struct WrittenTap<'a> {
     schema: &'static str,
@@ -25,7 +25,7 @@ struct WrittenTap<'a> {
     tap: &'a RigTap,
 }
 
-/// Schema `taceva.rig-weight/1`.
+/// Content of the JSON with the schema `taceva.rig-weight/1`.
 #[derive(Serialize)]
 struct WrittenWeight<'a> {
     schema: &'static str,
@@ -120,7 +120,7 @@ pub(crate) fn check(check: &RigCheck, format: ListFormat, out: &mut dyn Write) -
     }
 }
 
-/// Says that an emulated rig gives no measurements.
+/// Writes the remark that an emulated rig gives no measurements.
 fn unmeasured(is_simulated: bool, out: &mut dyn Write) -> io::Result<()> {
     match is_simulated {
         true => writeln!(out, "Nothing here was measured: the devices are simulated."),
@@ -195,7 +195,7 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// Comparison of the noise of the force with the threshold of a scene that states none; `None` if 5 times the noise is below it.
+/// Remark on force noise, compared with the default threshold of a scene. `None` if 5 times the noise is below the threshold.
 fn threshold(noise_n: f64) -> Option<String> {
     let default_n = Contact::default().threshold_n.value;
     let calm_n = calm_threshold_n(noise_n, default_n)?;
@@ -205,13 +205,13 @@ fn threshold(noise_n: f64) -> Option<String> {
     ))
 }
 
-/// The failure of `device`, if it gave no measurement.
+/// Failure of `device`; `None` if the device was measured.
 fn failure<'a>(check: &'a RigCheck, device: &str) -> Option<&'a RigProblem> {
     let mut failures = check.problems.iter().filter(|problem| problem.is_failure());
     failures.find(|problem| problem.device() == Some(device))
 }
 
-/// The state of `device`, which was measured.
+/// State of a measured `device`, as a word.
 fn state(check: &RigCheck, device: &str) -> &'static str {
     let mut problems = check.problems.iter();
     match problems.any(|problem| problem.device() == Some(device)) {

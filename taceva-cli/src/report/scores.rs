@@ -11,7 +11,7 @@ use taceva_results::{EvaluationReport, Interval, Value};
 use super::line::{Line, lines, methods, read_lines, standings};
 use super::number::{formatted, no_interval};
 
-/// One row for each score or variant, numbers in full.
+/// Table with one row for each score or variant, with all digits.
 pub(super) fn every_number(report: &EvaluationReport) -> Table {
     let names = [
         "channel",
@@ -84,7 +84,7 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
     ]
 }
 
-/// Lines and channels of a table by channel: those with any value, or all of them if there is none.
+/// Lines and channels of a table by channel: those with at least one value, or all if no line has a value.
 struct ShownLines<'a> {
     lines: Vec<Line<'a>>,
     channels: Vec<&'a str>,
@@ -117,7 +117,7 @@ fn has_value(line: &Line<'_>) -> bool {
     !matches!(line.value, Value::Undefined(_) | Value::NotApplicable(_))
 }
 
-/// One row for each metric, one column for each channel, as in papers. Scores without a value in any channel are named in the caption.
+/// Table with one row for each metric and one column for each channel, as in papers. The caption names scores without a value.
 pub(super) fn by_channel(report: &EvaluationReport) -> Table {
     let ShownLines { lines, channels } = ShownLines::of(report);
     let mut rows: Vec<(String, Vec<Option<Estimate>>)> = Vec::new();
@@ -146,7 +146,7 @@ pub(super) fn by_channel(report: &EvaluationReport) -> Table {
     table
 }
 
-/// The same table for pages, with the caption below.
+/// Same as [`by_channel`], with the caption below the table.
 pub(super) fn for_pages(report: &EvaluationReport) -> Table {
     let mut table = by_channel(report);
     let caption = std::mem::take(&mut table.caption);
@@ -154,7 +154,7 @@ pub(super) fn for_pages(report: &EvaluationReport) -> Table {
     table
 }
 
-/// The value of a line, with its unit and the ends of its interval, or the reason why there is none.
+/// Value of a line with its unit and interval, or the reason why there is no value.
 fn estimate(line: &Line<'_>) -> Estimate {
     let FormattedValue {
         value,
@@ -176,12 +176,12 @@ fn estimate(line: &Line<'_>) -> Estimate {
     }
 }
 
-/// The caption of the table.
+/// Caption of the table.
 fn caption(report: &EvaluationReport) -> String {
     caption_with(report, str::to_owned)
 }
 
-/// The caption, with the name of the sensor escaped by `foreign`.
+/// Caption of the table, in which `foreign` escapes the name of the sensor.
 fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> String {
     let subject = &report.subject;
     let n = report.scores.iter().map(|score| score.n).max().unwrap_or(0);

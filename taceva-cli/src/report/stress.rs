@@ -5,7 +5,7 @@ use taceva_metrics::plane_of;
 use taceva_report::{Cell, Column, FormattedValue, Table};
 use taceva_stress::{By, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport};
 
-/// Table for readers: a row for each fault and severity, with the ratio of the error to that without the fault.
+/// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
 pub(crate) fn table(report: &StressReport) -> Table {
     let channels = main_channels(report);
     let mut columns = vec![
@@ -54,7 +54,7 @@ fn caption(report: &StressReport) -> String {
     )
 }
 
-/// Remarks below the table, whole sentences.
+/// Remarks below the table, as complete sentences.
 fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     let mut notes = Vec::new();
     let clean = channels.iter().filter_map(|name| {
@@ -95,7 +95,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes
 }
 
-/// Summary of a fault in one line.
+/// Summary of a fault on one line.
 fn of_fault(fault: &FaultReport, channels: &[&str]) -> String {
     let breaks = by_channel(channels, |name| {
         Some(match fault.breaks_at.get(name)? {
@@ -127,7 +127,7 @@ fn of_fault(fault: &FaultReport, channels: &[&str]) -> String {
     line
 }
 
-/// Words for each channel that has some: `Fz 3, Pxy never`.
+/// Channels for which `words` returns text, each with this text: `Fz 3, Pxy never`.
 fn by_channel(channels: &[&str], words: impl Fn(&str) -> Option<String>) -> String {
     let known = channels
         .iter()
@@ -135,7 +135,7 @@ fn by_channel(channels: &[&str], words: impl Fn(&str) -> Option<String>) -> Stri
     known.collect::<Vec<String>>().join(", ")
 }
 
-/// Planes, and channels that are no axis of one.
+/// Names of planes, and of channels that are not an axis of a plane.
 fn main_channels(report: &StressReport) -> Vec<&str> {
     let names = report.clean.keys().map(String::as_str);
     let is_main = |name: &&str| {
@@ -145,7 +145,7 @@ fn main_channels(report: &StressReport) -> Vec<&str> {
     names.filter(is_main).collect()
 }
 
-/// A number with four digits.
+/// Number with four digits.
 fn short(number: f64) -> String {
     FormattedValue::number(number, None).value
 }

@@ -31,7 +31,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     footer(report, out)
 }
 
-/// A row of the table that begins with `name`.
+/// Cells of a table row that begins with `name`.
 fn cells(name: String, line: &Line<'_>) -> [String; 6] {
     let formatted = formatted(line);
     let interval = formatted
@@ -55,7 +55,7 @@ fn cells(name: String, line: &Line<'_>) -> [String; 6] {
     ]
 }
 
-/// Variation of scores with the seed of the training, separate from intervals by contact point.
+/// Writes the variation of scores over training seeds. Intervals by contact point do not include this variation.
 pub(super) fn over_seeds(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     let Some(over) = &report.over_seeds else {
         return Ok(());
@@ -183,7 +183,7 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     )
 }
 
-/// Outcomes of the presses, if a protocol pressed.
+/// Text on the outcomes of the presses; `None` if the recording has no presses of a protocol.
 pub(super) fn presses(report: &EvaluationReport) -> Option<String> {
     let counts = report.provenance.press_counts();
     let all: u64 = counts.values().sum();
@@ -214,7 +214,7 @@ fn unit(symbol: &str) -> String {
     }
 }
 
-/// A table without caption, with numbers aligned to the right.
+/// Table without caption, with right-aligned numbers.
 fn by_cell<const N: usize>(names: [&str; N]) -> Table {
     let columns = names.map(|name| Column::new(name).align(Align::ByCell));
     Table::new("", columns)

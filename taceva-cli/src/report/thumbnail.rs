@@ -4,15 +4,15 @@ use image::codecs::jpeg::JpegEncoder;
 use image::{ExtendedColorType, ImageEncoder};
 use taceva_core::Frame;
 
-/// The longest side of a thumbnail, pixels.
+/// Longest side of a thumbnail, pixels.
 const SIDE: u32 = 176;
-/// JPEG quality, of 100: no visible difference, at a tenth of the size of the frame.
+/// JPEG quality, 0 to 100. At this quality, files have a tenth of the size without a visible difference.
 const QUALITY: u8 = 82;
 
-/// The media type of [`thumbnail`].
+/// Media type of a [`thumbnail`].
 pub(crate) const MEDIA_TYPE: &str = "image/jpeg";
 
-/// `frame` as JPEG of at most 176 pixels a side, by area averages, stretched from its darkest to its brightest value.
+/// Converts `frame` to a JPEG of at most 176 pixels a side by area averages. Stretches brightness to the full range.
 pub(crate) fn thumbnail(frame: &Frame) -> anyhow::Result<Vec<u8>> {
     let small = Small::of(frame);
     let low = small.means.iter().min().copied().unwrap_or(0);
@@ -20,18 +20,18 @@ pub(crate) fn thumbnail(frame: &Frame) -> anyhow::Result<Vec<u8>> {
     small.jpeg(|mean| (mean - low) * 255 / (high - low))
 }
 
-/// A frame of at most 176 pixels a side.
+/// Frame of at most 176 pixels a side.
 #[derive(Clone, Debug)]
 pub(crate) struct Small {
     width: u32,
     height: u32,
     channels: usize,
-    /// Area averages, row by row, in steps of the camera.
+    /// Area averages, row by row, in grey levels of the camera.
     pub(crate) means: Vec<i64>,
 }
 
 impl Small {
-    /// `frame`, reduced by an integer factor.
+    /// Reduces `frame` by an integer factor.
     pub(crate) fn of(frame: &Frame) -> Small {
         let info = frame.info();
         let channels = info.format.samples();
@@ -62,7 +62,7 @@ impl Small {
         }
     }
 
-    /// The same size with other values.
+    /// Frame of the same size with the values `means`.
     pub(crate) fn with_means(&self, means: Vec<i64>) -> Small {
         Small {
             means,
@@ -70,13 +70,13 @@ impl Small {
         }
     }
 
-    /// True if both have the same size and channels.
+    /// True if both frames have the same size and channels.
     pub(crate) fn is_like(&self, other: &Small) -> bool {
         let shape = |small: &Small| (small.width, small.height, small.channels);
         shape(self) == shape(other)
     }
 
-    /// Encodes it as JPEG; `level` maps each value to 0 to 255.
+    /// Encodes the frame as JPEG. `level` maps each value to the range from 0 to 255.
     pub(crate) fn jpeg(&self, level: impl Fn(i64) -> i64) -> anyhow::Result<Vec<u8>> {
         let bytes: Result<Vec<u8>, _> = self
             .means

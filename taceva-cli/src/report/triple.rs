@@ -1,16 +1,16 @@
-//! Three thumbnails of a sensor from its recording: untouched, pressed, and their difference.
+//! Three thumbnails of a sensor from its recording: untouched gel, pressed gel, and the difference.
 
 use taceva_dataset::{Dataset, Table};
 use taceva_report::Triple;
 
 use super::thumbnail::{MEDIA_TYPE, Small};
 
-/// Maximum gain of a faint difference.
+/// Maximum amplification of the difference.
 const MOST_GAIN: i64 = 8;
-/// Mid-grey: no difference.
+/// Grey level that means no difference.
 const MIDDLE: i64 = 128;
 
-/// The pictures of a hard press of `dataset`, for the study at `study`; `None` if no press has a frame.
+/// Pictures of a hard press in `dataset`, for the study at position `study`; `None` if no press has a frame.
 pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<Triple>> {
     let Some((row, words)) = hard_press(dataset.table()) else {
         return Ok(None);
@@ -41,8 +41,8 @@ pub(crate) fn triple(dataset: &Dataset, study: usize) -> anyhow::Result<Option<T
     }))
 }
 
-/// The row at the ninth decile of the positive normal forces, or depths without a force, and its labels in words. The greatest value may be an
-/// outlier. Presses of gratings are skipped, because they show a relief instead of the usual tip.
+/// Row at the ninth decile of the positive normal forces, or of depths if there is no force, and its labels as text. The greatest value may be an outlier.
+/// Presses of gratings are skipped, because they show a relief instead of the usual tip.
 fn hard_press(table: &Table) -> Option<(usize, String)> {
     let channels = table.channels();
     let place = |name: &str| channels.iter().position(|channel| channel.name() == name);
@@ -67,7 +67,7 @@ fn hard_press(table: &Table) -> Option<(usize, String)> {
     Some((row, format!("pressed with {}", words.join(", "))))
 }
 
-/// The row whose value is the ninth decile of the positive values, or of all values if none is positive.
+/// Row whose value is the ninth decile of the positive values, or of all values if none is positive.
 fn ninth_decile(mut rows: Vec<(usize, f64)>) -> Option<usize> {
     rows.sort_by(|a, b| a.1.total_cmp(&b.1).then(b.0.cmp(&a.0)));
     let positive = rows.split_off(rows.partition_point(|(_, value)| *value <= 0.0));
@@ -75,12 +75,12 @@ fn ninth_decile(mut rows: Vec<(usize, f64)>) -> Option<usize> {
     rows.get(rows.len() * 9 / 10).map(|(row, _)| *row)
 }
 
-/// Maps the range from the darkest to the brightest of all pictures to 0 to 255.
+/// Maps a value from the range of all pictures, darkest to brightest, to 0 to 255.
 fn stretched(mean: i64, [low, high]: [i64; 2]) -> i64 {
     (mean - low) * 255 / (high - low).max(1)
 }
 
-/// Pressed minus untouched in the scale of both, amplified up to eight times without clipping.
+/// Difference, pressed minus untouched, in the scale of both pictures. Amplified at most eight times, without clipping.
 fn difference(
     pressed: &Small,
     untouched: &Small,

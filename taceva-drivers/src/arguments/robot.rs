@@ -58,7 +58,7 @@ pub(crate) fn facts_of_robot(args: &Args) -> RobotFacts {
 }
 
 const SPEED_MAX: &str = "speed_max_mm_s";
-/// Maximum of the speed limit, mm/s: the reduced speed of industrial arms beside people.
+/// Maximum of the speed limit, mm/s: the reduced speed of industrial arms near people.
 const SPEED_LIMIT_MM_S: f64 = 250.0;
 const DECELERATION: &str = "deceleration_mm_s2";
 const STOP: &str = "stop_ms";

@@ -5,13 +5,13 @@ use taceva_core::FrameInfo;
 /// Symmetric crop of an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Crop {
-    /// Columns cut off on the left and on the right, and rows cut off above and below.
+    /// Number of columns removed on the left, and also on the right.
     pub(super) left: u32,
     pub(super) top: u32,
 }
 
 impl Crop {
-    /// No crop.
+    /// Crop that removes nothing.
     pub(super) const NONE: Crop = Crop { left: 0, top: 0 };
 
     /// Crop of `share` of the width and height at each side, rounded down to whole pixels.
@@ -28,7 +28,7 @@ impl Crop {
         }
     }
 
-    /// Size of the cropped image.
+    /// Size and format of the image after the crop.
     pub(super) fn of(self, whole: FrameInfo) -> FrameInfo {
         FrameInfo {
             width: whole.width.saturating_sub(2 * self.left),
@@ -37,7 +37,7 @@ impl Crop {
         }
     }
 
-    /// Crops `pixels`, an image of `whole`, into `into`.
+    /// Copies the crop of `pixels`, an image of `whole`, to `into`.
     pub(super) fn copy(self, whole: FrameInfo, pixels: &[u8], into: &mut [u8]) {
         let bytes = whole.format.samples() * whole.format.bytes_per_sample();
         let size = |pixels: u32| usize::try_from(pixels).unwrap_or(usize::MAX);

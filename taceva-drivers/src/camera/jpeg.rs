@@ -21,7 +21,7 @@ const BEGIN: [u8; 2] = [0xff, 0xd8];
 const TABLES_OF_CODES: u8 = 0xc4;
 const SCAN: u8 = 0xda;
 
-/// Adds the AVI1 segment to a JPEG file without Huffman tables. Many cameras omit the tables without marking it.
+/// Adds the AVI1 segment to a JPEG file without Huffman tables. Many cameras omit the tables and this segment.
 fn completed(picture: &[u8]) -> Cow<'_, [u8]> {
     if has_tables(picture) != Some(false) {
         return Cow::Borrowed(picture);
@@ -82,7 +82,7 @@ impl Pictures {
         })
     }
 
-    /// Format of the images that the camera sends.
+    /// Format of the images from the camera.
     pub(super) fn sent(&self) -> FrameInfo {
         self.sent
     }
@@ -98,7 +98,7 @@ impl Pictures {
         is_frame.then(|| whole(picture))
     }
 
-    /// Decodes an image into a frame of [`info`](Pictures::info). `losses` describes earlier losses for the error.
+    /// Decodes an image into a frame of [`info`](Pictures::info). The error includes `losses`, a description of earlier losses.
     ///
     /// # Errors
     /// `Protocol` for an image that is damaged or has another size.

@@ -7,7 +7,7 @@ use taceva_core::{ArgSpec, DriverKey};
 
 use super::crop::Crop;
 
-/// Preset of one sensor's camera. The preset's file cites the source of each number.
+/// Preset of one sensor's camera. The file of the preset cites the source of each number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct Preset {
@@ -15,7 +15,7 @@ pub(super) struct Preset {
     #[serde(skip)]
     pub(super) name: &'static str,
     pub(super) title: String,
-    /// Key of the driver for this camera.
+    /// Key of the driver that opens this camera.
     driver: String,
     /// Prefix of the camera's kernel name; `None` for a network camera.
     pub(super) card: Option<String>,
@@ -72,7 +72,7 @@ impl Preset {
             .changes_facts()
     }
 
-    /// Crop of the camera's images at this size.
+    /// Crop for images of this size from the camera.
     pub(super) fn crop(&self, width: u32, height: u32) -> Crop {
         Crop::border(width, height, self.border)
     }

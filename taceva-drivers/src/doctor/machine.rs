@@ -1,4 +1,4 @@
-//! Examined machine: a tree of files in the layout of Linux, and its USB devices.
+//! Machine under diagnosis: a tree of files in the layout of Linux, and its USB devices.
 
 use std::fs;
 use std::io::Read;
@@ -8,7 +8,7 @@ use super::usb::{UsbDevice, plugged_in};
 use super::user::User;
 use crate::name_order;
 
-/// Maximum length of a file that is read, bytes. The longest is the group table.
+/// Maximum length of a file that is read, bytes. The longest file is the group table.
 const TEXT_BYTES: u64 = 1 << 20;
 
 /// A machine, described by its files and its list of USB devices.

@@ -23,7 +23,7 @@ pub(crate) struct PortDriver {
     pub(crate) key: DriverKey,
     /// Argument of its selector that names the file.
     pub(crate) argument: &'static str,
-    /// True if the driver can read this file below `/dev`, according to the system.
+    /// Function that is true if the driver can use the named file below `/dev`, according to system files.
     pub(crate) reads: fn(&Machine, &str) -> bool,
 }
 

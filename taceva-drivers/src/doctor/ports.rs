@@ -8,12 +8,12 @@ use super::port_driver::{PortClass, drivers_of};
 use super::user::User;
 use crate::text::shown;
 
-/// Kind of device file.
+/// Class of device files, with its diagnosis codes.
 pub(super) struct PortKind {
-    /// Codes for usable, denied and absent files.
+    /// Codes of the diagnosis for usable, denied and absent files.
     codes: [&'static str; 3],
     prefixes: &'static [&'static str],
-    /// Source of the device's name: the folder of its class and the file in the device's folder.
+    /// Source of a device's name: folder of the class, and file in the folder of the device.
     name: Option<(&'static str, &'static str)>,
     noun: &'static str,
     if_absent: &'static str,
@@ -47,7 +47,7 @@ pub(super) const KINDS: &[PortKind] = &[
     },
 ];
 
-/// Examines the device files of `kind`. `keys` are those of the available drivers.
+/// Examines the device files of `kind`. `keys` are the keys of available drivers.
 pub(super) fn examine(
     machine: &Machine,
     user: Option<&User>,

@@ -7,12 +7,12 @@ use super::machine::Machine;
 use crate::name_order;
 use crate::text::shown;
 
-/// A device known by its vendor and product id.
+/// USB device that the diagnosis identifies by vendor and product id.
 struct Known {
     vendor: u16,
     product: u16,
     title: &'static str,
-    /// Prefix of the device file that it should have.
+    /// Prefix of the device file that the kernel driver should create.
     file: &'static str,
     remedy: &'static str,
 }
@@ -51,7 +51,7 @@ const KNOWN: &[Known] = &[
     },
 ];
 
-/// USB device, as it describes itself to the system.
+/// USB device, as the operating system lists it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct UsbDevice {
@@ -61,7 +61,7 @@ pub struct UsbDevice {
     pub vendor: u16,
     /// Product id.
     pub product: u16,
-    /// Serial number; `None` if it has none.
+    /// Serial number; `None` if the device has none.
     pub serial: Option<String>,
 }
 
@@ -84,7 +84,7 @@ impl UsbDevice {
         }
     }
 
-    /// Reads the system's record of a device, without opening it.
+    /// Converts the record of the operating system, without opening the device.
     fn of(device: &DeviceInfo) -> UsbDevice {
         let ports: Vec<String> = device.port_chain().iter().map(u8::to_string).collect();
         let bus = device.bus_id();

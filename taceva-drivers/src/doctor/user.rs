@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::Metadata;
 
-/// A user, the groups of this session, and the names of all groups.
+/// User, with the groups of this session and the names of all groups.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) struct User {
     id: u32,
@@ -14,7 +14,7 @@ pub(super) struct User {
 }
 
 impl User {
-    /// Parses the status of the process, `/etc/passwd` and `/etc/group`, as on Linux.
+    /// Parses the user from the Linux files `/proc/self/status`, `/etc/passwd` and `/etc/group`.
     pub(super) fn parse(status: &str, passwords: &str, groups: &str) -> Option<User> {
         let numbers = |label: &str| -> Option<Vec<u32>> {
             let line = status.lines().find_map(|line| line.strip_prefix(label))?;

@@ -1,4 +1,4 @@
-//! Serial link to a machine: writes bytes and commands; a separate thread reads lines. Each dialect parses its lines.
+//! Serial link to a machine: writes bytes and commands; a separate thread reads lines. A parser for each dialect interprets the lines.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -52,13 +52,13 @@ pub(super) enum Answer {
     Ok,
     /// The command was rejected, for this reason.
     Refused(String),
-    /// The machine stopped for this reason and needs inspection.
+    /// The machine stopped for this reason. A person must inspect it.
     Fault(String),
     /// The command is being executed.
     Busy,
     /// Echo of a number that was sent to the machine.
     Mark(u32),
-    /// Name of a capability, and true if the machine has it.
+    /// Capability, and true if the machine has it.
     Can(String, bool),
     /// Facts that the machine states about itself, by name: `firmware`.
     Facts(BTreeMap<String, String>),
@@ -186,7 +186,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         sent.map_err(|error| CommandError::Broken(error.to_string()))
     }
 
-    /// Discards received answers including faults, for a machine whose state shows that they are outdated.
+    /// Discards received answers including faults. Called if the state of the machine shows that these are outdated.
     #[cfg(feature = "grbl")]
     pub(super) fn forget(&mut self) {
         while self.answers.try_recv().is_ok() {}
@@ -303,7 +303,7 @@ impl Lines {
     }
 }
 
-/// Parses `text` in pieces of `piece` bytes.
+/// Parses the lines of `text`, received in pieces of `piece` bytes.
 #[cfg(test)]
 pub(super) fn understood<S>(
     text: &[u8],

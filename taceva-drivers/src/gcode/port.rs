@@ -1,4 +1,4 @@
-//! Serial port as a file: raw, with a baud rate, locked.
+//! Opens a serial port as a file: raw, with a baud rate, and locked.
 
 use std::fs::File;
 use std::io;
@@ -44,8 +44,8 @@ impl PortError {
     }
 }
 
-/// Opens the serial port at `path` with eight bits, no parity and no flow control, and locks it. Afterwards only root can open it, and no
-/// program that requests the lock gets it.
+/// Opens the serial port at `path` with eight bits, no parity and no flow control, and locks it. Afterwards only root can open the port, and no other process
+/// can lock it.
 ///
 /// A read times out after 0.1 s with 0 bytes.
 pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
@@ -90,7 +90,7 @@ pub(super) fn open_line(path: &str, baud: u32) -> Result<File, PortError> {
     Ok(File::from(line))
 }
 
-/// Releases the lock, even while handles here keep the port open.
+/// Releases the lock even if this process still has open handles of the port.
 pub(super) fn release_line(line: &File) {
     // A lost port has no lock.
     let _ = flock(line, FlockOperation::Unlock);

@@ -1,4 +1,4 @@
-//! Serial ports of this machine, by names that survive replugging.
+//! Serial ports of this machine, by names that do not change with replugging.
 
 use std::fs;
 use std::path::Path;

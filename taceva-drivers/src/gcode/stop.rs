@@ -11,15 +11,15 @@ use super::link::Writer;
 pub(super) struct Stop {
     driver: DriverKey,
     is_halted: AtomicBool,
-    /// True once the robot is dropped, when nothing is left to stop.
+    /// True after the robot is dropped. A halt then does nothing.
     is_gone: AtomicBool,
     writer: Writer,
-    /// Command that the machine executes at once in any state.
+    /// Bytes of a stop command that the machine executes at once in any state.
     bytes: &'static [u8],
 }
 
 impl Stop {
-    /// Creates the stop of the machine behind `writer`, which stops on `bytes`.
+    /// Creates the halt handle of the machine at `writer`. `bytes` stop the machine.
     pub(super) fn new(driver: DriverKey, writer: Writer, bytes: &'static [u8]) -> Stop {
         Stop {
             driver,

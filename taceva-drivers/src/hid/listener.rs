@@ -18,9 +18,9 @@ pub(super) struct Listener {
     reader: Option<JoinHandle<()>>,
 }
 
-/// Interval at which the thread checks for its end, ms.
+/// Interval at which the thread checks whether it must end, ms.
 const LOOK_MS: i32 = 50;
-/// Maximum length of a report, bytes. Full-speed devices stay below it; scales and pedals do not use high speed.
+/// Maximum length of a report, bytes. Reports of full-speed devices are shorter; scales and pedals do not use high speed.
 const REPORT_MAX: usize = 1024;
 
 impl Listener {

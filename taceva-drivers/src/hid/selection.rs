@@ -169,8 +169,8 @@ impl Selection {
         })
     }
 
-    /// Opens the only matching device. `usage` restricts the search unless vendor and product are given. Without a usage, a criterion is
-    /// required, since any mouse would match.
+    /// Opens the only matching device. `usage` restricts the search unless vendor and product are given. Without `usage`, at least one criterion is required,
+    /// because otherwise any mouse would match.
     pub(super) fn open(&self, usage: Option<(u16, u16)>) -> Result<HidDevice, HidOpenError> {
         if let Some(path) = &self.device {
             return open(path);

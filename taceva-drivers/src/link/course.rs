@@ -1,14 +1,14 @@
-//! Straight path that an arm follows by expiring velocities.
+//! Straight path of an arm, followed by velocities that expire.
 
 use std::time::Duration;
 
 use taceva_core::{Pose, Speed};
 
-/// Interval between velocities. Three in a row may be lost.
+/// Interval between velocity commands. The arm tolerates the loss of three commands in a row.
 pub(crate) const RENEWED: Duration = Duration::from_millis(50);
-/// Remaining time below which a straight line replaces velocities, because only a line ends exactly at the target.
+/// Remaining time below which a line command replaces velocities. Only a line command ends exactly at the target.
 pub(crate) const LINE: Duration = Duration::from_millis(100);
-/// Shortest path driven by velocities. Shorter paths are one line, because a change of motion takes time too.
+/// Shortest path driven by velocities. A shorter path is one line command, because a change of the motion type takes time.
 const WORTH: Duration = Duration::from_millis(300);
 /// Tolerance of the tool's rotation, degrees.
 const TURNED_DEG: f64 = 0.01;
@@ -22,7 +22,7 @@ pub(crate) struct Course {
 }
 
 impl Course {
-    /// Creates the path from the observed pose to `target`. `None` if the path is short or the tool rotates.
+    /// Creates the path from the observed pose to `target`. `None` if the path is too short for velocities or the tool rotates.
     pub(crate) fn of(from: &Pose, target: &Pose, speed: Speed) -> Option<Course> {
         let turns = [
             (from.rotation.x.0, target.rotation.x.0),
@@ -47,7 +47,7 @@ impl Course {
         })
     }
 
-    /// Remaining duration from the observed pose; zero past the end.
+    /// Remaining duration from the observed pose `seen`; zero after the end of the path.
     pub(crate) fn left(&self, seen: &Pose) -> Duration {
         let at_mm = place(seen);
         let along = |axis: usize| (self.to_mm[axis] - at_mm[axis]) * self.velocity_mm_s[axis];

@@ -1,11 +1,11 @@
-//! Mailbox with the newest reading of a device, from its reader thread to waiting callers.
+//! Mailbox in which a reader thread posts the newest reading of a device for waiting callers.
 
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use taceva_core::{DriverError, DriverKey, ErrorKind, Interrupt};
 
-/// Newest item of a reader thread, and the reason for its end. Older items are dropped, so that late callers get the current one.
+/// Newest item of a reader thread, and the reason for its end. Older items are dropped, so that a late caller receives the current item.
 #[derive(Debug)]
 pub(crate) struct Mailbox<T> {
     inside: Mutex<Inside<T>>,
@@ -17,7 +17,7 @@ struct Inside<T> {
     newest: Option<Seen<T>>,
     posted: u64,
     ended: Option<Ending>,
-    /// True while a caller waits; `is_interrupted` makes that caller return.
+    /// True while a caller waits. If `is_interrupted` is set, this caller returns.
     is_waiting: bool,
     is_interrupted: bool,
 }
@@ -91,7 +91,7 @@ impl<T: Clone> Mailbox<T> {
         self.changed.notify_all();
     }
 
-    /// Ends the mailbox; the first reason is kept.
+    /// Ends the mailbox. Later reasons are ignored.
     pub(crate) fn end(&self, ending: Ending) {
         self.inside().ended.get_or_insert(ending);
         self.changed.notify_all();

@@ -6,7 +6,7 @@ use taceva_core::{Deadline, DriverError, DriverKey, Pose, RobotWatch, Stamp};
 
 use super::Mailbox;
 
-/// Watch that returns the pose of the newest report of a robot.
+/// Watch that returns the pose in the newest report of a robot.
 #[derive(Debug)]
 pub(crate) struct ReportedPose<T> {
     /// Driver of the robot, for errors.

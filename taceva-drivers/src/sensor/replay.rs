@@ -15,14 +15,14 @@ use timeline::Timeline;
 
 /// A sensor that replays recorded frames.
 ///
-/// In virtual time every frame is delivered on request, stamped with the time of the recording. In real time a frame is delivered when it
-/// is due, stamped in the time of the rig; a slow caller misses frames. An unreadable frame is an error, and the next frame follows.
+/// In virtual time every frame is delivered on request, stamped with the time of the recording. In real time, a frame is delivered when due, with a stamp in
+/// the time of the rig. A slow caller misses frames. An unreadable frame is an error; the next call returns the next frame.
 pub struct Replay {
     source: Box<dyn FrameSource>,
     pace: Box<dyn Pace>,
     driver: DriverKey,
     timeline: Timeline,
-    /// Number of frames delivered or missed.
+    /// Number of frames that were delivered or missed.
     passed: usize,
     running: bool,
 }

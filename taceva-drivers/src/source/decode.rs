@@ -45,7 +45,7 @@ pub(crate) enum Mismatch {
 const PNG: (&[u8], &[u8]) = (b"\x89PNG\r\n\x1a\n", b"IEND\xaeB`\x82");
 const JPEG: (&[u8], &[u8]) = (b"\xff\xd8\xff", b"\xff\xd9");
 
-/// Opens a decoder for `bytes`, which must end with the end marker of their format: a JPEG decoder would fill a truncated image with gray.
+/// Opens a decoder for `bytes`, which must end with the end marker of the format. A JPEG decoder would fill a truncated image with gray.
 fn opened(bytes: &[u8]) -> Result<Box<dyn ImageDecoder + '_>, String> {
     let begins = |(signature, _): (&[u8], &[u8])| bytes.starts_with(signature);
     let (_, end) = match (begins(PNG), begins(JPEG)) {

@@ -1,4 +1,4 @@
-//! Limits of foreign input, checked before allocation.
+//! Limits for external files, checked before allocation.
 
 /// Maximum size of an image file, bytes.
 pub(super) const IMAGE_BYTES: u64 = 256 << 20;

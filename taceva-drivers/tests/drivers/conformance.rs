@@ -1,4 +1,4 @@
-//! The suites pass a correct device, and each check fails for a device that violates it.
+//! Tests that a correct device passes the suites, and that each check fails for a device that violates the check.
 
 use crate::support::folder;
 use crate::toy::{FULL_SCALE, Flaw, KEY, ToyFactory, open};
@@ -197,7 +197,7 @@ fn each_check_of_a_changer_can_fail() {
     );
 }
 
-/// A toy behind a failing link.
+/// Toy device behind a failing link.
 struct Failing {
     toy: ToyFactory,
     plan: FaultPlan,

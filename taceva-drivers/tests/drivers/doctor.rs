@@ -1,4 +1,4 @@
-//! The doctor finds devices and problems from the files of a machine alone.
+//! Tests that the doctor finds devices and problems from the files of a machine alone.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn codes(findings: &[Diagnosis]) -> Vec<&str> {
     findings.iter().map(|finding| finding.code).collect()
 }
 
-/// User who owns none of a test's files and is in none of their groups.
+/// User who owns no file of a test and is in no group of these files.
 const STRANGER: &str =
     "Uid:\t987654 987654 987654 987654\nGid:\t987654 987654 987654 987654\nGroups:\t\n";
 

@@ -1,4 +1,4 @@
-//! Each fault emulates failing hardware, is counted, and repeats with the same seed.
+//! Tests that each fault emulates failing hardware, is counted, and repeats with the same seed.
 
 use std::time::Duration;
 

@@ -1,4 +1,4 @@
-//! A folder of frames is replayed as a live sensor, and errors name the fault.
+//! Tests that a folder of frames is replayed as a live sensor, and that errors name the fault.
 
 use std::fs;
 use std::io::Cursor;

@@ -226,7 +226,7 @@ impl Toy {
     }
 }
 
-/// Interrupts a toy. A toy never waits, so only a flawed one notices.
+/// Interrupt of a toy. A toy never waits, so the interrupt affects only a flawed toy.
 struct Bell(Arc<AtomicBool>);
 
 impl Interrupt for Bell {

@@ -8,7 +8,7 @@ use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
 use serde_json::{Value, json};
 
-/// Program names of the browser.
+/// Names under which the browser is searched on the path.
 const NAMES: [&str; 3] = ["chromium", "chromium-browser", "google-chrome"];
 
 /// A browser with one page.
@@ -90,7 +90,7 @@ impl Browser {
         }
     }
 
-    /// Value of a script, or of its promise.
+    /// Runs a script and returns its value, or the value of its promise.
     ///
     /// # Panics
     /// If the script throws.
@@ -103,7 +103,7 @@ impl Browser {
         answer["result"]["value"].clone()
     }
 
-    /// Answer to a call. Events received before it are kept.
+    /// Sends a call and returns the answer. Stores events that arrive before the answer.
     ///
     /// # Panics
     /// If the browser rejects the call.
@@ -180,7 +180,7 @@ impl Drop for Browser {
     }
 }
 
-/// Decodes a text in base64, in which the browser sends files.
+/// Decodes base64, the encoding of files from the browser.
 ///
 /// # Panics
 /// If the text is not base64.

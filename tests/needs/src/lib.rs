@@ -1,5 +1,5 @@
-//! External needs of tests: programs, devices and data that a machine may lack. A test without its need calls [`skip`] and returns. The
-//! skip is added to the list that `.ci/test` prints at its end, or fails the test if `TACEVA_REQUIRE` names the need.
+//! External needs of tests: programs, devices and data that a machine may lack. A test without its need calls [`skip`] and returns. `skip` adds a line to the
+//! list that `.ci/test` prints at its end. The test fails instead if `TACEVA_REQUIRE` names the need.
 
 #[cfg(feature = "browser")]
 mod browser;

@@ -48,13 +48,13 @@ pub enum Need {
     Libraries,
     /// Python with LeRobot and its torch (8 GB), which nothing here installs; `TACEVA_LEROBOT` names its interpreter.
     Lerobot,
-    /// Permission to create device files, which stand in for cameras and scales.
+    /// Permission to create device files, which emulate those of cameras and scales.
     DeviceFiles,
     /// `slurmctld`, `slurmd`, `munged` and permission to start them: a cluster of two virtual nodes on loopback.
     Slurm,
     /// `faketime`, to run a program at another time of day.
     Faketime,
-    /// A machine without other load, for limits of milliseconds. No test can detect that, so `TACEVA_REQUIRE` must name it.
+    /// A machine without other load, for limits of milliseconds. No test can detect other load, so `TACEVA_REQUIRE` must name this need.
     QuietMachine,
     /// An example, which is built with a whole package but not with a single test.
     Example,
@@ -63,7 +63,7 @@ pub enum Need {
 /// `TACEVA_REQUIRE` names an unknown need.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnknownNeed(
-    /// Word found.
+    /// The unknown word.
     pub String,
 );
 
@@ -97,7 +97,7 @@ impl Need {
         Need::Example,
     ];
 
-    /// Word in `TACEVA_REQUIRE` and in the list.
+    /// Word for the need in `TACEVA_REQUIRE` and in the list of skips.
     pub fn word(self) -> &'static str {
         match self {
             Need::Browser => "browser",
@@ -148,7 +148,7 @@ impl fmt::Display for UnknownNeed {
 
 impl std::error::Error for UnknownNeed {}
 
-/// Needs named in `TACEVA_REQUIRE`, separated by commas; none if it is not set.
+/// Needs named in `TACEVA_REQUIRE`, separated by commas; empty without this variable.
 ///
 /// # Errors
 /// [`UnknownNeed`] for an unknown word, so that a misspelt need is noticed.

@@ -27,7 +27,7 @@ pub(crate) fn record(need: Need, reason: &str) {
         .unwrap_or_else(|error| panic!("cannot write {}: {error}", list.display()));
 }
 
-/// Environment variable with the path of the list: `.ci/test` sets it and reads the list.
+/// Environment variable with the path of the list. `.ci/test` sets the variable and reads the list.
 const LIST_VARIABLE: &str = "TACEVA_SKIPPED";
 
 /// Path of the list: from the environment, or beside the build output.
@@ -38,7 +38,7 @@ fn list(program: &Path) -> PathBuf {
     }
 }
 
-/// Path in the target folder that cargo marks, or beside the program if there is none, as in a folder restored from an archive.
+/// Path in the target folder that cargo marks. Without such a folder, for example after a restore from an archive, the path is beside the program.
 fn beside_what_was_built(program: &Path) -> PathBuf {
     let above = program.ancestors().skip(1);
     let target = above
@@ -56,7 +56,7 @@ fn line(need: Need, reason: &str, program: &Path, test: &str) -> String {
     format!("{need}\t{reason}\t{name}\t{test}\n")
 }
 
-/// `text` in one line and one column.
+/// `text` without line breaks and tabs.
 fn plain(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -1,7 +1,7 @@
 //! Faulty devices: wrappers that make a device fail like real hardware, call by call, determined by a seed.
 //!
-//! A fault shows only what a real device would show: a frozen force transducer answers promptly with old values. The [`FaultLog`] counts
-//! the faults, so that a test can prove that each kind occurred.
+//! A fault appears as on a real device: a frozen force transducer answers promptly with old values. The [`FaultLog`] counts the faults, so that a test can
+//! prove that each kind occurred.
 
 mod draw;
 mod force;

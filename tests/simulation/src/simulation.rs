@@ -1,8 +1,8 @@
 //! Simulated rig, supervisor, recorder and faults, driven by one seed: the same seed gives the same run, bit for bit.
 //!
-//! The simulation has a tip on a spring, a clock that only devices advance, and a disk that forgets unsynced data. Real is the code under
-//! test: [`run`](taceva_protocol::run()), [`Supervisor`](taceva_protocol::Supervisor) and the resumption of a run. The simulated bench that
-//! measures like a sensor is another crate.
+//! The simulation has a tip on a spring, a clock that only devices advance, and a disk that forgets unsynced data. The code under test is real:
+//! [`run`](taceva_protocol::run()), [`Supervisor`](taceva_protocol::Supervisor) and the resumption of a run. The simulated bench with sensors is in another
+//! crate.
 //!
 //! ```
 //! use taceva_simulation::simulation::simulate;

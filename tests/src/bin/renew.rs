@@ -128,7 +128,7 @@ fn renew(document: &mut Document, runner: &Runner, asked: &Asked) -> anyhow::Res
     Ok(is_true)
 }
 
-/// Reason why a passage of `kind` is skipped, if any.
+/// Reason why a passage of `kind` is skipped; `None` if it is not skipped.
 fn left_out(kind: Kind, asked: &Asked) -> Option<&'static str> {
     match kind {
         Kind::Quick => None,

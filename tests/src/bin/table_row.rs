@@ -106,7 +106,7 @@ fn score(table: &str, cell: &str) -> anyhow::Result<Score> {
     bail!("no score `{cell}`")
 }
 
-/// `0.91 N (0.69 … 1.20)`, and the reason if verdicts exclude it.
+/// Score as text: `0.91 N (0.69 … 1.20)`, and the reason if verdicts exclude it.
 fn with_standing(score: &Score) -> String {
     let printed = FormattedValue::number(score.value, score.ends).phrase(&spaced(score.unit));
     match &*score.standing {

@@ -165,7 +165,7 @@ impl Disk {
         }
     }
 
-    /// Atomic within a folder, as its journal keeps names; between folders, each half is separate.
+    /// Exchanges two names. The exchange is atomic within a folder, because its journal stores names. Between folders, each half is separate.
     fn exchange(&mut self, one: &(ObjectId, String), other: &(ObjectId, String)) {
         let (Some(first), Some(second)) =
             (self.lookup(one.0, &one.1), self.lookup(other.0, &other.1))

@@ -68,10 +68,10 @@ pub enum Operation {
     Sync {
         /// Synced object.
         object: ObjectId,
-        /// Number of operations applied before the call began: only these are covered.
+        /// Number of operations applied before the call began. The sync covers only these operations.
         covers: usize,
     },
-    /// Line on standard output, on which its reader relies from now on.
+    /// Line on standard output. Readers rely on the line from now on.
     Print(String),
 }
 

@@ -1,4 +1,4 @@
-//! States seen before.
+//! Set of states that were already checked.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::sync::Arc;

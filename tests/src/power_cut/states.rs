@@ -13,7 +13,7 @@ use super::tree::{Tree, write_tree};
 pub struct State<'a> {
     /// Number of operations before the cut.
     pub cut: usize,
-    /// Lines that the program had printed by then.
+    /// Lines that the program had printed before the cut.
     pub printed: &'a [String],
     /// Content of the folder after the restart.
     pub tree: &'a Tree,
@@ -59,7 +59,7 @@ pub struct Counted {
 }
 
 impl Counted {
-    /// Adds the counts of both.
+    /// Sum of both counts.
     #[must_use]
     pub fn and(self, other: Counted) -> Counted {
         Counted {
@@ -93,7 +93,7 @@ impl std::fmt::Display for Counted {
 }
 
 impl Trace {
-    /// Calls `check` with every state that a cut after `cuts` operations could leave; an error means a broken promise.
+    /// Calls `check` with every state that a cut after `cuts` operations could leave. An error of `check` means a broken promise.
     pub fn each_state(
         &self,
         cuts: Range<usize>,

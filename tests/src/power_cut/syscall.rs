@@ -19,7 +19,7 @@ pub(super) struct Lexer {
 }
 
 impl Lexer {
-    /// Call that `line` completes; `now` is stored for calls that begin with it.
+    /// Parses `line` and returns the call that it completes; `None` if no call is complete. `now` becomes the start of a call that begins.
     pub(super) fn line(&mut self, line: &str, now: usize) -> Option<Call> {
         let (thread, text) = line.split_once(' ')?;
         let text = text.trim_start();
@@ -41,7 +41,7 @@ impl Lexer {
     }
 }
 
-/// `name(argument, argument) = result …`
+/// Parses `name(argument, argument) = result …`.
 fn parse(text: &str, begun: usize) -> Option<Call> {
     let (name, rest) = text.split_once('(')?;
     let (arguments, result) = rest.rsplit_once(" = ")?;
@@ -60,7 +60,7 @@ fn parse(text: &str, begun: usize) -> Option<Call> {
     })
 }
 
-/// Splits at commas outside brackets; strings are hexadecimal and contain neither.
+/// Splits at commas outside brackets. Strings are hexadecimal, without commas and brackets.
 fn split(arguments: &str) -> Vec<String> {
     let mut parts = vec![String::new()];
     let mut depth = 0_usize;

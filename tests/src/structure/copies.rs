@@ -9,7 +9,7 @@ pub struct Copies {
     pub concept: &'static str,
     /// Words of product code; every copy contains one of them.
     pub words: &'static [&'static str],
-    /// Most places with the concept.
+    /// Greatest number of files that may contain the concept.
     pub most: usize,
 }
 

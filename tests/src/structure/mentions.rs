@@ -13,7 +13,7 @@ pub struct Example {
     pub kind: &'static str,
     /// Words that name the example in product code, manifests and headers.
     pub words: &'static [&'static str],
-    /// Most files that may mention it.
+    /// Greatest number of files that may mention the example.
     pub most: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Tuple parameters of functions: each stands for a missing type.
+//! Tuple parameters of functions. Each should be a type with named fields.
 
 use super::sources::Source;
 

@@ -24,8 +24,8 @@ pub struct Compared {
     pub of_one_alone: BTreeSet<String>,
     /// Greatest relative difference of the errors `mae` and `smape`.
     pub error_part: f64,
-    /// Greatest relative difference of the errors behind `r2` and `skill`, √(1 − score). The unexplained part, 1 − score, is a ratio of
-    /// squares: its relative change is twice that of the error. It means little for few labels with a small spread.
+    /// Greatest relative difference of the errors behind `r2` and `skill`, √(1 − score). The unexplained part, 1 − score, is a ratio of squares: its relative
+    /// change is twice that of the error. The value has little meaning for few labels with a small spread.
     pub share_part: f64,
 }
 

@@ -254,7 +254,7 @@ impl Inner {
         self.truth.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Advances the gel to the present and records the true state.
+    /// Advances the gel to the present time and records the true state.
     fn look(&self) {
         let now = self.began.elapsed();
         let mut truth = self.truth();

@@ -78,7 +78,7 @@ pub struct Served {
     arm: Arc<dyn Arm>,
     control: Control,
     text: String,
-    /// Kept until the end: dropping a device unplugs it.
+    /// Force device, kept until the end, because a dropped device is unplugged.
     _force: Box<dyn Send + Sync>,
     _camera: mjpeg::Emulator,
 }

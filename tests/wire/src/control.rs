@@ -162,7 +162,7 @@ fn serve(
     Ok(())
 }
 
-/// Carries out a request and returns its answer.
+/// Executes a request and returns the answer.
 fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value, WireError> {
     let refused = |why: String| WireError::Request(why);
     let request: Request =

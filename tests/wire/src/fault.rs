@@ -19,9 +19,9 @@ pub enum Device {
 /// Kind of fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FaultKind {
-    /// Messages are missing; gaps in their numbers, if any, show it.
+    /// Messages are missing, which shows as gaps if messages have numbers.
     Drop,
-    /// The link stalls: messages are held and sent after the fault.
+    /// The link stalls. Messages wait and are sent after the fault.
     Late,
     /// The link is open, but sends nothing.
     Silent,

@@ -1,8 +1,8 @@
 //! Emulated machine with GRBL 1.1 at the other end of a pseudo-terminal.
 //!
-//! Supported queries: `?` with the work offset in some reports, `!`, `~`, reset, `$$`, `$#`, `$G`, `$I`, `$X`. Supported lines: `G53 G1`
-//! (with `G21 G90 G94`, with and without blanks) and modes alone. The machine keeps one motion and one waiting. A reset during a motion is
-//! an alarm. Not supported: changes of settings, offsets, arcs, homing, acceleration.
+//! Supported queries: `?` with the work offset in some reports, `!`, `~`, reset, `$$`, `$#`, `$G`, `$I`, `$X`. Supported lines: `G53 G1` (with `G21 G90 G94`,
+//! with and without blanks) and modes alone. The machine stores one motion in progress and one waiting motion. A reset during a motion is an alarm. Not
+//! supported: changes of settings, offsets, arcs, homing, acceleration.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -59,7 +59,7 @@ const UNKNOWN_QUERY: &str = "error:3\r\n";
 const LOCKED: &str = "error:9\r\n";
 const UNSUPPORTED: &str = "error:20\r\n";
 const NO_FEED: &str = "error:22\r\n";
-/// Every so many status reports state the offset of the work, the first one among them.
+/// Number of status reports per report of the work offset. The first report contains the offset.
 const OFFSET_EVERY: u32 = 10;
 /// Settings of a machine of 400 mm with 5 m/min.
 const SETTINGS: &[&str] = &[
@@ -190,7 +190,7 @@ impl Machine {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends a completed motion and begins the next.
+    /// Ends a completed motion and begins the waiting motion.
     fn turn(&self) {
         let mut inside = self.inside();
         if inside.is_held || self.bench.is_moving() {

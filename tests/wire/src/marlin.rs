@@ -231,7 +231,7 @@ impl Printer {
         }
     }
 
-    /// Queues a motion; coordinates and a feed that the line lacks stay.
+    /// Queues a motion. Coordinates and feed that the line lacks do not change.
     fn go(&self, inside: &mut Inside, words: &Words) {
         let at = self.bench.pose().position;
         let at = Base::to_base([at.x.0, at.y.0, at.z.0]);
@@ -261,7 +261,7 @@ struct Numbered<'a> {
     command: &'a str,
 }
 
-/// Takes number and checksum off a line after line `last`; the error is the firmware's.
+/// Removes number and checksum from a line that follows line `last`. The error is the message of the firmware.
 fn numbered(line: &str, last: i64) -> Result<Numbered<'_>, &'static str> {
     let (text, checksum) = match line.rsplit_once('*') {
         Some((text, checksum)) => (text, Some(checksum)),

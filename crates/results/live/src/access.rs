@@ -1,10 +1,10 @@
-//! Access control: requests must come from the page of this server, opened by the printed address.
+//! Access control: accepts only requests from the page of this server, opened at the printed address.
 
 use crate::request::Request;
 use crate::response::Status;
 use crate::token::Token;
 
-/// Requirements on a request.
+/// Accepted hosts, origins and token of requests.
 #[derive(Debug)]
 pub(crate) struct Access {
     /// Accepted values of `Host`.
@@ -13,13 +13,13 @@ pub(crate) struct Access {
 }
 
 impl Access {
-    /// Access to a page on `port` of this machine.
+    /// Creates the requirements for a page on `port` of this machine.
     pub(crate) fn new(port: u16, token: Token) -> Access {
         let hosts = ["127.0.0.1", "localhost"].map(|host| format!("{host}:{port}"));
         Access { hosts, token }
     }
 
-    /// Rejects a request to another host name, or from a page of another origin.
+    /// Rejects a request to another host, or from a page of another origin.
     pub(crate) fn check_origin(&self, request: &Request) -> Result<(), Status> {
         let is_own = |host: &[u8]| self.hosts.iter().any(|own| own.as_bytes() == host);
         if !request.host.as_deref().is_some_and(is_own) {

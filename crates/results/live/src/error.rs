@@ -1,25 +1,25 @@
-//! Errors of opening a page.
+//! Error of opening a page.
 
 use std::io;
 
-/// Errors of opening a page.
+/// Reason why a page cannot be opened.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum PageError {
-    /// A port that cannot be listened on.
+    /// The server cannot listen on the port.
     #[error(
         "cannot listen on 127.0.0.1:{port}: {source}; expected a free port, or 0 for any: --port 0"
     )]
     Listen {
-        /// The port.
+        /// Number of the port.
         port: u16,
-        /// The error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
-    /// The system provides no random numbers for the token.
+    /// The operating system provides no random numbers for the token.
     #[error("cannot get random numbers for the token of the page: {0}")]
     Random(String),
-    /// A thread of the page that cannot be started.
+    /// The operating system cannot start a thread of the page.
     #[error("cannot start a thread of the page: {0}")]
     Thread(io::Error),
 }

@@ -1,4 +1,4 @@
-//! Encoding of the newest frame to JPEG, on a thread that may be slow.
+//! Encodes the newest frame to JPEG on a separate thread, which may be slower than the camera.
 
 use std::borrow::Cow;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -11,15 +11,15 @@ use taceva_core::Frame;
 use crate::overlay::Overlay;
 use crate::sight::Sight;
 
-/// Minimum interval between pictures: 15 a second look like motion.
+/// Minimum interval between pictures. Fifteen pictures a second appear as motion.
 const PERIOD: Duration = Duration::from_nanos(1_000_000_000 / 15);
-/// Minimum interval between pictures with a prediction: a stream of 30 a second passes completely, even if uneven.
+/// Minimum interval between pictures with predictions. No frame of an irregular stream of 30 frames a second is skipped.
 const PREDICTED_PERIOD: Duration = Duration::from_millis(16);
 /// Maximum side of a picture, pixels.
 const SIDE_MAX: usize = 960;
 const QUALITY: u8 = 80;
 
-/// The newest frame, and the newest encoded picture.
+/// Newest frame that was offered, and newest encoded picture.
 #[derive(Default)]
 pub(crate) struct Frames {
     newest: Mutex<Newest>,
@@ -31,9 +31,9 @@ pub(crate) struct Frames {
 #[derive(Default)]
 struct Newest {
     frame: Option<Frame>,
-    /// Predictions of the frame.
+    /// Predictions for the offered frame.
     overlay: Option<Overlay>,
-    /// Time of the last encoding.
+    /// Time at which the last encoding began.
     taken: Option<Instant>,
 }
 
@@ -43,20 +43,20 @@ struct Shown {
     jpeg: Option<Arc<[u8]>>,
     overlay: Option<Arc<Overlay>>,
     sight: Option<Sight>,
-    /// Time of the last saturation and sharpness measurement.
+    /// Time at which saturation and sharpness were last measured.
     looked: Option<Instant>,
 }
 
-/// A picture ready for a browser.
+/// Encoded picture for a browser.
 pub(crate) struct Picture {
     pub(crate) number: u64,
     pub(crate) jpeg: Arc<[u8]>,
-    /// Predictions of the picture.
+    /// Predictions for the frame of the picture.
     pub(crate) overlay: Option<Arc<Overlay>>,
 }
 
 impl Frames {
-    /// Offers `frame`, with its predictions, to the encoder; skipped if the last one was too recent.
+    /// Offers `frame` and its predictions to the encoder. Skips the frame if the last accepted frame is too recent.
     pub(crate) fn offer(&self, frame: &Frame, overlay: Option<Overlay>) {
         let mut newest = lock(&self.newest);
         let period = match overlay {
@@ -72,7 +72,7 @@ impl Frames {
         self.came.notify_one();
     }
 
-    /// Encodes the newest frame; waits up to `patience` for one.
+    /// Waits up to `patience` for a new frame and encodes the newest frame.
     pub(crate) fn encode_next(&self, patience: Duration) {
         let waited = self
             .came
@@ -102,7 +102,7 @@ impl Frames {
         }
     }
 
-    /// A picture newer than number `after`; waits up to `patience`.
+    /// Waits up to `patience` for a picture with a number above `after`; `None` if none arrives.
     pub(crate) fn next(&self, after: u64, patience: Duration) -> Option<Picture> {
         let waited = self
             .encoded
@@ -116,7 +116,7 @@ impl Frames {
         })
     }
 
-    /// The camera facts of the last picture.
+    /// Saturation and sharpness of the last measured frame; `None` before the first measurement.
     pub(crate) fn sight(&self) -> Option<Sight> {
         lock(&self.shown).sight
     }
@@ -126,7 +126,7 @@ fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Encodes the frame as JPEG, with large ones subsampled; `None` if it cannot be encoded.
+/// Encodes `frame` as JPEG, subsampled if large; `None` if the encoder fails.
 fn encode(frame: &Frame) -> Option<Vec<u8>> {
     let info = frame.info();
     let [width, height] = [info.width, info.height].map(|side| side as usize);

@@ -1,4 +1,4 @@
-//! Shared state between the program with the devices and the page: the newest value of everything, without history.
+//! State that the program with the devices shares with the page: newest values without history.
 
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, OnceLock, PoisonError};
@@ -11,7 +11,7 @@ use crate::frames::Frames;
 use crate::overlay::Overlay;
 use crate::state::{Asked, Limits, Place, PlaceState, PredictedFrames, State};
 
-/// Content of a page, written by the program that runs the devices. Clones share one state; no call waits for a reader.
+/// Content of a page, written by the program that controls the devices. Clones share one state. No call waits for a browser.
 #[derive(Clone)]
 pub struct Live {
     pub(crate) shared: Arc<Shared>,
@@ -21,12 +21,12 @@ pub(crate) struct Shared {
     state: Mutex<Inside>,
     answered: Condvar,
     pub(crate) frames: Frames,
-    /// Number of open streams; without any, no frame is encoded.
+    /// Number of open streams. Frames are encoded only while a stream is open.
     pub(crate) viewers: AtomicUsize,
     pub(crate) is_over: AtomicBool,
     /// Number of the last picture with a prediction that was sent to a browser.
     last_sent: AtomicU64,
-    /// Callback for such pictures, with the stamp of the frame, s.
+    /// Callback for each sent picture with a prediction. Its argument is the stamp of the frame, s.
     on_sent: OnceLock<Box<dyn Fn(f64) + Send + Sync>>,
 }
 
@@ -34,18 +34,18 @@ pub(crate) struct Shared {
 struct Inside {
     state: State,
     places: Vec<Place>,
-    /// Incremented whenever a place changes.
+    /// Version of the places, incremented at each change.
     places_version: u64,
     questions: u64,
     /// Arrival times of recent frames, for their rate.
     recent: std::collections::VecDeque<Instant>,
 }
 
-/// Averaging time of the frame rate.
+/// Time over which the frame rate is averaged.
 const RATE_OVER: Duration = Duration::from_secs(2);
 
 impl Live {
-    /// An empty page with the heading `title`.
+    /// Creates an empty page with the heading `title`.
     pub fn new(title: &str) -> Live {
         let state = State {
             title: title.to_owned(),
@@ -68,20 +68,20 @@ impl Live {
         }
     }
 
-    /// Shows `frame` as the newest one; frames faster than the picture rate are counted but not shown.
+    /// Shows `frame` as the newest frame. Frames beyond the picture rate are counted but not shown.
     pub fn frame(&self, frame: &Frame) {
         self.count_frame();
         // Also without viewers: a later viewer sees the last frame, which may be the only one for a while.
         self.shared.frames.offer(frame, None);
     }
 
-    /// Shows `frame` as the newest one, with the predictions of a model over the picture.
+    /// Shows `frame` as the newest frame, with the predictions of a model over the picture.
     pub fn predicted(&self, frame: &Frame, overlay: Overlay) {
         self.count_frame();
         self.shared.frames.offer(frame, Some(overlay));
     }
 
-    /// Shows the name of the model behind the predictions.
+    /// Shows `words`, the name of the model that makes the predictions.
     pub fn predictor(&self, words: &str) {
         self.shared.inside().state.predicted_by = Some(words.to_owned());
     }
@@ -91,9 +91,9 @@ impl Live {
         self.shared.inside().state.predicted = Some(frames);
     }
 
-    /// Sets the callback `heard` for pictures with a prediction sent to a browser. It receives the stamp of each frame once, s.
+    /// Sets the callback `heard` for pictures with a prediction sent to a browser. Each call receives the stamp of one frame, s.
     ///
-    /// The callback runs on a thread of the page; only the first one is kept.
+    /// The callback runs on a thread of the page. Later callbacks are ignored.
     pub fn on_sent(&self, heard: impl Fn(f64) + Send + Sync + 'static) {
         drop(self.shared.on_sent.set(Box::new(heard)));
     }
@@ -112,14 +112,14 @@ impl Live {
         }
     }
 
-    /// Shows a tared reading of the force transducer.
+    /// Shows a reading of the tared force transducer.
     pub fn force(&self, wrench: &Wrench) {
         let [x, y, z] = wrench.force.map(|force| force.0);
         let mut inside = self.shared.inside();
         (inside.state.normal_n, inside.state.shear_n) = (Some(z), Some(x.hypot(y)));
     }
 
-    /// Shows the depth of the tip at `pose`, in the frame of the sensor.
+    /// Shows the depth of the tip at `pose`. The pose is in the frame of the sensor.
     pub fn pose(&self, pose: &Pose) {
         self.shared.inside().state.depth_mm = Some(pose.position.z.0);
     }
@@ -129,19 +129,19 @@ impl Live {
         self.shared.inside().state.limits = limits;
     }
 
-    /// Shows the current stage in words.
+    /// Shows `words` as the current stage.
     pub fn stage(&self, words: &str) {
         words.clone_into(&mut self.shared.inside().state.stage);
     }
 
-    /// Shows the numbers of dropped and of damaged frames. All dropped ones are counted only if the camera numbers its frames (`numbered`).
+    /// Shows the numbers of dropped and of damaged frames. The count of dropped frames is complete only if the camera numbers its frames (`numbered`).
     pub fn lost(&self, dropped: u64, damaged: u64, numbered: bool) {
         let mut inside = self.shared.inside();
         let state = &mut inside.state;
         (state.dropped, state.damaged, state.numbered) = (dropped, damaged, numbered);
     }
 
-    /// Shows the places to be pressed on the gel.
+    /// Shows the planned places of presses on the gel.
     pub fn places(&self, places: Vec<Place>) {
         let mut inside = self.shared.inside();
         inside.state.presses = [done(&places), places.len()];
@@ -160,12 +160,12 @@ impl Live {
         inside.places_version += 1;
     }
 
-    /// Ends the page and shows how the run ended.
+    /// Ends the page and shows `words` as the result of the run.
     pub fn ended(&self, words: &str) {
         self.shared.inside().state.ended = Some(words.to_owned());
     }
 
-    /// True once the stop button was pressed.
+    /// True if a user has pressed the stop button.
     pub fn is_stopping(&self) -> bool {
         self.shared.inside().state.is_stopping
     }
@@ -189,7 +189,7 @@ fn done(places: &[Place]) -> usize {
     places.iter().filter(is_done).count()
 }
 
-/// An open question on the page; removed on drop.
+/// Open question on the page. Dropping the value removes the question.
 pub struct Open {
     live: Live,
     number: u64,
@@ -223,7 +223,7 @@ impl Drop for Open {
 }
 
 impl Shared {
-    /// Records the answer to question `number`; false if it is not open.
+    /// Records the answer to question `number`. False if the question is not open.
     pub(crate) fn give_answer(&self, number: u64, answer: Answer) -> bool {
         let mut inside = self.inside();
         let asked = inside.state.question.as_mut();
@@ -245,12 +245,12 @@ impl Shared {
         }
     }
 
-    /// Records that stop was pressed.
+    /// Records that a user pressed the stop button.
     pub(crate) fn stop(&self) {
         self.inside().state.is_stopping = true;
     }
 
-    /// The whole state as JSON.
+    /// Whole state as JSON, without places.
     pub(crate) fn state_json(&self) -> String {
         let mut inside = self.inside();
         let sight = self.frames.sight();
@@ -270,7 +270,7 @@ impl Shared {
         serde_json::to_string(state).unwrap_or_default()
     }
 
-    /// The places as JSON if they changed since `version`; else `None`.
+    /// Places as JSON; `None` if unchanged since `version`. Updates `version`.
     pub(crate) fn places_json(&self, version: &mut Option<u64>) -> Option<String> {
         let inside = self.inside();
         if *version == Some(inside.places_version) {

@@ -1,4 +1,4 @@
-//! The operator who answers by the buttons of the page.
+//! Operator who answers with the buttons of the page.
 
 use std::time::Duration;
 
@@ -6,10 +6,10 @@ use taceva_protocol::{Answer, Cancel, Operator, Question};
 
 use crate::live::Live;
 
-/// Interval at which a cancelled run is detected.
+/// Interval of checks for a cancelled run.
 const LOOK: Duration = Duration::from_millis(100);
 
-/// Asks on the page only, not at the terminal.
+/// Asks questions on the page only, not at the terminal.
 ///
 /// ```
 /// use taceva_live::{Live, PageOperator};
@@ -25,7 +25,7 @@ pub struct PageOperator {
 }
 
 impl PageOperator {
-    /// An operator with the page of `live` open.
+    /// Creates an operator who uses the page of `live`.
     pub fn new(live: Live) -> PageOperator {
         PageOperator { live }
     }

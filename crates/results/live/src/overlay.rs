@@ -15,14 +15,14 @@ use serde::Serialize;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct Overlay {
-    /// Timestamp of the frame, s, on the clock that stamps frames.
+    /// Timestamp of the frame, s, on the clock of the frames.
     #[serde(rename = "t_s")]
     pub stamp_s: f64,
     /// Predicted value of each channel.
     pub values: Vec<PredictedValue>,
-    /// Distance of the frame from the training data, 1 at the limit; `None` if the model cannot compute it.
+    /// Distance of the frame from the training data, 1 at the limit; `None` if the model computes no distance.
     pub distance: Option<f64>,
-    /// True if the frame is outside the training data; `None` if the model cannot tell.
+    /// True if the frame is outside the training data; `None` if the model computes no distance.
     pub outside: Option<bool>,
 }
 
@@ -60,7 +60,7 @@ impl Overlay {
         }
     }
 
-    /// Adds the `distance` from the training data.
+    /// Sets the `distance` from the training data. `outside` is true for a frame outside the training data.
     #[must_use]
     pub fn with_distance(self, distance: f64, outside: bool) -> Overlay {
         Overlay {
@@ -70,7 +70,7 @@ impl Overlay {
         }
     }
 
-    /// Header value: ASCII JSON, because browsers read headers as Latin-1.
+    /// Value of the HTTP header: ASCII JSON, because browsers read headers as Latin-1.
     pub(crate) fn header(&self) -> String {
         let json = serde_json::to_string(self).unwrap_or_default();
         let mut header = String::with_capacity(json.len());

@@ -1,4 +1,4 @@
-//! The server of a page.
+//! HTTP server of a page.
 
 use std::io;
 use std::net::{Ipv4Addr, SocketAddr, TcpListener, TcpStream};
@@ -14,11 +14,11 @@ use crate::route::{self, Site};
 use crate::strangers::Strangers;
 use crate::token::Token;
 
-/// Timeout of a write to a browser.
+/// Timeout for writing a response to a browser.
 const WRITING: Duration = Duration::from_secs(2);
-/// Interval at which the encoder checks whether the page has ended.
+/// Interval at which the encoder checks for the end of the page.
 const LOOK: Duration = Duration::from_millis(100);
-/// Time for the last event to reach the browsers.
+/// Delay at the end of the page, in which browsers receive the last event.
 const LAST_WORD: Duration = Duration::from_millis(400);
 
 /// A page on `127.0.0.1`, served until it is dropped.
@@ -31,8 +31,8 @@ pub struct Page {
 }
 
 impl Page {
-    /// Serves `live` on `port` of loopback, 0 for any free port. `on_stop` is called on a thread of the page whenever stop is pressed, and
-    /// must return at once.
+    /// Serves `live` on `port` of loopback, 0 for any free port. A thread of the page calls `on_stop` whenever a user presses the stop button. `on_stop` must
+    /// return at once.
     ///
     /// # Errors
     /// [`PageError`] if the port is taken, no thread starts, or the system provides no random numbers.
@@ -82,12 +82,12 @@ impl Page {
         Ok(page)
     }
 
-    /// The address for a browser; the part after `#` is the token.
+    /// URL for a browser. The part after `#` is the token.
     pub fn url(&self) -> String {
         format!("http://{}/#{}", self.address, self.token.text())
     }
 
-    /// The address and port that it listens on, always of loopback.
+    /// Loopback address and port on which the server listens.
     pub fn address(&self) -> SocketAddr {
         self.address
     }
@@ -110,7 +110,7 @@ impl Drop for Page {
     }
 }
 
-/// Starts a thread for every connection. A new one may close one without the token, so that the stop button is always answered.
+/// Starts a thread for every connection. A new connection may close an old connection without the token, so that the server always answers the stop button.
 fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsize>) {
     let strangers = Arc::new(Strangers::default());
     loop {
@@ -144,11 +144,11 @@ fn accept(listener: &TcpListener, site: &Arc<Site>, connections: &Arc<AtomicUsiz
     }
 }
 
-/// Decrements the count of connections on drop.
+/// Decrements the number of open connections on drop.
 struct Leaves(Arc<AtomicUsize>);
 
 impl Leaves {
-    /// Increments the count of connections.
+    /// Increments the number of open connections until the result is dropped.
     fn enter(connections: &Arc<AtomicUsize>) -> Leaves {
         connections.fetch_add(1, Ordering::AcqRel);
         Leaves(Arc::clone(connections))

@@ -1,4 +1,4 @@
-//! Drawings of specimens to be mounted.
+//! Drawings of specimens for the operator to mount.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use taceva_protocol::Question;
 /// Side of the drawing, mm.
 const SIDE_MM: f64 = 24.0;
 
-/// The drawing for a question, as SVG in mm; `None` if words are enough.
+/// Drawing for a question, as SVG in mm; `None` for a question without a specimen.
 pub(crate) fn of(question: &Question) -> Option<String> {
     match question {
         Question::Mount(specimen) => drawn(specimen),
@@ -30,7 +30,7 @@ fn drawn(specimen: &Specimen) -> Option<String> {
     Some(svg)
 }
 
-/// Side view: the ball on its stem over the gel, and its radius.
+/// Side view of the ball on its stem over the gel, with the radius.
 fn sphere(radius_mm: f64) -> String {
     let radius = radius_mm.min(0.3 * SIDE_MM);
     let gel = 0.36 * SIDE_MM;
@@ -50,7 +50,7 @@ fn sphere(radius_mm: f64) -> String {
     )
 }
 
-/// Bottom view: the lines along y, or the dots, at their spacing and without rotation.
+/// Bottom view of lines along y, or of dots, at their spacing and without rotation.
 fn grating(kind: GratingKind, spacing_mm: f64) -> String {
     let side = 16.0_f64;
     let half = side / 2.0;

@@ -1,4 +1,4 @@
-//! HTTP requests from a socket, limited in length, lines and time.
+//! Reads HTTP requests from a socket, with limits of length, lines and time.
 
 use std::io::{self, Read};
 use std::net::{Shutdown, TcpStream};
@@ -6,18 +6,18 @@ use std::time::{Duration, Instant};
 
 use crate::response::Status;
 
-/// Maximum head, bytes.
+/// Maximum size of a head, bytes.
 const HEAD_MAX: usize = 8192;
 /// Maximum number of header lines.
 const HEADERS_MAX: usize = 32;
-/// Maximum body, bytes: answers to questions are shorter.
+/// Maximum size of a body, bytes. Answers to questions are shorter.
 const BODY_MAX: usize = 1024;
-/// Timeout of a whole request.
+/// Timeout for a whole request.
 const WHOLE: Duration = Duration::from_secs(5);
-/// Timeout of one read.
+/// Timeout for one read from the socket.
 const READING: Duration = Duration::from_millis(250);
 
-/// A complete request.
+/// Complete HTTP request.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Request {
     pub(crate) method: String,
@@ -28,7 +28,7 @@ pub(crate) struct Request {
     pub(crate) body: Vec<u8>,
 }
 
-/// Reads one request; the error is the status of the response.
+/// Reads one request. An error is the status for the response.
 pub(crate) fn read(stream: &mut TcpStream) -> Result<Request, Status> {
     let began = Instant::now();
     stream
@@ -56,7 +56,7 @@ pub(crate) fn read(stream: &mut TcpStream) -> Result<Request, Status> {
     }
 }
 
-/// Discards further bytes of a rejected client for a moment: closing a connection with unread bytes would discard the response.
+/// Reads and discards further bytes of a rejected client for a moment. Closing a connection with unread bytes would discard the response.
 pub(crate) fn drain(mut stream: TcpStream) -> io::Result<()> {
     const MOMENT: Duration = Duration::from_millis(500);
     stream.shutdown(Shutdown::Write)?;
@@ -66,7 +66,7 @@ pub(crate) fn drain(mut stream: TcpStream) -> io::Result<()> {
     Ok(())
 }
 
-/// Reads the next bytes.
+/// Appends the next bytes of the socket to `bytes`, or fails after the timeout since `began`.
 fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, began: Instant) -> Result<(), Status> {
     let mut read = [0; 2048];
     loop {
@@ -89,7 +89,7 @@ fn more(stream: &mut TcpStream, bytes: &mut Vec<u8>, began: Instant) -> Result<(
     }
 }
 
-/// The head of a request.
+/// Parsed head of a request.
 struct Head {
     request: Request,
     /// Size of the head, bytes.
@@ -99,7 +99,7 @@ struct Head {
 }
 
 impl Head {
-    /// Parses the head at the start of `bytes`; `None` if it is incomplete.
+    /// Parses the head at the start of `bytes`; `None` if `bytes` end before the end of the head.
     fn parse(bytes: &[u8]) -> Result<Option<Head>, Status> {
         let mut headers = [httparse::EMPTY_HEADER; HEADERS_MAX];
         let mut parsed = httparse::Request::new(&mut headers);

@@ -1,4 +1,4 @@
-//! HTTP responses, all with headers that restrict the browser to what this page needs.
+//! HTTP responses. Their headers restrict the browser to the features that this page needs.
 
 use std::io::{self, Write};
 
@@ -39,7 +39,7 @@ impl Status {
         }
     }
 
-    /// Hint for the reader of the response.
+    /// Advice for the reader of the response.
     const fn hint(self) -> &'static str {
         match self {
             Status::Unauthorized => {
@@ -65,7 +65,7 @@ const ALWAYS: &str = "Cache-Control: no-store\r\n\
     X-Frame-Options: DENY\r\n\
     Connection: close\r\n";
 
-/// Writes a complete response.
+/// Writes a complete response with a body.
 pub(crate) fn whole(
     out: &mut impl Write,
     status: Status,
@@ -80,7 +80,7 @@ pub(crate) fn whole(
     out.write_all(&[head.as_bytes(), body].concat())
 }
 
-/// Writes a response with only its status.
+/// Writes a response that contains only the status and its hint.
 pub(crate) fn bare(out: &mut impl Write, status: Status) -> io::Result<()> {
     whole(
         out,
@@ -90,7 +90,7 @@ pub(crate) fn bare(out: &mut impl Write, status: Status) -> io::Result<()> {
     )
 }
 
-/// Writes the head of a response that ends with the connection.
+/// Writes the head of a response whose body ends when the connection closes.
 pub(crate) fn stream(out: &mut impl Write, kind: &str) -> io::Result<()> {
     let head = format!(
         "HTTP/1.1 {}\r\n{ALWAYS}Content-Type: {kind}\r\n\r\n",

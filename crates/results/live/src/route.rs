@@ -1,4 +1,4 @@
-//! Handlers of the paths.
+//! Handlers of the paths of the server.
 
 use std::io::{self, Write};
 use std::net::TcpStream;
@@ -15,27 +15,27 @@ use crate::request::{self, Request};
 use crate::response::{self, Status};
 use crate::strangers::Stranger;
 
-/// Maximum number of streams: two pages.
+/// Maximum number of streams, enough for two pages.
 const STREAMS_MAX: usize = 4;
-/// Interval of events.
+/// Interval at which the state is sent.
 const EVENTS: Duration = Duration::from_millis(100);
-/// Interval at which a stream without pictures checks whether the page has ended.
+/// Interval at which a stream without pictures checks for the end of the page.
 const LOOK: Duration = Duration::from_millis(250);
-/// Timeout for a browser to receive a picture or an event.
+/// Timeout for sending a picture or an event to a browser.
 const TAKING: Duration = Duration::from_secs(5);
-/// Boundary between two pictures.
+/// Multipart boundary between two pictures.
 const BOUNDARY: &str = "taceva-picture";
-/// Header line with the predictions of a picture, in the head of its part.
+/// Name of the header with the predictions, in the multipart head of a picture.
 const PREDICTION: &str = "X-Taceva-Prediction";
 
-/// State that all connections share.
+/// State shared by all connections.
 pub(crate) struct Site {
     pub(crate) access: Access,
     pub(crate) shared: Arc<Shared>,
     pub(crate) on_stop: Box<dyn Fn() + Send + Sync>,
 }
 
-/// Serves one connection: one request, one response. A reader of a stream has shown the token and no longer counts as a `stranger`.
+/// Serves one connection: one request, one response. A stream requires the token, so its connection no longer counts as a `stranger`.
 pub(crate) fn serve(mut stream: TcpStream, stranger: Stranger, site: &Site) -> io::Result<()> {
     let done = request::read(&mut stream).and_then(|request| {
         site.access.check_origin(&request)?;
@@ -136,7 +136,7 @@ fn answer(body: &[u8], shared: &Shared) -> Result<Status, Status> {
     }
 }
 
-/// A reader of a stream, counted until drop.
+/// Open stream, counted until drop.
 struct Viewer(Arc<Shared>);
 
 impl Viewer {
@@ -154,7 +154,7 @@ impl Drop for Viewer {
     }
 }
 
-/// Increments `count`, unless it is `most` already.
+/// Increments `count` and returns true, unless `count` is already `most`.
 fn entered(count: &AtomicUsize, most: usize) -> bool {
     let more = |count: usize| (count < most).then_some(count + 1);
     count
@@ -162,7 +162,7 @@ fn entered(count: &AtomicUsize, most: usize) -> bool {
         .is_ok()
 }
 
-/// Sends pictures as they come, and skips those for which the browser is too slow.
+/// Sends pictures as they are encoded. Skips pictures if the browser is too slow.
 fn frames(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     response::stream(
         stream,
@@ -194,7 +194,7 @@ fn frames(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     Ok(())
 }
 
-/// Sends the state ten times a second, and the places of presses whenever they change.
+/// Sends the state ten times a second, and the places of presses at each change.
 fn events(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     response::stream(stream, "text/event-stream")?;
     let mut version = None;
@@ -214,7 +214,7 @@ fn events(stream: &mut TcpStream, shared: &Shared) -> io::Result<()> {
     }
 }
 
-/// Writes all of `bytes` within the timeout, or gives up.
+/// Writes all of `bytes`, or fails after the timeout.
 fn put(stream: &mut TcpStream, bytes: &[u8]) -> io::Result<()> {
     let began = Instant::now();
     let mut left = bytes;

@@ -1,14 +1,14 @@
-//! Camera facts of a frame: saturation and sharpness.
+//! Saturation and sharpness of a frame.
 
 use taceva_core::Frame;
 
-/// Camera facts of one frame.
+/// Saturation and sharpness of one frame, for adjusting the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sight {
-    /// Share of values at full scale, 0 to 1, as `taceva check` counts it.
+    /// Share of pixel values at full scale, 0 to 1, with the definition of `taceva check`.
     pub(crate) saturated: f64,
-    /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour, in steps² of 8 bits. It is
-    /// greatest when the picture is in focus, and cannot be compared between scenes.
+    /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour, in steps² of 8 bits. Sharpness is greatest in focus.
+    /// Values of different scenes are not comparable.
     pub(crate) sharpness: f64,
 }
 

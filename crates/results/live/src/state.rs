@@ -19,12 +19,12 @@ pub struct Limits {
 }
 
 impl Limits {
-    /// No known limits.
+    /// Creates limits without any maximum.
     pub fn none() -> Limits {
         Limits::default()
     }
 
-    /// The same limits with maximum forces, N.
+    /// Sets the maximum normal force and shear force, N.
     #[must_use]
     pub fn with_forces(self, normal_max_n: f64, shear_max_n: f64) -> Limits {
         Limits {
@@ -34,7 +34,7 @@ impl Limits {
         }
     }
 
-    /// The same limits with the maximum depth, mm.
+    /// Sets the maximum depth, mm.
     #[must_use]
     pub fn with_depth(self, depth_max_mm: f64) -> Limits {
         Limits {
@@ -44,31 +44,31 @@ impl Limits {
     }
 }
 
-/// A place to be pressed on the gel, in the frame of the sensor, with the state of its press.
+/// Planned place of a press on the gel, in the frame of the sensor, with the state of the press.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Place {
-    /// Along x, mm.
+    /// Position along x, mm.
     pub x_mm: f64,
-    /// Along y, mm.
+    /// Position along y, mm.
     pub y_mm: f64,
-    /// The state of the press.
+    /// State of the press.
     pub state: PlaceState,
 }
 
-/// Counts of frames given to a model.
+/// Counts of frames for a model: received, dropped, and outside the training data.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct PredictedFrames {
-    /// Frames received.
+    /// Number of received frames.
     pub seen: u64,
-    /// Frames that were dropped because the model was busy.
+    /// Number of frames that were dropped because the model was busy.
     pub dropped: u64,
-    /// Predicted frames outside the training data; `None` if the model does not state it.
+    /// Number of predicted frames outside the training data; `None` if the model computes no distance.
     pub outside: Option<u64>,
 }
 
 impl PredictedFrames {
-    /// Counts of `seen` frames, of which `dropped` were dropped and `outside` are outside the training data.
+    /// Creates the counts of `seen` received, `dropped` dropped, and `outside` frames outside the training data.
     pub fn new(seen: u64, dropped: u64, outside: Option<u64>) -> PredictedFrames {
         PredictedFrames {
             seen,
@@ -78,24 +78,24 @@ impl PredictedFrames {
     }
 }
 
-/// The state of a press.
+/// State of a press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum PlaceState {
-    /// Not yet made.
+    /// Not yet started.
     Open,
     /// In progress.
     Now,
     /// Recorded.
     Done,
-    /// Recorded, but ended early by a limit or a miss.
+    /// Recorded, but ended early by a limit or because the tip missed the gel.
     Short,
     /// Not part of this run.
     Skipped,
 }
 
-/// State that is sent ten times a second.
+/// State of the page that the server sends ten times a second.
 #[derive(Clone, Debug, Default, Serialize)]
 pub(crate) struct State {
     pub(crate) title: String,
@@ -106,11 +106,11 @@ pub(crate) struct State {
     pub(crate) normal_n: Option<f64>,
     #[serde(rename = "Fxy_N")]
     pub(crate) shear_n: Option<f64>,
-    /// Depth of the tip in the gel, mm; negative above it.
+    /// Depth of the tip in the gel, mm; negative above the gel, `None` before the first pose.
     #[serde(rename = "Pz_mm")]
     pub(crate) depth_mm: Option<f64>,
     pub(crate) limits: Limits,
-    /// The model behind the predictions over pictures, in words.
+    /// Name of the model behind the predictions over pictures.
     pub(crate) predicted_by: Option<String>,
     pub(crate) predicted: Option<PredictedFrames>,
     /// Frames given to the page, and their rate, 1/s.
@@ -118,32 +118,32 @@ pub(crate) struct State {
     pub(crate) rate_hz: f64,
     pub(crate) dropped: u64,
     pub(crate) damaged: u64,
-    /// True if all dropped frames are counted.
+    /// True if the count of dropped frames is complete.
     pub(crate) numbered: bool,
     /// Share of values at full scale in the newest frame.
     pub(crate) saturated: Option<f64>,
-    /// See [`Sight`](crate::sight::Sight).
+    /// Sharpness of the newest frame; see [`Sight`](crate::sight::Sight).
     pub(crate) sharpness: Option<f64>,
-    /// Recorded presses, and all presses.
+    /// Number of recorded presses, and number of all presses.
     pub(crate) presses: [usize; 2],
     pub(crate) question: Option<Asked>,
-    /// True once stop was pressed.
+    /// True after a user has pressed the stop button.
     pub(crate) is_stopping: bool,
-    /// Result of the run, once it has ended.
+    /// Result of the run; `None` until the end of the run.
     pub(crate) ended: Option<String>,
 }
 
-/// An open question.
+/// Open question on the page.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Asked {
-    /// Number of the question; answers to other numbers are ignored.
+    /// Number of the question. Answers with other numbers are ignored.
     pub(crate) number: u64,
     pub(crate) text: String,
-    /// Label of the button that continues.
+    /// Text on the button that continues.
     pub(crate) done: String,
     /// True if the question can be skipped.
     pub(crate) can_skip: bool,
-    /// A picture of the specimen to mount, as SVG.
+    /// Drawing of the specimen to mount, as SVG; `None` without a specimen.
     pub(crate) picture: Option<String>,
     #[serde(skip)]
     pub(crate) answer: Option<Answer>,

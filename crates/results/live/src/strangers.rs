@@ -1,4 +1,4 @@
-//! Connections without the token, limited in number: a new one closes the oldest.
+//! Limits the number of connections without the token. A connection beyond the limit closes the oldest.
 
 use std::collections::VecDeque;
 use std::io;
@@ -21,7 +21,7 @@ struct Inside {
 }
 
 impl Strangers {
-    /// Counts one more connection, and closes the oldest if there are too many.
+    /// Adds a connection, and closes the oldest connection if there are too many.
     ///
     /// # Errors
     /// [`io::Error`] if the process has no file descriptor left for the connection.
@@ -49,7 +49,7 @@ impl Strangers {
     }
 }
 
-/// One of the connections without the token, counted until drop.
+/// Connection without the token, counted until drop.
 pub(crate) struct Stranger {
     strangers: Arc<Strangers>,
     number: u64,

@@ -1,15 +1,15 @@
-//! The secret token of requests.
+//! Secret token that requests must contain.
 
 use std::fmt;
 
 use crate::error::PageError;
 
-/// 128 random bits in hexadecimal.
+/// Token of 128 random bits, in hexadecimal.
 #[derive(Clone)]
 pub(crate) struct Token(String);
 
 impl Token {
-    /// A new token from the random numbers of the system.
+    /// Creates a token from random numbers of the operating system.
     pub(crate) fn random() -> Result<Token, PageError> {
         let mut bytes = [0; 16];
         getrandom::fill(&mut bytes).map_err(|error| PageError::Random(error.to_string()))?;
@@ -22,7 +22,7 @@ impl Token {
         &self.0
     }
 
-    /// True if `given` equals the token. Compares in constant time, so that timing reveals nothing.
+    /// True if `given` equals the token. Compares in constant time, so that the response time does not reveal the token.
     pub(crate) fn is(&self, given: &[u8]) -> bool {
         let own = self.0.as_bytes();
         let pairs = own.iter().zip(given.iter().chain(std::iter::repeat(&0)));

@@ -1,13 +1,13 @@
-//! Results of several seeds beside published numbers of the same sensors: which numbers are at least as good, and whether the order of the sensors
-//! agrees.
+//! Results of several seeds beside published numbers of the same sensors: marks numbers that are at least as good, and computes the agreement of the order of
+//! the sensors.
 //!
 //! ```text
 //! cargo run --release -p taceva-report --example beside_published -- runs/*/results.json
 //! ```
 //!
-//! The seed of a result comes from its provenance; several files may share a seed. A cell has the mean over seeds, the least and the greatest in
-//! brackets, and the published number. τ is Kendall's rank correlation of the sensors in a row with the published order: the mean over seeds, and the
-//! range in brackets. A pair of sensors with overlapping 95 % intervals counts half.
+//! The seed of a result comes from its provenance; several files may share a seed. A cell has the mean over seeds, the range over seeds in brackets, and the
+//! published number. τ is Kendall's rank correlation of the sensors in a row with the published order: the mean over seeds, and the range in brackets. A pair
+//! of sensors with overlapping 95 % intervals counts half.
 
 use std::collections::BTreeMap;
 use std::error::Error;
@@ -19,11 +19,11 @@ use taceva_report::{FormattedValue, Study, Table, catalogue};
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
 const CHANNELS: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];
 
-/// Approximate interval widths of an error and of a rank correlation. Numbers are rounded to a twentieth of them.
+/// Approximate width of the interval of an error, and of a rank correlation. Numbers are rounded to a twentieth of the width.
 const ERROR: f64 = 0.01;
 const TAU: f64 = 0.4;
 
-/// Published number of a sensor, and the number with one seed.
+/// Published number of a sensor, and our number with one seed.
 #[derive(Clone, Copy, Debug)]
 struct Number {
     published: f64,
@@ -46,7 +46,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// One table for each metric, from results in `texts`, each with its file name.
+/// Returns one table for each metric. `texts` contains the name and the content of each result file.
 fn tables(texts: &[(String, String)]) -> Result<String, String> {
     let mut seeds = Seeds::new();
     for (file, text) in texts {
@@ -138,7 +138,7 @@ fn number(name: &str, study: &Study, metric: &str, channel: &str) -> Option<Numb
     })
 }
 
-/// Cell with the number of a sensor over all seeds. True if the mean is at least as good as the published number.
+/// Cell with the number of a sensor over all seeds, and true if the mean is at least as good as the published number.
 fn cell(numbers: &[Number], better: Better) -> (String, bool) {
     let found: Vec<f64> = numbers.iter().map(|number| number.found).collect();
     let (mean, published) = (mean(&found), numbers[0].published);
@@ -156,7 +156,7 @@ fn cell(numbers: &[Number], better: Better) -> (String, bool) {
     (text, is_good)
 }
 
-/// Mean, and least and greatest if there are several values, rounded to a twentieth of `width`.
+/// Mean of `values`, and their range if there are several, rounded to a twentieth of `width`.
 fn spread(values: &[f64], width: f64) -> String {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let greatest = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -252,7 +252,7 @@ mod tests {
         result_of("ViTacTip", seed, factors)
     }
 
-    /// As [`result`], with the name `last` for the last sensor.
+    /// Same as [`result`], with the name `last` for the last sensor.
     fn result_of(last: &str, seed: u64, factors: [f64; 4]) -> (String, String) {
         let names = ["GelSight", "GelSightWM", "MagicTac", "ViTacTip"];
         let studies = names.iter().zip(factors).map(|(name, factor)| {

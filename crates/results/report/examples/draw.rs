@@ -1,5 +1,5 @@
-//! Draws every figure of a result: `cargo run -p taceva-report --example draw -- RESULT.json FOLDER`, with samples from `RESULT.samples.csv`. For a
-//! benchmark of models, draws run time against error.
+//! Draws every figure of a result: `cargo run -p taceva-report --example draw -- RESULT.json FOLDER`, with samples from `RESULT.samples.csv`. Draws run time
+//! against error instead if the file is a benchmark of models.
 
 use std::error::Error;
 use std::fs;

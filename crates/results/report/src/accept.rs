@@ -1,4 +1,4 @@
-//! Acceptance tests: checks results against limits.
+//! Acceptance tests: check results against limits.
 
 mod check;
 mod interval;

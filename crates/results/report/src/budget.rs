@@ -20,7 +20,7 @@ use crate::table::{Align, Cell, Column, Table, Words};
 pub struct BudgetReport {
     /// Budgets, one for each value of the measurand.
     pub budgets: Vec<Budget>,
-    /// Sensor whose result gave the measured figures.
+    /// Sensor of the result that contains the measured figures; `None` without a result.
     pub sensor: Option<String>,
     /// Origins of the samples of these figures, such as `recorded` and `simulated`.
     pub origins: Vec<String>,
@@ -95,7 +95,7 @@ impl BudgetReport {
         table
     }
 
-    /// Notes below the table: results, Monte Carlo draws, warnings, and uncovered effects. Each note occurs once.
+    /// Notes below the table: results, Monte Carlo draws, warnings, and uncovered effects. Omits repeated notes.
     fn notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = Vec::new();
         let mut add = |words: String| {

@@ -53,7 +53,7 @@ pub fn find(name: &str) -> Option<Sensor> {
     named(name).ok()
 }
 
-/// Hint for an unknown `name`.
+/// Hint for a `name` that the catalogue lacks.
 pub fn hint(name: &str) -> String {
     match nearest(name) {
         Some(nearest) => format!("did you mean `{nearest}`? `taceva catalogue list` shows all"),
@@ -67,7 +67,7 @@ pub fn hint(name: &str) -> String {
     }
 }
 
-/// Number of letters that names alike begin with.
+/// Number of equal first letters of similar names.
 const ALIKE: usize = 3;
 
 /// Names of entries that begin with the first letters of `name`.

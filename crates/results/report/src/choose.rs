@@ -20,7 +20,7 @@ use taceva_metrics::Standing;
 use crate::catalogue::{Kind, Sensor};
 use crate::names::listed;
 
-/// Shortlist, with the steps that led to it.
+/// Result of a choice: shortlist, other sensors, and the numbers used.
 #[derive(Clone, Debug)]
 pub struct Choice {
     /// Sensors that meet the needs, best first.
@@ -33,21 +33,21 @@ pub struct Choice {
     pub barred: Vec<Dropped>,
     /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
-    /// Sensors of a catalogue that meet the hard needs but have no rank, because others rest on other samples or definitions.
+    /// Sensors of a catalogue that meet the hard needs but have no rank, because their samples or definitions differ from those of other sensors.
     pub apart: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
-    /// Sensors without any number that the needs use, but with one by another definition. The reason names it.
+    /// Sensors without any number that the needs use, but with a number by another definition, named in the reason.
     pub other_definitions: Vec<Dropped>,
     /// Sensors without any number that the needs use, by any definition.
     pub unknown: Vec<String>,
-    /// Significant differences between ranked sensors; `None` if nothing was tested, as with published numbers.
+    /// Significant differences between ranked sensors; `None` if nothing was tested, for example with published numbers.
     pub evidence: Option<Vec<Evidence>>,
-    /// Remark on ranking errors, if the label spreads of the sensors differ.
+    /// Remark that ranking errors are not comparable, if the label spreads of the sensors differ.
     pub spread: Option<String>,
     /// True if samples behind the numbers are simulated.
     pub simulated: bool,
-    /// Sensors whose greatest depth or force a need uses. Both come from the catalogue, not from results.
+    /// Sensors whose greatest depth or force a need uses. Both numbers come from the catalogue, not from results.
     pub limits_of_catalogue: Vec<String>,
 }
 
@@ -56,18 +56,18 @@ pub struct Choice {
 pub struct Candidate {
     /// Name of the sensor.
     pub name: String,
-    /// Mean, over soft needs, of the ratio to the best sensor, 0 to 1; 1 without soft needs.
+    /// Score for the rank, 0 to 1: mean over soft needs of the ratio to the best sensor; 1 without soft needs.
     pub share: f64,
-    /// Numbers used.
+    /// Numbers of the sensor that the needs use.
     pub steps: Vec<Step>,
 }
 
 /// One number of a sensor for one need.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Need as given.
+    /// Text of the need.
     pub need: String,
-    /// Property: `MAE Fxy`.
+    /// Property that the need uses: `MAE Fxy`.
     pub property: Property,
     /// Number that the need uses; `None` if unknown.
     pub value: Option<f64>,
@@ -77,9 +77,9 @@ pub struct Step {
     pub standing: Standing,
     /// Ratio to the best of the remaining sensors; `None` for hard needs and unknown numbers.
     pub share: Option<f64>,
-    /// Measured part or sold goods, for sizes and prices.
+    /// Measured part for sizes, goods for prices; `None` for other properties.
     pub part: Option<String>,
-    /// True for a hard need, which does not rank.
+    /// True for a hard need, which does not affect the rank.
     pub is_bound: bool,
     /// True if the number meets a hard need but its interval crosses the bound.
     pub is_unsure: bool,
@@ -99,16 +99,15 @@ pub struct Open {
 pub struct Dropped {
     /// Name of the sensor.
     pub name: String,
-    /// Unmet need with the deciding number, or the reason why the number is excluded from verdicts.
+    /// Hard need that the number does not meet, or the reason why verdicts exclude the number.
     pub reason: String,
 }
 
 /// Chooses among `sensors` for `needs`.
 ///
-/// A hard need excludes every sensor whose number does not meet it, and sets apart sensors whose number is unknown. A score that is excluded from
-/// verdicts keeps its sensor out of the ranking. Studies of sensors are skipped. A soft need ranks the remaining sensors by the mean share of the
-/// best over its numbers. A sensor without one of these numbers is not ranked. The rank is by the mean over soft needs. Equal sensors share a place,
-/// ordered by name.
+/// A hard need excludes every sensor whose number does not meet it, and sets apart sensors whose number is unknown. A sensor with a score that is excluded from
+/// verdicts has no rank. Studies of sensors are skipped. A soft need scores each remaining sensor by its mean ratio to the best sensor, over the numbers of the
+/// need. The rank follows the mean over soft needs. A sensor that lacks a number has no rank. Sensors with equal scores share a rank and are ordered by name.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose};
@@ -207,10 +206,10 @@ fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     barred.next()
 }
 
-/// Requirement of a bound on [`Property::Opaque`], as text.
+/// Text of a bound on [`Property::Opaque`].
 const CLOSED: &str = "a gel that keeps light out";
 
-/// First hard need that `sensor` does not meet.
+/// First hard need that `sensor` does not meet, as text with the number; `None` if `sensor` meets all known needs.
 fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let bounds = needs
         .iter()
@@ -239,7 +238,7 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     failed.next()
 }
 
-/// First hard need for which the number of `sensor` is unknown.
+/// First hard need for which the number of `sensor` is unknown, as text; `None` if all are known.
 fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let bounds = needs
         .iter()
@@ -275,7 +274,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     unproven.next()
 }
 
-/// Properties of the soft needs without a known number of `sensor`.
+/// Properties of soft needs for which the number of `sensor` is unknown, as text; `None` if all are known.
 fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let ranks = needs.iter().flat_map(|need| &need.ranks);
     let unknown = ranks.filter(|property| property.of(sensor).is_none());

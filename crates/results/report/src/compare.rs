@@ -1,4 +1,4 @@
-//! Tests whether sensors or models differ: every pair and score, with intervals, as data and as text.
+//! Tests for differences of every score between every pair of sensors or models. Results are data and text.
 
 mod comparability;
 mod estimate;
@@ -43,7 +43,7 @@ pub struct CompareRequest {
     pub seed: u64,
 }
 
-/// Answers for each pair of studies and each common score, metric by metric.
+/// Results of the tests of each common score of each pair of studies, ordered by metric.
 #[derive(Clone, Debug)]
 pub struct Comparison {
     /// Names of the studies, in their order.
@@ -52,9 +52,9 @@ pub struct Comparison {
     pub answers: Vec<Answer>,
     /// Notes for the reader.
     pub notes: Vec<String>,
-    /// Remarks on the verdicts, by score.
+    /// Remarks on the verdicts, one entry for each score.
     asides: Vec<Remarks>,
-    /// Metrics that the request names.
+    /// Metrics in the request; empty for all.
     asked: Vec<String>,
 }
 
@@ -65,19 +65,19 @@ pub struct Answer {
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
-    /// Better direction of the score.
+    /// Direction in which the score is better.
     pub direction: Better,
     /// Variant that was compared; `None` for the value itself.
     pub decided_by: Option<String>,
     /// Unit of both scores.
     pub unit: Unit,
-    /// Both values, if they are numbers.
+    /// Both values; `None` for a value that is not a number.
     pub scores: Sides<Option<f64>>,
-    /// Positions of both studies.
+    /// Positions of both studies in the list of studies.
     pub sides: Sides<usize>,
-    /// Verdict by Holm's procedure over all pairs and channels of the metric; a demonstration names no better side.
+    /// Verdict by Holm's procedure over all pairs and channels of the metric. A demonstration has no better side.
     pub verdict: Verdict,
-    /// Difference behind the verdict, with both p values and the interval of that decision.
+    /// Difference and interval of the verdict, with the raw and the adjusted p value.
     pub difference: Option<Difference>,
     /// Reason why there is no verdict; `None` if there is one.
     pub reason: Option<String>,
@@ -126,7 +126,7 @@ impl Answer {
         }
     }
 
-    /// Reason, independent of the values, why no difference can be shown.
+    /// Reason why no values could show a difference, such as too few groups; `None` for other verdicts.
     fn unreachable(&self) -> Option<&str> {
         let is_open = matches!(self.verdict, Verdict::NoDifferenceShown { .. });
         self.out_of_reach.as_deref().filter(|_| is_open)
@@ -163,7 +163,7 @@ impl Answer {
     }
 }
 
-/// Pair before adjustment of its p value.
+/// Pair of scores with its raw p value.
 struct Pair<'a> {
     scores: Sides<&'a Score>,
     sides: Sides<usize>,
@@ -176,14 +176,14 @@ struct Pair<'a> {
 
 /// Compares every pair of `studies`.
 ///
-/// The mean absolute error is compared sample by sample if both studies predict the same samples (sign-flip test, by contact point). Other scores are
-/// compared by their intervals, on their own scales. The pairs and channels of one metric form one family of Holm's procedure, which gives the
-/// verdict, p value and interval of an answer.
+/// The mean absolute error is compared sample by sample if both studies predict the same samples (sign-flip test, by contact point). Other scores are compared
+/// by their intervals, on the scale of each score. The pairs and channels of one metric form one family of Holm's procedure, which gives the verdict, p value
+/// and interval of an answer.
 ///
 /// If a model was trained several times, the variance of the score between trainings is added to the variance between clusters. Predictions of the
 /// same samples are then compared by Student's t, because signs of clusters do not reflect other trainings.
 ///
-/// If a metric names a variant for verdicts, such as `excess` of `r_spatial`, the answers compare and contain that variant.
+/// If verdicts on a metric use a variant, such as `excess` of `r_spatial`, the answers contain that variant.
 pub fn compare(studies: &[Study], request: &CompareRequest) -> Comparison {
     let names = crate::names::names(studies);
     let deciding: Vec<Study> = studies.iter().map(Study::deciding).collect();

@@ -1,4 +1,4 @@
-//! Bar chart of the signed contributions of the sources of a budget, with U as a line.
+//! Bar chart of a budget: signed contribution of each source as a bar, and U as a line.
 
 use taceva_metrology::budget::{Budget, Source};
 

@@ -18,14 +18,14 @@ pub const CURVE_SCHEMA: &str = "taceva.curve/1";
 pub struct CurveAxis {
     /// Name of the column.
     pub column: String,
-    /// Unit of the column; empty if unknown.
+    /// Unit of the column; empty if the table states no unit.
     pub unit: String,
 }
 
 /// Requested figures of a curve.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CurveRequest {
-    /// Coverage probability of bands and inverse predictions.
+    /// Coverage probability of bands and inverse predictions, 0 to 1.
     pub p: f64,
     /// Reference values at which bands are computed.
     pub at: Vec<f64>,
@@ -37,15 +37,15 @@ pub struct CurveRequest {
     pub inverted: Vec<f64>,
     /// True to compute detection limits.
     pub detects: bool,
-    /// Readings for which relative errors like those of ISO 7500-1 are computed.
+    /// Readings for relative errors in the manner of ISO 7500-1; `None` if not requested.
     pub indications: Option<Vec<Indication>>,
     /// Number of contact points of `indications`; `None` for independent rows.
     pub indicated_points: Option<usize>,
-    /// Series for which relative errors like those of ISO 376 are computed.
+    /// Series for relative errors in the manner of ISO 376; `None` if not requested.
     pub proving: Option<ProvingSeries>,
 }
 
-/// Fitted curve with its data source.
+/// Fitted calibration curve, with the origin of its data.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CalibrationCurve {
     /// Column of the reference values.
@@ -66,16 +66,16 @@ pub struct CalibrationCurve {
     pub digest: String,
 }
 
-/// Figure of a curve.
+/// One computed figure of a curve, such as a prediction.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct CurveFigure {
     /// Name of the figure, such as `prediction`.
     pub quantity: String,
-    /// Reference value, or the reading of an inverse prediction.
+    /// Reference value, or the reading of an inverse prediction; `None` for figures of the whole curve.
     pub at: Option<f64>,
     /// Value of the figure; `None` if undefined.
     pub value: Option<f64>,
-    /// Ends of the band or interval.
+    /// Ends of the band or interval; `None` if undefined.
     pub ends: Option<[f64; 2]>,
     /// Standard uncertainty.
     pub u: Option<f64>,
@@ -83,7 +83,7 @@ pub struct CurveFigure {
     pub freedom: Option<f64>,
     /// Unit of the value.
     pub unit: String,
-    /// Origin of the covariance, or the reason why the value is missing.
+    /// Origin of the covariance, or the reason why the value is undefined.
     pub remark: String,
 }
 

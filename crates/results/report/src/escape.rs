@@ -15,8 +15,8 @@ pub(crate) fn obeyed_replaced(text: &str) -> String {
     text.replace(is_replaced, "\u{fffd}")
 }
 
-/// LaTeX command for a letter that the fonts of pdflatex lack. LuaLaTeX or XeLaTeX print the letter if their font has it, else its code point. A
-/// table that uses the command defines it.
+/// LaTeX command for a letter that the fonts of pdflatex lack. LuaLaTeX and XeLaTeX print the letter, or its code point if the font lacks the letter. Each
+/// table that uses the command also defines it.
 pub(crate) const LETTER: &str = "\\tacevaletter";
 /// Definition of [`LETTER`].
 pub(crate) const LETTER_DEFINITION: &str = "% letters beyond Latin: LuaLaTeX or XeLaTeX with a font that has them; elsewhere their code points\n\
@@ -68,7 +68,7 @@ pub fn latex(text: &str) -> String {
     escaped
 }
 
-/// True for letters in the default fonts of every engine: ASCII, and accented letters of Latin-1 and Latin Extended-A.
+/// True for letters that the default fonts of every engine contain: ASCII, and accented letters of Latin-1 and Latin Extended-A.
 pub(crate) fn is_set_everywhere(letter: char) -> bool {
     const ABSENT: &str = "«»ÐÞðþĄąĐđĘęĦħĮįĸĿŀŉŊŋŦŧŲųſ";
     let is_latin = matches!(letter, ' '..='~' | '\u{a1}'..='\u{17f}') || "‘’“”—•".contains(letter);

@@ -33,7 +33,7 @@ pub struct Figure {
     pub title: String,
     /// Caption: drawn quantity, number of samples, omissions.
     pub caption: String,
-    /// Text description of the content, for screen readers.
+    /// Text that describes the drawing to screen readers.
     pub description: String,
     pub(crate) canvas: Canvas,
 }
@@ -57,12 +57,12 @@ impl Figure {
         pdf::write(self)
     }
 
-    /// Letters of its labels without a glyph in the built-in fonts, ordered by code point.
+    /// Letters in the labels of the figure without a glyph in the built-in fonts, ordered by code point.
     pub fn letters_without_glyph(&self) -> BTreeSet<char> {
         pdf::letters_without_glyph(self)
     }
 
-    /// True if it shows a value or a remark, not only axes and names.
+    /// True if the figure shows a value or a remark. Axes and names do not count.
     pub(crate) fn has_values(&self) -> bool {
         let is_coloured = |ink: &Ink| matches!(ink, Ink::Series(_) | Ink::Rgb(_));
         let mut marks = self.canvas.marks.iter();

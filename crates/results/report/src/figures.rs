@@ -1,4 +1,4 @@
-//! Figures of results. Each depends only on the studies, and is omitted without data.
+//! Figures of results. Each figure depends only on the studies, and is omitted without data.
 
 mod crosstalk;
 mod gaps;
@@ -35,7 +35,7 @@ pub fn figures(studies: &[Study]) -> Vec<Figure> {
     figures_for(studies, &FigureStyle::default())
 }
 
-/// The same figures in a style for print. Omits figures without any value; [`undrawn`] states the reasons.
+/// Same as [`figures`], in a style for print. Omits figures without any value; [`undrawn`] states the reasons.
 pub fn figures_for(studies: &[Study], style: &FigureStyle) -> Vec<Figure> {
     let room = style.room();
     let all = [
@@ -61,5 +61,5 @@ pub fn figures_for(studies: &[Study], style: &FigureStyle) -> Vec<Figure> {
     drawn.map(|figure| style.apply(figure)).collect()
 }
 
-/// The six channels, in report order.
+/// Names of the six channels, in report order.
 pub(crate) const SIX: [&str; 6] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz"];

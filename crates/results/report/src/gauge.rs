@@ -24,7 +24,7 @@ pub struct GaugeColumns {
 pub struct ChannelGauge {
     /// Name of the channel.
     pub channel: String,
-    /// Kind of the readings: `error` (prediction minus truth), or `prediction`.
+    /// Definition of the readings: `error` (prediction minus truth), or `prediction`.
     pub response: &'static str,
     /// Number of skipped rows, which lack a reading or a label.
     pub rows_left_out: usize,
@@ -225,7 +225,7 @@ impl GaugeStudies {
 }
 
 impl ChannelGauge {
-    /// Size of the study, number of distinct categories, and AIAG class.
+    /// Sentences with the size of the study, the number of distinct categories, and the AIAG class.
     fn summary(&self) -> Vec<String> {
         let report = &self.report;
         let parts = match report.design {
@@ -266,7 +266,7 @@ impl ChannelGauge {
         [size, ndc].into_iter().chain(band).collect()
     }
 
-    /// Remarks on the study, without a final full stop.
+    /// Remarks on the study, without full stops at the end.
     fn remarks(&self) -> Vec<String> {
         let flags = self.report.flags.iter().map(ToString::to_string);
         let left_out = (self.rows_left_out > 0).then(|| {

@@ -1,4 +1,4 @@
-//! Single-file pages that open from disk without network access and run only their own style and script.
+//! HTML pages of one file, which browsers open from disk. A page makes no network requests and runs only its own style and script.
 
 mod comparison;
 mod data_address;
@@ -41,7 +41,7 @@ use crate::training;
 /// Content of a report.
 #[derive(Clone, Copy, Debug)]
 pub struct ReportPage<'a> {
-    /// Title of the page: name of the scene or the recording.
+    /// Title of the page: name of the scene or of the recording.
     pub title: &'a str,
     /// Results of the report.
     pub studies: &'a [Study],
@@ -108,7 +108,7 @@ pub fn report(report: &ReportPage<'_>) -> String {
     document.finish()
 }
 
-/// Details: meanings of metrics, skipped scores, and provenance.
+/// Section with meanings of metrics, skipped scores, and provenance.
 fn details(studies: &[Study], table: &ScoreTable) -> Markup {
     let named = table.rows.iter().map(|row| row.metric.as_str());
     let (count, left_out) = left_out::section(studies);

@@ -18,7 +18,7 @@ pub(crate) struct Light {
     pub(crate) is_low: bool,
 }
 
-/// One scene relative to the reference light, for predictions before clipping to the bounds of the model.
+/// One scene relative to the reference light. Errors are those of predictions before clipping to the bounds of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     pub(crate) name: String,
@@ -54,7 +54,7 @@ impl Light {
         }
     }
 
-    /// `errors become 66 to 325 times as large in the lit scenes`
+    /// Effect of light as text: `errors become 66 to 325 times as large in the lit scenes`.
     fn errors(&self) -> Option<String> {
         let [low, high] = crate::figure::extent(self.scenes.iter().filter_map(|of| of.error))?;
         let scenes = by_count(self.scenes.len(), "scene", "scenes");
@@ -64,7 +64,7 @@ impl Light {
         ))
     }
 
-    /// `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`, if the score has that flag.
+    /// Remark on nearly constant light: `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`. `None` without the flag.
     pub(crate) fn low_stimulus(&self) -> Option<String> {
         if !self.is_low {
             return None;
@@ -84,8 +84,7 @@ impl Light {
     }
 }
 
-/// Effect of light on each study, whatever its standing: `ViTacTip: errors become 66 to 325 times as large in the lit scenes`. Empty for other
-/// metrics.
+/// Effect of light on each study, regardless of standing: `ViTacTip: errors become 66 to 325 times as large in the lit scenes`. Empty for other metrics.
 pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: &str) -> String {
     let of_one = |(study, name): (&Study, &String)| {
         let light = Light::of(study.score(metric, channel)?);
@@ -100,7 +99,7 @@ pub(crate) fn words(studies: &[Study], names: &[String], metric: &str, channel: 
     }
 }
 
-/// `66 to 325`, or a single number if both round to the same three digits.
+/// Range as text: `66 to 325`, or a single number if both round to the same three digits.
 fn range(low: f64, high: f64) -> String {
     let [low, high] = [low, high].map(numeral);
     match low == high {

@@ -1,14 +1,14 @@
-//! Formats numbers: as many digits as the interval supports, no negative zero, no rounding errors.
+//! Formats numbers with the digits that the interval supports, without negative zeros and rounding errors.
 
 use taceva_core::Unit;
 
 use taceva_results::{Interval, Score, Value};
 
-/// Limit below which a number is a rounding error of zero, in any unit.
+/// Numbers below this limit are rounding errors of zero, in any unit.
 const ROUNDING: f64 = 1e-12;
-/// Number of decimals beyond which small numbers have a power of ten.
+/// Number of decimals above which a small number is written with a power of ten.
 const MOST: usize = 6;
-/// Least number that never has a negative power of ten.
+/// Least number that is always written without a power of ten.
 const SMALL: f64 = 1e-4;
 /// Greatest number of additional decimals for an interval end that would otherwise print as 0.
 const BEYOND: usize = 3;
@@ -16,9 +16,9 @@ const BEYOND: usize = 3;
 /// Value and interval, formatted to the digits that the interval supports.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormattedValue {
-    /// Value; empty if there is none.
+    /// Formatted value; empty if there is none.
     pub value: String,
-    /// Both ends of the interval, if there is one.
+    /// Both formatted ends of the interval; `None` without an interval.
     pub interval: Option<[String; 2]>,
     /// Reason why the value or the interval is absent.
     pub reason: Option<String>,
@@ -45,8 +45,8 @@ impl FormattedValue {
 
     /// Formats a number to a twentieth of the width between `ends`, or to four digits if they are absent or equal.
     ///
-    /// Numbers below 10⁻¹² are rounding errors and print as 0, and zeros have no minus sign. An end other than 0 never prints as 0: the
-    /// interval gets up to three more decimals, then a power of ten.
+    /// Numbers below 10⁻¹² are rounding errors and print as 0, and zeros have no minus sign. An end other than 0 never prints as 0: such an interval has up to
+    /// three more decimals, or a power of ten.
     ///
     /// ```
     /// use taceva_report::FormattedValue;
@@ -85,7 +85,7 @@ impl FormattedValue {
         }
     }
 
-    /// Formats a number like [`FormattedValue::number`], with no more decimals than its first `digits` digits need.
+    /// Formats a number like [`FormattedValue::number`], with at most the decimals that its first `digits` digits need.
     pub(crate) fn short(number: f64, ends: Option<[f64; 2]>, digits: usize) -> FormattedValue {
         let full = FormattedValue::number(number, ends);
         let all = ends.into_iter().flatten().chain([number]);
@@ -153,7 +153,7 @@ pub(crate) fn fixed(number: f64, decimals: usize) -> String {
     unsigned_zero(format!("{number:.decimals$}"))
 }
 
-/// Number with three digits for figures, a typographic minus and no trailing zeros. Rounding errors become 0.
+/// Number with three digits, a typographic minus and no trailing zeros, for figures. Rounding errors become 0.
 pub(crate) fn numeral(number: f64) -> String {
     match number.abs() < ROUNDING {
         true => "0".to_owned(),
@@ -187,7 +187,7 @@ pub(crate) fn significant(number: f64) -> String {
     }
 }
 
-/// Probability with three digits, rounded up, at least 0.0001.
+/// Upper bound of a probability: three digits, rounded up, at least 0.0001.
 pub(crate) fn at_most(probability: f64) -> String {
     let decimals = (0..8).find(|&decimals| probability * 10_f64.powi(decimals) >= 100.0);
     let steps = 10_f64.powi(decimals.unwrap_or(8));
@@ -205,7 +205,7 @@ pub(crate) fn minus(text: &str) -> String {
     text.replace('-', "−")
 }
 
-/// Number with a power of ten, accurate to `decimals` decimals.
+/// Number with a power of ten, rounded to `decimals` decimals.
 fn powered(number: f64, decimals: usize) -> String {
     let zeros = (0..).find(|&zeros| number.abs() * 10_f64.powi(zeros) >= 1.0 || zeros > 12);
     let zeros = zeros.map_or(0, i32_to_usize);

@@ -1,4 +1,4 @@
-//! Results in the layout of the TacEva study: its tables, with the printed numbers beside ours.
+//! Results in the layout of the TacEva study: its tables, with published numbers beside ours.
 
 mod beside;
 mod contradictions;
@@ -23,17 +23,17 @@ use beside::SENSORS;
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct PaperForm {
-    /// Tables with any value, each with its name: `table-2`.
+    /// Tables with at least one value, each with its name: `table-2`.
     pub tables: Vec<(String, Table)>,
-    /// Tables without any value, each with its reason.
+    /// Tables without any value, each with the reason.
     pub absent: Vec<(String, String)>,
-    /// Numbers that the study prints in figures, beside ours, each with the name of its figure: `figure-3c`.
+    /// Published numbers of figures, beside ours, each with the name of the figure: `figure-3c`.
     pub figures: Vec<(String, Table)>,
-    /// Contradictions in the study.
+    /// Contradictions in the study, one sentence each.
     pub contradictions: Vec<String>,
 }
 
-/// Tables I to V of the study and the numbers of its figures, for the sensors in `studies`: its own sensors first, in its order.
+/// Tables I to V of the study and the numbers of its figures, for `studies`. Sensors of the study come first, in the order of the study.
 pub fn paper_form(studies: &[Study]) -> PaperForm {
     let ordered = in_order(studies);
     let scores = ScoreTable::of(&ordered);
@@ -65,7 +65,7 @@ fn in_order(studies: &[Study]) -> Vec<Study> {
 }
 
 impl PaperForm {
-    /// All tables, including those of figures, and all contradictions as one LaTeX text. Each table fits a two-column paper.
+    /// All tables, including those of figures, and all contradictions as one LaTeX text. Each table fits a page of two columns.
     pub fn latex(&self) -> String {
         let tables = self
             .tables
@@ -79,8 +79,7 @@ impl PaperForm {
         out
     }
 
-    /// Figures of the study as Markdown: each drawn one with its caption and the printed numbers, and the reasons for the others. The images are SVG
-    /// files beside the text.
+    /// Figures of the study as Markdown: drawn figures with caption and published numbers, other figures with the reason. Images are SVG files beside the text.
     pub fn markdown_of(&self, figures: &StudyFigures) -> String {
         let mut out = String::new();
         for figure in &figures.drawn {

@@ -22,9 +22,9 @@ use taceva_results::{
     Score, Skip,
 };
 
-/// Words in the method of an interval that leaves out groups of the split.
+/// Text in the method of an interval that leaves out groups of the split.
 pub(crate) const BY_GROUP: &str = " by group";
-/// Definition of numbers that were published without one.
+/// Definition of published numbers whose source states none.
 pub(crate) const PUBLISHED: &str = "published";
 
 /// Results of one sensor, from an [`EvaluationReport`] or from published numbers.
@@ -32,7 +32,7 @@ pub(crate) const PUBLISHED: &str = "published";
 pub struct Study {
     /// Sensor model.
     pub sensor: String,
-    /// Serial number of the unit, or `unknown`.
+    /// Serial number of the sensor unit, or `unknown`.
     pub serial: String,
     /// Id of the gel, or `unknown`.
     pub gel: String,
@@ -42,9 +42,9 @@ pub struct Study {
     pub scores: Vec<Score>,
     /// Published properties other than scores.
     pub facts: Vec<Fact>,
-    /// Origins of the published numbers.
+    /// Sources and definitions of the published numbers.
     pub statements: Vec<Statement>,
-    /// Skipped metrics with the reasons.
+    /// Skipped metrics, each with the reason.
     pub skipped: Vec<Skip>,
     /// Provenance as names and texts, in file order.
     pub provenance: Vec<(String, String)>,
@@ -56,9 +56,9 @@ pub struct Study {
     pub edits: Vec<String>,
     /// Notes for readers.
     pub notes: Vec<String>,
-    /// Scores for other training seeds, if the model was fitted with several.
+    /// Scores for other training seeds; `None` if the model was fitted once.
     pub over_seeds: Option<OverSeeds>,
-    /// Samples, if available; figures that need them are otherwise omitted.
+    /// Samples of the result; `None` if unavailable, and figures of samples are then omitted.
     pub samples: Option<Samples>,
 }
 
@@ -73,19 +73,19 @@ pub struct Made {
     pub chosen_by: Option<String>,
     /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
-    /// Number of presses in the recording, whatever their outcome; 0 if the result states none.
+    /// Number of presses in the recording, including failed ones; 0 if the result does not state it.
     pub presses: u64,
     /// Digest of the truth table, if two tables were compared.
     pub truth: Option<String>,
-    /// Scored part, if the model used it to fit or to choose settings.
+    /// Scored part of the split, if the model used it for a fit or for the choice of settings.
     pub seen_part: Option<String>,
-    /// Scored part: `test`, `all`; `None` without a split.
+    /// Scored part of the split: `test` or `all`; `None` without a split.
     pub part: Option<String>,
     /// Number of joined recordings; 0 for a single one.
     pub recordings: usize,
     /// Cross-validation as text, if each sample was held out once: `5-fold cross-validation by point`.
     pub folds: Option<String>,
-    /// Groups that the split keeps together: the column `object`, or `block of time`; `None` for contact points.
+    /// Groups that the split does not divide: the column `object`, or `block of time`; `None` for contact points.
     pub group: Option<String>,
     /// Digest of the samples, for numbers of a bundle in a catalogue.
     pub samples_digest: Option<String>,
@@ -138,7 +138,7 @@ impl From<EvaluationReport> for Study {
     }
 }
 
-/// Scored part, if the model used it to fit or to choose settings.
+/// Scored part of the split, if the model used it for a fit or for the choice of settings.
 fn seen_part(provenance: &Provenance) -> Option<String> {
     let model = provenance.model.as_ref()?;
     let is_own = provenance.dataset.as_ref() == Some(&model.fitted_on);
@@ -162,7 +162,7 @@ impl Study {
         scores.find(|score| score.metric == metric && score.channel == channel)
     }
 
-    /// The study for verdicts: each score has the value and interval of the variant that verdicts use.
+    /// Study with the scores for verdicts: each has the value and interval of the variant that verdicts use.
     pub(crate) fn deciding(&self) -> Study {
         Study {
             scores: self.scores.iter().map(Score::deciding).collect(),
@@ -170,7 +170,7 @@ impl Study {
         }
     }
 
-    /// Sample that dominates the squared error of `score`, if no skill is shown. `None` for angles, whose errors may wrap.
+    /// Sample that contributes most of the squared error of `score`, if the model has no shown skill. `None` for angles, whose errors may wrap.
     pub(crate) fn dominant(&self, score: &Score) -> Option<DominantSample> {
         let mae = self.score("mae", &score.channel);
         let is_angle = mae.is_some_and(|mae| matches!(mae.unit, Unit::Degree | Unit::Radian));
@@ -186,7 +186,7 @@ impl Study {
         found.map(|(_, text)| text.as_str())
     }
 
-    /// Line on the certificates behind the labels; `None` if nothing was measured, or the origin is unknown.
+    /// Sentence on the certificates behind the labels; `None` if nothing was measured, or the origin is unknown.
     pub(crate) fn traceability(&self) -> Option<&str> {
         let line = self.stated("traceability");
         (self.source == "recorded").then(|| line.unwrap_or(traceability::NOT_TRACEABLE))
@@ -198,7 +198,7 @@ impl Study {
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// Spread of `score`, a score of [`deciding`](Study::deciding), between the trainings of the model; `None` for fewer than two values.
+    /// Spread of `score` between trainings of the model. `score` is one of [`deciding`](Study::deciding). `None` for fewer than two values.
     pub(crate) fn trainings(&self, score: &Score) -> Option<TrainingSpread> {
         let variant = score.decided_by().map(|variant| variant.name.as_str());
         let values = self.values_of_trainings(&score.metric, variant, &score.channel);
@@ -229,7 +229,7 @@ impl Study {
         reads && draws && self.trainings(score).is_none()
     }
 
-    /// Group of the split that intervals leave out; `None` if they leave out contact points.
+    /// Column or kind of the groups that intervals leave out; `None` if they leave out contact points.
     pub(crate) fn clustered_by(&self) -> Option<&str> {
         let methods = self
             .scores
@@ -250,7 +250,7 @@ impl Study {
         }
     }
 
-    /// True if its samples are simulated or synthetic, without a real sensor.
+    /// True if the samples of the study are simulated or synthetic, without a real sensor.
     pub fn is_simulated(&self) -> bool {
         matches!(self.source.as_str(), "simulated" | "synthetic")
     }

@@ -1,4 +1,4 @@
-//! Scores of studies side by side: one row for each score, one column for each study; with layouts for papers and programs.
+//! Scores of studies side by side: one row for each score, one column for each study. Layouts are for papers and programs.
 
 mod caption;
 mod channels;
@@ -53,11 +53,11 @@ pub struct ScoreRow {
 /// Score of one study.
 #[derive(Clone, Debug)]
 pub struct ScoreCell {
-    /// Number, if there is one.
+    /// Value; `None` if undefined.
     pub value: Option<f64>,
-    /// Value and interval as printed.
+    /// Value and interval, formatted for reports.
     pub formatted: FormattedValue,
-    /// Both ends of its interval.
+    /// Both ends of the confidence interval; `None` without an interval.
     pub ends: Option<[f64; 2]>,
     /// Method of the interval.
     pub method: Option<String>,
@@ -69,11 +69,11 @@ pub struct ScoreCell {
     pub n: u64,
     /// Number of samples excluded because a value is not finite.
     pub n_invalid: u64,
-    /// Standing in verdicts.
+    /// Standing of the score in verdicts.
     pub standing: Standing,
     /// Share of predictions beyond the bounds of the model, if known.
     pub bounded_share: Option<f64>,
-    /// True if significantly better than every other cell of the row that takes part in verdicts, at 5 % after Holm's adjustment.
+    /// True if significantly better than all other cells of the row in verdicts, at 5 % after Holm's adjustment.
     pub is_best: bool,
 }
 
@@ -88,7 +88,7 @@ impl ScoreTable {
         ScoreTable::answered(studies, request, compare(studies, request).answers)
     }
 
-    /// As [`compared`](ScoreTable::compared), with the `answers` of a comparison of `studies` by `request`.
+    /// Same as [`compared`](ScoreTable::compared), with the `answers` of a comparison of `studies` by `request`.
     pub fn answered(
         studies: &[Study],
         request: &CompareRequest,
@@ -124,7 +124,7 @@ impl ScoreTable {
         }
     }
 
-    /// Scores without variants, of planes if there are any, to fit a page of a paper.
+    /// Scores without variants, for a page of a paper. Scores of planes replace those of their axes.
     #[must_use]
     pub fn headlines(&self) -> ScoreTable {
         let has = |metric: &str, channel: &str| {
@@ -146,7 +146,7 @@ impl ScoreTable {
     }
 }
 
-/// Number of a score, or the reason why it is absent.
+/// Value of a score or variant, or the reason why it is absent.
 struct Line<'a> {
     metric: String,
     score: &'a Score,
@@ -156,7 +156,7 @@ struct Line<'a> {
     is_headline: bool,
 }
 
-/// The score and its single-number variants. Figures show maps and curves.
+/// Lines of a score and of its variants that are single numbers. Maps and curves are drawn in figures instead.
 fn lines(score: &Score) -> Vec<Line<'_>> {
     let mut lines = vec![Line {
         metric: score.metric.clone(),
@@ -235,13 +235,12 @@ impl ScoreRow {
 }
 
 impl ScoreCell {
-    /// True if it has a value that takes part in verdicts.
+    /// True if the cell has a value that takes part in verdicts.
     pub fn takes_part(&self) -> bool {
         self.value.is_some() && self.standing.takes_part()
     }
 
-    /// Remark on its standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` if it counts without
-    /// remark.
+    /// Remark on its standing: `not better than predicting the mean`, `predictions beyond the trained range (12 %)`; `None` if the value counts without remark.
     pub fn remark(&self) -> Option<String> {
         let words = self.standing.phrase().filter(|_| self.value.is_some())?;
         let share = self
@@ -265,7 +264,7 @@ fn spread(studies: &[Study], rows: &[ScoreRow]) -> Option<String> {
     crate::spread::note(studies, &crate::names::names(studies), &errors)
 }
 
-/// Marks the cell of each row that is significantly better than all others that take part in verdicts.
+/// Marks the best cell of each row, if it is significantly better than all other cells in verdicts.
 fn mark_best(rows: &mut [ScoreRow], answers: &[Answer]) {
     for row in rows.iter_mut().filter(|row| row.is_headline) {
         let is_of_row =

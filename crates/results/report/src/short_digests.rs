@@ -1,6 +1,6 @@
 //! Shortens digests for display.
 
-/// `text` with each digest cut to its first 12 of 64 digits.
+/// Returns `text` with each digest shortened from 64 to 12 digits.
 #[must_use]
 pub fn short_digests(text: &str) -> String {
     const DIGITS: usize = 64;

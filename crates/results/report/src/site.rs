@@ -13,7 +13,7 @@ use crate::results::Study;
 use crate::variables::VARIABLES;
 
 const TITLE: &str = "Catalogue of tactile sensors";
-/// Words for a property without an entry.
+/// Text for a property that an entry lacks.
 const ABSENT: &str = "not in the catalogue";
 
 /// A file of the site.
@@ -25,7 +25,7 @@ pub struct SitePage {
     pub text: String,
 }
 
-/// Pages of the site, the list first. `ours` are results of this program, shown separately.
+/// Pages of the site, beginning with the list. `ours` are results of this program, shown in a separate section.
 pub fn site(sensors: &[Sensor], ours: &[Study]) -> Vec<SitePage> {
     let mut pages = vec![SitePage {
         file: "index.html".to_owned(),

@@ -1,4 +1,4 @@
-//! Spread of labels between sensors. If labels vary little, absolute errors are small.
+//! Spread of the labels of each sensor. Absolute errors tend to be small if labels vary little.
 
 use taceva_core::Unit;
 use taceva_metrics::plane_axes;
@@ -6,7 +6,7 @@ use taceva_metrics::plane_axes;
 use crate::number::{numeral, spaced};
 use crate::results::Study;
 
-/// Metrics whose values depend on label spread, with the part of the protocol that supplies the labels.
+/// Metrics whose values depend on label spread, each with the part of the protocol that contains the labels.
 const OF_LABELS: [(&str, &str); 11] = [
     ("agreement", CALIBRATION),
     ("mae", CALIBRATION),
@@ -25,8 +25,8 @@ const CALIBRATION: &str = "calibration";
 /// Ratio of spreads above which a difference is reported.
 const ALIKE: f64 = 2.0;
 
-/// ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)` for the compared studies at `which`, if label spreads differ by more
-/// than a factor of two; otherwise empty.
+/// Remark on the labels of the studies at `which`: ` (their labels differ in spread: ViTacTip 0.047 N to GelSightWM 0.174 N)`. Empty if label spreads differ by
+/// at most a factor of two.
 pub(crate) fn words(
     studies: &[Study],
     names: &[String],
@@ -60,8 +60,8 @@ pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)])
     })
 }
 
-/// `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`, if label spreads differ by more than a factor of two. The labels are those of the metric's
-/// part of the protocol or, without samples of it, `labels of calibration`.
+/// Name of the compared labels and range of their spreads, such as `labels` and `ViTacTip 0.047 N to GelSightWM 0.174 N`. `None` up to a factor of two. Uses
+/// `labels of calibration` if the part of the metric has no samples.
 fn range(
     studies: &[Study],
     names: &[String],
@@ -110,8 +110,8 @@ fn spreads<'a>(
     (!found.is_empty()).then_some(found)
 }
 
-/// Standard deviation of the labels of a channel in a part of the protocol; for a plane, the mean over both axes. Without samples, it is that of the
-/// calibration: the root mean square error over √(1 − R²), which planes lack.
+/// Standard deviation of the labels of a channel in a part of the protocol; for a plane, the mean over both axes. Without samples, returns RMSE / √(1 − R²) of
+/// the calibration; `None` for planes, which have no R².
 fn spread(study: &Study, part: &str, channel: &str) -> Option<f64> {
     let Some(axes) = plane_axes(channel) else {
         return of_channel(study, part, channel);

@@ -55,7 +55,7 @@ pub struct Row {
     pub better: Option<Better>,
     /// True if LaTeX separates this row from the previous one.
     pub begins_group: bool,
-    /// A line above this row in LaTeX only, such as the metric of the following rows.
+    /// Heading above this row, only in LaTeX, such as the metric of the following rows.
     pub heading: Option<Words>,
 }
 
@@ -79,7 +79,7 @@ impl Table {
         }
     }
 
-    /// Adds a row. A column of [`Direction::OfMetrics`] sets its direction by the metric.
+    /// Adds a row. A column of [`Direction::OfMetrics`] determines the better direction of the row.
     pub fn push<C: Into<Cell>>(&mut self, cells: impl IntoIterator<Item = C>) {
         let cells: Vec<Cell> = cells.into_iter().map(Into::into).collect();
         let column = self.column_of(Direction::OfMetrics);
@@ -112,7 +112,7 @@ impl Table {
         columns.position(|column| column.direction == direction)
     }
 
-    /// True if a column is right-aligned: as set, or if it holds only numbers and at least one.
+    /// True if a column is right-aligned, by its setting or because all its non-empty cells are numbers.
     fn is_right(&self, column: usize) -> bool {
         match self.columns[column].align {
             Align::Left => false,

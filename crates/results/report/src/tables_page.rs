@@ -1,4 +1,4 @@
-//! Page with paragraphs, tables and figures supplied by the caller.
+//! Page with paragraphs, tables and figures of the caller.
 
 use maud::{Markup, html};
 

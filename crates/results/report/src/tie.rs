@@ -1,4 +1,4 @@
-//! Ties: sensors with equal best values. For gratings, the finest predicted spacing is stated too.
+//! Ties: sensors with equal best values. A tie in gratings also states the finest predicted spacing.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,16 +17,16 @@ pub(crate) const GRATINGS: &str = "sr";
 const TOLERANCE_MM: f64 = 0.05;
 const NM: f64 = 1e6;
 
-/// Several studies with the best value of one score.
+/// Tie of several studies for the best value of one score.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tie {
     /// Positions of the tied studies, at least two.
     pub(crate) who: Vec<usize>,
-    /// `tie: GelSight and TacTip have the same value, 0.42 mm/N`
+    /// Sentence on the tie: `tie: GelSight and TacTip have the same value, 0.42 mm/N`.
     pub(crate) words: String,
 }
 
-/// Candidate for a tie.
+/// Study with a value that takes part in a tie.
 struct Rival<'a> {
     at: usize,
     study: &'a Study,
@@ -35,7 +35,7 @@ struct Rival<'a> {
     value: f64,
 }
 
-/// Best of the values, the first if several are equal; `None` for scores without a better direction.
+/// Position and value of the best of `values`, the first if several are equal. `None` for scores without a better direction.
 pub(crate) fn best(
     values: impl IntoIterator<Item = (usize, f64)>,
     better: Better,
@@ -50,7 +50,7 @@ pub(crate) fn best(
     values.reduce(|best, next| if leads(next.1, best.1) { next } else { best })
 }
 
-/// Studies with exactly equal best values among those in verdicts; `None` for a single best study, or a score without a better direction.
+/// Tie of the studies in verdicts with exactly equal best values. `None` for a single best study, or a score without a better direction.
 pub(crate) fn tie(studies: &[Study], names: &[String], metric: &str, channel: &str) -> Option<Tie> {
     let named = studies.iter().zip(names).enumerate();
     let rivals = named.filter_map(|(at, (study, name))| {
@@ -154,8 +154,8 @@ fn gratings(tied: &[&Rival<'_>], best: f64, channel: &str) -> String {
     )
 }
 
-/// Meaning of predictions that always equal the spacing of a training board: `, which is exactly right among 16 learnt boards at least 0.1 mm
-/// apart`. `None` without predictions, or if a prediction is not a training spacing.
+/// Addition for predictions that always equal the spacing of a training board: `, which is exactly right among 16 learnt boards at least 0.1 mm apart`. `None`
+/// without predictions, or if a prediction is not a training spacing.
 fn meaning(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<String> {
     let nanometres = |mm: f64| (mm * NM).round();
     let known: BTreeSet<u64> = boards(samples, kind)
@@ -191,7 +191,7 @@ fn boards<'a>(samples: &'a Samples, kind: &'a str) -> impl Iterator<Item = f64> 
     rows.filter_map(|row| samples.number("spacing_mm", row))
 }
 
-/// Finest spacing such that it and all coarser gratings of `kind` are predicted to within `tolerance_mm`; `None` if the coarsest is not.
+/// Finest spacing down to which all gratings of `kind` are predicted to within `tolerance_mm`. `None` if the prediction of the coarsest is not.
 fn finest(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<f64> {
     let nanometres = |mm: f64| (mm * NM).round();
     let mut boards: BTreeMap<u64, bool> = BTreeMap::new();
@@ -215,7 +215,7 @@ fn finest(samples: &Samples, kind: &str, tolerance_mm: f64) -> Option<f64> {
     right.last().map(|(spacing, _)| f64::from_bits(*spacing))
 }
 
-/// `98.6 %`
+/// Share in percent: `98.6 %`.
 fn percent(share: f64) -> String {
     format!("{} %", numeral(100.0 * share))
 }

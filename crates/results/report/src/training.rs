@@ -8,10 +8,10 @@ use taceva_metrics::catalogue;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// Least number of contact places for a verdict on sensors. With fewer, doubling them still halves errors, so a comparison reflects the training.
+/// Least number of contact places for a verdict on sensors. With fewer places, twice the places halve the errors, so that a comparison reflects the training.
 pub(crate) const LEAST_PLACES: usize = 200;
 
-/// Number of contact places on which the model of a study was fitted or selected here; `None` if unknown.
+/// Number of contact places of calibration samples without predictions, which fitted or selected the model; `None` if unknown.
 fn places(study: &Study) -> Option<usize> {
     let is_training = |(part, count): &(String, u64)| part == "train" && *count > 0;
     let samples = study.samples.as_ref()?;
@@ -31,7 +31,7 @@ fn places(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// Least number of such places among several sensors, if it is too small for a verdict on sensors.
+/// Least number of contact places among several sensors; `None` if sufficient for a verdict on sensors.
 fn too_few(studies: &[Study]) -> Option<usize> {
     let sensors: BTreeSet<&str> = studies.iter().map(|study| study.sensor.as_str()).collect();
     let fewest = studies.iter().filter_map(places).min()?;
@@ -44,7 +44,7 @@ pub(crate) fn is_demonstration(studies: &[Study], metric: &str) -> bool {
     reads && too_few(studies).is_some()
 }
 
-/// Reason why such a metric has no verdict.
+/// Reason why a metric of a demonstration has no verdict.
 pub(crate) const NO_VERDICT: &str = "this demonstration gives no verdict on sensors";
 
 /// Sentence for pages whose models were trained at too few places.

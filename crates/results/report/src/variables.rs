@@ -1,4 +1,4 @@
 //! The four variables of the study.
 
-/// Variables of the study, in the order of its tables of robustness: planes and normal axes.
+/// Variables of the study, planes and normal axes, in the order of the tables of robustness.
 pub(crate) const VARIABLES: [&str; 4] = ["Pxy", "Pz", "Fxy", "Fz"];

@@ -3,8 +3,7 @@
 /// Additional indent of lines after the first one.
 const HANGING: usize = 4;
 
-/// Wraps text to lines of at most `width` characters, indented by `indent`, and all but the first by 4 more. Breaks a word that is longer than a
-/// line.
+/// Wraps text to lines of at most `width` characters, indented by `indent`. Lines after the first have 4 more spaces. Breaks a word that is longer than a line.
 ///
 /// Each line ends with a line feed.
 pub(crate) fn wrapped(text: &str, width: usize, indent: usize) -> String {

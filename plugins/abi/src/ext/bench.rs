@@ -1,4 +1,4 @@
-//! Draft extension, which may change: a rig that is a simulated bench.
+//! Draft extension, which may change: controls a rig that is a simulated bench.
 
 use core::ffi::c_void;
 
@@ -72,13 +72,13 @@ pub struct BenchCalls {
     /// `[any]` Mounts a specimen. Fails while the tip touches the gel.
     pub mount:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, *const Specimen, *mut Error) -> Status>,
-    /// `[any]` Sets the name of the next press. Its random numbers depend only on this name.
+    /// `[any]` Sets the name of the next press. The name alone determines the random numbers of the press.
     pub name_press:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, name: u64, *mut Error) -> Status>,
     /// `[any]` Delays the next tare until `at_ns`.
     pub schedule:
         Option<unsafe extern "C" fn(*mut Rig, bench: Text, at_ns: u64, *mut Error) -> Status>,
-    /// `[any]` Writes the provenance of the simulation.
+    /// `[any]` Writes the provenance of the simulated data.
     pub provenance: Option<
         unsafe extern "C" fn(*mut Rig, bench: Text, TakeText, *mut c_void, *mut Error) -> Status,
     >,

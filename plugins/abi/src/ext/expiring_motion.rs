@@ -1,4 +1,4 @@
-//! A robot that stops by itself if its motion is not renewed.
+//! Extension of a robot that stops by itself if its motion is not renewed.
 
 use core::ffi::c_void;
 
@@ -26,7 +26,7 @@ pub struct ExpiringMotionCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Moves. If the plugin's process ends, the robot begins to brake within 200 ms.
+    /// `[owner & open]` Moves the tip. The robot begins to brake within 200 ms after the process of the plugin ends.
     pub move_expiring: Option<
         unsafe extern "C" fn(
             *mut c_void,

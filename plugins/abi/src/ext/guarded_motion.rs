@@ -1,4 +1,4 @@
-//! A robot that stops by itself at a force.
+//! Extension of a robot that stops by itself at a force limit.
 
 use core::ffi::c_void;
 
@@ -26,7 +26,7 @@ pub const GUARDED_MOTION: &str = "taceva.robot.guarded-motion/1";
 pub struct GuardedStop {
     /// Size of this struct, bytes.
     pub size: u32,
-    /// 0: arrived at the target; 1: stopped at the guard.
+    /// 0: the tip arrived at the target; 1: the tip stopped at the force limit.
     pub is_guarded: u32,
     /// Pose of the tip at rest.
     pub pose: Pose,
@@ -50,7 +50,7 @@ pub struct GuardedMotionCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Moves to the target, or until the magnitude of the force reaches the guard.
+    /// `[owner & open]` Moves the tip to the target, or until the magnitude of the force reaches the limit.
     pub move_guarded: Option<
         unsafe extern "C" fn(
             *mut c_void,

@@ -1,4 +1,4 @@
-//! A force transducer that numbers its readings.
+//! Extension of a force transducer that numbers its readings.
 
 use core::ffi::c_void;
 
@@ -24,6 +24,6 @@ pub struct NumberedCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Number of the last reading, assigned by the device; `NOT_FOUND` before the first reading.
+    /// `[owner & open]` Writes the number that the device assigned to the last reading. Returns `NOT_FOUND` before the first reading.
     pub sequence: Option<unsafe extern "C" fn(*mut c_void, *mut u64, *mut Error) -> Status>,
 }

@@ -1,4 +1,4 @@
-//! A sensor that controls its own lighting.
+//! Extension of a sensor that controls its own lighting.
 
 use core::ffi::c_void;
 
@@ -25,7 +25,7 @@ pub struct SensorLightingCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & open]` Sets a scene of the manifest. Returns once the light is steady.
+    /// `[owner & open]` Sets a light scene of the manifest. Returns once the light is steady.
     pub set: Option<
         unsafe extern "C" fn(*mut c_void, scene: Text, timeout_ns: u64, *mut Error) -> Status,
     >,

@@ -1,4 +1,4 @@
-//! A force transducer that can set the present load as zero.
+//! Extension of a force transducer that can set the present load as zero.
 
 use core::ffi::c_void;
 
@@ -24,6 +24,6 @@ pub struct TareCalls {
     pub size: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// `[owner & started]` Sets the present load as zero. Returns once this takes effect.
+    /// `[owner & started]` Sets the present load as zero. Returns once readings have the new zero.
     pub zero: Option<unsafe extern "C" fn(*mut c_void, timeout_ns: u64, *mut Error) -> Status>,
 }

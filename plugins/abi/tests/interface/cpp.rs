@@ -1,4 +1,4 @@
-//! C++ helpers: for every exception of a sensor, the tables return a status and a message, and no memory leaks.
+//! C++ helper tables convert every exception of a sensor to a status and a message, without a memory leak.
 
 use std::path::Path;
 use std::process::Command;

@@ -32,7 +32,7 @@ fn line(c: String, rust: impl TryInto<i64>) -> Line {
     (c, rust)
 }
 
-/// Size of each struct, then the offsets of all its fields.
+/// Lists the size of each struct and the offsets of all its fields.
 macro_rules! structs {
     ($($c:ident = $rust:ident { $($field:ident),* $(,)? })*) => {{
         let mut lines = Vec::new();
@@ -161,7 +161,7 @@ fn constants() -> Vec<Line> {
     lines
 }
 
-/// String constants: ids, compared by the compiler that computed the numbers.
+/// String constants: ids that the C compiler compares with the values in Rust.
 fn texts() -> Vec<(&'static str, &'static str)> {
     vec![
         ("TACEVA_SENSOR_FACTORY", SENSOR_FACTORY),
@@ -179,7 +179,7 @@ fn texts() -> Vec<(&'static str, &'static str)> {
     ]
 }
 
-/// Values in Rust, one per line.
+/// Values of all constants, sizes and offsets in Rust, one per line.
 fn mirrored() -> String {
     let mut out = String::new();
     for (c, rust) in sizes_and_offsets().into_iter().chain(constants()) {
@@ -212,7 +212,7 @@ fn include() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("include")
 }
 
-/// Every C header, as it is included. Headers for C++ only declare no types of the interface.
+/// Names of all C headers. Headers for C++ only are excluded, because they declare no types of the interface.
 fn headers() -> Vec<String> {
     let root = include().join("taceva");
     let mut folders = vec![root.clone()];
@@ -261,7 +261,7 @@ fn compilers() -> [Compiler; 2] {
 
 const STRICT: [&str; 4] = ["-Wall", "-Wextra", "-Wpedantic", "-Werror"];
 
-/// Compiles `source`. Prints the reason and returns `None` without a compiler.
+/// Compiles `source`. Without a compiler, prints the reason and returns `None`.
 fn compile(compiler: &Compiler, source: &str, folder: &Path, extra: &[&str]) -> Option<PathBuf> {
     let file = folder.join(compiler.file);
     let built = folder.join(format!("{}.out", compiler.file));

@@ -1,4 +1,4 @@
-//! The interface, compared with its headers as C and C++ compilers see them.
+//! Compares the interface in Rust with its headers, compiled as C and C++.
 
 mod cpp;
 mod layout;

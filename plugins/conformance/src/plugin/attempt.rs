@@ -14,14 +14,14 @@ use super::{library, run};
 use crate::report::Outcome;
 use crate::trial::NO_DEVICE;
 
-/// Part of the message of a device that did not open.
+/// Part of the message for a device that fails to open.
 const NOT_OPENED: &str = ": cannot open the device: ";
 
 /// Outcome of an attempt.
 #[derive(Debug)]
 pub(super) struct Attempt {
     pub(super) outcome: Outcome,
-    /// Call in which the child was killed, for it took too long.
+    /// Call of the plugin that exceeded the time limit, so that the child was killed; `None` if none did.
     pub(super) hung_in: Option<String>,
 }
 
@@ -34,7 +34,7 @@ impl From<Outcome> for Attempt {
     }
 }
 
-/// Runs a check, or several, in a child.
+/// Runs one or several checks in a child process.
 pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Duration) -> Attempt {
     let call = Arc::new(Mutex::new(String::new()));
     let order = ExaminationOrder {
@@ -84,7 +84,7 @@ pub(super) fn attempt(examination: &Examination<'_>, probe: &Probe, limit: Durat
     Attempt { outcome, hung_in }
 }
 
-/// Log that stores the pending call of a check in `call`.
+/// Log that writes the pending call of a check to `call`.
 fn noting(call: &Arc<Mutex<String>>) -> Log {
     let call = Arc::clone(call);
     Box::new(move |_, target, message| {
@@ -94,7 +94,7 @@ fn noting(call: &Arc<Mutex<String>>) -> Log {
     })
 }
 
-/// Call in which the child was killed, for it took too long.
+/// Call of the plugin that exceeded the time limit, so that the child was killed; `None` for other errors.
 fn call_of(error: &ChildError) -> Option<String> {
     match error {
         ChildError::Gone {
@@ -105,7 +105,7 @@ fn call_of(error: &ChildError) -> Option<String> {
     }
 }
 
-/// Error of a check that was killed. Names the hanging call, if known.
+/// Error of a check whose process was killed. Adds the name of the hanging call, if known.
 fn with_call(error: ChildError, call: &str) -> ChildError {
     match error {
         ChildError::Gone {

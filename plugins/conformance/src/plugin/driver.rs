@@ -38,7 +38,7 @@ pub(super) const CHECKS: &[Check] = &[
     OF.check("driver/memory-of-10000-openings", memory),
 ];
 
-/// An open device of any kind, which is only dropped.
+/// Open device of any kind, kept only to be dropped.
 enum Device {
     Sensor(Opened<abi::SensorCalls>),
     Robot(Opened<abi::RobotCalls>),
@@ -84,7 +84,7 @@ fn describes_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// With every argument at its limits, the driver describes itself or reports contradictory arguments.
+/// For each argument at its limits, the driver returns its description or reports contradictory arguments.
 fn describes_every_argument(subject: &Subject) -> Result<(), Unmet> {
     let key = subject.key()?;
     for spec in subject.entry()?.arguments() {
@@ -200,7 +200,7 @@ fn opens_again(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// A second device with the same arguments opens too, or returns `BUSY`.
+/// A second device with the same arguments either opens or returns `BUSY`.
 fn opens_beside(subject: &Subject) -> Result<(), Unmet> {
     let first = opened(subject)?;
     let list = subject.list()?;
@@ -251,7 +251,7 @@ fn rubbish_arguments(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// A `taceva_error` is written only within its stated size.
+/// A plugin writes a `taceva_error` only within its stated size.
 fn keeps_to_error(subject: &Subject) -> Result<(), Unmet> {
     const ROOM: usize = 24;
     const CANARY: i8 = 0x5a;
@@ -323,7 +323,7 @@ fn interrupts(subject: &Subject) -> Result<(), Unmet> {
     opened(subject).map(drop)
 }
 
-/// A handle is not bound to a thread: it is opened in one thread, and used and closed in another.
+/// A handle works in every thread: one thread opens the device, another uses and closes it.
 fn other_thread(subject: &Subject) -> Result<(), Unmet> {
     let device = opened(subject)?;
     let closed = thread::scope(|scope| scope.spawn(move || drop(device)).join());

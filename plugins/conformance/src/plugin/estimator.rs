@@ -26,7 +26,7 @@ pub(super) const CHECKS: &[Check] = &[
 ];
 
 const SAMPLES: usize = 12;
-/// Pictures of 32×32, the default size of features in a study. The layers of a network need this size.
+/// Pictures of 32×32, the default size of features in a study. Layers of a network require this size.
 const SHAPE: FeatureShape = FeatureShape {
     height: 32,
     width: 32,
@@ -39,7 +39,7 @@ struct Samples {
     values: Vec<f64>,
 }
 
-/// Training samples. The targets are sums of features.
+/// Random training samples whose targets are sums of features.
 fn samples(seed: u64) -> Result<Samples, Unmet> {
     let mut draw = Draw::new(seed);
     let mut values = Vec::new();
@@ -135,7 +135,7 @@ fn keeps(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// Garbage bytes and truncated models are rejected. A model with a flipped bit is rejected, or still predicts.
+/// `load` rejects garbage bytes and truncated models. A model with a flipped bit is rejected or predicts.
 fn hostile(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     let bytes = fit(subject, &samples, &SilentProgress)?.save()?;
@@ -178,7 +178,7 @@ impl Progress for Cancelled {
     }
 }
 
-/// A cancelled fit ends with `Interrupted`, unless it finished first.
+/// A cancelled fit returns `Interrupted`, unless the fit finished before the cancellation.
 fn cancels(subject: &Subject) -> Result<(), Unmet> {
     let samples = samples(subject.probe.seed)?;
     match fit(subject, &samples, &Cancelled) {

@@ -1,4 +1,4 @@
-//! Checks after a hang. Those that hang in the same call of the same driver are skipped after a short time.
+//! Shortens checks after a hang. A check that hangs again in the same call of the same driver is skipped after a short time.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use crate::report::Outcome;
 
 /// Divisor of the time limit of a check for its first attempt after a hang.
 const SHORTENED: u32 = 10;
-/// Least time of such an attempt. The start of an interpreter takes most of it.
+/// Minimum time limit of a shortened attempt. The start of an interpreter takes most of the time.
 const LEAST: Duration = Duration::from_secs(5);
 
 /// Calls that did not return.
@@ -28,7 +28,7 @@ struct Hang {
 }
 
 impl Hangs {
-    /// Runs the check `name` on `probe`. After a hang its first attempt has less time, since most checks make the same calls.
+    /// Runs the check `name` on `probe`. After a hang, the first attempt has a shorter limit, since most checks make the same calls.
     pub(super) fn check(
         &mut self,
         examination: &Examination<'_>,
@@ -57,13 +57,13 @@ impl Hangs {
         outcome
     }
 
-    /// Hangs of the same driver or estimator, and of the plugin as a whole, such as in its import.
+    /// Earlier hangs of the same driver or estimator, or of the plugin as a whole, for example during import.
     fn earlier(&self, probe: &Probe) -> impl Iterator<Item = &Hang> {
         let is_alike = move |hang: &&Hang| hang.driver.is_empty() || hang.driver == probe.driver;
         self.0.iter().filter(is_alike)
     }
 
-    /// Adds a hang of the check `name`. A check that hung in no call of the plugin says nothing of other checks.
+    /// Adds a hang of the check `name`. Ignores a check that hung outside calls of the plugin, because other checks are unaffected.
     fn note(&mut self, probe: &Probe, call: String, name: &'static str) {
         if call != run::WHOLE {
             self.0.push(Hang {

@@ -39,7 +39,7 @@ fn load(subject: &Subject) -> Result<std::sync::Arc<Library>, Unmet> {
     loaded.map_err(|error| Unmet::Broken(error.problem().to_string()))
 }
 
-/// A second copy of the library has its own static variables, and works like the first.
+/// A second copy of the library works like the first copy, with its own static variables.
 fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     let second = load(subject)?;
     expect(second.id() == subject.library.id(), || {
@@ -47,14 +47,14 @@ fn loads_twice(subject: &Subject) -> Result<(), Unmet> {
     })
 }
 
-/// `deinit` may be called once everything is closed. The library may then be initialised again.
+/// `deinit` succeeds after all objects are closed. The library can then be initialised again.
 fn ends(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(load(subject)?);
     Ok(())
 }
 
-/// The manifest contains all needs that the library states. Only the manifest counts.
+/// The manifest contains all needs that the library states. The host uses only the manifest.
 fn needs(subject: &Subject) -> Result<(), Unmet> {
     let offer = subject.library.offer();
     let offer = offer.map_err(|problem| Unmet::Broken(problem.to_string()))?;
@@ -167,7 +167,7 @@ fn keeps_signals(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// Loading prints nothing, because output would corrupt a result. The host examines the output of the process.
+/// Loading prints nothing, because output would corrupt a result. The host checks the output of the process.
 fn quiet(subject: &Subject) -> Result<(), Unmet> {
     drop(load(subject)?);
     drop(RigHandle::open(&subject.library)?);

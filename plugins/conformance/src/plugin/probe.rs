@@ -1,11 +1,11 @@
-//! Probe: the order to a child to check one driver.
+//! Probe: the request to a child process to check one driver.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::DriverKey;
 
 use super::CheckRequest;
 
-/// Separator between the names of the checks of one process.
+/// Separator between names of checks that run in one process.
 pub(super) const BETWEEN: &str = ",";
 
 /// One check on one driver, or several checks with their names separated by commas.

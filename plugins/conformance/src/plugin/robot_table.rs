@@ -1,4 +1,4 @@
-//! Promises of a robot's table, tested with motions that no host requests.
+//! Promises of the table of a robot, tested with motions that a host would never request.
 
 #![expect(
     unsafe_code,

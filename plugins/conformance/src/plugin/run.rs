@@ -1,4 +1,4 @@
-//! Runs one or several checks in a child. The child serves if the promises hold, and otherwise refuses to serve.
+//! Runs one or several checks in a child. The child becomes ready to serve if the promises hold, and otherwise reports an error.
 
 use std::fs::File;
 use std::io::{Read, Seek};
@@ -17,7 +17,7 @@ use taceva_host::bare::pending_call;
 
 /// Prefix of the answer of a skipped check.
 pub(super) const SKIPPED: &str = "skipped: ";
-/// Pending call of a check that waits in no call of the plugin.
+/// Name of the pending call while a check waits outside calls of the plugin.
 pub(super) const WHOLE: &str = "end the check";
 
 /// Runs the checks of `file` on the plugin of `source`, in this process. Returns a session if the promises hold.

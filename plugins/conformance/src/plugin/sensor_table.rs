@@ -1,4 +1,4 @@
-//! Checks of the frames of a sensor at the boundary: their memory and its release.
+//! Checks of the memory of frames at the boundary, and of its release.
 
 #![expect(
     unsafe_code,
@@ -29,13 +29,13 @@ pub(super) const CHECKS: &[Check] = &[
     OF.check("sensor/release-after-stop", late_release),
 ];
 
-/// A started sensor behind its bare table.
+/// Started sensor, called directly through its table.
 struct Bare {
     opened: Opened<abi::SensorCalls>,
     length: usize,
 }
 
-/// A received frame. It is released on drop.
+/// Received frame, released on drop.
 struct Lent(abi::Frame);
 
 impl Drop for Lent {
@@ -94,7 +94,7 @@ impl Bare {
         Ok(lent)
     }
 
-    /// A frame in the plugin's own memory.
+    /// Captures a frame into memory of the plugin.
     fn lend(&self) -> Result<Lent, Unmet> {
         if self.opened.calls.max_lent == 0 {
             return Err(skipped("it never lends frames"));
@@ -124,7 +124,7 @@ fn counts(subject: &Subject) -> Result<(), Unmet> {
 
 const CANARY: u8 = 0x5a;
 
-/// For a short buffer, the call is rejected or the frame is lent. Nothing beyond the buffer is written.
+/// With a too short buffer, the plugin rejects the call or lends the frame. It writes nothing beyond the buffer.
 fn keeps_to_buffer(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for room in [1, sensor.length / 2, sensor.length - 1] {
@@ -179,7 +179,7 @@ fn no_buffer(subject: &Subject) -> Result<(), Unmet> {
     }
 }
 
-/// `release` sets itself to NULL, so no frame is released twice.
+/// `release` sets the field `release` to NULL, so that no frame is released twice.
 fn releases(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     for _ in 0..100 {
@@ -196,7 +196,7 @@ fn releases(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// A frame that moves to another thread.
+/// Lent frame that may move to another thread.
 struct Elsewhere(Lent);
 
 // SAFETY: the interface allows `release` from any thread, and a lent frame belongs to its holder.
@@ -220,7 +220,7 @@ fn releases_elsewhere(subject: &Subject) -> Result<(), Unmet> {
     Ok(())
 }
 
-/// The declared number of frames can be lent at once. One more is rejected or waits. Capture works again after their release.
+/// The declared number of frames can be lent at once. A further capture fails or waits. Capture works again after the frames are released.
 fn lends_many(subject: &Subject) -> Result<(), Unmet> {
     let sensor = Bare::started(subject)?;
     let most = usize::try_from(sensor.opened.calls.max_lent)

@@ -1,4 +1,4 @@
-//! Checks that run together in one process. They leave the process unchanged and open no device.
+//! Checks that run together in one process. These checks leave the process unchanged and open no device.
 
 use std::collections::BTreeMap;
 use std::time::Instant;
@@ -11,7 +11,7 @@ use super::probe::{BETWEEN, Probe};
 use super::{Check, CheckRequest, subjects};
 use crate::report::Outcome;
 
-/// Names of these checks, for the library and for estimators.
+/// Names of the checks that share a process, for the library and for estimators.
 const NAMES: [&str; 11] = [
     "library/loads",
     "library/needs-what-its-manifest-says",
@@ -26,11 +26,11 @@ const NAMES: [&str; 11] = [
     "estimator/predicts-in-threads",
 ];
 
-/// Time of each check that passed together with others, in seconds, by subject and name. A check that is missing here runs separately, because a
-/// single failure does not tell which other checks would pass.
+/// Time of each check that passed in a shared process, s, by subject and name. Missing checks run separately, because after a failure the results of other
+/// checks are unknown.
 pub(super) type HeldTogether<'a> = BTreeMap<(Option<&'a DriverKey>, &'static str), f64>;
 
-/// Runs these checks of `wanted` in one process per subject. Calls `begin` with their names.
+/// Runs the checks of `wanted` that can share a process, in one process per subject. Calls `begin` with their names.
 pub(super) fn held_together<'a>(
     examination: &Examination<'_>,
     request: &CheckRequest,

@@ -1,4 +1,4 @@
-//! Subject of a check: a loaded plugin, and one of its drivers.
+//! Subject of a check: a loaded plugin and one of its drivers.
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -18,7 +18,7 @@ use crate::trial::{NO_DEVICE, Trial, Tried, unopened};
 
 /// Deadline of a call that should succeed.
 pub(super) const PATIENT: Deadline = Deadline::after(Duration::from_secs(5));
-/// Time limit of an interrupt and a halt.
+/// Time within which an interrupt or a halt must act.
 pub(super) const AT_ONCE: Duration = Duration::from_millis(50);
 /// Time limit of calls that should return at once, also on a busy machine.
 pub(super) const SOON: Duration = Duration::from_millis(500);
@@ -33,7 +33,7 @@ pub(crate) struct Subject {
     pub(super) source: Source,
     pub(super) manifest: Manifest,
     pub(super) session: InProcess,
-    /// State of the process before loading the plugin.
+    /// State of the process before the plugin was loaded.
     pub(super) before: Surroundings,
     key: Option<DriverKey>,
 }
@@ -81,7 +81,7 @@ impl Subject {
         }
     }
 
-    /// Arguments for opening: the given ones, and declared defaults.
+    /// Arguments for opening: given arguments, and declared defaults of the others.
     pub(super) fn args(&self) -> Result<Args, Unmet> {
         let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
         args.map_err(|error| {
@@ -98,12 +98,12 @@ impl Subject {
         Ok(ArgList::new(&self.args()?, self.entry()?.arguments()))
     }
 
-    /// Description of the driver by the library, for its arguments.
+    /// Description that the library returns for the driver and its arguments.
     pub(super) fn said(&self) -> Result<Descriptor, Unmet> {
         Ok(self.session.describe(self.key()?, &self.args()?)?)
     }
 
-    /// Opens the device with its bare table, in its own rig.
+    /// Opens the device for direct calls of its table, in its own rig.
     pub(super) fn open<T: Table>(&self) -> Result<Opened<T>, Unmet> {
         let rig = RigHandle::open(&self.library)?;
         self.opened(open(&rig, self.entry()?, &self.list()?))
@@ -114,7 +114,7 @@ impl Subject {
         opened.map_err(|error| self.not_opened(error))
     }
 
-    /// Reason why a device did not open. If a real device is missing, promises are skipped.
+    /// Reason why a device did not open. A missing real device gives a skipped promise.
     fn not_opened(&self, error: DriverError) -> Unmet {
         match unopened(error, self.is_real()) {
             Unmet::Skipped(why) => Unmet::Skipped(self.with_place(&why)),
@@ -128,7 +128,7 @@ impl Subject {
         descriptor.is_ok_and(|descriptor| descriptor.source() == DriverSource::Real)
     }
 
-    /// Number of openings of a device, at most `simulated`. A real device takes seconds and wears out, so it is opened less often.
+    /// Number of openings of a device, at most `simulated`. A real device opens in seconds and wears out, so its number is smaller.
     pub(super) fn openings(&self, simulated: usize) -> usize {
         if self.is_real() {
             simulated.min(REAL_OPENINGS)
@@ -137,7 +137,7 @@ impl Subject {
         }
     }
 
-    /// Tests a promise on the devices `D`. `open` opens each in its own rig.
+    /// Tests a promise on the devices `D`. `open` opens each device in its own rig.
     pub(super) fn tries<D: Device + ?Sized>(
         &self,
         open: OpenIn<D>,
@@ -175,7 +175,7 @@ impl Subject {
         Err(skipped("it would move a real device; `--move` allows it"))
     }
 
-    /// Appends to `why` the command option that names a device.
+    /// Appends the command option that selects a device to `why`.
     fn with_place(&self, why: &str) -> String {
         let key = &self.probe.driver;
         format!("{why}; name a device with `--with {key}:…`")
@@ -210,7 +210,7 @@ impl<D: Device + ?Sized> Factory<D> for InLibrary<'_, D> {
     }
 }
 
-/// Calls a function of a bare table. The error is the failure that the plugin reports.
+/// Calls a function of a table directly. Returns the failure that the plugin reports.
 pub(super) fn bare(run: impl FnOnce(*mut abi::Error) -> abi::Status) -> Result<(), Failure> {
     call(|error| run(std::ptr::from_mut(error)))
 }

@@ -12,7 +12,7 @@ pub(super) struct Surroundings {
 }
 
 impl Surroundings {
-    /// Present state of this process.
+    /// Reads the present state of this process.
     pub(super) fn now() -> Surroundings {
         let handler = |signal| {
             // SAFETY: zero bytes are a valid value of this C struct.

@@ -1,4 +1,4 @@
-//! Checks of plugins, in children of this program. Its `main` begins like the `main` of every host.
+//! Tests of checks of plugins. Children of this program run the checks, so `main` begins like the `main` of every host.
 
 #[cfg(target_os = "linux")]
 #[path = "../../../host/tests/plugins/fixture.rs"]

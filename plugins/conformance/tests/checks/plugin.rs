@@ -1,4 +1,4 @@
-//! Checks of a plugin. All pass for a valid plugin, and each kind of mistake fails the check for it.
+//! Checks of a plugin. A valid plugin passes all checks, and each kind of mistake fails the check for this mistake.
 
 use std::sync::Arc;
 use std::time::Duration;

@@ -3,7 +3,7 @@
 use taceva_abi as abi;
 use taceva_core::{ArgSpec, ArgValue, Args};
 
-/// Arguments in the form of the plugin interface. They borrow from the texts stored beside them.
+/// Arguments in the form of the plugin interface. The arguments point to texts that this value owns.
 pub struct ArgList {
     items: Vec<abi::Arg>,
     // Heap texts that the items point to. They stay in place when the list moves.
@@ -43,7 +43,7 @@ impl ArgList {
         }
     }
 
-    /// Argument array for the plugin. It borrows from the list.
+    /// Argument array for the plugin. Valid as long as the list exists.
     pub fn args(&self) -> abi::Args {
         abi::Args {
             items: self.items.as_ptr(),

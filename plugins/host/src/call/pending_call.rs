@@ -1,11 +1,11 @@
-//! Pending plugin calls, so an aborted check can name the hanging call.
+//! Records pending plugin calls, so that an aborted check can name the hanging call.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// True once [`watch`] runs. Calls are recorded only then.
+/// True once [`watch`] runs. Otherwise calls are not recorded.
 static IS_WATCHED: AtomicBool = AtomicBool::new(false);
 static CALLS: Mutex<Calls> = Mutex::new(Calls {
     next: 0,
@@ -23,7 +23,7 @@ fn calls() -> MutexGuard<'static, Calls> {
     CALLS.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// A call that is pending until this guard is dropped.
+/// Call that is pending until this guard is dropped.
 #[derive(Debug)]
 pub struct UnderWay(Option<u64>);
 
@@ -52,7 +52,8 @@ const LONG: Duration = Duration::from_millis(400);
 /// Polling interval.
 const PAUSE: Duration = Duration::from_millis(100);
 
-/// Starts a thread that reports the newest call pending for longer than [`LONG`]. Calls `tell` at each change of that call, with "" if there is none.
+/// Starts a thread that reports the newest call pending for longer than [`LONG`]. Calls `tell` whenever the reported call changes, with "" if no call is
+/// pending.
 pub(crate) fn watch(tell: impl Fn(&'static str) + Send + 'static) {
     IS_WATCHED.store(true, Ordering::Relaxed);
     let look = move || {

@@ -1,4 +1,4 @@
-//! Function tables of a library, read as far as both the library and the host define them.
+//! Reads function tables of a library, up to the shorter size of library and host.
 
 #![expect(
     unsafe_code,
@@ -13,7 +13,7 @@ use taceva_core::ErrorKind;
 
 use super::Failure;
 
-/// A table of functions that begins with its size.
+/// Table of functions whose first field is its size.
 ///
 /// # Safety
 /// The type is `repr(C)`, begins with its size as a `u32`, and is a value where all its bytes are 0.
@@ -48,7 +48,7 @@ tables! {
     abi::ext::BenchCalls => "taceva_bench_calls",
 }
 
-/// Copies the function table at `table`. Fields beyond the plugin's own size are NULL.
+/// Copies the function table at `table`. Fields beyond the size that the plugin states are NULL.
 ///
 /// # Safety
 /// `table` points to a table of the interface: its size field can be read, and so can the number of bytes in that field.

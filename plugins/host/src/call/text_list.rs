@@ -63,7 +63,7 @@ impl Taken {
 /// Appends one text to the [`Taken`] at `context`.
 ///
 /// # Safety
-/// `context` is the pointer that `Taken::context` returned for the pending call, and nothing else accesses it during the call.
+/// `context` is the pointer that `Taken::context` returned for the pending call, and no other code accesses the list during the call.
 pub unsafe extern "C" fn take(context: *mut c_void, text: abi::Text) {
     // SAFETY: guaranteed by the caller.
     let taken = unsafe { &mut *context.cast::<Taken>() };

@@ -4,7 +4,7 @@ use taceva_core::{ArgSpec, ArgValue, Args, ErrorKind};
 
 use super::wire::Failure;
 
-/// Rebuilds the arguments that the host has checked. The type of each value serves as its declaration.
+/// Rebuilds the arguments that the host has checked. The type of each value determines its declaration.
 pub(super) fn arguments(pairs: &[(String, ArgValue)]) -> Result<Args, Failure> {
     let specs: Vec<ArgSpec> = pairs
         .iter()

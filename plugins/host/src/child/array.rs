@@ -6,7 +6,7 @@ use super::memory::SharedMemory;
 use super::wire::{Failure, SetShape};
 use taceva_core::ErrorKind;
 
-/// A number with a fixed memory layout.
+/// Number with a fixed memory layout.
 pub(crate) trait Number: Copy {
     /// Size of one number, bytes.
     const LENGTH: usize;
@@ -48,14 +48,14 @@ pub(crate) fn get<T: Number>(count: usize, from: &[u8]) -> Option<(Vec<T>, &[u8]
     Some((place.chunks_exact(T::LENGTH).map(T::get).collect(), rest))
 }
 
-/// Allocates shared memory of `bytes` bytes, at least one. Fails for `None`, which stands for an overflowed size.
+/// Allocates shared memory of `bytes` bytes, at least one. Fails for `None`, the result of a size computation that overflowed.
 pub(crate) fn memory(bytes: Option<usize>) -> Result<SharedMemory, Failure> {
     let refused = |why: &str| Failure::new(ErrorKind::OutOfRange, "share memory", why);
     let bytes = bytes.ok_or_else(|| refused("the size exceeds the address space"))?;
     SharedMemory::new(bytes.max(1)).map_err(|error| refused(&error.to_string()))
 }
 
-/// Shape of `set`, and shared memory with its targets, features and groups, in this order.
+/// Copies targets, features and groups of `set`, in this order, to shared memory. Also returns the shape of `set`.
 pub(crate) fn share(set: &TrainingSet<'_>) -> Result<(SetShape, SharedMemory), Failure> {
     let (values, targets) = (set.features.values(), set.targets.values);
     let groups = set.groups.unwrap_or_default();
@@ -76,7 +76,7 @@ pub(crate) fn share(set: &TrainingSet<'_>) -> Result<(SetShape, SharedMemory), F
     Ok((shape, memory))
 }
 
-/// A training set that owns its numbers.
+/// Training set that owns its numbers.
 pub(crate) struct OwnedSet {
     shape: SetShape,
     features: Features,

@@ -1,4 +1,4 @@
-//! A plugin's simulated bench, on the host side and on the child side.
+//! Simulated bench of a plugin: proxy in the host and server in the child.
 
 mod proxy;
 mod serve;

@@ -8,10 +8,10 @@ use super::exit_status::Fate;
 use super::plain::plain;
 use super::wire::Failure;
 
-/// Maximum length of a plugin's message, characters. Longer messages are cut.
+/// Maximum length of a plugin's message, characters. Longer messages are truncated.
 const MESSAGE_MAX: usize = 2000;
 
-/// Failure of a child that did not start or did not answer.
+/// Failure of a child to start or to answer.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ChildError {
@@ -42,7 +42,7 @@ pub enum ChildError {
     Gone {
         /// Name of the plugin.
         plugin: String,
-        /// The child's fate.
+        /// Exit or kill that ended the child.
         fate: Fate,
         /// Last output of the child, with control characters escaped; empty if it printed nothing.
         printed: String,
@@ -134,7 +134,7 @@ impl Failure {
         }
     }
 
-    /// Rebuilds the error of `driver` as it would read without a child process. Control characters are escaped.
+    /// Rebuilds the error of `driver` with the text that it would have without a child process. Control characters are escaped.
     pub(crate) fn to_error(&self, driver: &DriverKey) -> DriverError {
         let mut error = DriverError::new(self.kind, driver, plain(&cut(&self.doing)));
         if let Some(fault) = self.fault {

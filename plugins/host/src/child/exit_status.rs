@@ -1,20 +1,20 @@
-//! Fate of a child process and its description.
+//! Reason for the end of a child process, and its description.
 
 use std::fmt;
 use std::os::unix::process::ExitStatusExt;
 use std::process::ExitStatus;
 use std::time::Duration;
 
-/// Operation name of the last call of a device. No caller waits for its result.
+/// Operation name of the close call of a device. No caller waits for the result.
 pub(super) const CLOSING: &str = "close the device";
 /// Operation name of the last order to a child.
 pub(super) const ENDING: &str = "end";
 
-/// Fate of a child process.
+/// Reason for the end of a child process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Fate {
-    /// The child was asked to end after its last device was closed.
+    /// The child ended on request, after its last device was closed.
     Closed,
     /// The child called `exit`, which is forbidden to plugins.
     Exited {
@@ -51,12 +51,12 @@ impl Fate {
         }
     }
 
-    /// True if the child missed the timeout of a close or an end. No caller receives an error for these.
+    /// True if a close or an end timed out. No caller receives an error for these operations.
     pub(crate) fn is_unheard(&self) -> bool {
         matches!(self, Fate::Late { doing, .. } if doing == CLOSING || doing == ENDING)
     }
 
-    /// True if the plugin is to blame. False after a requested end and after signals that others send, such as SIGKILL or SIGTERM.
+    /// True if the plugin is to blame. False after a requested end, and after signals from other processes, such as SIGKILL or SIGTERM.
     pub fn is_its_own_fault(&self) -> bool {
         match self {
             Fate::Closed => false,

@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-/// Counter of a child's output. It restarts after each [`Flood::WITHIN`].
+/// Counter of a child's output. The count restarts after each [`Flood::WITHIN`].
 #[derive(Debug)]
 pub(super) struct Flood {
     most: u64,
@@ -23,7 +23,7 @@ impl Flood {
         }
     }
 
-    /// Adds to the count. Returns true once it exceeds the limit.
+    /// Adds `count`. Returns true if the sum exceeds the limit.
     pub(super) fn add(&mut self, count: u64) -> bool {
         if self.since.elapsed() > Flood::WITHIN {
             (self.count, self.since) = (0, Instant::now());

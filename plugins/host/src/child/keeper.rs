@@ -1,7 +1,7 @@
 //! Keeper thread: starts a child, watches it, kills it when a call times out, and reports how it ended.
 //!
-//! The kernel kills a child when the *thread* that started it ends, so the keeper starts the child and outlives it. The keeper is also the
-//! only watchdog. Callers record their timeout and block; a killed child closes its sockets, which wakes them.
+//! The kernel kills a child when the *thread* that started it ends, so the keeper starts the child and outlives it. The keeper is also the only watchdog.
+//! Callers record their timeout and block. The sockets of a killed child close, which wakes the callers.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -26,7 +26,7 @@ const PRINTED_IN_ALL: u64 = 64 << 20;
 /// Capacity of a pipe, bytes.
 const PIPE_MAX: usize = 64 * 1024;
 
-/// A running child: its process number, its watch and its keeper thread.
+/// Running child: process number, watch and keeper thread.
 #[derive(Debug)]
 pub(crate) struct Kept {
     pub(crate) process: u32,
@@ -34,8 +34,8 @@ pub(crate) struct Kept {
     pub(crate) keeper: JoinHandle<()>,
 }
 
-/// Starts a process and its keeper thread. `output` is the read end of the pipe that `command` prints to; `lines` receives the printed lines. The
-/// keeper calls `ended` with the child's fate.
+/// Starts a process and its keeper thread. `output` is the read end of the pipe that `command` prints to; `lines` receives the printed lines. The keeper calls
+/// `ended` with the reason for the end of the child.
 pub(super) fn keep(
     command: Command,
     output: OwnedFd,

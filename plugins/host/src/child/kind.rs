@@ -18,7 +18,7 @@ use super::link::Link;
 use super::reply::Reply;
 use super::wire::{Answer, Call, Failure, OpenedDevice};
 
-/// A kind of device: `dyn Sensor`, `dyn Robot`, `dyn ForceTransducer`, `dyn Lighting` or `dyn Changer`.
+/// Kind of device: `dyn Sensor`, `dyn Robot`, `dyn ForceTransducer`, `dyn Lighting` or `dyn Changer`.
 pub(super) trait Kind: 'static {
     /// Name of the kind.
     const KIND: DriverKind;
@@ -30,7 +30,7 @@ pub(super) trait Kind: 'static {
     fn proxy(link: Link, opened: OpenedDevice) -> Result<Box<Self>, DriverError>;
 }
 
-/// An open device in the child.
+/// Server of an open device in the child.
 pub(super) trait Server: Send {
     /// Properties of the open device.
     fn opened(&mut self) -> OpenedDevice;
@@ -45,7 +45,7 @@ pub(super) trait Server: Send {
         None
     }
 
-    /// Answers a call. `files` came with the message.
+    /// Answers a call. `files` are the files that were sent with the call.
     fn answer(&mut self, call: Call, files: Vec<OwnedFd>) -> Result<Answer, Failure>;
 }
 

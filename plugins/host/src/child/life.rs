@@ -1,4 +1,4 @@
-//! State of a child that remains available after its end.
+//! State of a child that clients can still use after its end.
 
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ pub(crate) struct Life {
 }
 
 impl Life {
-    /// Converts a link error into a [`ChildError`]. Unless the message was unsendable, waits until the child's fate is known.
+    /// Converts a link error into a [`ChildError`]. Waits for the end of the child, unless the message could not be sent.
     pub(crate) fn lost(&self, error: LinkError) -> ChildError {
         match error {
             LinkError::Unsendable(why) => return ChildError::Unsendable { why },

@@ -105,7 +105,7 @@ impl Link {
         }
     }
 
-    /// Extracts and checks the expected reply. A child that sends another type of answer is killed.
+    /// Extracts and checks the expected reply. Kills a child that sends another type of answer.
     fn reply<R: Reply>(&self, answer: Answer, doing: &'static str) -> Result<R, DriverError> {
         let Some(reply) = R::from_answer(answer) else {
             let error = self.child.life().broke("an answer to another call");
@@ -145,7 +145,7 @@ impl fmt::Debug for Link {
     }
 }
 
-/// Channel for interrupts and halts, which bypass the call queue. Does not keep the child alive.
+/// Channel for interrupts and halts, which bypass the call queue. The channel does not keep the child running.
 struct UrgentLink {
     life: Arc<Life>,
     driver: DriverKey,
@@ -161,7 +161,7 @@ impl UrgentLink {
         *self.pending.lock().unwrap_or_else(PoisonError::into_inner) = call;
     }
 
-    /// Shortens the timeout of the pending call to the urgent one.
+    /// Shortens the timeout of the pending call to that of urgent messages.
     fn hasten(&self) {
         let pending = *self.pending.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(call) = pending {

@@ -1,4 +1,4 @@
-//! Log lines of a plugin, sent from the child over a separate socket so that they arrive during a call.
+//! Log lines of a plugin. A separate socket transfers the lines, so that they arrive during a call.
 
 use std::os::fd::{AsFd, OwnedFd};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -62,7 +62,7 @@ pub(super) fn send(level: Level, target: &str, message: &str) -> bool {
 /// Log target of lines that name the pending call of a check.
 pub const CALL: &str = "taceva-call";
 
-/// In the child: reports the long-running call `doing`; empty if there is none.
+/// In the child: reports the long-running call `doing`, which is empty if no call is pending.
 pub(super) fn tell_call(doing: &'static str) {
     send(Level::Debug, CALL, doing);
 }
@@ -108,7 +108,7 @@ fn flooded(flood: &mut Flood, lines: u64, watch: &Watch) {
     }
 }
 
-/// In the host: passes messages of the child to `log`, within its limit, until the child is gone. A malformed message ends the child.
+/// In the host: passes messages of the child to `log` until the child is gone. Kills a child that exceeds the limit or sends a malformed message.
 pub(super) fn listen(
     socket: Socket,
     log: Log,

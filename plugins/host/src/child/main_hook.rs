@@ -20,7 +20,7 @@ use super::socket::Socket;
 use super::wire::{Failure, FirstWord, Greeting, Hello};
 use crate::session::Session;
 
-/// First command-line argument of a host child. Users never type it.
+/// First command-line argument of a host child. Not for users.
 pub const CHILD_ARGUMENT: &str = "--taceva-host-child";
 
 /// Returns at once unless this process was started as a host child. A host child confines itself, calls `load` with the files from the
@@ -43,7 +43,7 @@ pub fn main_if_child_with(
     unsafe { libc::_exit(code) }
 }
 
-/// Confines this process and serves what `load` loads to the host on standard input. Returns the exit code.
+/// Confines this process, calls `load` and serves the result to the host on standard input. Returns the exit code.
 pub(super) fn serve_host(
     load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> i32 {
@@ -56,7 +56,7 @@ pub(super) fn serve_host(
 /// True once `main` has checked for a host child, so that this program can be started as one.
 static CAN_BE_CHILD: AtomicBool = AtomicBool::new(false);
 
-/// True if this program can be started as a host child. Other programs would ignore the argument.
+/// True if this program can be started as a host child. Other programs would ignore [`CHILD_ARGUMENT`].
 pub(super) fn can_be_child() -> bool {
     CAN_BE_CHILD.load(Ordering::Relaxed)
 }
@@ -64,7 +64,7 @@ pub(super) fn can_be_child() -> bool {
 /// Exit code of a process that has the host-child argument but no host.
 const NOT_A_CHILD: i32 = 64;
 
-/// Moves the socket to the host away from standard input, which becomes empty. Closes every other inherited file.
+/// Moves the host's socket from standard input to another file, and makes standard input empty. Closes every other inherited file.
 fn orders() -> Option<Socket> {
     let orders = fcntl_dupfd_cloexec(std::io::stdin().as_fd(), 3).ok()?;
     let nothing = File::open("/dev/null").ok()?;

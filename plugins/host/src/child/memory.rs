@@ -1,4 +1,4 @@
-//! Memory shared by the host and its child. The host allocates it; neither can change its size.
+//! Memory shared by the host and its child. The host allocates the memory. Neither process can change its size.
 #![expect(
     unsafe_code,
     reason = "memory is shared by mapping one file in two processes"
@@ -18,7 +18,7 @@ const SEALS: SealFlags = SealFlags::SHRINK
     .union(SealFlags::GROW)
     .union(SealFlags::SEAL);
 
-/// A memory mapping that another process can map too.
+/// Memory mapping that another process can map too.
 #[derive(Debug)]
 pub(crate) struct SharedMemory {
     start: NonNull<u8>,
@@ -30,7 +30,7 @@ pub(crate) struct SharedMemory {
 unsafe impl Send for SharedMemory {}
 
 impl SharedMemory {
-    /// Allocates `length` zero bytes. [`file`](SharedMemory::file) passes them to another process.
+    /// Allocates `length` zero bytes. [`file`](SharedMemory::file) gives another process access.
     pub(crate) fn new(length: usize) -> Result<SharedMemory, Errno> {
         let file = memfd_create(
             c"taceva-shared",
@@ -92,7 +92,7 @@ impl SharedMemory {
         unsafe { std::ptr::copy_nonoverlapping(self.start.as_ptr(), into.as_mut_ptr(), into.len()) }
     }
 
-    /// Bytes of the memory, for the writing process. The other process reads after the answer reports them complete.
+    /// Bytes of the memory, for the writing process. The other process reads the bytes after the answer.
     pub(crate) fn bytes_mut(&mut self) -> &mut [u8] {
         // SAFETY: the mapping is valid for `length` bytes while `self` lives. `&mut self` gives exclusive access within this process.
         unsafe { std::slice::from_raw_parts_mut(self.start.as_ptr(), self.length) }

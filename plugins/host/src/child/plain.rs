@@ -1,8 +1,8 @@
-//! Text of a plugin, made safe for a terminal.
+//! Escapes text of a plugin for a terminal.
 
 use taceva_core::is_obeyed;
 
-/// Escapes the control characters of `text` except line feeds, so no terminal interprets them.
+/// Escapes the control characters of `text` except line feeds, so that no terminal executes them.
 pub(crate) fn plain(text: &str) -> String {
     let mut plain = String::with_capacity(text.len());
     for character in text.chars() {

@@ -1,4 +1,4 @@
-//! Plugin passed to a child: its manifest, and its sealed library or the folder of its module.
+//! Transfer of a plugin to a child: the manifest, and the sealed library or the folder of the module.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -45,7 +45,7 @@ variants!(Label, "the plugin to serve" {
     1 => Module { folder, name, preload, manifest },
 });
 
-/// Function that examines the plugin of a source as the file orders, instead of serving it.
+/// Function that examines a plugin instead of serving it. The file contains the order.
 ///
 /// Success is a session; failure is an error kind and a message.
 pub type Examiner = fn(File, Source, &Manifest) -> Result<Arc<dyn Session>, (ErrorKind, String)>;
@@ -168,11 +168,11 @@ fn serve_libraries(examiner: Option<Examiner>) {
     });
 }
 
-/// Serves as the child of the host on standard input, and returns the exit code. The process confines itself, calls `import` for the
-/// requested module and serves it until the host is gone. A requested library is loaded instead.
-/// For runtimes of other languages, which have their own `main`. Call it first, while there is one thread, and before any import that starts threads:
-/// such threads would not be confined. It closes every open file except the standard ones. `import` returns the function table of the module, or the
-/// reason for the failure. `examiner` carries out orders to examine the module. The process must then end without running exit handlers.
+/// Serves as the child of the host on standard input, and returns the exit code. The process confines itself, calls `import` for the requested module and
+/// serves it until the host is gone. A requested library is loaded instead. This function is for runtimes of other languages with their own `main`. Call this
+/// function first, before any other thread starts, because threads that already run are not confined. This function closes every open file except the standard
+/// ones. `import` returns the function table of the module, or the reason for the failure. `examiner` executes orders to examine the module. Afterwards the
+/// process must end without running exit handlers.
 pub fn serve_as_child(
     import: impl FnOnce(&ModuleToImport) -> Result<Linked, String>,
     examiner: Option<Examiner>,
@@ -252,7 +252,7 @@ fn read(file: File) -> io::Result<Label> {
     decode(&bytes).map_err(io::Error::other)
 }
 
-/// Sends a log line to the host. If the host does not listen, warnings and errors go to standard error; the host keeps its last part.
+/// Sends a log line to the host. If the host does not listen, warnings and errors go to standard error; the host stores the last part of that output.
 fn log(level: Level, target: &str, message: &str) {
     if !super::log::send(level, target, message) && level <= Level::Warn {
         // A write error is ignored: it cannot be reported.

@@ -1,4 +1,4 @@
-//! Lines that a child prints. A separate thread passes them to the log, so the keeper never waits for a log.
+//! Lines that a child prints. A separate thread passes the lines to the log, so that the keeper thread never waits for the log.
 
 use std::io;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Quarantine of crashed plugins. They do not start again until the user releases them.
+//! Quarantine of crashed plugins. A plugin in quarantine does not start until the user releases it.
 
 use std::fs;
 use std::io;
@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::plain::plain;
 use crate::manifest::Sha256Digest;
 
-/// Folder of a user's quarantine. It has one file per library, named by its digest, so a new build is not affected.
+/// Folder of a user's quarantine. The folder has one file per library, named by the digest of the library. A new build is therefore not in quarantine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Quarantine {
     folder: PathBuf,
@@ -51,7 +51,7 @@ impl Quarantine {
         &self.folder
     }
 
-    /// Entry of a library, or `None`. An unreadable entry still counts.
+    /// Entry of a library; `None` if it is not in quarantine. A damaged entry counts as an entry.
     ///
     /// # Errors
     /// If the entry's file exists but cannot be read.

@@ -9,7 +9,7 @@ pub(super) trait Reply: Sized {
     /// Converts the result into an answer.
     fn into_answer(self) -> Answer;
 
-    /// Extracts the result from `answer`; `None` if it answers another call.
+    /// Extracts the result from `answer`; `None` for an answer to another call.
     fn from_answer(answer: Answer) -> Option<Self>;
 
     /// Rejects impossible values. The error names the value.

@@ -1,4 +1,4 @@
-//! Sandbox of a child. The host orders it, the child applies it before it loads anything, and reports it back.
+//! Sandbox of a child. The host requests the limits. The child applies them before it loads code, and reports the result.
 
 mod confinement;
 mod devices;

@@ -26,7 +26,7 @@ use crate::manifest::Manifest;
 use crate::offer::Offer;
 use crate::session::{FitRequest, Saved, SavedRegressor, Session};
 
-/// Connection to all devices of one plugin in one rig, in one child.
+/// Session in one child, for all devices of one plugin in one rig.
 #[derive(Debug)]
 pub struct ChildSession {
     child: Arc<Child>,
@@ -35,7 +35,7 @@ pub struct ChildSession {
 }
 
 impl ChildSession {
-    /// Starts a child for `plugin`. `arguments` holds the manifest's declarations for its drivers and estimators.
+    /// Starts a child for `plugin`. `arguments` contains the arguments that the manifest declares for drivers and estimators.
     ///
     /// # Errors
     /// As [`Child::start`].
@@ -246,7 +246,7 @@ impl Session for ChildSession {
 }
 
 impl ChildSession {
-    /// Orders a model and waits until the child has made it.
+    /// Sends the order for a model and waits until the child has made the model.
     fn make(
         &self,
         estimator: &DriverKey,

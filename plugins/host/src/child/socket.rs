@@ -1,4 +1,4 @@
-//! Packet sockets between two processes. A packet is read whole or not at all, and can carry files.
+//! Packet sockets between two processes. A packet is read completely or not at all, and may contain files.
 
 use std::io::{IoSlice, IoSliceMut};
 use std::mem::MaybeUninit;
@@ -112,7 +112,7 @@ impl AsFd for Socket {
     }
 }
 
-/// Requesting end of a socket. Each answer repeats the number of its request, so an answer sent too early is detected.
+/// Requesting end of a socket. Each answer repeats the number of its request, so that answers without a request are detected.
 #[derive(Debug)]
 pub(crate) struct Caller {
     socket: Socket,
@@ -155,7 +155,7 @@ impl AsFd for Caller {
     }
 }
 
-/// A borrowed message after its number. It is read back as a pair.
+/// Borrowed message after its number. The receiver reads a pair of number and message.
 struct Numbered<'a, T>(u32, &'a T);
 
 impl<T: Wire> Wire for Numbered<'_, T> {

@@ -13,7 +13,7 @@ use super::usage::Usage;
 use crate::library::Log;
 use crate::manifest::Sha256Digest;
 
-/// Callback that receives the fate of a child and its times.
+/// Callback that receives the reason for the end of a child, and its times.
 pub(super) type Ended = Box<dyn FnOnce(&Fate, Usage) + Send>;
 
 /// Specification of a child to start.
@@ -24,19 +24,19 @@ pub struct ChildSpec {
     pub program: Option<PathBuf>,
     /// Arguments before the host-child argument, such as the file that an interpreter runs.
     pub arguments: Vec<OsString>,
-    /// Files passed to the child, at most three. The child defines their meaning.
+    /// Files passed to the child, at most three. The program of the child defines the meaning of each file.
     pub files: Vec<OwnedFd>,
     /// Limits that the child imposes on itself.
     pub confinement: Confinement,
     /// Timeouts of the child.
     pub patience: Patience,
-    /// Callback that receives the child's fate once, on the keeper thread.
+    /// Callback that the keeper thread calls once, with the reason for the end of the child.
     pub ended: Option<Ended>,
     /// True if the child loads a plugin. Otherwise it only reports its isolation.
     pub loads: bool,
-    /// Receives the plugin's log lines on a separate thread. Without it, errors and warnings appear in the child's printed output.
+    /// Callback for log lines of the plugin, on a separate thread. Without a callback, errors and warnings are part of the child's printed output.
     pub log: Option<Log>,
-    /// Quarantine, and the library's digest. A quarantined library does not start; a crashed one is added.
+    /// Quarantine, and the library's digest. A quarantined library does not start. A library that crashes is added.
     pub quarantine: Option<(Quarantine, Sha256Digest)>,
 }
 

@@ -1,4 +1,4 @@
-//! Start of a child, and its orders.
+//! Starts a child, and sends orders to it.
 
 use std::fmt;
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
@@ -32,7 +32,7 @@ use crate::wire_version::WIRE;
 /// The running executable, even if its path now names another file.
 const THIS_PROGRAM: &str = "/proc/self/exe";
 
-/// A running child. It is ordered to end after its last device and the last owner of this value are gone.
+/// Running child. The child ends after its last device is closed and the last owner of this value is dropped.
 pub struct Child {
     process: u32,
     isolation: Isolation,

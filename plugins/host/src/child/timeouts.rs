@@ -7,22 +7,22 @@ use std::time::Duration;
 /// A call with a deadline times out [`grace`](Patience::grace) after the deadline, on the machine's clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Patience {
-    /// From start until the child has confined itself and loaded its plugin.
+    /// Timeout from the start until the child has confined itself and loaded its plugin.
     pub start: Duration,
-    /// For opening a device and every call without a deadline.
+    /// Timeout for opening a device and for every call without a deadline.
     pub open: Duration,
-    /// For closing a device.
+    /// Timeout for closing a device.
     pub close: Duration,
     /// Time added to the deadline of a call, because simulated devices count deadlines on their own clock.
     pub grace: Duration,
-    /// For acknowledging a halt, and for ending a call after an interrupt.
+    /// Timeout for confirming a halt, and for ending a call after an interrupt.
     pub urgent: Duration,
-    /// For ending after the order to end.
+    /// Timeout for ending after the order to end.
     pub end: Duration,
 }
 
 impl Default for Patience {
-    /// Long timeouts that distinguish a hanging child from a slow one on a busy machine.
+    /// Default timeouts. They are long, so that a slow child on a busy machine does not count as hanging.
     fn default() -> Patience {
         Patience {
             start: Duration::from_secs(20),

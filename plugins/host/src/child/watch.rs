@@ -19,7 +19,7 @@ pub(super) const PRINTED_MAX: usize = 4096;
 pub(crate) struct Watch {
     state: Mutex<State>,
     ended: Condvar,
-    /// Wakes the keeper.
+    /// Event file that wakes the keeper thread.
     pub(super) wake: OwnedFd,
 }
 
@@ -29,7 +29,7 @@ struct State {
     next_call: u64,
     /// Time of the keeper's next check; `None` if it waits for an event.
     looks_at: Option<Instant>,
-    /// Reason to kill the child, if there is one.
+    /// Reason to kill the child; `None` if there is none.
     sentence: Option<Fate>,
     /// True once the child was ordered to end.
     is_ending: bool,
@@ -107,14 +107,14 @@ impl Watch {
         }
     }
 
-    /// Kills the child for `reason`, unless it already has a reason.
+    /// Requests the end of the child for `reason`, unless there is an earlier reason.
     pub(crate) fn condemn(&self, reason: Fate) {
         let mut state = self.state();
         state.sentence.get_or_insert(reason);
         self.look_at(&mut state, Instant::now());
     }
 
-    /// Records that the child was ordered to end, so its exit is not a failure.
+    /// Records that the child was ordered to end, so that its exit is not a failure.
     pub(crate) fn expect_end(&self) {
         self.state().is_ending = true;
     }
@@ -124,7 +124,7 @@ impl Watch {
         self.state().fate.clone()
     }
 
-    /// Waits for the fate of a child that closed its sockets. Kills it if it still runs after 250 ms.
+    /// Waits for the end of a child that closed its sockets, and returns the reason. Kills the child if it still runs after 250 ms.
     pub(crate) fn final_fate(&self) -> Fate {
         let closing = Duration::from_millis(250);
         let (state, _) = self
@@ -165,7 +165,7 @@ impl Watch {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Next action of the keeper: an error with the reason to kill the child, or the time to wait.
+    /// Returns the time that the keeper should wait, `None` for no limit. The error is the reason to kill the child.
     pub(super) fn look(&self) -> Result<Option<Duration>, Fate> {
         let mut state = self.state();
         let now = Instant::now();

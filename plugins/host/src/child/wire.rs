@@ -36,7 +36,7 @@ pub(crate) trait Wire: Sized {
     fn read(from: &mut Reader<'_>) -> Result<Self, Malformed>;
 }
 
-/// Encodes a message into `into`. Fails if it exceeds a packet.
+/// Encodes a message into `into`. Fails if the message exceeds a packet.
 pub(crate) fn encode(message: &impl Wire, into: &mut Vec<u8>) -> Result<(), TooLong> {
     into.clear();
     message.write(into);

@@ -67,7 +67,7 @@ impl PluginConfig {
     }
 }
 
-/// Line of a plugin in the table.
+/// Line with the needs of a plugin in the table.
 fn line(id: &PluginId, needs: &BTreeSet<Need>) -> String {
     let needs: Vec<String> = needs.iter().map(quoted).collect();
     format!("\"{id}\" = [{}]\n", needs.join(", "))
@@ -77,7 +77,7 @@ fn quoted(need: &Need) -> String {
     toml::Value::String(need.to_string()).to_string()
 }
 
-/// Adds an entry after the last one of the table.
+/// Adds an entry after the last entry of the table.
 fn with_line(
     text: &str,
     id: &PluginId,

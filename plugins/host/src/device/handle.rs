@@ -24,9 +24,9 @@ pub struct Handle {
     raw: *mut c_void,
     calls: abi::DeviceCalls,
     driver: DriverKey,
-    /// Locked for reading by interrupts, for writing by the close call.
+    /// True until the device is closed. Interrupts lock the flag for reading, the close call for writing.
     is_open: RwLock<bool>,
-    /// True after a panic of the plugin. Only closing is safe then.
+    /// True after a panic of the plugin. Afterwards only closing is safe.
     is_dead: AtomicBool,
     /// Dropped last, so the rig and its library outlive the handle.
     _rig: Arc<RigHandle>,
@@ -42,14 +42,14 @@ unsafe impl Sync for Handle {}
 pub struct Opened<T> {
     /// Owner of the device.
     pub handle: Owned,
-    /// Function table of its kind.
+    /// Function table for the kind of the device.
     pub calls: T,
 }
 
 /// Sole owner of a handle.
 pub struct Owned(Arc<Handle>);
 
-/// Device kind with its function table and facts.
+/// Kind of device, with its function table and facts.
 pub(crate) trait PluginDevice: Sized {
     /// Name of the kind.
     const KIND: DriverKind;
@@ -135,7 +135,7 @@ impl Handle {
         &self.driver
     }
 
-    /// Timing of samples at a declared `rate`; unchecked on a simulated bench, which has its own clock. Called while the device is opened.
+    /// Check of sample times against a declared `rate`. Disabled on a simulated bench, which has its own clock. Called while the device is opened.
     pub(crate) fn timing(&self, rate: Option<Hertz>) -> SampleTiming {
         match PluginBench::of(&self._rig, "") {
             Some(_) => SampleTiming::unchecked(),
@@ -163,7 +163,7 @@ impl Handle {
         })
     }
 
-    /// Calls a function from any thread; `None` once the device is closed or dead.
+    /// Calls a function from any thread; `None` if the device is closed or has panicked.
     pub(crate) fn call_beside<R>(&self, run: impl FnOnce(*mut c_void) -> R) -> Option<R> {
         // If the lock is not available for reading, the device is being closed.
         let is_open = self.is_open.try_read().ok()?;
@@ -225,7 +225,7 @@ impl Owned {
         Failure::new(kind, why).of(&self.0.driver, doing)
     }
 
-    /// Function of the extension table `id`, which the device declares. `says` quotes the declaration in the error.
+    /// Function of the extension table `id`, which the device declares. The error quotes the declaration `says`.
     pub(crate) fn ability<T: Table, F>(
         &self,
         id: &'static str,

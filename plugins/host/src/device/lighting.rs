@@ -24,7 +24,7 @@ pub(super) struct LightingAbility {
 }
 
 impl LightingAbility {
-    /// Creates the ability of the device `handle`. The device's owner keeps it and makes no concurrent call.
+    /// Creates the ability of the device `handle`. The owner of the device also owns this value and makes no concurrent call.
     pub(super) fn new(handle: Arc<Handle>, set: Set, scenes: Vec<String>) -> LightingAbility {
         LightingAbility {
             handle,

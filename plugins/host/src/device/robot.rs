@@ -195,7 +195,7 @@ fn from_si(pose: abi::Pose, driver: &DriverKey, doing: &'static str) -> Result<P
     })
 }
 
-/// Halts a robot from any thread. Records the halt even if the stop could not be sent.
+/// Halts a robot from any thread. Records the halt even if the call of the plugin fails.
 struct Halter {
     handle: Arc<Handle>,
     halt: unsafe extern "C" fn(*mut c_void, *mut abi::Error) -> abi::Status,

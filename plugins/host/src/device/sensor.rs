@@ -130,7 +130,7 @@ impl PluginSensor {
         }))
     }
 
-    /// Captures the next frame into `buffer`, which has the length of a frame or is NULL.
+    /// Captures the next frame. `buffer` has the length of a frame, or is NULL to borrow the frame.
     fn take(&mut self, buffer: *mut u8, deadline: Deadline) -> Result<Taken, DriverError> {
         let mut taken = Taken {
             frame: abi::Frame {

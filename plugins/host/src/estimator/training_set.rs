@@ -5,7 +5,7 @@ use taceva_core::{ErrorKind, TrainingSet};
 
 use crate::call::Failure;
 
-/// Training set in the form of the plugin interface, with the texts it points to.
+/// Training set in the form of the plugin interface, with the texts to which it points.
 pub(super) struct Lent<'a> {
     set: &'a TrainingSet<'a>,
     names: Vec<abi::Text>,

@@ -53,7 +53,7 @@ impl Plugin {
         }
     }
 
-    /// Specifies a child that runs `code`, unconfined if `is_trusted`.
+    /// Specifies a child that runs `code`. The child is unconfined if `is_trusted`.
     ///
     /// # Errors
     /// [`DriverError`] of `driver` if no interpreter can run it, or the user of a confined child may not read it.

@@ -38,7 +38,7 @@ impl PluginHost {
         }
     }
 
-    /// Discovery session of `plugin`. It is started only once, so a hanging plugin costs one timeout.
+    /// Discovery session of `plugin`. The session is started only once, so that a hanging plugin causes only one timeout.
     fn looker(&self, plugin: &Plugin, driver: &DriverKey) -> Looker {
         let mut lookers = self.lock_lookers();
         if let Some(looker) = lookers.get(plugin.id()) {

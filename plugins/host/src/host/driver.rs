@@ -18,7 +18,7 @@ use crate::search::Plugin;
 use crate::session::Session;
 use crate::usb;
 
-/// Driver of a plugin: described by its manifest, opened by its library.
+/// Driver of a plugin. The manifest describes the driver, and the library opens its devices.
 #[derive(Debug)]
 pub struct PluginDriver {
     pub(super) host: Arc<PluginHost>,
@@ -83,7 +83,7 @@ impl PluginDriver {
         Ok((grant, args))
     }
 
-    /// Description of the driver. The library describes it if `args` can change its facts; otherwise, or if that fails, the manifest does.
+    /// Description of the driver. The description is from the library if `args` can change the facts. Otherwise, or after a failure, it is from the manifest.
     fn described(&self, args: &Args) -> Descriptor {
         let manifest = &*self.descriptor;
         if !changes_facts(manifest, args) {
@@ -108,7 +108,7 @@ impl PluginDriver {
         Ok(format!("sha256:{}", plugin.read(key)?.digest()))
     }
 
-    /// Devices that the library finds. If it finds none: USB devices that the manifest names and the kernel lists.
+    /// Devices that the library finds. If there are none, USB devices that the manifest names and the kernel lists.
     fn present(&self) -> Result<Vec<Found>, DriverError> {
         let key = self.descriptor.key();
         let found = self.host.look(self.plugin("look for devices")?, key)?;

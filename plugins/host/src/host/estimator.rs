@@ -1,4 +1,4 @@
-//! Estimator of a plugin: described by its manifest, fitted and loaded by its library.
+//! Estimator of a plugin. The manifest describes the estimator, and the library fits and loads models.
 
 use std::fmt;
 use std::sync::{Arc, OnceLock};
@@ -14,7 +14,7 @@ use crate::manifest::{EstimatorInfo, Sha256Digest};
 use crate::search::Plugin;
 use crate::session::Session;
 
-/// Estimator of a plugin. A saved model has the plugin's own format, and stores the library's digest beside it.
+/// Estimator of a plugin. A saved model has the format of the plugin and the digest of the library.
 struct PluginEstimator {
     host: Arc<PluginHost>,
     plugin: Plugin,

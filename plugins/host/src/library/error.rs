@@ -63,12 +63,12 @@ pub enum LoadProblem {
     File(io::Error),
     /// The path is a folder, a pipe or a device.
     NotAFile,
-    /// The file is too long.
+    /// The file is longer than the limit.
     TooLong {
         /// Maximum length, bytes.
         most: u64,
     },
-    /// The digest differs from the manifest's.
+    /// The digest differs from the digest in the manifest.
     Digest {
         /// Digest in the manifest.
         expected: Sha256Digest,
@@ -127,7 +127,7 @@ pub enum LoadProblem {
         manifest: String,
         /// Value in the library.
         library: String,
-        /// Name of the Python module that stands for the library; `None` for a library.
+        /// Name of the Python module, if the plugin is one; `None` for a library.
         module: Option<String>,
     },
     /// A required function is NULL.

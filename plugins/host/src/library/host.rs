@@ -26,7 +26,7 @@ pub enum Level {
 /// Callback for a plugin's log lines: level, target and message.
 pub type Log = Box<dyn Fn(Level, &str, &str) + Send + Sync>;
 
-/// Host table for a plugin's `init`. It is leaked, because the library is never unloaded.
+/// Host table for a plugin's `init`. The table is never freed, because the library is never unloaded.
 pub(super) fn table(log: Log) -> *const abi::Host {
     let log: &'static Log = Box::leak(Box::new(log));
     let host = abi::Host {

@@ -1,4 +1,4 @@
-//! Private, sealed copy of a library. The hashed file is therefore the loaded file.
+//! Private, sealed copy of a library. The loaded bytes are therefore the hashed bytes.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -18,7 +18,7 @@ pub(crate) const LENGTH_MAX: u64 = 1 << 30;
 /// Block size for copying, bytes.
 const BLOCK: usize = 1 << 16;
 
-/// A hashed library in sealed memory. Later changes of its file do not affect it.
+/// Hashed copy of a library in sealed memory. Later changes of the file have no effect.
 #[derive(Debug)]
 pub struct Image {
     memory: OwnedFd,

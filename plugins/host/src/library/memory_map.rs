@@ -1,11 +1,11 @@
-//! Memory map of this process. It serves to check a library's pointers before they are read.
+//! Memory map of this process. The map is used to check pointers of a library before they are read.
 
 use std::io;
 use std::ops::Range;
 
 /// Readable address ranges of this process at one moment.
 pub(super) struct Mapped {
-    /// Sorted and disjoint.
+    /// Address ranges, sorted and disjoint.
     ranges: Vec<Range<usize>>,
 }
 
@@ -40,7 +40,7 @@ impl Mapped {
         Mapped { ranges }
     }
 
-    /// True if the `length` bytes at `address` are readable.
+    /// True if all `length` bytes at `address` are readable.
     pub(super) fn holds(&self, address: usize, length: usize) -> bool {
         let Some(end) = address.checked_add(length) else {
             return false;

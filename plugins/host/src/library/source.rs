@@ -9,7 +9,7 @@ use super::{Image, Library, LoadError, Log};
 use crate::manifest::Manifest;
 use crate::offer::Offer;
 
-/// A table built by this program. A runtime of another language uses it to offer its objects as devices.
+/// Table that this program built. With it, a runtime of another language provides its objects as devices.
 #[derive(Clone, Debug)]
 pub struct Linked {
     table: &'static abi::Plugin,
@@ -41,7 +41,7 @@ impl Linked {
 pub enum Source {
     /// A copied library file.
     Image(Image),
-    /// A table built by this program.
+    /// A table that this program built.
     Linked(Linked),
 }
 

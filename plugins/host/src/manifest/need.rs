@@ -1,4 +1,4 @@
-//! Outside resources that a plugin needs. A child process gets only those that the manifest declares and the user allows.
+//! Outside resources that a plugin needs. A child process can access only resources that the manifest declares and the user allows.
 
 mod coverage;
 mod declaration;
@@ -145,7 +145,7 @@ fn is_path(path: &str) -> bool {
     path.split('/').all(is_plain) && !path.contains(is_foreign)
 }
 
-/// True if no part of `path` consists of stars only.
+/// False if a part of `path` consists only of stars.
 fn names_something(path: &str) -> bool {
     let mut parts = path.split('/').skip(1);
     parts.all(|part| part.chars().any(|letter| letter != '*'))

@@ -18,7 +18,7 @@ pub struct PythonModule {
     pub name: String,
     /// Wire version for which the module was written.
     pub wire: u32,
-    /// Modules to import first. The plugin would import their native code later, when no code may be mapped.
+    /// Modules to import before the plugin. Their native code cannot be loaded later, when no code may be mapped.
     pub preload: Vec<String>,
     /// Confinement profile of the process.
     pub profile: Profile,

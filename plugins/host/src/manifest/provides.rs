@@ -87,7 +87,7 @@ impl WrittenProvides {
         })
     }
 
-    /// First key that does not apply to this kind of device.
+    /// First key in the table that does not apply to this kind of device; `None` if all apply.
     fn stranger(&self) -> Option<(&'static str, Range<usize>)> {
         use Kind::{Changer, Force, Lighting, Robot, Sensor};
         fn span<T>(key: &Option<Spanned<T>>) -> Option<Range<usize>> {

@@ -8,7 +8,7 @@ use crate::descriptor::{arguments, difference};
 use crate::manifest::{LibraryFile, Manifest, ManifestError, Provided, platform};
 use crate::wire_version::WIRE;
 
-/// Keys that only the manifest has.
+/// Keys that manifests have but libraries do not state.
 const OF_MANIFEST: [&str; 1] = ["usb"];
 
 impl Offer {
@@ -153,7 +153,7 @@ fn put(table: &mut Table, key: &str, said: &Item) {
     }
 }
 
-/// True if both values are equal; 60 equals 60.0.
+/// True if both values are equal. An integer equals the float of the same value.
 fn is_same(one: &Item, other: &Item) -> bool {
     fn plain(item: &Item) -> Option<Plain> {
         let mut table = DocumentMut::new();

@@ -133,7 +133,7 @@ impl Promised {
         }
     }
 
-    /// Compares a file with its digest, and keeps it if this machine needs it.
+    /// Compares a file with its digest, and writes it if this machine needs the file.
     fn take(
         &mut self,
         name: &str,

@@ -11,8 +11,8 @@ use super::{DIGESTS, PackageError, libraries, licences};
 use crate::manifest::Sha256Digest;
 use crate::search::{MANIFEST, Plugin};
 
-/// Packs `plugin` into an archive: the manifest, the digests, every existing library of the manifest, and the licences. Equal plugins give equal
-/// bytes. Returns the names of the entries.
+/// Packs `plugin` into an archive: the manifest, the digests, every existing library of the manifest, and the licences. Archives of equal plugins are equal.
+/// Returns the names of the entries.
 ///
 /// # Errors
 /// [`PackageError`] if a file cannot be read, or its path does not fit a tar header (256 bytes).

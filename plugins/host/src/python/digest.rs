@@ -12,8 +12,8 @@ use crate::manifest::Sha256Digest;
 const FILES_MAX: usize = 10_000;
 const BYTES_MAX: u64 = 1 << 30;
 
-/// Digest of all files in `folder` except `__pycache__` and hidden files. A package is not copied before the import, unlike a library, so the digest
-/// describes only its current state. Imported dependencies are not included.
+/// Digest of all files in `folder` except `__pycache__` and hidden files. Unlike a library, a package is not copied before the import, so the digest only
+/// describes its state at this time. Imported dependencies are not included.
 pub(crate) fn digest(folder: &Path) -> Result<Sha256Digest, PythonError> {
     let mut files = Vec::new();
     list(folder, folder, &mut files)?;

@@ -1,4 +1,4 @@
-//! The call on a changer.
+//! Calls of the host on a changer.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

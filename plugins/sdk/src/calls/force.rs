@@ -1,4 +1,4 @@
-//! The calls on a force transducer.
+//! Calls of the host on a force transducer.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// A transducer. The flag is true if it declares numbered readings.
+/// Open transducer. The flag is true if the driver declares numbered readings.
 pub(crate) struct Opened {
     force: Box<dyn ForceTransducer>,
     is_numbered: bool,

@@ -1,4 +1,4 @@
-//! The call on a lighting.
+//! Calls of the host on a lighting.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

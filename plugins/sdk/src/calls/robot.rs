@@ -1,4 +1,4 @@
-//! The calls on a robot.
+//! Calls of the host on a robot.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -21,7 +21,7 @@ use crate::guard::guard;
 use crate::handles::{self, Handle};
 use crate::memory;
 
-/// A robot, and the accepted motion that has not begun.
+/// Open robot, and the accepted motion that has not begun.
 pub(crate) struct Opened {
     robot: Box<dyn Robot>,
     limits: RobotFacts,
@@ -125,7 +125,7 @@ unsafe extern "C" fn pose(
     unsafe { call(handle, error, work) }
 }
 
-/// Accepts a motion. `wait` executes it, because a robot of core moves during a blocking call.
+/// Accepts a motion for execution by `wait`, because a robot of core moves during a blocking call.
 unsafe extern "C" fn move_to(
     handle: *mut c_void,
     target: *const Motion,
@@ -174,7 +174,7 @@ unsafe extern "C" fn wait(
     unsafe { call(handle, error, work) }
 }
 
-/// Halts without waiting for the robot's pending call.
+/// Halts the robot without waiting for its pending call.
 unsafe extern "C" fn halt(handle: *mut c_void, error: *mut Error) -> Status {
     let work = || {
         let handle = handles::find::<Handle<Opened>>(handle)?;

@@ -1,4 +1,4 @@
-//! The calls on a sensor.
+//! Calls of the host on a sensor.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 
@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::handles::Handle;
 use crate::memory;
 
-/// A sensor, and its number of captured frames.
+/// Open sensor, and the number of captured frames.
 pub(crate) struct Opened {
     sensor: Box<dyn Sensor>,
     frames: u64,

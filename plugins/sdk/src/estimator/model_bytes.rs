@@ -1,10 +1,10 @@
-//! A fitted model as bytes at the boundary: its shape and channels, then the bytes of its author.
+//! Fitted model as bytes at the boundary: its shape and channels, then the bytes from the code of its author.
 
 use taceva_core::{Channel, Channels, ErrorKind, FeatureShape, Saved, SavedRegressor, Unit};
 
 use crate::failure::Failure;
 
-/// First bytes of a model.
+/// First bytes of every encoded model.
 const MAGIC: &[u8; 8] = b"TACEREG1";
 
 /// Encodes `regressor`.
@@ -33,7 +33,7 @@ pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> 
     Ok(bytes)
 }
 
-/// Parses the bytes of [`write`] and passes them to `load`.
+/// Parses the bytes of [`write`] and calls `load` with the bytes of the author.
 pub(super) fn read<R>(
     bytes: &[u8],
     load: impl FnOnce(&Saved<'_>) -> Result<R, Failure>,
@@ -68,7 +68,7 @@ pub(super) fn read<R>(
     load(&Saved::new(rest.0, &channels, shape))
 }
 
-/// Channel with this name: one of the six with its unit, any other with the unit 1.
+/// Channel called `name`. The six channels have their own units; any other channel has the unit 1.
 pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     let known = Channel::SIX
         .into_iter()
@@ -81,7 +81,7 @@ pub(super) fn channel(name: &str) -> Result<Channel, Failure> {
     }
 }
 
-/// Unread bytes.
+/// Bytes that are not yet read.
 struct Rest<'a>(&'a [u8]);
 
 impl<'a> Rest<'a> {

@@ -1,4 +1,4 @@
-//! Progress of a fit, reported to the host.
+//! Reports the progress of a fit to the host.
 
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicBool, AtomicPtr, AtomicU64, Ordering};
@@ -7,7 +7,7 @@ use std::thread::{self, ThreadId};
 use taceva_abi::Progress as Report;
 use taceva_core::Progress;
 
-/// Reports to the host from the thread of the fit request. Other threads read the last answer.
+/// Progress that calls the host only from the thread that requested the fit. Other threads read the last answer of the host.
 pub(super) struct ReportedProgress {
     report: Report,
     context: AtomicPtr<c_void>,

@@ -22,7 +22,7 @@ use crate::handles;
 use crate::table::estimator_table;
 use crate::{factory, memory};
 
-/// Table of calls on `estimators` estimators.
+/// Table of calls for a plugin with `estimators` estimators.
 pub(crate) fn table(estimators: u32) -> Table {
     #[expect(clippy::cast_possible_truncation, reason = "thirty-two bytes")]
     let size = size_of::<Table>() as u32;
@@ -214,7 +214,7 @@ unsafe extern "C" fn save(
     unsafe { guard(error, work) }
 }
 
-/// Samples of the host, checked and copied.
+/// Training samples of the host, checked and copied.
 struct Set {
     features: Features,
     channels: Channels,

@@ -2,12 +2,12 @@
 
 use std::fmt::{self, Write};
 
-/// A float in TOML notation.
+/// Formats a float in TOML notation.
 pub(super) fn written(number: f64) -> String {
     Number(number).to_string()
 }
 
-/// A float in TOML notation: the fewest digits that parse back to it, with a point or an exponent.
+/// Float that is displayed in TOML notation: shortest round-trip digits, with a point or an exponent.
 pub(super) struct Number(pub(super) f64);
 
 impl fmt::Display for Number {
@@ -16,7 +16,7 @@ impl fmt::Display for Number {
     }
 }
 
-/// A basic TOML string.
+/// Text that is displayed as a basic TOML string.
 pub(super) struct Text<'a>(pub(super) &'a str);
 
 impl fmt::Display for Text<'_> {

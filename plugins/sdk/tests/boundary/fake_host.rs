@@ -1,4 +1,4 @@
-//! Emulated host: it calls through the tables as a real host does, and stores the results.
+//! Emulated host. Calls the tables like a real host, and stores the results.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 
@@ -12,11 +12,11 @@ use taceva_plugin::abi::{
 };
 
 unsafe extern "C" {
-    /// The library's export, linked by its symbol.
+    /// Export of the library, linked by its symbol.
     safe static taceva_plugin_v1: Plugin;
 }
 
-/// Result of a call, with its message.
+/// Status of a call, with its message.
 pub(crate) type Ended = (Status, String);
 
 /// The plugin, initialised once.
@@ -27,7 +27,7 @@ pub(crate) fn plugin() -> &'static Plugin {
     &taceva_plugin_v1
 }
 
-/// The plugin, perhaps not initialised.
+/// Exported table of the plugin, which may not be initialised.
 pub(crate) fn exported() -> &'static Plugin {
     &taceva_plugin_v1
 }
@@ -57,7 +57,7 @@ unsafe extern "C" fn now_ns(_: *mut c_void) -> u64 {
     42
 }
 
-/// Makes a call with an error argument, and reads that error.
+/// Makes a call with an error argument. Returns status and message.
 pub(crate) fn ended(call: impl FnOnce(*mut Error) -> Status) -> Ended {
     let mut error = Error::new();
     let status = call(&raw mut error);
@@ -66,7 +66,7 @@ pub(crate) fn ended(call: impl FnOnce(*mut Error) -> Status) -> Ended {
     (status, message)
 }
 
-/// Factory of a kind.
+/// Factory of the kind with the id `id`.
 pub(crate) fn factory(id: &str) -> &'static Factory {
     let factory = plugin().factory.expect("a function");
     // SAFETY: the text lives for the call; the table lives as long as the plugin.
@@ -81,7 +81,7 @@ pub(crate) fn estimators() -> &'static EstimatorFactory {
     unsafe { factory(Text::from(id)).cast::<EstimatorFactory>().as_ref() }.expect("a table")
 }
 
-/// Text arguments for a call.
+/// Calls `work` with text arguments from `pairs`.
 pub(crate) fn with_args<R>(pairs: &[(&str, &str)], work: impl FnOnce(*const Args) -> R) -> R {
     let items: Vec<Arg> = pairs
         .iter()
@@ -101,7 +101,7 @@ pub(crate) fn with_args<R>(pairs: &[(&str, &str)], work: impl FnOnce(*const Args
     work(&raw const args)
 }
 
-/// Appends a text to the list at `context`.
+/// Appends `text` to the list at `context`.
 pub(crate) unsafe extern "C" fn take(context: *mut c_void, text: Text) {
     // SAFETY: the context of every call in these tests is a list, and the text is borrowed for the call.
     unsafe {
@@ -110,7 +110,7 @@ pub(crate) unsafe extern "C" fn take(context: *mut c_void, text: Text) {
     }
 }
 
-/// Texts that a function passes to [`take`].
+/// Collects the texts that a function passes to [`take`].
 pub(crate) fn taken(call: impl FnOnce(*mut c_void, *mut Error) -> Status) -> (Ended, Vec<String>) {
     let mut list: Vec<String> = Vec::new();
     let context = (&raw mut list).cast();
@@ -130,7 +130,7 @@ unsafe impl Send for Open {}
 unsafe impl Sync for Open {}
 
 impl Open {
-    /// Opens driver 0 of a kind.
+    /// Opens driver 0 of the kind `id`. The argument `way` selects its behaviour.
     pub(crate) fn new(id: &str, way: &str) -> Open {
         Open::in_rig(id, way, null_mut()).expect("it opens")
     }
@@ -159,7 +159,7 @@ impl Open {
         self.handle
     }
 
-    /// Table of the device's kind.
+    /// Table of calls for the kind of the device.
     pub(crate) fn calls<T>(&self) -> &'static T {
         // SAFETY: a table lives as long as the library, and has at least its stated size.
         unsafe {
@@ -168,7 +168,7 @@ impl Open {
         }
     }
 
-    /// Table of an extension.
+    /// Table of calls of the extension `id`; `None` if the device lacks it.
     pub(crate) fn extension<T>(&self, id: &str) -> Option<&'static T> {
         // SAFETY: the text lives for the call, and the table lives as long as the library.
         unsafe {

@@ -1,4 +1,4 @@
-//! Rust drivers behind the C tables, as a host calls them. Their guarantees hold, and no mistake on either side ends the program.
+//! Tests of Rust drivers behind C tables, called like by a host. Drivers keep their guarantees, and no mistake of either side ends the program.
 
 mod drivers;
 mod estimators;

@@ -1,4 +1,4 @@
-//! Mistakes on either side. Each gives a typed error, and the program continues.
+//! Tests of mistakes of host and driver. Each mistake gives a typed error, and the program continues.
 
 #![expect(unsafe_code, reason = "the tables of a plugin are called")]
 

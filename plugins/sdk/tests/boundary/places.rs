@@ -4,7 +4,7 @@ use std::ptr::{null, null_mut};
 
 use taceva_plugin::abi::{Frame, Motion, PixelFormat, Pose, Stamp};
 
-/// A frame of the host with `buffer`.
+/// Frame with `buffer`, as a host passes it to `capture`.
 pub(crate) fn frame(buffer: &mut [u8]) -> Frame {
     Frame {
         size: u32::try_from(size_of::<Frame>()).expect("small"),

@@ -12,7 +12,7 @@ use super::press::{Press, Presses};
 
 /// Law of shading.
 pub(crate) enum Law {
-    /// The bench's own camera with one lamp lit at a time. The strength of each lamp in each colour is fitted; its place is the place in the bench.
+    /// Cameras of the bench, each with one lit lamp. The strength of each lamp in each colour is fitted. Places of lamps are those in the bench.
     Lamps(Vec<Camera>),
     /// Powers of the surface normal, up to the second, times 1, x and y.
     Polynomial(Tables),
@@ -28,7 +28,7 @@ const LIT_DN: f64 = 100.0;
 const THICKNESS_MM: f64 = 4.25;
 
 impl Law {
-    /// Optics of the bench at the size of these pictures, without noise and unevenness.
+    /// Lamp law with the optics of the bench, at the size of the pictures, without noise and unevenness.
     pub(crate) fn lamps(presses: &Presses) -> Result<Law, Box<dyn Error>> {
         let [width, height] = [presses.background.width, presses.background.height()];
         let size = [u32::try_from(width)?, u32::try_from(height)?];

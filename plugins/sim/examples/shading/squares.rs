@@ -1,10 +1,10 @@
-//! Least squares of a few terms over many pixels. Each press has its own sums, so leaving one out is a subtraction.
+//! Least squares of a few terms over many pixels. Each press has its own sums, so that a press is left out by subtraction.
 
 use std::iter::Sum;
 
 use super::law::Term;
 
-/// The normal equations of some presses: AᵀA, and Aᵀb of each colour.
+/// Normal equations of some presses: AᵀA, and Aᵀb of each colour.
 #[derive(Clone)]
 pub(crate) struct Squares {
     own: Vec<Vec<f64>>,
@@ -41,7 +41,7 @@ impl Squares {
         self.seen.len()
     }
 
-    /// Normal equations of the other presses.
+    /// Normal equations without those of `press`.
     pub(crate) fn without(&self, press: &Squares) -> Squares {
         self.combined(press, -1.0)
     }

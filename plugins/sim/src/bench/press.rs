@@ -75,5 +75,5 @@ impl Press {
     }
 }
 
-/// Maximum shear along one axis, in mm. Beyond it, a ball would miss a dome.
+/// Maximum shear along one axis, in mm. With more shear, a ball would miss a dome.
 const SHEAR_MOST: f64 = 5.0;

@@ -1,4 +1,4 @@
-//! A flat board on a gel. The force depends only on its outline; its relief appears only in pictures.
+//! A flat board on a gel. The force depends only on the outline of the board. The relief affects only pictures.
 
 use std::f64::consts::{PI, TAU};
 

@@ -18,12 +18,12 @@ impl Friction {
         1.5 * self.limit_n / self.stiffness_n_per_mm
     }
 
-    /// Q(s) = μF [1 − (1 − s/s_max)^(3/2)], and μF from s_max on.
+    /// Force at first loading: Q(s) = μF [1 − (1 − s/s_max)^(3/2)], and μF from s_max on.
     pub fn load(&self, displacement_mm: f64) -> f64 {
         self.resist(displacement_mm / self.sliding_begins_mm())
     }
 
-    /// Q(s) = Q(s*) − 2 μF [1 − (1 − (s* − s)/(2 s_max))^(3/2)] after the reversal at `turned_mm`, at least −μF.
+    /// Force after the reversal at `turned_mm`: Q(s) = Q(s*) − 2 μF [1 − (1 − (s* − s)/(2 s_max))^(3/2)], at least −μF.
     pub fn unload(&self, turned_mm: f64, displacement_mm: f64) -> f64 {
         let back = (turned_mm - displacement_mm) / (2.0 * self.sliding_begins_mm());
         (self.load(turned_mm) - 2.0 * self.resist(back)).max(-self.limit_n)

@@ -5,14 +5,14 @@ use super::stand::Answer;
 use crate::elastic::layer;
 use crate::parameters::Layer;
 
-/// F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀), with the stiffening of a lattice that closes over d₀.
+/// Force law F = (16/9) E √R d^(3/2) ψ(χ) (1 + d/d₀). The last factor is the stiffening of a closing lattice.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LayerLaw {
     layer: Layer,
     board_n_per_mm: f64,
 }
 
-/// (4/3) / (1 − ν²) and 8 / (2 (1 + ν) (2 − ν)) at ν = 1/2.
+/// Factor of the normal and of the tangential law at ν = 1/2: (4/3) / (1 − ν²) and 8 / (2 (1 + ν) (2 − ν)).
 const INCOMPRESSIBLE: f64 = 16.0 / 9.0;
 
 impl LayerLaw {

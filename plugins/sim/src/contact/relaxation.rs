@@ -15,7 +15,7 @@ pub struct Relaxation {
     fading_n: f64,
 }
 
-/// Decay of the relaxation state in one step, computed once for steps of equal length.
+/// Decay of the relaxation state in one step. Steps of equal length share one value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Decay {
     kept: f64,
@@ -23,7 +23,7 @@ pub struct Decay {
 }
 
 impl Relaxation {
-    /// Creates a gel at rest that relaxes by `fraction` of its force in the time `time_s`.
+    /// Creates a gel at rest. The `fraction` of its force relaxes with the time constant `time_s`.
     pub fn new(fraction: f64, time_s: f64) -> Relaxation {
         Relaxation {
             fraction,
@@ -54,7 +54,7 @@ impl Relaxation {
         }
     }
 
-    /// Advances one step, to the force `elastic_n` of a gel without relaxation at the same indentation.
+    /// Advances one step. `elastic_n` is the force of a gel without relaxation at the same indentation.
     pub fn step(&mut self, elastic_n: f64, decay: Decay) {
         let grown = self.fraction * (elastic_n - self.elastic_n);
         self.fading_n = self.fading_n * decay.kept + grown * decay.gained;

@@ -1,11 +1,11 @@
-//! A profile placed at its contact.
+//! Displacements of a profile that is placed at its contact.
 
 use super::load::Load;
 use super::profile::Profile;
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// Displacements under one press.
+/// Displacements of the gel under one press, by position.
 ///
 /// ```
 /// use taceva_sim::displacement::{Field, Load, Profile, Tables};

@@ -1,7 +1,7 @@
 //! Index of a radius in a table: fine near the contact, proportionally coarser farther out.
 //!
-//! Tables are indexed by t = 1 + (r/a)². Each octave of t has equal cells, out to 64 contact radii. The bits of the number give the position in the
-//! octave, without logarithm or square root. The rim of the contact, t = 2, is a node, so a kink there is exact.
+//! Tables are indexed by t = 1 + (r/a)². Each octave of t has equal cells, out to 64 contact radii. The bits of the number give the position in the octave,
+//! without logarithm or square root. The rim of the contact, t = 2, is a node, so that a kink at the rim is exact.
 
 /// Cells in an octave; a power of two.
 const CELLS: usize = 1 << CELL_BITS;
@@ -21,9 +21,9 @@ const CELL_SHIFT: u32 = FRACTION_BITS - CELL_BITS;
 /// A position between two nodes of a table.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
-    /// Lower node, at most `NODES - 2`.
+    /// Index of the lower node, at most `NODES - 2`.
     pub cell: usize,
-    /// Fraction of the way to the next node: 0 to 1.
+    /// Position between the lower node and the next node, 0 to 1.
     pub fraction: f32,
 }
 
@@ -36,7 +36,7 @@ impl Place {
     }
 }
 
-/// Position of t = 1 + (r/a)². Values beyond the table give its end.
+/// Position of t = 1 + (r/a)². Values beyond the table give the end of the table.
 ///
 /// ```
 /// use taceva_sim::displacement::{locate, node};

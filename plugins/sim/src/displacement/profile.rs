@@ -5,7 +5,7 @@ use super::load::Load;
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// Radial functions of one press, with lengths in mm. The buffer can be reused for later presses.
+/// Radial functions of one press, with lengths in mm. A profile can be reused for later presses.
 #[derive(Clone, Debug)]
 pub struct Profile {
     radius_mm: f64,

@@ -1,7 +1,7 @@
 //! Hankel integrals of a bonded layer under a round contact, in units of the contact radius.
 //!
-//! On the surface, the half-space has a closed form. Only the correction of the layer is integrated there, which decays like e^(−2kh). Below the
-//! surface, the whole response is smooth and integrated.
+//! On the surface, the half-space has a closed form. Only the correction of the layer is integrated on the surface. This correction decays like e^(−2kh). Below
+//! the surface, the whole response is smooth and is integrated.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,7 +9,7 @@ use super::radial::Quantity;
 use crate::elastic::hertz;
 use crate::elastic::kernel::Kernel;
 
-/// A layer in units of its contact: lengths divided by the contact radius, unit modulus, ν = 1/2.
+/// Layer in units of the contact: lengths divided by the contact radius, unit modulus, ν = 1/2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Layer {
     /// Thickness in contact radii.
@@ -21,7 +21,7 @@ pub(super) struct Layer {
 /// A value for each [`Quantity`], in its order.
 pub(super) type Values = [f64; Quantity::ALL.len()];
 
-/// Incompressible, as assumed by the force laws.
+/// Poisson's ratio of an incompressible gel, as assumed by the force laws.
 const POISSON_RATIO: f64 = 0.5;
 /// 2(1 − ν²)/E and 1/G at unit modulus.
 const NORMAL_COMPLIANCE: f64 = 1.5;

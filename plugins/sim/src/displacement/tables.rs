@@ -82,7 +82,7 @@ impl Tables {
         }
     }
 
-    /// Row below `radius_mm`, and the fraction towards the next one.
+    /// Index of the row for a radius of at most `radius_mm`, and position between this row and the next, 0 to 1.
     fn row(&self, radius_mm: f64) -> (usize, f64) {
         let above = self.radii_mm.partition_point(|row| *row <= radius_mm);
         let row = above.clamp(1, ROWS - 1) - 1;

@@ -5,7 +5,7 @@ use taceva_core::{ArgSpec, ArgValue, Args, DriverError, DriverKey, ErrorKind};
 /// Key of the robot, which also reports failed mounts of specimens.
 pub(super) const ROBOT: DriverKey = DriverKey::fixed("sim/robot");
 
-/// Argument that puts devices on the same bench.
+/// Argument with the name of the bench. Devices with the same name share a bench.
 pub(super) fn rig_argument() -> ArgSpec {
     ArgSpec::text("rig")
         .default(ArgValue::Text("bench".to_owned()))

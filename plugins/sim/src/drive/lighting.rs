@@ -51,7 +51,7 @@ impl Factory<dyn Lighting> for LightingFactory {
 
 taceva_core::submit_builtin!(dyn Lighting, || Ok(Box::new(LightingFactory::new()?)));
 
-/// Lamps of a rig. They do not affect an opaque gel.
+/// Lamps of a rig. The lamps do not affect an opaque gel.
 pub(super) struct Lamps {
     rig: SimulatedRig,
     driver: DriverKey,

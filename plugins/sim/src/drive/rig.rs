@@ -30,7 +30,7 @@ pub struct SimulatedRig {
 }
 
 impl SimulatedRig {
-    /// Gets or creates the simulated rig `name` of `rig`, and offers it as the bench `sim <name>`.
+    /// Gets or creates the simulated rig `name` of `rig`, and registers it as the bench `sim <name>`.
     pub fn of(rig: &mut Rig, name: &str) -> SimulatedRig {
         let state = rig
             .share(&format!("taceva-sim {name}"), || {
@@ -66,10 +66,10 @@ impl SimulatedRig {
         Ok(())
     }
 
-    /// Names the next press. From the next tare in the air on, all its random numbers depend only on the name and the place. An interrupted and
-    /// resumed run therefore meets the same errors.
+    /// Names the next press. From the next tare in the air on, all its random numbers depend only on the name and the place. A resumed run therefore has the
+    /// same errors.
     ///
-    /// Without names, visits to a place are counted.
+    /// Without a name, the numbers depend on the count of visits to the place.
     pub fn name_press(&self, name: u64) {
         self.state().name_visits(name);
     }
@@ -96,7 +96,7 @@ impl SimulatedRig {
         self.state().contact()
     }
 
-    /// Locks the state and ignores poisoning, because every change completes before any panic is possible.
+    /// Locks the state. Ignores poisoning, because every change completes before any panic is possible.
     pub(super) fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -82,7 +82,7 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 }
 
-/// Arguments of the robot. `gel` is for a sensor outside this bench: the forces come from that gel, but the pictures do not show it.
+/// Arguments of the robot. `gel` is for a sensor that this bench does not simulate. Forces are those of the gel, but pictures do not show it.
 fn arguments() -> [ArgSpec; 3] {
     let gels = Model::ALL.map(Model::key);
     [
@@ -111,7 +111,7 @@ struct SimulatedRobot {
     latch: Arc<Latch>,
 }
 
-/// Halt that remains until it is cleared. Each robot has its own.
+/// Halt that remains until it is cleared. Each robot has a latch of its own.
 #[derive(Debug, Default)]
 struct Latch {
     is_halted: AtomicBool,

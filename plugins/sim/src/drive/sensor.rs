@@ -43,7 +43,7 @@ impl SensorFactory {
         })
     }
 
-    /// Parameters by `args`: from the model or the table in `table`, without noise for `quiet`.
+    /// Parameters of the model, or of the table that the argument `table` names. Without noise for `quiet`.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());
@@ -135,7 +135,7 @@ impl Sensor for SimulatedSensor {
         self.camera.frame_info()
     }
 
-    /// Prepares the camera, so that the first picture meets its deadline like later pictures.
+    /// Prepares the camera, so that the first picture takes no longer than later pictures.
     fn start(&mut self, _: Deadline) -> Result<(), DriverError> {
         self.camera.prepare();
         self.is_running = true;

@@ -32,9 +32,9 @@ pub(super) struct State {
     pub(super) light: AmbientLight,
     /// Pose that the robot reports.
     sent: Pose,
-    /// True position of the lowest point of the tip, z into the gel.
+    /// True position of the lowest point of the tip, mm, z into the gel.
     tip_mm: [f64; 3],
-    /// Current motion, if any.
+    /// Current motion; `None` while the tip rests.
     course: Option<Course>,
     robot: Robot,
     transducer: Transducer,
@@ -43,7 +43,7 @@ pub(super) struct State {
     tare_n: [f64; 3],
     visits: Visits,
     visit: Visit,
-    /// Name of the next visits, if set by the caller.
+    /// Name of the next visits; `None` if visits are counted.
     name: Option<u64>,
     /// Earliest start of the next visit.
     appointment: Ticks,
@@ -85,13 +85,13 @@ impl State {
         state
     }
 
-    /// Installs a sensor under the tip, in place of the last one.
+    /// Installs a sensor under the tip and removes the previous sensor.
     pub(super) fn install(&mut self, bench: Bench) {
         self.lay(bench);
         self.sensor_is_open = true;
     }
 
-    /// Installs a gel under the tip, in place of the last one.
+    /// Installs a gel under the tip and removes the previous gel.
     pub(super) fn lay(&mut self, bench: Bench) {
         self.robot = bench.parameters().robot;
         self.transducer = bench.parameters().transducer;
@@ -123,7 +123,7 @@ impl State {
         self.now.duration()
     }
 
-    /// Advances the clock; the tip rests.
+    /// Advances the clock by `rest` while the tip rests.
     pub(super) fn rest(&mut self, rest: Duration) {
         let rest = Ticks::of(rest);
         self.now = self.now.after(rest);
@@ -245,7 +245,7 @@ impl State {
         }
     }
 
-    /// Begins a visit in the air. Draws a new position error, so later results do not depend on the path.
+    /// Begins a visit in the air. Draws a new position error, so that later results do not depend on the path.
     fn begin_visit(&mut self) {
         let sent = coordinates(&self.sent);
         let mut key = self.visits.next([sent[0], sent[1]]);
@@ -262,7 +262,7 @@ impl State {
         self.tip_mm = std::array::from_fn(|axis| sent[axis] + error[axis]);
     }
 
-    /// Updates the contact with the gel, `step_s` after the last step.
+    /// Updates the contact with the gel, `step_s` seconds after the last step.
     fn follow(&mut self, step_s: f64) {
         let Some(bench) = &self.bench else {
             return;

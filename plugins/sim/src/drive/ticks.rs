@@ -4,12 +4,12 @@ use std::time::Duration;
 
 /// A time or a span in whole nanoseconds, like the stamps of the bench.
 ///
-/// A span is therefore independent of its start time, and a resumed run records the same values.
+/// A span is therefore independent of its start time, so that a resumed run records the same values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct Ticks(u64);
 
 impl Ticks {
-    /// Converts a span. Saturates at 584 years.
+    /// Converts a span. Longer spans than 584 years become the greatest value.
     pub(super) fn of(span: Duration) -> Ticks {
         Ticks(u64::try_from(span.as_nanos()).unwrap_or(u64::MAX))
     }
@@ -27,7 +27,7 @@ impl Ticks {
         Ticks(self.0.saturating_add(span.0))
     }
 
-    /// Span since an earlier time; 0 for a later one.
+    /// Span since the time `then`; 0 if `then` is later.
     pub(super) fn since(self, then: Ticks) -> Ticks {
         Ticks(self.0.saturating_sub(then.0))
     }

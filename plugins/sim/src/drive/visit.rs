@@ -25,7 +25,7 @@ pub(super) struct Visit {
 /// Errors of robot and transducer in one visit, drawn at its start.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct VisitErrors {
-    /// Position error of the robot. It differs between visits and is constant within one.
+    /// Position error of the robot, mm. The error is constant within a visit.
     pub(super) position_mm: [f64; 3],
     /// Drift of the transducer's zero.
     pub(super) zero_n: [f64; 3],

@@ -1,7 +1,7 @@
 //! Rig on wall-clock time, which passes independently of calls.
 //!
-//! Devices of a rig advance its clock themselves. An emulated controller cannot: its clients connect and disconnect while time passes. Here the
-//! caller sets the time by [`advance`](SimulatedRig::advance), and the state follows.
+//! Devices of a rig normally advance its clock. An emulated controller cannot do this, because time passes while clients connect and disconnect. In this mode,
+//! the caller sets the time with [`advance`](SimulatedRig::advance).
 
 use std::time::Duration;
 
@@ -13,7 +13,7 @@ use crate::bench::Bench;
 use crate::optics::{AmbientLight, Camera, Luma, OpticsError};
 
 impl SimulatedRig {
-    /// Installs the gel of `bench` under the tip, in place of the last one. Opens no sensor.
+    /// Installs the gel of `bench` under the tip and removes the previous gel. Opens no sensor.
     pub fn lay(&self, bench: Bench) {
         self.state().lay(bench);
     }

@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2, FRAC_PI_4, FRAC_PI_8};
 /// Euler's constant γ.
 const EULER: f64 = 0.577_215_664_901_532_9;
 
-/// Argument up to which the power series has the required digits. Beyond it, the asymptotic series has ten digits.
+/// Argument up to which the power series has the required digits. For greater arguments, the asymptotic series has ten digits.
 const CROSSOVER: f64 = 12.0;
 
 /// kei(x) = Im K₀(x e^(iπ/4)) for x ≥ 0, to 10⁻⁹.

@@ -7,7 +7,7 @@
 //! * shear across the wave → across it: T/(G k),  T = tanh ζ;
 //! * pressure → displacement along the wave, and shear → normal: N/(G k),  N = [2ζ² − κ(κ−1)/2 (cosh 2ζ − 1)]/D.
 //!
-//! Numerators and D are multiplied by e^(−2ζ), so short waves do not overflow.
+//! Numerators and D are multiplied by e^(−2ζ), so that short waves do not overflow.
 //!
 //! # Reference
 //! Plane-strain solution of a layer without displacement at its base; derived here, checked against numerical integration.
@@ -15,13 +15,13 @@
 /// Four dimensionless responses of the layer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kernel {
-    /// L: pressure to normal displacement.
+    /// L: response of the normal displacement to pressure.
     pub normal: f64,
-    /// M: shear along the wave to displacement along it.
+    /// M: response of the displacement along the wave to shear along the wave.
     pub along: f64,
-    /// T: shear across the wave to displacement across it.
+    /// T: response of the displacement across the wave to shear across the wave.
     pub across: f64,
-    /// N: pressure to displacement along the wave, positive outward.
+    /// N: response of the displacement along the wave to pressure, positive outward.
     pub coupling: f64,
 }
 

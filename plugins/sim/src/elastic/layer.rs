@@ -7,7 +7,7 @@
 /// Maximum χ of the fits.
 pub const CHI_MAX: f64 = 1.2;
 
-/// χ = √(R d)/h.
+/// Ratio χ = √(R d)/h of the contact radius to the thickness.
 pub fn chi(radius_mm: f64, depth_mm: f64, thickness_mm: f64) -> f64 {
     (radius_mm * depth_mm).sqrt() / thickness_mm
 }

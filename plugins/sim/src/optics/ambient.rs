@@ -8,7 +8,7 @@ use std::fmt;
 /// TacEva (2025), robustness to lighting, scenes S1 to S4.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum AmbientLight {
-    /// Own light of the sensor, as in calibration.
+    /// Light of the sensor only, as in calibration.
     #[default]
     Normal,
     /// S1: a diffuse ceiling.

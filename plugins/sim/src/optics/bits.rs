@@ -4,8 +4,8 @@ use taceva_core::{FrameInfo, PixelFormat};
 
 /// Bits of a sample: 8, with 1 count per DN; or 16, with 256 counts per DN.
 ///
-/// Eight bits suffice if the noise of a pixel is a large part of a DN. They need a fifth of the space in lossless storage. The additional bits of
-/// sixteen are mostly noise.
+/// Eight bits suffice if the noise of a pixel is a large part of a DN. Frames of 8 bits need a fifth of the space in lossless storage. The additional bits of
+/// 16-bit frames are mostly noise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Bits {
     /// 8 bits.

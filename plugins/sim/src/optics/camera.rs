@@ -41,7 +41,7 @@ pub struct Camera {
     binning: f64,
     random: Random,
     is_transparent: bool,
-    /// Inputs of the gel. The gel is computed when it is needed, because its tables are expensive.
+    /// Inputs for computing the gel. The gel is computed at first use, because its tables are expensive.
     unmade: (GelSpec, Raster, u32),
     gel: Option<Gel>,
     /// Rows of a band, and its buffer.
@@ -81,13 +81,13 @@ impl Camera {
         })
     }
 
-    /// Changes the bits of a sample. View and noise stay; only the quantisation changes.
+    /// Changes the bits of a sample. View and noise do not change, only the quantisation.
     pub fn with_bits(mut self, bits: Bits) -> Camera {
         self.info = bits.of(self.info);
         self
     }
 
-    /// Size and format of its frames.
+    /// Size and format of the frames of the camera.
     pub fn frame_info(&self) -> FrameInfo {
         self.info
     }
@@ -97,7 +97,7 @@ impl Camera {
         self.is_transparent
     }
 
-    /// Computes the tables of the gel, within a second. Otherwise the first picture computes them.
+    /// Computes the tables of the gel, within a second. Without this call, the first picture computes the tables.
     pub fn prepare(&mut self) {
         noise::prepare();
         self.gel();
@@ -129,7 +129,7 @@ impl Camera {
             .get_or_insert_with(|| Gel::new(spec, *raster, *unit))
     }
 
-    /// Renders the posed view and reads it out; compiled twice, see [`simd::expose`].
+    /// Renders the current view and reads it out. The function is compiled twice, see [`simd::expose`].
     #[inline(always)]
     pub(super) fn expose(&mut self, view: &View, bytes: &mut [u8]) -> Luma {
         let readout = self.readout(view);

@@ -16,16 +16,16 @@ pub(super) struct Disc {
 /// Parameters of a disc, in the field's unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiscSpec {
-    /// Radius, at which a disc has half of its darkness.
+    /// Radius at which the darkness is half of that at the centre.
     pub(super) radius: f64,
     /// Absorbed part of the light at its centre: 0 to 1.
     pub(super) darkness: f64,
-    /// Scale of its logistic edge.
+    /// Scale of the logistic edge of the disc.
     pub(super) edge: f64,
 }
 
 const BINS: usize = 256;
-/// Reach of a disc beyond its radius, in edge scales. Its darkness there, 7·10⁻³, is subtracted, so the disc ends without a step.
+/// Reach of a disc beyond its radius, in edge scales. The darkness at the reach, 7·10⁻³, is subtracted, so that the disc ends without a step.
 const EDGES: f64 = 5.0;
 
 impl Disc {

@@ -27,7 +27,7 @@ impl Gel {
         }
     }
 
-    /// Sets the view of a frame; `random` supplies random effects in the gel.
+    /// Sets the view of a frame. `random` determines random effects in the gel.
     pub(super) fn pose(&mut self, view: &View, random: &Random) -> Result<(), OpticsError> {
         match self {
             Gel::Gelsight(gel) => gel.pose(view),

@@ -41,7 +41,7 @@ impl Luma {
 
     /// Mean over the frame, in DN; 0 for an empty frame.
     ///
-    /// A reduced frame is not rounded to whole DN, so its mean equals the mean of the full-size frame within the noise.
+    /// A reduced frame is not rounded to whole DN. Its mean therefore equals the mean of the full-size frame within the noise.
     pub fn mean_dn(&self) -> f64 {
         let counts = self.pixels.max(1) * self.counts_per_dn.max(1) * 1000;
         self.weighted_sum as f64 / counts as f64

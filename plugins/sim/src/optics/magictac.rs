@@ -125,7 +125,7 @@ impl Magictac {
         }
     }
 
-    /// Renders a ball. The lattice moves smoothly, so its shift is computed for every other pixel of a row and averaged between them.
+    /// Renders a ball. The lattice moves smoothly, so that its shift is computed for every second pixel of a row and interpolated for the others.
     #[inline(always)]
     fn paint_ball(&self, band: &mut Band<'_>) {
         let (scene, raster, shift) = (&*self.scene, &self.scene.raster, &self.shift);

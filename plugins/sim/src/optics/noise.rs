@@ -1,8 +1,8 @@
 //! Noise from a tile of normal numbers. Each row starts at a different place of the tile.
 //!
-//! A new normal number for each pixel would cost more than the rest of a frame. So 65,536 numbers are drawn once, and a row is a stretch of the tile
-//! with a random start and sign. Numbers within a row are independent. Overlapping rows repeat the same numbers, shifted. A test bounds the effect on
-//! the statistics of a frame.
+//! A new normal number for each pixel would cost more than the rest of a frame. Therefore 65,536 numbers are drawn once. The noise of a row is a section of
+//! this tile with a random start and sign. Numbers within a row are independent. Rows with overlapping sections have equal numbers at different positions. A
+//! test bounds the effect on the statistics of a frame.
 
 use std::sync::OnceLock;
 
@@ -11,12 +11,12 @@ use crate::random::{Purpose, Random, Stream};
 
 /// Size of the tile.
 const TILE: usize = 1 << 16;
-/// Longest row: three colours of 16,384 pixels. This many numbers at the start of the tile are repeated at its end.
+/// Longest row, samples: three colours of 16,384 pixels. The end of the tile repeats as many numbers of its start.
 pub(super) const LONGEST_ROW: usize = 3 << 14;
 /// Fixed seed, because the tile is a constant of the model.
 const TILE_SEED: u64 = 0x7411_e5ee_d0ff_0a15;
 
-/// Noise of one row: a stretch of the tile, and its sign.
+/// Noise of one row: a section of the tile, with a sign.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RowNoise {
     pub(super) normal: &'static [f32],

@@ -4,7 +4,7 @@ use crate::number::narrow;
 
 /// A pixel grid over a field of view centred on the axis: x to the right, y up, row 0 at the top.
 ///
-/// A frame with another aspect ratio shows the same field, so its pixels need not be square.
+/// A frame with another aspect ratio shows the same field with pixels that are not square.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Raster {
     pub(super) width: usize,

@@ -11,11 +11,11 @@ use super::noise::RowNoise;
 /// The linear camera model of EMVA 1288 without dark current.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Readout {
-    /// 1 + e.
+    /// Factor 1 + e of the flicker.
     pub(super) gain: f32,
-    /// g, DN.
+    /// Gain g of the shot noise, DN.
     pub(super) shot: f32,
-    /// s², DN².
+    /// Variance s² of the read noise, DN².
     pub(super) read_variance: f32,
     /// Counts per DN: 1 for 8 bits, 256 for 16 bits.
     pub(super) counts_per_dn: f32,
@@ -26,7 +26,7 @@ pub(super) struct Readout {
 /// Samples in one vector step: a multiple of three colours and of every vector width.
 pub(super) const LANES: usize = 24;
 
-/// Constant for rounding. Added to a value from 0 to 2¹⁶, it leaves the nearest integer in the low bits, ties to even, without a cast.
+/// Constant for rounding. The sum of a value from 0 to 2¹⁶ and this constant has the nearest integer in the low bits, ties to even.
 const ROUND: f32 = 8_388_608.0;
 
 impl Readout {
@@ -82,7 +82,7 @@ impl Readout {
     }
 }
 
-/// The greater of `value` and 0 in one instruction; `f32::max` checks for NaN first.
+/// Greater of `value` and 0, in one instruction. `f32::max` would also check for NaN.
 #[inline(always)]
 fn above_zero(value: f32) -> f32 {
     if value > 0.0 { value } else { 0.0 }

@@ -87,8 +87,7 @@ impl GelSpec {
 }
 
 impl OpticsSpec {
-    /// Optics of the sensor with `parameters`. A dome is a ViTacTip, and a layer with a lattice is a MagicTac. Any other layer is a GelSight, with
-    /// markers if it has them.
+    /// Optics of the sensor with `parameters`. A dome gives a ViTacTip, a layer with a lattice a MagicTac, any other layer a GelSight with its markers, if any.
     ///
     /// The longer side of the frame equals the longer side of the gel. The frame of a dome is cropped to a square.
     pub fn new(parameters: &Parameters) -> OpticsSpec {

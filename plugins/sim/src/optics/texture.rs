@@ -4,7 +4,7 @@ use super::simd::Lanes;
 use crate::number::{count, narrow};
 use crate::random::Stream;
 
-/// A pattern on a torus of texels, with four values each and linear interpolation between them.
+/// Pattern on a torus of texels. Each texel has four values, with linear interpolation between texels.
 #[derive(Clone, Debug)]
 pub(super) struct Texture {
     cells: Box<[Cell; SIDE * SIDE]>,
@@ -18,7 +18,7 @@ type Cell = [[f32; 4]; 4];
 /// Side of a texture in texels; a power of two.
 pub(super) const SIDE: usize = 1 << SIDE_BITS;
 const SIDE_BITS: i32 = 7;
-/// Constant for rounding. Added to a value from −2²¹ to 2²¹, it leaves the nearest integer in the low bits.
+/// Constant for rounding. The sum of a value from −2²¹ to 2²¹ and this constant has the nearest integer in the low bits.
 const ROUND: f32 = 12_582_912.0;
 
 impl Texture {

@@ -10,8 +10,8 @@ pub struct View {
     pub stimulus: Stimulus,
     /// Ambient light.
     pub light: AmbientLight,
-    /// Number of the press. It sets random effects in the gel.
+    /// Number of the press. The number determines random effects in the gel.
     pub press: u64,
-    /// Number of the picture in that press. It sets the noise of the camera.
+    /// Number of the picture in the press. The number determines the noise of the camera.
     pub picture: u32,
 }

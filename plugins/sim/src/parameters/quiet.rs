@@ -13,12 +13,12 @@ const SILENCED: [(&str, &str); 8] = [
     ("camera", "read_noise"),
     ("camera", "flicker"),
 ];
-/// Noise of a quiet transducer, in N. Without any noise, its signal would count as frozen.
+/// Noise of a quiet transducer, in N. Without any noise, the signal would count as frozen.
 const HISS_N: f64 = 0.000_001;
 
 impl Parameters {
-    /// Parses the parameters in `text` without random errors and time-dependent effects. A reading or a picture then depends only on the position of
-    /// the tip, within 1 µN. Variation between units and places stays.
+    /// Parses the parameters in `text` without random errors and time-dependent effects. A reading or a picture then depends only on the position of the tip,
+    /// within 1 µN. Variation between units and places is kept.
     ///
     /// ```
     /// use taceva_sim::{Model, Parameters};

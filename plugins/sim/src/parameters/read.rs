@@ -1,4 +1,4 @@
-//! Parser from TOML to sections. Every key is known, every value has its unit and range, and errors name the line.
+//! Parser from TOML to sections. Checks that every key is known and that every value has its unit and range. Errors name the line.
 
 use std::ops::Range;
 use taceva_core::shown;
@@ -9,10 +9,10 @@ use toml::de::{DeTable, DeValue};
 use super::error::{ParameterError, ParameterErrorKind};
 use super::section::{Entry, Origin, Row, Section};
 
-/// Maximum length of a table, bytes. Typical tables have some thousand.
+/// Maximum length of a table, bytes. Typical tables have a few thousand bytes.
 const LENGTH_MAX: usize = 1 << 20;
 
-/// A table being parsed.
+/// Table that is being parsed.
 pub(super) struct Document<'t> {
     text: &'t str,
     root: DeTable<'t>,

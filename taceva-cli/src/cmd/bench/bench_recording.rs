@@ -1,4 +1,4 @@
-//! A recording of the simulated bench for a benchmark, removed afterwards.
+//! Temporary recording of the simulated bench for a benchmark.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -11,7 +11,7 @@ use taceva_study::{Existing, RunFolder, RunSetup, run_scene};
 use super::super::Context;
 use super::super::run::bench::surroundings;
 
-/// The scene: one sensor, its whole surface. Its study fits only the baseline.
+/// Scene with one sensor, pressed on its whole surface. The study fits only the baseline.
 const SCENE: &str = r#"scene_version = 1
 name = "ViTacTip"
 seed = 0
@@ -36,17 +36,17 @@ points = POINTS
 indentations = 4
 "#;
 
-/// Contact points of a benchmark, and of a quick one.
+/// Numbers of contact points of a full and of a quick benchmark.
 const POINTS: [usize; 2] = [400, 60];
 
-/// A recording that is removed on drop.
+/// Recording of the simulated bench, removed on drop.
 pub(super) struct Pressed {
     pub(super) dataset: Dataset,
-    /// Removed with it.
+    /// Temporary folder of the recording, removed on drop.
     _folder: Folder,
 }
 
-/// A temporary folder of this process.
+/// Temporary folder of this process, removed on drop.
 struct Folder(PathBuf);
 
 impl Drop for Folder {
@@ -57,7 +57,7 @@ impl Drop for Folder {
 }
 
 impl Pressed {
-    /// Presses the simulated bench; the same seed gives the same recording.
+    /// Records presses on the simulated bench. Equal seeds give equal recordings.
     pub(super) fn new(
         is_quick: bool,
         seed: u64,

@@ -16,7 +16,7 @@ use super::bench_recording::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
-/// Models that run only if named: they take minutes to hours, or are no separate model.
+/// Models that run only if `--model` names them, because they take minutes to hours or are no separate model.
 const NAMED_ONLY: [&str; 7] = [
     "cnn-ensemble",
     "resnet10",
@@ -62,7 +62,7 @@ pub(super) fn run(args: &BenchModels, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// One fit for each model, in the order of `--model`, or of the registry.
+/// Requests for one fit of each model, in the order of `--model`, or of the registry.
 fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest>> {
     let quick = |name: &str| {
         let known = QUICK.iter().find(|(of, _)| args.quick && *of == name);
@@ -87,7 +87,7 @@ fn requests(args: &BenchModels, known: &Models) -> anyhow::Result<Vec<FitRequest
     words.iter().map(request).collect()
 }
 
-/// The fit of `word`: a model, then its settings after a colon.
+/// Parses the request for a fit from `word`: a model, then its settings after a colon.
 pub(super) fn request(word: &str, split: &SplitArgs, known: &Models) -> anyhow::Result<FitRequest> {
     let (name, settings) = word.split_once(':').unwrap_or((word, ""));
     let settings = settings.split(',').filter(|setting| !setting.is_empty());
@@ -121,7 +121,7 @@ fn race(
     Ok(bench)
 }
 
-/// This machine.
+/// Description of this machine.
 pub(super) fn machine(context: &Context) -> BenchMachine {
     let isa = Isa::available()
         .into_iter()
@@ -136,7 +136,7 @@ pub(super) fn machine(context: &Context) -> BenchMachine {
     }
 }
 
-/// Description of `dataset` and its division: the split in text form, and the numbers of training and test samples.
+/// Description of `dataset` and its split, with the numbers of training and test samples.
 pub(super) fn recording(
     dataset: &Dataset,
     name: &str,

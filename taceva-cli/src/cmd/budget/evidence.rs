@@ -1,4 +1,4 @@
-//! Figures that a result and its samples measure of one channel.
+//! Measured figures of one channel, from a result and its samples.
 
 use std::path::Path;
 
@@ -12,14 +12,14 @@ use taceva_results::{EvaluationReport, Score};
 use crate::cmd::quantity::unit_of_six;
 use crate::cmd::{Usage, results};
 
-/// Figures of the residuals of presses.
+/// Figures computed from residuals of presses.
 const RESIDUALS: [&str; 4] = ["error", "error.between", "error.within", "bias"];
-/// Figures of scores.
+/// Figures taken from scores.
 const SCORES: [&str; 4] = ["repeatability", "drift", "r_light", "hysteresis"];
-/// Channels of a template, the usual one first.
+/// Channels for a template, in order of preference.
 const CHANNELS: [&str; 6] = ["Fz", "Fx", "Fy", "Pz", "Px", "Py"];
 
-/// Reason and remedy of a certificate that is not there.
+/// Message for a missing certificate, with the remedy.
 fn without_certificate(reason: &str) -> String {
     format!("{reason}; add --certificate CERTIFICATE.toml, or state `U` and `k`")
 }
@@ -39,14 +39,14 @@ impl Channel {
     }
 }
 
-/// Measured figures, with the reasons of those without a value.
+/// Measured figures, and figures without a value, each with the reason.
 #[derive(Default)]
 pub(super) struct Measured {
     pub(super) evidence: Evidence,
     pub(super) origins: Vec<String>,
     pub(super) sensor: Option<String>,
     pub(super) absent: Vec<Missing>,
-    /// Day on which certificates must be valid, if it is known.
+    /// Day on which certificates must be valid; `None` if unknown.
     pub(super) recorded_on: Option<Date>,
 }
 
@@ -82,12 +82,12 @@ impl Measured {
         measured
     }
 
-    /// Replaces the evidence.
+    /// Changes the evidence by `change`.
     pub(super) fn take(&mut self, change: impl FnOnce(Evidence) -> Evidence) {
         self.evidence = change(std::mem::take(&mut self.evidence));
     }
 
-    /// Refuses a source that names a figure without a value.
+    /// Rejects a source that names a figure without a value.
     pub(super) fn check(&self, budget: &BudgetText) -> Result<(), BudgetError> {
         for figure in budget.figures() {
             let is_there = match figure {
@@ -106,7 +106,7 @@ impl Measured {
         self.absent.push(Missing::new(figure, reason));
     }
 
-    /// Takes the certificate of the reference, if the result has one for the channel.
+    /// Adds the certificate of the reference for the channel, if the result has one.
     fn add_certificate(&mut self, found: &Found, channel: &Channel) {
         let stated = &found.report.provenance.traceability;
         match reference_certificate(stated, &channel.name, self.recorded_on) {
@@ -146,7 +146,7 @@ impl Measured {
 /// The result of one sensor.
 pub(super) struct Found {
     report: EvaluationReport,
-    /// A message if its samples were not found.
+    /// Message if the samples of the result were not found; `None` if they were found.
     without_samples: Option<String>,
 }
 
@@ -170,7 +170,7 @@ pub(super) fn report_of(path: &Path) -> anyhow::Result<Found> {
 }
 
 impl Found {
-    /// The channel called `asked`, or the first of the usual ones that is scored.
+    /// The channel called `asked`, or without a name the first scored channel of [`CHANNELS`].
     pub(super) fn channel(&self, asked: Option<&str>) -> anyhow::Result<Channel> {
         let scores = || self.report.scores.iter();
         let is_scored = |name: &&str| scores().any(|score| score.channel == *name);
@@ -202,7 +202,7 @@ impl Found {
         if half.abs() > 0.0 { half } else { 1.0 }
     }
 
-    /// Components of the residuals of one part of the protocol, by the words of a column.
+    /// Variance components of the residuals of one part of the protocol, grouped by a column.
     fn components(
         &self,
         channel: &Channel,
@@ -219,7 +219,7 @@ impl Found {
         residual_components(samples, &channel.name, part, column)
     }
 
-    /// Score of the channel, by the variant that decides verdicts.
+    /// Score of the channel. Uses the variant that decides verdicts, if there is one.
     fn score(&self, metric: &str, channel: &Channel) -> Result<Score, String> {
         let Some(score) = self.report.score(metric, &channel.name) else {
             let what = format!("metric:{metric}");
@@ -229,7 +229,7 @@ impl Found {
         Ok(score.deciding())
     }
 
-    /// Figure of a score, or of the samples behind it.
+    /// Computes the figure called `figure` from a score or from samples.
     fn figure(&self, figure: &str, channel: &Channel) -> Result<Figure, String> {
         match figure {
             "repeatability" => self.repeatability(channel),
@@ -243,7 +243,7 @@ impl Found {
         }
     }
 
-    /// Pooled deviation of repeats, with n − cells degrees of freedom.
+    /// Pooled standard deviation of repeats, with n − cells degrees of freedom.
     fn repeatability(&self, channel: &Channel) -> Result<Figure, String> {
         let score = self.score("repeatability", channel)?;
         let mut counts = score.counts.iter();
@@ -255,7 +255,7 @@ impl Found {
         Ok(noted(figure, &score))
     }
 
-    /// Deviation between lights of the mean residual.
+    /// Standard deviation of the mean residual between light scenes.
     fn light(&self, channel: &Channel) -> Result<Figure, String> {
         let samples = self.report.samples.as_ref();
         if samples.is_some_and(|samples| !samples.has("protocol")) {
@@ -275,7 +275,7 @@ fn number(score: &Score) -> Result<f64, String> {
     score.value.number().ok_or_else(reason)
 }
 
-/// The figure with the number of samples and the reservation of its score.
+/// Adds the number of samples and the reservation of the score to the figure.
 fn noted(mut figure: Figure, score: &Score) -> Figure {
     figure.n = Some(score.n);
     figure.note = score.standing.reason().map(str::to_owned);

@@ -1,4 +1,4 @@
-//! Components of gauge studies that sources name: `gauge.json#unit`.
+//! Variance components of gauge studies, for sources such as `gauge.json#unit`.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,7 @@ use taceva_metrology::gauge::SCHEMA;
 
 use super::evidence::Measured;
 
-/// Parts of a gauge study that a budget needs.
+/// Fields of the JSON of a gauge study that a budget needs.
 #[derive(Deserialize)]
 struct Study {
     schema: String,
@@ -90,7 +90,7 @@ fn read(path: &Path, budget: &BudgetText) -> Result<Study, String> {
 }
 
 impl Study {
-    /// The component called `name`; the name of a column of operators, such as `unit` of `unit_id`, is that of the operators.
+    /// Component called `name`. The name of an operator column, such as `unit` for `unit_id`, selects the component of operators.
     fn figure(&self, name: &str) -> Result<Figure, String> {
         let mut columns = self.columns.by.iter();
         let is_operator =
@@ -109,7 +109,7 @@ impl Study {
         Ok(Figure::new(found.sd, Freedom::Finite(self.freedom(name))))
     }
 
-    /// Degrees of freedom: of repeatability those of its mean square, of operators by Satterthwaite, of sums those of the operators.
+    /// Degrees of freedom: by the mean square for repeatability, by Satterthwaite for operators. Sums have those of the operators.
     fn freedom(&self, name: &str) -> f64 {
         let of_operators = f64::from(self.operators.saturating_sub(1).max(1));
         let row = |names: &[&str]| {

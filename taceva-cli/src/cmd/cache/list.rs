@@ -15,7 +15,7 @@ use crate::args::CacheList;
 use crate::cmd::results;
 use crate::{exit, output};
 
-/// The folder of numbered runs, and the file of a run that lists its stages.
+/// Default folder of numbered runs. The next constant names the file of a run that lists its stages.
 const RUNS: &str = "runs";
 const STAGES: &str = "stages.json";
 /// Number of digits of a key that are shown.
@@ -38,7 +38,7 @@ pub(super) fn run(args: &CacheList) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Runs that used an entry, by the digits of its key.
+/// Names of the runs that used an entry, by the key of the entry.
 type Used = BTreeMap<String, Vec<String>>;
 
 fn runs_of(named: &[PathBuf]) -> anyhow::Result<Used> {

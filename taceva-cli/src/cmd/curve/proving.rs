@@ -1,4 +1,4 @@
-//! Series of readings of a force proving instrument, by the column that names them.
+//! Series of readings of a force proving instrument, from a column with the name of the series.
 
 use anyhow::anyhow;
 use taceva_core::shown;
@@ -7,16 +7,16 @@ use taceva_metrology::curve::ProvingSeries;
 
 use super::Axis;
 
-/// Names of the series; those while unloading may end with an apostrophe.
+/// Names of the series. Names of unloading series may end with an apostrophe.
 const SERIES: [&str; 6] = ["X1", "X2", "X3", "X4", "X5", "X6"];
 
-/// A reading at a force.
+/// Reading of an instrument, with the applied force.
 struct Reading {
     force: f64,
     value: f64,
 }
 
-/// Series that the cells of `column` name, by rising force. Rows without a name or a number belong to no series.
+/// Series by the names in `column`, each ordered by rising force. Skips rows without a name or a number.
 pub(super) fn of(
     table: &CsvTable,
     axes: [&Axis; 2],

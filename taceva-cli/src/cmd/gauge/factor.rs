@@ -22,7 +22,7 @@ pub(super) struct Labels<'t> {
     pub(super) trial: Cow<'t, str>,
 }
 
-/// Columns whose cells together make one label.
+/// Columns whose cells together form one label.
 struct Factor {
     columns: Vec<usize>,
 }
@@ -36,7 +36,7 @@ impl Factors {
         })
     }
 
-    /// Labels of a row; `None` if a cell of them is empty.
+    /// Labels of a row; `None` if one of their cells is empty.
     pub(super) fn labels<'t>(&self, table: &'t CsvTable, row: usize) -> Option<Labels<'t>> {
         Some(Labels {
             part: self.part.label(table, row)?,
@@ -64,7 +64,7 @@ impl Factor {
         })
     }
 
-    /// The cell of a single column; `point_id=a, depth_step=3` of several.
+    /// Label of a row: the cell of a single column, or `point_id=a, depth_step=3` for several columns.
     fn label<'t>(&self, table: &'t CsvTable, row: usize) -> Option<Cow<'t, str>> {
         let cell = |column: usize| {
             let cell = unescape_csv(table.cell(row, column));

@@ -13,11 +13,11 @@ pub(super) struct Response {
     pub(super) channel: String,
     pub(super) unit: Option<Unit>,
     prediction: usize,
-    /// Column of the truth, if the readings are errors.
+    /// Column of the truth; `None` if the readings are predictions.
     truth: Option<usize>,
 }
 
-/// Responses of the channels that the arguments name, or of all with a prediction.
+/// Readings of the channels that the arguments name, otherwise of all channels with a prediction.
 pub(super) fn of(
     table: &CsvTable,
     args: &Gauge,
@@ -33,7 +33,7 @@ pub(super) fn of(
         .collect()
 }
 
-/// Response of the channel called `name`, which must be in the unit of the tolerance.
+/// Readings of the channel called `name`. Fails if their unit is not the unit of the tolerance.
 fn checked(
     table: &CsvTable,
     name: &str,
@@ -61,7 +61,7 @@ fn checked(
     }
 }
 
-/// Channels with a prediction, else those of the six in the table, in the unit of the tolerance.
+/// Default channels in the unit of the tolerance: those with a prediction, otherwise those of the six in the table.
 fn usual(table: &CsvTable, tolerance: Option<&Quantity>) -> anyhow::Result<Vec<String>> {
     let names = || table.names().iter().map(String::as_str);
     let is_of_six = |name: &&str| quantity::unit_of_six(name).is_some();
@@ -87,7 +87,7 @@ fn usual(table: &CsvTable, tolerance: Option<&Quantity>) -> anyhow::Result<Vec<S
 }
 
 impl Response {
-    /// The readings of the channel called `name`. One that is not of the six is in the unit of the tolerance.
+    /// Readings of the channel called `name`. A channel other than the six has the unit of the tolerance.
     fn of(
         table: &CsvTable,
         name: &str,
@@ -125,7 +125,7 @@ impl Response {
         self.truth.is_some()
     }
 
-    /// Column to name in messages.
+    /// Column of the readings, for messages.
     pub(super) fn column(&self) -> usize {
         self.prediction
     }

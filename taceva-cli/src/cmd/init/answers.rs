@@ -1,4 +1,4 @@
-//! Answers from standard input, which a signal ends.
+//! Reads answers from standard input until its end or a signal.
 
 use std::io;
 use std::sync::mpsc::{self, Receiver, RecvTimeoutError};
@@ -6,13 +6,13 @@ use std::time::Duration;
 
 use crate::progress::is_stopped;
 
-/// Longest time until a signal ends the answers.
+/// Longest delay between a signal and the end of the answers.
 const WAIT: Duration = Duration::from_millis(50);
 
-/// Lines of standard input. A signal ends them like the end of the input, so that earlier answers are kept.
+/// Lines of standard input. A signal acts like the end of the input, so that earlier answers are kept.
 #[derive(Default)]
 pub(super) struct Answers {
-    /// Lines of the thread that reads; `None` before the first question.
+    /// Channel from the thread that reads lines; `None` before the first question.
     lines: Option<Receiver<io::Result<String>>>,
 }
 
@@ -31,7 +31,7 @@ impl Iterator for Answers {
     }
 }
 
-/// Reads standard input in a thread, which ends with the program.
+/// Starts a thread that reads standard input. The thread ends with the program.
 fn read_on() -> Receiver<io::Result<String>> {
     let (sender, lines) = mpsc::channel();
     let reader = std::thread::Builder::new().spawn(move || {

@@ -15,7 +15,7 @@ pub(super) struct Interview<R = Answers> {
 }
 
 impl Interview {
-    /// Reads from standard input; with `--yes` nothing is asked.
+    /// Creates an interview that reads from standard input. With `--yes`, asks nothing.
     pub(super) fn new(args: &InitTarget) -> Interview {
         Interview {
             answers: Answers::default(),
@@ -40,7 +40,7 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
     /// Asks `question` until `check` accepts the answer. An empty line selects the default.
     ///
     /// # Errors
-    /// [`Usage`] if answers end, also by a signal, or if `--yes` meets a question without default.
+    /// [`Usage`] if the answers end, also by a signal, or for a question without default with `--yes`.
     pub(super) fn ask(
         &mut self,
         question: &str,
@@ -85,7 +85,7 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
         }
     }
 
-    /// One of `choices`.
+    /// Asks `question` until the answer is one of `choices`.
     ///
     /// # Errors
     /// As [`Interview::ask`].
@@ -104,7 +104,7 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
         self.ask(&format!("{question} ({known})"), default, check)
     }
 
-    /// A number within `[least, most]`.
+    /// Asks for a number within `[least, most]`.
     ///
     /// # Errors
     /// As [`Interview::ask`].
@@ -129,7 +129,7 @@ impl<R: Iterator<Item = io::Result<String>>> Interview<R> {
             .ok_or_else(|| Usage::error(format!("{question}: {answer} is not a valid answer")))
     }
 
-    /// A whole number within `[least, most]`.
+    /// Asks for a whole number within `[least, most]`.
     ///
     /// # Errors
     /// As [`Interview::ask`].

@@ -1,4 +1,4 @@
-//! A map for a recording: its draft, with open places filled in by answers.
+//! Map for a recording: a draft whose open places are filled in by answers.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -53,16 +53,16 @@ pub(super) fn write(
     finish(&path, &text, &next)
 }
 
-/// Sections of a map that hold labels.
+/// Sections of a map that contain labels.
 const LABELS: [&str; 3] = ["[columns]", "[classes]", "[[matrix]]"];
 
-/// Begin of the comment of a draft on pictures that no line joins.
+/// Beginning of the draft's comment on pictures that no row names.
 const NOT_JOINED: &str = "# No pictures were found that belong to its rows. ";
 
-/// Begin of the comment of a draft on columns that are no channels.
+/// Beginning of the draft's comment on columns that are no channels.
 const NO_CHANNELS: &str = "# No channels: ";
 
-/// Lines of `map` that are no comments.
+/// Lines of `map` other than comments.
 fn live(map: &str) -> impl Iterator<Item = &str> {
     let lines = map.lines();
     lines.filter(|line| !line.trim_start().starts_with('#'))
@@ -80,7 +80,7 @@ fn has_labels(map: &str) -> bool {
     })
 }
 
-/// Steps by hand before an import of `map`, which is written to `path`: pictures, open places, guesses, labels and contacts.
+/// Manual steps before an import with `map`, which is written to `path`. They concern pictures, open places, guesses, labels and contacts.
 fn remarks(map: &str, path: &str) -> Vec<String> {
     let guesses = live(map).filter(|line| line.contains("a guess")).count();
     let mut remarks = Vec::new();
@@ -120,7 +120,7 @@ fn remarks(map: &str, path: &str) -> Vec<String> {
     remarks
 }
 
-/// The reason why a draft takes `column` for no channel, if it is among the `excluded` columns.
+/// Reason why a draft excludes `column` from the channels; `None` if `column` is not in `excluded`.
 fn reason_against<'e>(excluded: &'e str, column: &str) -> Option<&'e str> {
     let named = format!("{column} (");
     let mut places = excluded.match_indices(named.as_str());
@@ -128,7 +128,7 @@ fn reason_against<'e>(excluded: &'e str, column: &str) -> Option<&'e str> {
     excluded[at + named.len()..].split(')').next()
 }
 
-/// `line` with a comment that its value was named in place of the comment of the draft; `why` is a reason against it.
+/// Replaces the comment of `line` by the remark that the user named the value. `why` is a reason against the value.
 fn named(line: &str, why: Option<&str>) -> String {
     let code = code(line).trim_end();
     match why {
@@ -141,10 +141,10 @@ fn named(line: &str, why: Option<&str>) -> String {
 /// Answer that leaves a channel out of the map.
 const LEFT_OUT: &str = "none";
 
-/// Puts an answer in each open place of a line of the draft that is no comment. With `--yes` places without a default stay open.
+/// Fills each open place of the draft with an answer, except in comments. With `--yes`, places without a default remain open.
 ///
 /// # Errors
-/// As [`Interview::ask`]; `lines` keep the earlier answers.
+/// As [`Interview::ask`]; `lines` contain the earlier answers.
 fn fill(lines: &mut [String], path: &Path, interview: &mut Interview) -> anyhow::Result<()> {
     if interview.takes_defaults() {
         for line in lines {
@@ -201,7 +201,7 @@ fn fill(lines: &mut [String], path: &Path, interview: &mut Interview) -> anyhow:
     Ok(())
 }
 
-/// The first of `lines`, with the comments below it that continue its own.
+/// The first of `lines`, with the following comment lines that continue its comment.
 fn explained(lines: &[String]) -> String {
     let is_more = |line: &&String| line.starts_with("# ") && !line.starts_with("# or: ");
     let more = lines.iter().skip(1).take_while(is_more);
@@ -210,7 +210,7 @@ fn explained(lines: &[String]) -> String {
     all.join("\n")
 }
 
-/// The reason why an import would refuse line `at` of a map, if it would.
+/// Reason why an import would reject line `at` of a map; `None` if the line is valid.
 fn refusal(path: &Path, text: &str, at: usize) -> Option<String> {
     match ImportMap::parse(path, text) {
         Err(ImportError::Dataset(DatasetError::Text { place, problem }))
@@ -223,14 +223,14 @@ fn refusal(path: &Path, text: &str, at: usize) -> Option<String> {
     }
 }
 
-/// An open place of a line: `key = "?"`.
+/// Open place of a line: `key = "?"`.
 struct Place {
-    /// The byte at which it begins.
+    /// Byte offset of the place in the line.
     at: usize,
     key: String,
-    /// The channel or the column at the beginning of the line.
+    /// Channel or column at the beginning of the line.
     subject: Option<String>,
-    /// Places of one kind likely have one answer: units of forces, units of torques.
+    /// Kind of the place, such as the unit of a force. Places of one kind likely have the same answer.
     kind: String,
 }
 
@@ -252,7 +252,7 @@ impl Place {
         })
     }
 
-    /// True for the column of a channel.
+    /// True if the place is the column of a channel.
     fn is_channel(&self) -> bool {
         self.key == "from" && self.subject.is_some()
     }

@@ -1,4 +1,4 @@
-//! A rig file: devices by their drivers, axes and limits.
+//! Writes a rig file: devices by their drivers, axes and limits.
 
 use taceva_core::{DriverKind, DriverSource};
 use taceva_dataset::internal::quoted;
@@ -82,7 +82,7 @@ speed_max_mm_s = {speed:?}
     )
 }
 
-/// The selector of a device: its driver and the arguments that it needs.
+/// Asks for a device and returns its selector: the driver and its required arguments.
 fn device(
     listed: &Devices,
     kind: DriverKind,

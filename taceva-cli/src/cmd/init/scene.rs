@@ -1,4 +1,4 @@
-//! A scene of the simulated bench, or of a real rig if the sensing area is stated.
+//! Writes a scene of the simulated bench, or of a real rig with the sensing area.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use taceva_protocol::Scene;
 use super::{Context, Interview, Usage, finish, target};
 use crate::args::InitTarget;
 
-/// The devices of the simulated bench beside its sensors.
+/// Devices of the simulated bench except its sensors.
 const BENCH: &str =
     "[robot]\ndriver = \"sim/robot\"\n\n[force]\ndriver = \"sim/force-transducer\"\n";
 
@@ -99,7 +99,7 @@ pub(super) fn write(
     )
 }
 
-/// Some of the simulated `sensors`, separated by commas.
+/// Asks for some of the simulated `sensors`, separated by commas.
 fn simulated(sensors: &[String], interview: &mut Interview) -> anyhow::Result<String> {
     let known = sensors.join(", ");
     let is_known = |answer: &str| {
@@ -115,7 +115,7 @@ fn simulated(sensors: &[String], interview: &mut Interview) -> anyhow::Result<St
     interview.ask(&question, sensors.first().map(String::as_str), is_known)
 }
 
-/// The line of the scene that states the sensing area.
+/// Asks for the sensing area and returns its line for the scene.
 fn footprint(interview: &mut Interview) -> anyhow::Result<String> {
     let expected = "expected `disc RADIUS` or `rect HALF_X HALF_Y` with lengths above 0";
     let check = |answer: &str| match footprint_line(answer) {
@@ -128,7 +128,7 @@ fn footprint(interview: &mut Interview) -> anyhow::Result<String> {
     footprint_line(&answer).ok_or_else(|| Usage::error(expected))
 }
 
-/// The line for `disc RADIUS` or `rect HALF_X HALF_Y`.
+/// Line of the scene for `disc RADIUS` or `rect HALF_X HALF_Y`; `None` for another answer.
 fn footprint_line(answer: &str) -> Option<String> {
     let mut words = answer.split_whitespace();
     let shape = words.next()?;

@@ -88,7 +88,7 @@ fn reach(allowed: &BTreeSet<Need>) -> String {
     }
 }
 
-/// Writes the settings atomically. A symbolic link stays a link, and the file keeps its permissions.
+/// Writes the settings atomically. Keeps a symbolic link and the permissions of the file.
 fn write(path: &Path, text: &str) -> io::Result<()> {
     let path = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let folder = taceva_files::parent_of(&path);

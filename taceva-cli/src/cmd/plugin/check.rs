@@ -13,7 +13,7 @@ use crate::args::{ListFormat, PluginCheck};
 use crate::cmd::{Context, Usage};
 use crate::{exit, output, report, stderr};
 
-/// Time after which a check is named while it runs.
+/// Time after which a running check is named.
 const LONG: Duration = Duration::from_secs(10);
 
 pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
@@ -79,7 +79,7 @@ pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// Names each check that runs for long, until the sender is gone. It receives a name at the begin of a check, and `None` at its end.
+/// Prints the name of each check that runs for long, until the sender is dropped. The channel transfers a name at the start of a check, and `None` at its end.
 fn name_long_checks(names: &Receiver<Option<String>>) {
     let mut running = None;
     loop {

@@ -15,7 +15,7 @@ use crate::args::PluginInstall;
 use crate::cmd::Context;
 use crate::{exit, output, report};
 
-/// The folder in a temporary one that a packed plugin is unpacked to.
+/// Folder for an unpacked plugin, inside a temporary folder.
 const UNPACKED: &str = "unpacked";
 /// Checks that a library must pass before it is installed: it loads, and matches its manifest.
 const CHECKS: &str = "library/";
@@ -67,7 +67,7 @@ pub(super) fn folder_of_user() -> anyhow::Result<PathBuf> {
     Ok(user.to_owned())
 }
 
-/// The plugin in `folder`, after its library was loaded in a confined process and matched its manifest.
+/// Returns the plugin in `folder`. Fails unless its library loads in a confined process and matches its manifest.
 pub(super) fn checked(
     folder: &Path,
     context: &Context,
@@ -94,7 +94,7 @@ pub(super) fn checked(
     Ok((host, plugin))
 }
 
-/// Unpacks a file of `taceva plugin pack` beside the plugins of the user, where no search looks.
+/// Unpacks a file of `taceva plugin pack` to a temporary folder beside the user's plugins, which is not searched.
 fn unpack(file: &Path, user: &Path) -> anyhow::Result<TemporaryFolder> {
     let named = || shown(file).to_string();
     // Checked before opening, because opening a pipe would wait for a writer.
@@ -113,7 +113,7 @@ fn unpack(file: &Path, user: &Path) -> anyhow::Result<TemporaryFolder> {
     Ok(folder)
 }
 
-/// Loads the library in a confined process.
+/// Checks that the library loads in a confined process and matches its manifest.
 fn check(host: &PluginHost, plugin: &Plugin) -> anyhow::Result<()> {
     let request = CheckRequest {
         only: vec![CHECKS.to_owned()],
@@ -128,7 +128,7 @@ fn check(host: &PluginHost, plugin: &Plugin) -> anyhow::Result<()> {
     failed.map_or(Ok(()), |why| Err(anyhow::anyhow!(why)))
 }
 
-/// Copies the manifest, the library of this machine and the licences beside `target`, then exchanges the names.
+/// Replaces `target` by a copy of the manifest, the library for this machine and the licences. Copies to a temporary name first.
 fn replace(plugin: &Plugin, target: &Path) -> io::Result<()> {
     fs::create_dir_all(taceva_files::parent_of(target))?;
     let staged = Staged::beside(target)?;

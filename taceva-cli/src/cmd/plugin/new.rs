@@ -66,7 +66,7 @@ pub(super) fn headers(args: &PluginHeaders, context: &Context) -> anyhow::Result
     Ok(exit::DONE)
 }
 
-/// Writes `files`, whose paths begin with `above`, to `folder`: under a temporary name first, so that it is absent or complete.
+/// Writes `files`, whose paths begin with `above`, to `folder`. Uses a temporary name first, so that `folder` is either absent or complete.
 fn write_folder(folder: &Path, above: &str, files: &[File]) -> anyhow::Result<()> {
     if folder.symlink_metadata().is_ok() {
         bail!("{} exists already", shown(folder));

@@ -31,7 +31,7 @@ pub(super) fn run(args: &PluginPack, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Error of packing: of the disk, or of a plugin that cannot be packed.
+/// Error of packing a plugin, including errors of the disk.
 struct Failed(anyhow::Error);
 
 impl From<std::io::Error> for Failed {

@@ -42,7 +42,7 @@ pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Removes a plugin atomically for other processes: renames it first to a name that is not searched.
+/// Removes a plugin atomically for other processes: first renames the folder to a name that is not searched.
 fn remove(target: &Path) -> io::Result<()> {
     let above = taceva_files::parent_of(target);
     let removed = TemporaryFolder::create(above, STAGED)?;

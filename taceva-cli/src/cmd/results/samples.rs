@@ -1,4 +1,4 @@
-//! Samples of results, where `evaluate`, `score` and `run` write them.
+//! Finds the samples of results that `evaluate`, `score` and `run` wrote.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,15 +10,14 @@ use taceva_results::Samples;
 
 use super::{Found, RESULTS};
 
-/// The extension of a table of samples, instead of `json`.
+/// Extension of a table of samples, in place of `json`.
 const SAMPLES: &str = "samples.csv";
-/// The folder of recordings of a run, whose names begin with the number of the study.
+/// Folder of recordings in a run. Names begin with the number of the study.
 const RECORDINGS: &str = "recordings";
-/// The folder of reports of a run, whose names begin with the number of the study.
+/// Folder of reports in a run. Names begin with the number of the study.
 const REPORTS: &str = "reports";
 
-/// The studies of `file` with their samples: those of a run are in `reports/<number>-*.samples.csv`, those of one evaluation beside it in
-/// `<name>.samples.csv`.
+/// Adds samples to the studies of `file`: from `reports/<number>-*.samples.csv` of a run, or from `<name>.samples.csv` beside a single evaluation.
 pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Found> {
     let is_run = file.file_name().is_some_and(|name| name == RESULTS);
     let own = file.with_extension(SAMPLES);
@@ -46,7 +45,7 @@ pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Fou
     Ok(Found { studies, missing })
 }
 
-/// Table of samples of one evaluation: `own`, which has the name of the result, or another table in that folder with the digest in the result.
+/// Table of samples of one evaluation: `own`, named like the result, or another table in the folder with the digest in the result.
 fn of_evaluation(own: &Path, study: &Study, is_alone: bool) -> anyhow::Result<Option<PathBuf>> {
     if !is_alone || own.is_file() {
         return Ok(Some(own.to_owned()).filter(|_| is_alone));
@@ -70,13 +69,13 @@ fn of_evaluation(own: &Path, study: &Study, is_alone: bool) -> anyhow::Result<Op
     Ok(None)
 }
 
-/// The digest of the table of samples in the results of `study`.
+/// Digest of the table of samples, as the results of `study` state it.
 fn digest(study: &Study) -> Option<&str> {
     let mut provenance = study.provenance.iter();
     provenance.find_map(|(name, text)| (name == "samples_table").then_some(text.as_str()))
 }
 
-/// The recording of study `number` of a run, counted from 1, where the folder of the run holds it.
+/// Paths of the recordings of study `number` of a run, counted from 1; empty if the run has none.
 pub(super) fn recordings_of_run(file: &Path, number: u32) -> anyhow::Result<Vec<PathBuf>> {
     let recordings = file.with_file_name(RECORDINGS);
     let is_run = file.file_name().is_some_and(|name| name == RESULTS);
@@ -98,7 +97,7 @@ pub(super) fn recordings_of_run(file: &Path, number: u32) -> anyhow::Result<Vec<
     Ok(found)
 }
 
-/// The table of study `number` of a run, counted from 1; the first by name if there are several.
+/// Table of samples of study `number` of a run, counted from 1; the first by name if there are several.
 fn of_run(reports: &Path, number: u32) -> anyhow::Result<Option<PathBuf>> {
     if !reports.is_dir() {
         return Ok(None);
@@ -125,7 +124,7 @@ fn read(path: &Path, study: &Study) -> anyhow::Result<Samples> {
     Samples::read(&table).with_context(|| shown(path).to_string())
 }
 
-/// Refuses the bytes of the table at `path` if the results of `study` have another digest.
+/// Fails if the bytes of the table at `path` do not have the digest in the results of `study`.
 fn check(path: &Path, table: &[u8], study: &Study) -> anyhow::Result<()> {
     let found = taceva_files::seal::digest_of_bytes(table);
     if let Some(expected) = digest(study).filter(|expected| *expected != found) {

@@ -1,4 +1,4 @@
-//! Parts of the simulated bench besides its devices: a clock that runs as fast as it is computed, and changes of specimens.
+//! Parts of the simulated bench besides its devices: a clock without real waiting times, and changes of specimens.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,7 +9,7 @@ use taceva_drivers::Selector;
 use taceva_protocol::{ContentId, SpecimenChanger, Timekeeper};
 use taceva_sim::{MODEL_VERSION, Model};
 
-/// The surroundings of the rig whose simulated robot was opened by `robot`; `None` if its bench is unknown.
+/// Surroundings of the rig whose simulated robot was opened by `robot`; `None` if its bench is unknown.
 pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Surroundings> {
     let bench = rig.bench(&robot.bench()?)?;
     let gel = bench.provenance();
@@ -27,18 +27,18 @@ pub(in crate::cmd) fn surroundings(robot: &Selector, rig: &mut Rig) -> Option<Su
     })
 }
 
-/// Ignores that the bench has ended: the next call of one of its devices reports the same error.
+/// Ignores the error of a bench that has ended, because the next call of its devices reports the same error.
 fn unless_gone(done: Result<(), DriverError>) {
     drop(done);
 }
 
-/// The version of the bench and the digests of its built-in parameters.
+/// Version of the bench, and digests of its built-in parameters.
 pub(in crate::cmd) fn models() -> String {
     let digests = Model::ALL.map(|model| model.parameters().digest().to_string());
     format!("bench {MODEL_VERSION}: {}", digests.join(" "))
 }
 
-/// The first 64 bits of the name of a press.
+/// First 64 bits of the id of a press.
 fn name_of(press: ContentId) -> u64 {
     let digits = press.to_string();
     let first = digits
@@ -47,7 +47,7 @@ fn name_of(press: ContentId) -> u64 {
     first.expect("a digest is written as 32 hexadecimal digits")
 }
 
-/// The clock of a bench, which also changes its specimens.
+/// Clock of a simulated bench, which also changes its specimens.
 struct BenchClock(Arc<dyn SimulatedBench>);
 
 impl Timekeeper for BenchClock {

@@ -1,4 +1,4 @@
-//! The stages of a run, with those reused from the cache.
+//! List of the stages of a run, which states the stages reused from the cache.
 
 use serde::Serialize;
 use taceva_evaluate::{Cache, StageRecord};
@@ -7,14 +7,14 @@ use taceva_study::RunFolder;
 use super::Context;
 use crate::output;
 
-/// Schema `taceva.stages/1`.
+/// Content of the JSON with the schema `taceva.stages/1`.
 #[derive(Serialize)]
 struct Stages {
     schema: &'static str,
     stages: Vec<StageRecord>,
 }
 
-/// Writes the stages into the folder of the run, and prints them with `-v`; no report depends on them.
+/// Writes the stages into the folder of the run, and prints them with `-v`. Reports do not depend on the stages.
 pub(super) fn write(cache: &Cache, folder: &RunFolder, context: &Context) -> anyhow::Result<()> {
     let stages = cache.stages();
     for record in &stages {

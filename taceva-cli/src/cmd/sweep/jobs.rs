@@ -1,4 +1,4 @@
-//! Jobs of a scheduler.
+//! Submits tasks as jobs of a scheduler.
 
 use std::path::{Path, PathBuf};
 
@@ -14,7 +14,7 @@ use super::summary::{folder_of, latest, print};
 use crate::args::SweepRun;
 use crate::{exit, output};
 
-/// Submits the tasks at `wanted` that have no result yet.
+/// Submits the tasks at the positions `wanted` that have no result yet.
 pub(super) fn submit(
     args: &SweepRun,
     folder: &SweepFolder,
@@ -112,7 +112,7 @@ pub(super) fn cancel(named: &Path, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// The absolute form of a path for a job.
+/// Absolute form of a path, for a job.
 fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
 }

@@ -1,4 +1,4 @@
-//! A sweep from its file: planned, and its tasks run here or elsewhere.
+//! Plans a sweep from its file, and runs its tasks here or elsewhere.
 
 use std::path::Path;
 
@@ -66,7 +66,7 @@ pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     Ok(ended(&ran, &folder, &list, all_pass(&collected), context))
 }
 
-/// Prints the commands of the tasks at `left` for an external engine.
+/// Prints the commands of the tasks at the positions `left`, for an external engine.
 fn listed(left: &[usize], list: &Path, folder: &SweepFolder) -> anyhow::Result<u8> {
     let [list, folder] = [list, folder.path()].map(|path| shell_word(&path.to_string_lossy()));
     output::write(None, |out| {

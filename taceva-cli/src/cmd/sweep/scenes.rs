@@ -1,4 +1,4 @@
-//! Scenes of a sweep: planned with the sweep, and acquired once, before any task.
+//! Scenes of a sweep. Scenes are planned with the sweep and acquired once, before any task.
 
 mod acquire;
 
@@ -16,16 +16,16 @@ use crate::progress::spoken;
 pub(super) use acquire::{Acquisition, acquire};
 
 pub(super) struct SweepScene {
-    /// The name in the sweep file.
+    /// Name of the scene in the sweep file.
     named: String,
     planned: PlannedScene,
     drivers: Drivers,
     run: RunFolder,
-    /// True if its recordings are complete.
+    /// True if all recordings of the scene are complete.
     is_acquired: bool,
 }
 
-/// The scenes of `file`, with their state in `folder`. Opens no device and changes nothing.
+/// Plans the scenes of `file` and reads their state in `folder`. Opens no device and changes no file.
 ///
 /// # Errors
 /// For a scene that does not exist, is not valid, is not fully simulated, or shares its folder with another.
@@ -54,7 +54,7 @@ pub(super) fn planned(
     Ok(scenes)
 }
 
-/// The recordings of all of `scenes`, acquired or not.
+/// Recordings of all `scenes`, whether or not they exist already.
 pub(super) fn recordings(scenes: &[SweepScene]) -> Vec<SceneRecording> {
     scenes.iter().flat_map(SweepScene::recordings).collect()
 }
@@ -106,13 +106,13 @@ impl SweepScene {
         })
     }
 
-    /// Number of presses of all its studies.
+    /// Number of presses in all studies of the scene.
     fn presses(&self) -> u64 {
         let studies = self.planned.studies.iter();
         studies.map(|study| study.plan.cost.presses).sum()
     }
 
-    /// The work for the scene and its duration, estimated from the times in `folder`.
+    /// Text on the work for the scene and on its duration, estimated from earlier times in `folder`.
     pub(super) fn words(&self, folder: &SweepFolder) -> String {
         let name = shown(&self.planned.scene.name);
         let recordings = counted(self.planned.studies.len(), "recording");
@@ -136,7 +136,7 @@ impl SweepScene {
     }
 }
 
-/// The error for a name that is no scene, with a suggestion.
+/// Error message for an unknown name of a scene, with a suggestion.
 fn unknown(named: &str, file: &SweepFile) -> String {
     let builtin = BuiltinScene::ALL.map(BuiltinScene::name);
     let suggestion = match Suggestion::of(named, builtin).nearest() {

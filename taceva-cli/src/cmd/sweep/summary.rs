@@ -8,7 +8,7 @@ use taceva_sweep::{Collected, SweepFolder, TaskList};
 use super::super::Context;
 use crate::output;
 
-/// The folder of results: the named one, or the one beside the named file.
+/// Folder of results: the named folder, or the folder beside the named file.
 pub(super) fn folder_of(named: &Path) -> SweepFolder {
     match named.is_dir() {
         true => SweepFolder::new(named.to_owned()),
@@ -16,7 +16,7 @@ pub(super) fn folder_of(named: &Path) -> SweepFolder {
     }
 }
 
-/// The tasks of the last call. Prints a message if the named file has changed since.
+/// Tasks of the last call. Prints a message if the sweep file has changed since that call.
 pub(super) fn latest(
     named: &Path,
     folder: &SweepFolder,
@@ -32,7 +32,7 @@ pub(super) fn latest(
     Ok(list)
 }
 
-/// True if every unit meets its limits, or there are none.
+/// True if every unit meets its limits. Also true without limits.
 pub(super) fn all_pass(collected: &Collected) -> bool {
     collected.units.iter().all(|unit| unit.is_passed)
 }

@@ -8,7 +8,7 @@ use crate::amount::bytes;
 use crate::progress::spoken;
 use crate::{exit, output};
 
-/// Prints the number of tasks, the cost of the rest, and the scenes to acquire before them.
+/// Prints the number of tasks, the cost of tasks without a result, and the scenes to acquire first.
 pub(super) fn print(
     estimate: &Estimate,
     skipped: usize,

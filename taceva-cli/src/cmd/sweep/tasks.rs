@@ -9,13 +9,13 @@ use super::super::{Context, Usage, cache};
 use crate::args::{CacheArgs, SweepTask};
 use crate::exit;
 
-/// Options of running tasks.
+/// Options for running tasks.
 pub(super) struct Asked<'a> {
     pub(super) cache: &'a CacheArgs,
     pub(super) retry_failed: bool,
 }
 
-/// Runs the tasks at `wanted` in this process.
+/// Runs the tasks at the positions `wanted` in this process.
 pub(super) fn carried_out(
     folder: &SweepFolder,
     list: &TaskList,
@@ -39,7 +39,7 @@ pub(super) fn carried_out(
     Ok(ran)
 }
 
-/// A job of a scheduler.
+/// Executes `taceva sweep task`, which a job of a scheduler calls.
 pub(super) fn run(args: &SweepTask, context: &Context) -> anyhow::Result<u8> {
     let list = TaskList::read(&args.tasks)?;
     let folder = SweepFolder::new(args.folder.clone());
@@ -58,7 +58,7 @@ pub(super) fn run(args: &SweepTask, context: &Context) -> anyhow::Result<u8> {
     Ok(ended(&ran, &folder, &list, true, context))
 }
 
-/// Prints the failed tasks; returns the exit code.
+/// Prints the failed tasks, and returns the exit code.
 pub(super) fn ended(
     ran: &Ran,
     folder: &SweepFolder,
@@ -92,7 +92,7 @@ pub(super) fn ended(
     }
 }
 
-/// The cache that tasks share: in the folder of the sweep unless another is named.
+/// Cache that tasks share: the named cache, or otherwise a cache in the folder of the sweep.
 fn cache_of(args: &CacheArgs, folder: &SweepFolder) -> Option<Cache> {
     let named = CacheArgs {
         cache: Some(args.cache.clone().unwrap_or_else(|| folder.cache())),

@@ -1,4 +1,4 @@
-//! Value of a count, from the units and counts of a box.
+//! Force and torque per count, from the units and counts of a box.
 
 use super::page::{Page, PageError, number};
 
@@ -7,7 +7,7 @@ use super::page::{Page, PageError, number};
 pub(super) struct Calibration {
     pub(super) force_n: f64,
     pub(super) torque_nmm: f64,
-    /// Force unit of the page, N.
+    /// Value of the force unit of the page, N.
     pub(super) force_unit_n: f64,
 }
 
@@ -29,7 +29,7 @@ const TORQUES: [(&str, f64); 6] = [
     ("lbfft", 1_355.817_948_331_4),
     ("kgfcm", 98.066_5),
 ];
-/// Signs between the two parts of a torque unit.
+/// Signs that may separate the two parts of a torque unit.
 const BETWEEN: [char; 7] = ['-', '.', '·', '⋅', '•', '*', ' '];
 
 impl Calibration {
@@ -62,7 +62,7 @@ fn counts(page: &Page, key: &'static str) -> Result<f64, PageError> {
     count.ok_or_else(|| PageError::entry(key, "a number of counts above 0", &found))
 }
 
-/// Value of the unit in the entry `key`, with or without a sign between its parts, in any case. None of `units` differs from another by case.
+/// Value of the unit in the entry `key`. Ignores case and signs between the parts, because no two of `units` differ only by these.
 fn unit(
     page: &Page,
     key: &'static str,

@@ -19,8 +19,8 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 /// # The physical contract
 /// - Forces and torques are in the transducer's own axes, in N and N·mm. The value of a count is read at open from the page
 ///   `/netftapi2.xml` of the box.
-/// - A box with a tool frame is refused unless `frame=tool` asks for readings in that frame. So is a box whose rate differs from a stated
-///   `rate`, or whose range is below a stated `force_max_n`. Without `force_max_n` the range of each force on the page applies.
+/// - A box with a tool frame is refused unless `frame=tool` selects readings in that frame. A box is also refused if its rate differs from a stated `rate`, or
+///   its range is below a stated `force_max_n`. Without `force_max_n` the range of each force on the page applies.
 /// - Frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low pass is a warning, and so
 ///   is a page that states no low pass.
 /// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.

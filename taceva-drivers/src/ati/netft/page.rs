@@ -84,7 +84,7 @@ impl Page {
         Page::whole(page)
     }
 
-    /// Checks that `page` ends with its first element, so that no entry counts as absent only because the page was cut off.
+    /// Checks that `page` ends with the end of its first element. A truncated page would otherwise seem to lack entries.
     pub(super) fn whole(page: String) -> Result<Page, PageError> {
         let names = page.split('<').skip(1);
         let mut elements =
@@ -100,7 +100,7 @@ impl Page {
         }
     }
 
-    /// Trimmed content of the first element `key`, without its entities; empty if there is none.
+    /// Trimmed content of the first element `key`, with entities decoded; empty without this element.
     pub(super) fn entry(&self, key: &str) -> String {
         let between = self
             .0
@@ -109,7 +109,7 @@ impl Page {
         between.map_or_else(String::new, |(value, _)| decoded(value.trim()))
     }
 
-    /// Number of the element `key`; `None` if there is none.
+    /// Number in the element `key`; `None` without this element.
     ///
     /// # Errors
     /// [`PageError::Entry`] for anything but a number.
@@ -123,7 +123,7 @@ impl Page {
         }
     }
 
-    /// Six numbers of the element `key`, or of `key0` to `key5`; `None` if there is neither.
+    /// Six numbers of the element `key`, or of `key0` to `key5`; `None` without these elements.
     ///
     /// # Errors
     /// [`PageError::Entry`] for anything but six numbers.
@@ -201,7 +201,7 @@ fn character(entity: &str) -> Option<char> {
     }
 }
 
-/// Entry of the page as errors name it; `found` is empty if the page lacks it.
+/// Entry of the page for error messages. `found` is empty if the page lacks the entry.
 fn stated(key: &str, found: &str) -> String {
     match found {
         "" => format!("{PAGE} has no `{key}`"),

@@ -2,12 +2,12 @@
 
 use super::status::Status;
 
-/// Request to the box.
+/// Request to the box for its stream of records.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Request {
-    /// Stop sending.
+    /// Stop sending records.
     Stop,
-    /// Send until stopped.
+    /// Send records until stopped.
     Start,
 }
 
@@ -30,7 +30,7 @@ pub(super) struct Record {
     /// Sequence number, increased by one per record sent.
     pub(super) number: u32,
     pub(super) status: Status,
-    /// Fx, Fy, Fz, Tx, Ty, Tz.
+    /// Raw values of Fx, Fy, Fz, Tx, Ty and Tz, counts.
     pub(super) counts: [i32; 6],
 }
 

@@ -8,14 +8,14 @@ use crate::text::shown;
 /// Settings of a box, as its page states them.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setup {
-    /// Model of the box, and serial number of the calibrated transducer; empty if the page lacks them.
+    /// Model of the box; the next field is the serial number of the calibrated transducer. Empty if the page lacks them.
     product: String,
     serial: String,
     /// Displacement and rotation of the tool frame; `None` if the page lacks them.
     tool: Option<[f64; 6]>,
     /// Units of the displacement and of the rotation.
     tool_units: [String; 2],
-    /// Number of the low pass, 0 for none; `None` if the page lacks it.
+    /// Number of the low pass, 0 for no low pass; `None` if the page states no number.
     filter: Option<f64>,
     /// Configured rate of records, Hz; `internal_hz` is the rate of the measurement.
     rate_hz: Option<f64>,
@@ -24,26 +24,26 @@ pub(super) struct Setup {
     ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias.
     is_biased: Option<bool>,
-    /// Problems of entries that cannot be read, or of a low pass that the page lacks.
+    /// Messages about unreadable entries, or about a low pass that the page lacks.
     unread: Vec<String>,
 }
 
-/// Frame of readings.
+/// Frame of reference of the readings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Frame {
-    /// The transducer's own axes.
+    /// The frame of the transducer itself.
     Own,
     /// The tool frame that is set in the box.
     Tool,
 }
 
-/// Expectations of the selector.
+/// Settings that the selector expects.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Expected {
     pub(super) frame: Frame,
     /// Rate of records, Hz.
     pub(super) rate_hz: Option<f64>,
-    /// Measuring range, N.
+    /// Expected least measuring range, N.
     pub(super) force_max_n: Option<f64>,
 }
 
@@ -55,8 +55,8 @@ const CUTOFFS_HZ: [f64; 12] = [
 const EQUAL: f64 = 0.01;
 
 impl Setup {
-    /// Reads the settings from `page`, whose force unit is `force_unit_n`, N. An unreadable entry counts as absent, and is a warning. So is an
-    /// absent low pass.
+    /// Reads the settings from `page`, whose force unit is `force_unit_n`, N. An unreadable entry counts as absent. Unreadable entries and an absent low pass
+    /// are warnings.
     ///
     /// # Errors
     /// [`PageError::Entry`] for an unreadable tool frame, which decides the axes.
@@ -89,7 +89,7 @@ impl Setup {
         self.ranges_n.map(least)
     }
 
-    /// Measuring range of each force, N. In a tool frame it is the smallest of all.
+    /// Measuring range of each force, N. In a tool frame, all forces have the smallest range.
     pub(super) fn ranges_n(&self) -> Option<[f64; 3]> {
         let ranges_n = self.ranges_n?;
         Some(match self.is_turned() {
@@ -138,12 +138,12 @@ impl Setup {
         std::iter::once(set_hz).chain(sent_hz)
     }
 
-    /// True if the box has a tool frame.
+    /// True if the tool frame differs from the frame of the transducer.
     fn is_turned(&self) -> bool {
         self.tool.is_some_and(|tool| tool.into_iter().any(is_set))
     }
 
-    /// `0;0;0;90;0;45 (mm, degrees)`.
+    /// Tool frame as text: `0;0;0;90;0;45 (mm, degrees)`.
     fn tool_in_words(&self) -> String {
         let numbers = self
             .tool
@@ -181,7 +181,7 @@ impl Setup {
         known.collect()
     }
 
-    /// Remarks on settings that shift readings and are not undone.
+    /// Warnings about settings that change readings and that the driver does not undo.
     pub(super) fn warnings(&self) -> Vec<String> {
         let unread = self.unread.iter();
         let mut warnings: Vec<String> = unread
@@ -208,7 +208,7 @@ impl Setup {
     }
 }
 
-/// Value of an entry. The error of an unreadable entry is added to `unread`.
+/// Value of an entry; `None` if unreadable, and the error is added to `unread`.
 fn or_unread<T>(found: Result<Option<T>, PageError>, unread: &mut Vec<String>) -> Option<T> {
     found.unwrap_or_else(|error| {
         unread.push(error.to_string());

@@ -6,7 +6,7 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Status(pub(super) u32);
 
-/// A threshold of the box was exceeded and is latched; the bit of any error stands beside it. Readings stay valid.
+/// Bits of a latched threshold: the threshold bit and the bit of any error. Readings remain valid.
 const LATCHED: u32 = 0x8001_0000;
 const SATURATED: u32 = 1 << 17;
 
@@ -64,7 +64,7 @@ impl Status {
 }
 
 impl fmt::Display for Status {
-    /// `status 0x80020000: strain gauge saturated (bit 17), error (bit 31)`.
+    /// Status with the names of its bits: `status 0x80020000: strain gauge saturated (bit 17), error (bit 31)`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "status {:#010x}", self.0)?;
         let bits = (0_u32..).zip(NAMES);

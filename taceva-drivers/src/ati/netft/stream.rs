@@ -19,21 +19,21 @@ pub(super) struct RecordStream {
     reader: Option<JoinHandle<()>>,
 }
 
-/// Record with the number of lost records.
+/// Record, with the number of records lost before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Counted {
     pub(super) record: Record,
-    /// Number of records lost so far, by their sequence numbers.
+    /// Number of records lost so far, computed from sequence numbers.
     pub(super) missing: u64,
 }
 
-/// Interval at which the reader thread checks for its end.
+/// Interval at which the reader thread checks whether it must end.
 const LOOK: Duration = Duration::from_millis(50);
 /// Maximum number of records in a datagram.
 const RECORDS_MAX: usize = 64;
 
 impl RecordStream {
-    /// Opens a socket that accepts only datagrams from `port` of `host`, and posts received records.
+    /// Opens a socket that accepts only datagrams from `port` of `host`. A thread posts received records.
     pub(super) fn open(
         host: &str,
         port: u16,
@@ -131,5 +131,5 @@ fn read(socket: &UdpSocket, is_over: &AtomicBool, posting: &Mailbox<Counted>) ->
     Ok(())
 }
 
-/// Maximum distance of a reordered record.
+/// Maximum difference of sequence numbers for a record that counts as reordered.
 const REORDERED_MAX: i32 = 1_000;

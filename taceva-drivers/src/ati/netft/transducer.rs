@@ -1,4 +1,4 @@
-//! Force transducer over a Net F/T box.
+//! Force transducer behind a Net F/T box.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -37,11 +37,11 @@ pub(super) struct Transducer {
     stream: RecordStream,
     zero: HostZero,
     is_running: bool,
-    /// True once a reading came with a latched threshold.
+    /// True after a reading with a latched threshold.
     is_latched: bool,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
-    /// Mailbox number of the last record returned.
+    /// Mailbox number of the record that was returned last.
     last: u64,
 }
 
@@ -54,7 +54,7 @@ fn failed(
 }
 
 impl Transducer {
-    /// Reads the calibration of a box and opens its socket. Sends no request to start readings.
+    /// Reads the calibration of a box and opens a socket. Does not start the readings.
     pub(super) fn open(options: NetftOptions) -> Result<Transducer, DriverError> {
         let doing = "connect to the box";
         let page = Page::ask(&options.host, options.page_port)
@@ -117,7 +117,7 @@ impl Transducer {
         Ok(seen)
     }
 
-    /// Number of records lost so far, by their sequence numbers.
+    /// Number of records lost so far, computed from sequence numbers.
     fn missing(&self) -> u64 {
         self.records.newest().map_or(0, |seen| seen.what.missing)
     }

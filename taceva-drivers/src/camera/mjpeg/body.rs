@@ -14,11 +14,11 @@ pub(super) enum Body {
 /// Position within chunked data.
 #[derive(Debug, Default)]
 pub(super) struct Chunks {
-    /// Incomplete line of a chunk size.
+    /// Part of a chunk-size line that has arrived.
     line: Vec<u8>,
     /// Bytes left in the current chunk.
     left: usize,
-    /// True if the line end after a chunk is expected next.
+    /// True if the line end of the previous chunk is expected next.
     is_behind: bool,
     has_ended: bool,
 }

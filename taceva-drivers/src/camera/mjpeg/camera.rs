@@ -1,4 +1,4 @@
-//! Sensor over an MJPEG stream.
+//! Sensor that reads an MJPEG stream.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -28,11 +28,11 @@ pub(super) struct Camera {
     stream: Stream,
     frames: Pictures,
     is_running: bool,
-    /// Mailbox number of the last image returned.
+    /// Mailbox number of the image that was returned last.
     last: u64,
-    /// Last image returned; `None` before the first.
+    /// Image that was returned last; `None` before the first.
     given: Option<Arc<[u8]>>,
-    /// Images that were replaced before they were captured.
+    /// Number of images that were replaced before a capture.
     missed: u64,
 }
 

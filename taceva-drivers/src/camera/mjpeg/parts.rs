@@ -29,7 +29,7 @@ enum Within {
     Picture(Option<usize>),
 }
 
-/// Body that is not a stream of images.
+/// Error of a body that is not a stream of images.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum PartError {
     #[error("a picture of {found} bytes, expected at most {PICTURE_MAX}")]
@@ -195,8 +195,8 @@ impl Parts {
     }
 }
 
-/// Bytes after an image that must arrive before its length is trusted: the line end. An image with its format's end marker does not wait
-/// for them, since some servers send them only before the next image.
+/// Bytes after an image that must arrive before its length is trusted: the line end. An image that ends with the end marker of its format is accepted without
+/// these bytes, which some servers delay until the next image.
 const ENDING: usize = 2;
 
 /// True if the image ends with the end marker of JPEG or PNG.

@@ -21,7 +21,7 @@ use crate::link::{LinkError, Mailbox, connect, monotonic};
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
     pub(super) began: Duration,
-    /// Parts of the stream with a wrong length so far.
+    /// Number of parts with a wrong length so far.
     pub(super) broken: u64,
 }
 
@@ -95,7 +95,7 @@ impl Drop for Stream {
     }
 }
 
-/// Reads the head of the response; also returns the bytes after it.
+/// Reads the head of the response. Also returns received bytes of the body.
 fn read_head(stream: &mut TcpStream, address: SocketAddr) -> Result<(Head, Vec<u8>), StreamError> {
     let mut waiting = Vec::new();
     let mut bytes = [0; 4096];

@@ -1,4 +1,4 @@
-//! Sensor over a local camera.
+//! Sensor that uses a local camera.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -39,19 +39,19 @@ pub(super) struct V4l2Options {
 pub(super) struct LocalCamera {
     options: V4l2Options,
     pictures: Arc<Mailbox<Picture>>,
-    /// The camera while it is not streaming; `None` while it streams.
+    /// Camera while it does not stream; `None` during streaming.
     camera: Option<Camera>,
     reader: Option<Reader>,
     frames: Frames,
     settings: BTreeMap<String, String>,
-    /// Mailbox number of the last image returned.
+    /// Mailbox number of the image that was returned last.
     last: u64,
-    /// Images that were replaced before they were captured, or never arrived.
+    /// Number of images that were replaced before a capture, or lost.
     missed: u64,
 }
 
 const OPEN: &str = "open the camera";
-/// Timeout for the first image, which determines the format of JPEG files.
+/// Timeout for the first image, whose file determines the frame format.
 const FIRST: Duration = Duration::from_secs(3);
 
 impl LocalCamera {

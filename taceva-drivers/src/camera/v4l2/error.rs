@@ -8,7 +8,7 @@ use super::KEY;
 /// Operation name of the start, for errors.
 pub(super) const START: &str = "start the camera";
 
-/// Kind of a camera's error.
+/// Kind of a driver error for `error` of the kernel interface.
 pub(super) fn kind_of(error: &V4l2Error) -> ErrorKind {
     match error {
         V4l2Error::Open { source, .. } => match source.kind() {

@@ -129,7 +129,7 @@ impl Factory<dyn Sensor> for V4l2Factory {
 }
 
 impl V4l2Options {
-    /// Facts of the camera before it is opened.
+    /// Facts that are known before the camera is opened.
     fn facts(&self) -> SensorFacts {
         let sent = FrameInfo {
             width: self.width,
@@ -214,7 +214,7 @@ fn cameras_in(root: &Path) -> Vec<Found> {
     found.collect()
 }
 
-/// Path of a camera that survives replugging; `None` if there is none.
+/// Device path that remains valid after replugging; `None` if the system provides none.
 fn stable_name(root: &Path, name: &str) -> Option<String> {
     let folder = root.join("dev/v4l/by-id");
     let mut links: Vec<_> = fs::read_dir(&folder).ok()?.flatten().collect();

@@ -7,7 +7,7 @@ use taceva_core::{ArgSpec, ArgValue, Args, DriverError, ErrorKind};
 
 use super::error::{failed, refused};
 
-/// Requested values of the controls. An absent value leaves the control unchanged; it is still read back.
+/// Requested values of the controls. The driver does not change a control without a value, but reads it back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Fixed {
     exposure_ms: Option<f64>,
@@ -18,19 +18,19 @@ pub(super) struct Fixed {
     keeps_automatic: bool,
 }
 
-/// One of the four controls.
+/// Control that the driver fixes: exposure, gain, white balance or focus.
 struct Knob {
     name: &'static str,
-    /// Automatic control of the camera, and its value for off.
+    /// Id of the automatic control, and its value for off.
     automatic: (ControlId, i32),
     control: ControlId,
     wanted: Option<i32>,
-    /// Factor from the camera's unit to the displayed unit.
+    /// Factor from the unit of the camera to the unit of arguments and settings.
     unit: f64,
 }
 
 const FIX: &str = "fix the controls of the camera";
-/// Unit of exposure, ms.
+/// Unit of the exposure control, ms.
 const EXPOSURE_MS: f64 = 0.1;
 
 impl Fixed {

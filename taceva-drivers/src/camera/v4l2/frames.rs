@@ -13,7 +13,7 @@ use crate::camera::jpeg::Pictures;
 /// Converter of camera images to frames.
 #[derive(Debug)]
 pub(super) enum Frames {
-    /// Images as rows of pixels.
+    /// Images without compression, as rows of pixels.
     Rows {
         given: GivenFormat,
         matrix: Matrix,
@@ -21,7 +21,7 @@ pub(super) enum Frames {
         /// Buffer for one converted row, before the crop.
         row: Vec<u8>,
     },
-    /// Images as files.
+    /// Images as JPEG files.
     Files(Pictures),
 }
 
@@ -66,7 +66,7 @@ impl Frames {
         Err(failed(ErrorKind::Protocol, START, why))
     }
 
-    /// Converts an image into a frame of [`info`](Frames::info). `missed` counts earlier losses for the error.
+    /// Converts an image into a frame of [`info`](Frames::info). The error states `missed`, the number of earlier losses.
     ///
     /// # Errors
     /// `Protocol` for an image that is damaged, short or of another size.

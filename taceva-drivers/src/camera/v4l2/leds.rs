@@ -9,15 +9,15 @@ use super::error::{failed, refused};
 use crate::camera::preset::Preset;
 use crate::text::shown;
 
-/// Red, green and blue, each from 0 (off) to [`MOST`].
+/// Brightness of red, green and blue, each from 0 (off) to [`MOST`].
 type Colour = [i32; 3];
 
 /// Requested LED colour. Without a request, the LEDs stay unchanged and are only read back.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Leds {
-    /// Argument of the selector, before parsing.
+    /// Colour in the selector, not yet parsed; `None` without the argument.
     wanted: Option<String>,
-    /// True if the preset states that its sensor has LEDs.
+    /// True if the preset states that the sensor has LEDs that this control sets.
     are_there: bool,
 }
 
@@ -42,7 +42,7 @@ impl Leds {
         }
     }
 
-    /// Requested colour.
+    /// Parses the requested colour; `None` without a request.
     ///
     /// # Errors
     /// `InvalidArgument` for a text that is not a colour, and for a sensor without LEDs.
@@ -122,7 +122,7 @@ fn number([red, green, blue]: Colour) -> i32 {
     (red << 8) | (green << 4) | blue
 }
 
-/// Colour for a value of the zoom control, as in the argument; the number itself if it encodes no colour.
+/// Text for a value of the zoom control: the colour in the form of the argument, or the number if it encodes no colour.
 fn words(value: i32) -> String {
     let colour = [value >> 8, (value >> 4) & MOST, value & MOST];
     match (0..=number([MOST; 3])).contains(&value) {
@@ -131,7 +131,7 @@ fn words(value: i32) -> String {
     }
 }
 
-/// Returns the value that was read back, or an error unless it is the requested one.
+/// Returns `value`, which was read back. Fails if the value differs from `wanted`.
 fn held(wanted: i32, value: i32) -> Result<i32, DriverError> {
     if wanted == value {
         return Ok(value);

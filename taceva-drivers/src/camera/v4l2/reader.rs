@@ -12,17 +12,17 @@ use super::error::kind_of;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
-/// An image as sent.
+/// Image as the camera sent it.
 #[derive(Clone, Debug)]
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
-    /// Kernel time stamp on the monotonic clock; `None` if it is unusable.
+    /// Kernel time stamp on the monotonic clock; `None` if the kernel uses another clock.
     pub(super) taken: Option<Duration>,
-    /// Images marked as damaged so far.
+    /// Number of images marked as damaged so far.
     pub(super) damaged: u64,
 }
 
-/// Reader thread, which ends when it is dropped or the camera is gone.
+/// Thread that reads images until this value is dropped or the camera is gone.
 #[derive(Debug)]
 pub(super) struct Reader {
     is_over: Arc<AtomicBool>,

@@ -5,7 +5,7 @@ use super::kernel::Coding;
 /// Colour matrix in units of 1/65,536, exact to less than 0.01 step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Matrix {
-    /// Luminance of black.
+    /// Luminance of black, in steps of 8 bits.
     black: i32,
     brightness: i32,
     red_of_v: i32,
@@ -66,7 +66,7 @@ impl Matrix {
     }
 }
 
-/// Rounds and clamps to a colour step.
+/// Rounds `value` and limits it to 0 to 255.
 fn step(value: i32) -> u8 {
     let rounded = (value + (1 << 15)) >> 16;
     u8::try_from(rounded.clamp(0, 255)).unwrap_or(0)

@@ -18,12 +18,12 @@ pub(super) struct Status {
 pub(super) enum State {
     Idle,
     Running,
-    /// Held, still decelerating.
+    /// Held by a halt, still decelerating.
     Slowing,
-    /// Held, at rest.
+    /// Held by a halt, at rest.
     Held,
     Alarm,
-    /// Door, check mode, homing and sleep.
+    /// Door, check mode, homing or sleep.
     Other,
 }
 
@@ -47,7 +47,7 @@ pub(super) fn read(line: &str) -> Heard<Status> {
     }
 }
 
-/// Parses a version such as `[VER:1.1h.20190825:the press]`, whose last part is a text of the owner.
+/// Parses a version such as `[VER:1.1h.20190825:the press]`, whose last part is a text that the owner set.
 fn facts(line: &str) -> Option<BTreeMap<String, String>> {
     let version = line.strip_prefix("[VER:")?.strip_suffix(']')?;
     let (firmware, machine) = version.split_once(':').unwrap_or((version, ""));

@@ -1,4 +1,4 @@
-//! Robot over a GRBL machine.
+//! Robot that is a GRBL machine.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -22,13 +22,13 @@ pub(super) struct Machine {
     pub(super) link: SerialLink<Status>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// Facts that the machine states about itself; empty of a machine in motion.
+    /// Facts that the machine states about itself; empty if the machine was in motion.
     facts: BTreeMap<String, String>,
 }
 
-/// Real-time commands.
+/// Real-time command that requests the status.
 const ASK_STATUS: &[u8] = b"?";
-/// Query for the version.
+/// Command that requests the version.
 const ASK_FACTS: &str = "$I";
 pub(super) const HOLD: &[u8] = b"!";
 const RESET: &[u8] = &[0x18];
@@ -46,7 +46,7 @@ pub(super) fn failed(
 const AWAKE: Duration = Duration::from_secs(4);
 /// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(500);
-/// Interval of queries while the machine wakes up, during which it drops input.
+/// Interval of queries while the machine restarts and ignores input.
 const AGAIN: Duration = Duration::from_millis(250);
 /// Minimum timeout of a query, for callers past their deadline.
 const GLANCE: Duration = Duration::from_millis(50);
@@ -99,7 +99,7 @@ impl Machine {
         })
     }
 
-    /// Discards the pending commands of a machine at rest, so that it becomes idle.
+    /// Discards the pending commands of a machine at rest. The machine is idle afterwards.
     pub(super) fn empty(&mut self, doing: &'static str) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         loop {

@@ -12,13 +12,13 @@ use crate::link::monotonic;
 
 /// Tolerance at the target, mm. A step of most machines is at most 0.01 mm.
 const NEAR_MM: f64 = 0.02;
-/// Time after which an accepted motion has begun.
+/// Time within which an accepted motion begins.
 const BEGUN: Duration = Duration::from_millis(100);
-/// Interval of status queries during a motion; the machine supports no more.
+/// Interval of status queries during a motion; the machine supports no higher rate.
 const LOOK_EVERY: Duration = Duration::from_millis(20);
 
 impl Machine {
-    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
+    /// Moves the tip to `target` and returns once it rests there. An error states why the tip stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,

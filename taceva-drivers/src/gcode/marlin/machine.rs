@@ -1,4 +1,4 @@
-//! Robot over a Marlin printer.
+//! Robot that is a Marlin printer.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

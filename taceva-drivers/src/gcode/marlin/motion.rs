@@ -26,7 +26,7 @@ fn failed(kind: ErrorKind, why: String) -> DriverError {
 }
 
 impl Printer {
-    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
+    /// Moves the tip to `target` and returns once it rests there. An error states why the tip stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,

@@ -5,15 +5,14 @@
 pub(super) struct Bits {
     /// Report number, which is the first byte; `None` if reports are not numbered.
     pub(super) report: Option<u8>,
-    /// Index of the byte after that number, from 0; `None` for any byte.
+    /// Index of the byte after the report number, from 0; `None` for any byte.
     pub(super) byte: Option<usize>,
     /// Mask within the byte.
     pub(super) mask: u8,
 }
 
 impl Bits {
-    /// True if a report says that the pedal is held: one of its bits is set. `None` for another report number. A report that is too short
-    /// counts as released.
+    /// True if one of the bits is set in the report: the pedal is pressed. `None` for another report number. A report that is too short counts as released.
     pub(super) fn held(self, report: &[u8]) -> Option<bool> {
         let body = match self.report {
             Some(number) => match report {

@@ -7,7 +7,7 @@ use thiserror::Error;
 const WEIGHT_REPORT: u8 = 3;
 /// Maximum absolute exponent.
 const EXPONENT_MAX: i8 = 9;
-/// Standard gravity, N/kg. Scales are adjusted to it, except for local differences of up to 0.3 %.
+/// Standard gravity, N/kg. Local gravity, to which scales may be adjusted, differs by up to 0.3 %.
 const N_KG: f64 = 9.806_65;
 const KG_G: f64 = 1e-3;
 /// Grams per international pound, and per ounce.
@@ -19,7 +19,7 @@ const G_OUNCE: f64 = G_POUND / 16.0;
 pub(super) struct Weight {
     /// Mass, g; negative under tension.
     pub(super) grams: f64,
-    /// Resolution in this unit and with this exponent, g. The scale may display only multiples of it.
+    /// Step of reports in this unit and with this exponent, g. The display of the scale may have larger steps.
     pub(super) step_grams: f64,
 }
 

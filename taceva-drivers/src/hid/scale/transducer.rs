@@ -1,4 +1,4 @@
-//! Force transducer over a scale.
+//! Force transducer that is a scale.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ pub(super) struct Transducer {
     _listener: Listener,
     zero: HostZero,
     is_running: bool,
-    /// Mailbox number of the last weight returned.
+    /// Mailbox number of the weight that was returned last.
     last: u64,
     /// Step of the last weight, N; `None` before the first.
     step_n: Option<f64>,

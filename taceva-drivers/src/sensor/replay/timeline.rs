@@ -1,6 +1,6 @@
-//! Due times of a recording's frames, over all rounds.
+//! Times at which the frames of a recording are due, over all rounds.
 
-/// Frame times of a recording, shifted, and repeated if it restarts. Frames are numbered over all rounds.
+/// Times of the frames of a recording, with a shift. The times repeat if the replay restarts. Frames are numbered over all rounds.
 #[derive(Debug)]
 pub(super) struct Timeline {
     /// Times of one round, s: at least one, strictly increasing.
@@ -39,7 +39,7 @@ impl Timeline {
         (self.repeat || round == 0).then(|| begins_s + self.times_s[self.position(frame)])
     }
 
-    /// Number of the newest frame that is due by `now_s`, or of the first if none is.
+    /// Number of the newest frame that is due at `now_s`, or of the first frame before its time.
     pub(super) fn newest(&self, now_s: f64) -> usize {
         let frames = self.times_s.len();
         let elapsed_s = now_s - self.shift_s - self.times_s[0];

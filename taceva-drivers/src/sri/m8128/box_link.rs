@@ -51,9 +51,9 @@ pub(super) struct BoxLink {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Counted {
     pub(super) reading: Reading,
-    /// Frames lost so far, by their numbers.
+    /// Number of frames lost so far, computed from frame numbers.
     pub(super) missing: u64,
-    /// Bytes skipped so far because they were no message.
+    /// Number of bytes skipped so far, because they belong to no message.
     pub(super) lost_bytes: u64,
 }
 
@@ -99,7 +99,7 @@ impl BoxLink {
             .map_err(|source| LinkError::Broken { address, source })
     }
 
-    /// Sends `command` and waits for a positive answer, which is returned.
+    /// Sends `command`, waits for a positive answer and returns the answer.
     pub(super) fn command(
         &mut self,
         command: Command,

@@ -57,14 +57,14 @@ impl Command {
         }
     }
 
-    /// Value in the positive answer `line` to a query; `None` if it has none.
+    /// Value in the positive answer `line` to a query; `None` without a value.
     pub(super) fn value_in(self, line: &str) -> Option<&str> {
         let answer = line.strip_prefix("ACK+")?.strip_prefix(self.word())?;
         let value = answer.strip_prefix('=')?.trim_end().strip_suffix("$OK")?;
         Some(value.trim()).filter(|value| !value.is_empty() && *value != "?")
     }
 
-    /// True for a positive answer in `line`, false for a negative one; `None` if it answers another command.
+    /// True for a positive answer in `line`, false for a negative answer, `None` for an answer to another command.
     pub(super) fn answered_by(self, line: &str) -> Option<bool> {
         let answer = line.strip_prefix("ACK+")?.strip_prefix(self.word())?;
         let is_whole_word = answer

@@ -22,9 +22,9 @@ pub(super) struct Reading {
 #[derive(Debug, Default)]
 pub(super) struct Messages {
     waiting: Vec<u8>,
-    /// True if the last message was complete, so that the next begins at its end.
+    /// True if the last message was complete, so that the next message begins at the end of the last.
     is_in_place: bool,
-    /// Bytes skipped because they were no message.
+    /// Number of bytes skipped, because they belong to no message.
     lost: u64,
 }
 
@@ -33,7 +33,7 @@ const MARK: [u8; 2] = [0xaa, 0x55];
 const DATA: usize = 24;
 /// Size of the head, bytes: mark, length and number.
 const HEAD: usize = 6;
-/// Supported checksums. The length of a frame tells which is used.
+/// Supported checksums. The length of a frame identifies the checksum.
 const CHECKS: [Check; 2] = [Check::Sum, Check::Crc32];
 
 /// Checksum after the values of a frame.
@@ -59,7 +59,7 @@ impl Check {
         HEAD + DATA + self.length()
     }
 
-    /// Length field of such a frame, which covers number, values and checksum.
+    /// Length field of a frame with this checksum. The length includes number, values and checksum.
     fn stated(self) -> [u8; 2] {
         let length = u16::try_from(self.frame() - 4).expect("a length of two bytes");
         length.to_be_bytes()
@@ -123,8 +123,8 @@ impl Messages {
         found
     }
 
-    /// True if `message`, which ends at `end`, can be trusted. Out of sync, a frame counts only if the next frame continues its number:
-    /// mark and checksum can occur by chance within other values.
+    /// True if `message`, which ends at `end`, can be trusted. Before synchronisation, a frame counts only if the next frame has the next number, because
+    /// values may contain a mark and checksum by chance.
     fn is_trusted(&self, message: &Message, end: usize) -> bool {
         let Message::Reading(reading) = message else {
             return true;
@@ -182,7 +182,7 @@ fn start_of(bytes: &[u8]) -> Start {
     Start::Whole(Message::Reading(Reading { number, values }), frame.len())
 }
 
-/// True if `bytes` match the front of `head` as far as both go.
+/// True if `bytes` and `head` are equal up to the shorter length.
 fn begins(bytes: &[u8], head: &[u8]) -> bool {
     let length = bytes.len().min(head.len());
     bytes[..length] == head[..length]
@@ -203,7 +203,7 @@ mod tests {
         [&head[..], &number.to_be_bytes()[..], &data[..], &[sum][..]].concat()
     }
 
-    /// The same frame with a checksum of four bytes.
+    /// Example frame of the manual with a checksum of four bytes.
     fn frame_crc32(number: u16, values: [f32; 6]) -> Vec<u8> {
         let mut frame = frame(number, values);
         frame.pop();

@@ -1,4 +1,4 @@
-//! Force transducer over an SRI box.
+//! Force transducer behind an SRI box.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -31,12 +31,12 @@ pub(super) struct M8128Options {
     pub(super) zero: Zero,
 }
 
-/// Place of the zeroing.
+/// Device that subtracts the zero offset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Zero {
-    /// The driver, by the mean of some readings.
+    /// The driver subtracts the mean of some readings.
     Host,
-    /// The box, which must not send meanwhile.
+    /// The box sets its zero, and must not send readings meanwhile.
     Box,
 }
 
@@ -52,7 +52,7 @@ pub(super) struct Transducer {
     is_running: bool,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
-    /// Mailbox number of the last reading returned.
+    /// Mailbox number of the reading that was returned last.
     last: u64,
 }
 
@@ -73,7 +73,7 @@ fn failed(
     DriverError::new(kind, &KEY, doing).because(why)
 }
 
-/// Facts by name that the box states; those that it does not state are absent.
+/// Facts that the box states about itself, by name. Facts without an answer are absent.
 fn stated_facts(link: &mut BoxLink) -> BTreeMap<String, String> {
     let mut facts = BTreeMap::new();
     for (name, query) in [
@@ -90,7 +90,7 @@ fn stated_facts(link: &mut BoxLink) -> BTreeMap<String, String> {
 }
 
 impl Transducer {
-    /// Connects to a box. Its settings change only at the start.
+    /// Connects to a box. Settings of the box change only at the start of readings.
     pub(super) fn open(options: M8128Options) -> Result<Transducer, DriverError> {
         let mut link = BoxLink::open(&options.host, options.port)
             .map_err(|error| failed(error.kind(), "connect to the box", error))?;
@@ -106,7 +106,7 @@ impl Transducer {
         })
     }
 
-    /// Stops the readings. Not every box confirms this.
+    /// Stops the readings. Some boxes do not confirm the stop.
     fn fall_silent(&mut self) -> Result<(), CommandError> {
         self.is_running = false;
         match self.link.command(Command::Stop, STOPPED) {

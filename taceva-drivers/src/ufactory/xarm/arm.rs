@@ -1,4 +1,4 @@
-//! Robot over an xArm controller.
+//! Robot that is an xArm.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -41,7 +41,7 @@ pub(super) struct Arm {
 /// Prefix of the serial number of an emulated arm (`taceva-wire`).
 const EMULATED: &str = "TACEVA-SIM";
 
-/// Unknown firmware: only commands that never changed are sent to it.
+/// Version for unknown firmware. Commands for it have an encoding that never changed.
 const UNKNOWN: Firmware = Firmware::new(0, 0, 0);
 
 impl Arm {
@@ -90,7 +90,7 @@ impl Arm {
         self.keeper.stop()
     }
 
-    /// Makes a controller that this driver stopped ready again, unless an error requires a person.
+    /// Makes the controller ready after a stop by this driver. Fails if an error requires a person.
     pub(super) fn stand_by(&mut self, doing: &'static str) -> Result<(), DriverError> {
         if let Some(fault) = error_now(&mut self.exchange).map_err(unanswered(doing))? {
             return Err(fault.met(doing));
@@ -145,7 +145,7 @@ impl Arm {
         self.see_ready(mode)
     }
 
-    /// Waits until a report shows the ready state, because earlier reports still show the stop.
+    /// Waits until a report shows the ready state. Earlier reports may still show the stop.
     fn see_ready(&mut self, mode: Mode) -> Result<(), DriverError> {
         let until = monotonic() + ANSWER;
         let mut last = self.observer.observe(&mut self.exchange, None, ANSWER)?;
@@ -159,14 +159,14 @@ impl Arm {
     }
 }
 
-/// Pose of a report; an error if it has values that are not finite.
+/// Pose of a report. Fails for values that are not finite.
 fn reported_pose(report: &ArmReport) -> Result<Pose, DriverError> {
     let pose = pose_of(report.pose);
     check_pose(&pose).map_err(|error| failed(ErrorKind::DeviceFault, LOOK, error))?;
     Ok(pose)
 }
 
-/// Highest state without a stop: ready, moving and paused are 0 to 3.
+/// Highest number of a state without a stop: ready, moving and paused are 0 to 3.
 const LAST_GOOD_STATE: u8 = 3;
 
 impl Robot for Arm {

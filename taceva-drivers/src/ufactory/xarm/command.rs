@@ -47,7 +47,7 @@ pub(super) enum TargetState {
 /// A straight motion of the tip in the base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MoveLine {
-    /// x, y, z in mm, roll, pitch, yaw in rad. All six are sent, since the controller replaces an omitted number by one of its own.
+    /// x, y, z in mm, roll, pitch, yaw in rad. All six are sent, since the controller replaces omitted numbers.
     pub(super) pose: [f32; 6],
     pub(super) speed_mm_s: f32,
     pub(super) acceleration_mm_s2: f32,
@@ -57,7 +57,7 @@ pub(super) struct MoveLine {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct MoveVelocity {
     pub(super) velocity_mm_s: [f32; 3],
-    /// Time without renewal after which the controller stops, s.
+    /// Time without a new velocity after which the controller stops, s.
     pub(super) duration_s: f32,
 }
 
@@ -71,7 +71,7 @@ const MOVE_LINE: u8 = 21;
 const GET_POSE: u8 = 41;
 const MOVE_VELOCITY: u8 = 82;
 
-/// Value for no blending of consecutive lines.
+/// Blending radius that disables blending of consecutive lines.
 const NO_BLENDING: f32 = -1.0;
 
 impl Command {
@@ -152,7 +152,7 @@ impl MoveLine {
     }
 }
 
-/// Contents of answers.
+/// Values that answers contain.
 impl Reply {
     /// State; `None` if the answer is too short.
     pub(super) fn state(&self) -> Option<u8> {

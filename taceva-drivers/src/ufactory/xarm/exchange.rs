@@ -56,7 +56,7 @@ impl ExchangeError {
 #[derive(Clone, Debug)]
 pub(super) struct Writer {
     stream: Arc<Mutex<TcpStream>>,
-    /// Set once the reader has ended. The socket still accepts bytes for a while after that.
+    /// True after the reader has ended. The socket may still accept bytes for a while.
     is_over: Arc<AtomicBool>,
     address: SocketAddr,
 }
@@ -150,7 +150,7 @@ impl Exchange {
         self.writer.clone()
     }
 
-    /// Sends `command` and waits for its answer. Skips answers to earlier commands.
+    /// Sends `command` and waits for the answer. Skips answers to earlier commands.
     pub(super) fn ask(
         &mut self,
         command: Command,
@@ -179,7 +179,7 @@ impl Exchange {
         }
     }
 
-    /// Like [`ask`](Exchange::ask), and extracts a value with `read`.
+    /// Same as [`ask`](Exchange::ask), but extracts a value from the answer with `read`.
     pub(super) fn ask_for<T>(
         &mut self,
         command: Command,
@@ -194,7 +194,7 @@ impl Exchange {
     }
 }
 
-/// Last transaction number before wrapping to 1. The next one is reserved for commands without an awaited answer.
+/// Last transaction number before wrapping to 1. [`UNANSWERED`] is reserved for commands whose answer is not awaited.
 const TRANSACTION_MAX: u16 = u16::MAX - 1;
 /// Transaction number of commands whose answer is not awaited.
 pub(super) const UNANSWERED: u16 = u16::MAX;
@@ -209,7 +209,7 @@ impl Drop for Exchange {
     }
 }
 
-/// Passes every answer to `hand_over`, and at the end the reason why the connection ended.
+/// Passes every answer to `hand_over`, and finally the reason for the end of the connection.
 fn read(
     mut stream: TcpStream,
     address: SocketAddr,

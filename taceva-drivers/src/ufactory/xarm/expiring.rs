@@ -1,4 +1,4 @@
-//! Motion by expiring velocities. The controller stops when the renewal ends.
+//! Motion by velocities that expire. The controller stops if velocities are no longer renewed.
 
 use std::time::Duration;
 
@@ -34,7 +34,7 @@ impl ExpiringMotion for Arm {
 }
 
 impl Arm {
-    /// Follows `course` until little is left, then stops and sets the position mode.
+    /// Follows `course` almost to its end, then stops and sets the position mode.
     fn cruise(&mut self, course: &Course, until: Duration) -> Result<(), BrokenOff> {
         self.take(Mode::Velocity, DOING)?;
         let mut renewed: Option<Duration> = None;

@@ -36,18 +36,18 @@ impl Firmware {
         })
     }
 
-    /// True if a straight motion has a blending radius and three switches after its nine numbers.
+    /// True if the request for a line has a blending radius and three switches after its nine numbers.
     pub(super) fn takes_long_lines(self) -> bool {
         self >= Firmware::new(1, 11, 100)
     }
 
-    /// True if velocities expire. Older controllers keep the last velocity. The vendor's client uses durations since 1.8.0; this is the
-    /// oldest version whose frames were recorded.
+    /// True if velocities expire. Older controllers keep the last velocity. The vendor's client uses durations since 1.8.0. This function is true only since
+    /// the oldest version with recorded frames.
     pub(super) fn takes_expiring_velocities(self) -> bool {
         self >= Firmware::new(1, 10, 0)
     }
 
-    /// True if a mode is followed by a switch.
+    /// True if the request for a mode has a switch after the mode.
     pub(super) fn takes_collision_detection(self) -> bool {
         self >= Firmware::new(1, 10, 0)
     }
@@ -59,7 +59,7 @@ fn leading_number(text: &str) -> Option<u32> {
     text[..end.unwrap_or(text.len())].parse().ok()
 }
 
-/// Answer without a version.
+/// Error for an answer without a version.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error("it reports the version `{}`, expected a text with a version such as `v2.7.0`", shown(.text))]
 pub(super) struct UnknownVersion {

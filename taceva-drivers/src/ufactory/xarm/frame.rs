@@ -11,11 +11,11 @@ pub(super) struct Request {
 
 /// Size of the header, bytes: transaction, protocol and length, two each.
 const HEADER: usize = 6;
-/// Private protocol without keep-alive, in which silent clients are not disconnected.
+/// Number of the private protocol without keep-alive. The controller does not disconnect idle clients.
 const PROTOCOL: u16 = 2;
-/// Private protocol with keep-alive, with which some controllers answer.
+/// Number of the private protocol with keep-alive, in answers of some controllers.
 const PROTOCOL_KEEP_ALIVE: u16 = 3;
-/// Maximum length of an answer, bytes. The registers used here need about 50; a larger value means lost synchronisation.
+/// Maximum length of an answer, bytes. Answers of the used registers have about 50 bytes. A larger value means lost synchronisation.
 const LENGTH_MAX: usize = 1024;
 /// Register of unsolicited messages of the controller.
 const FEEDBACK: u8 = 0xff;
@@ -64,7 +64,7 @@ impl Status {
     }
 }
 
-/// Invalid answer: synchronisation is lost, and there is no mark to restore it.
+/// Invalid answer. Synchronisation is lost and cannot be restored, because frames have no mark.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 pub(super) enum FrameError {
     #[error("a header of protocol {found:#06x}, expected 2 or 3")]

@@ -7,7 +7,7 @@ use taceva_core::Speed;
 
 use crate::link::connect;
 
-/// Limits of the tip. A controller changes values beyond them without an error.
+/// Speed and acceleration limits of the tip. A controller changes values outside the limits without an error.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct ArmLimits {
     /// Least and greatest speed, mm/s.
@@ -51,7 +51,7 @@ impl ArmLimits {
         .filter(|_| is_complete)
     }
 
-    /// Rejects a speed that the controller would change.
+    /// Rejects a speed outside the limits, which the controller would change.
     ///
     /// # Errors
     /// A sentence with the speed and the limits.
@@ -68,7 +68,7 @@ impl ArmLimits {
         }
     }
 
-    /// Rejects an acceleration that the controller would change.
+    /// Rejects an acceleration outside the limits, which the controller would change.
     ///
     /// # Errors
     /// A sentence with the acceleration and the limits.
@@ -83,7 +83,7 @@ impl ArmLimits {
     }
 }
 
-/// Shortest decimal number whose single-precision value is `number`: 0.1 for the nearest value to it.
+/// Shortest decimal number whose nearest single-precision value is `number`, such as 0.1.
 fn decimal(number: f32) -> Option<f64> {
     let number: Option<f64> = number.to_string().parse().ok();
     number.filter(|number| number.is_finite())

@@ -12,11 +12,11 @@ use super::report::{State, numbers_of, pose_of};
 use crate::link::monotonic;
 
 pub(super) const DOING: &str = "move the arm";
-/// Tolerance at the target, mm: half the repeatability of the best arms of the family.
+/// Tolerance at the target, mm. Half the repeatability of the best arms of the family.
 const NEAR_MM: f64 = 0.05;
-/// Time after which a ready controller at the target has completed the motion.
+/// Time after which a motion counts as complete if the controller is ready and the arm is at the target.
 const BEGUN: Duration = Duration::from_millis(50);
-/// Time after which a ready controller elsewhere will not begin the motion.
+/// Time after which a motion counts as never begun if the controller is ready and the arm is elsewhere.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
 /// Time to wait until a stopped arm is at rest.
 const STOPPING: Duration = Duration::from_millis(400);
@@ -50,7 +50,7 @@ impl From<DriverError> for BrokenOff {
 }
 
 impl Arm {
-    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
+    /// Moves the tip to `target` and returns once it rests there. An error states why the tip stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,
@@ -185,7 +185,7 @@ impl Arm {
         })
     }
 
-    /// Error of a controller that does not move in `state`.
+    /// Error for a controller in `state`, in which it does not move.
     pub(super) fn not_ready(&mut self, state: State) -> BrokenOff {
         let error = if self.stopping().is_halted() {
             halted()

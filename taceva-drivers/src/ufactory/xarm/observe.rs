@@ -1,4 +1,4 @@
-//! Current state of the arm, from its reports or from queries if it sends none.
+//! Current state of the arm, from reports, or from queries if the arm sends no reports.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -24,7 +24,7 @@ pub(super) struct Observation {
     pub(super) pose: [f32; 6],
     /// Time on the monotonic clock.
     pub(super) at: Duration,
-    /// Number of its report; 0 for a query.
+    /// Number of the report; 0 for a query.
     number: u64,
 }
 
@@ -36,7 +36,7 @@ impl Observation {
     }
 }
 
-/// Observer of both report ports, as far as they accept connections.
+/// Observer of the report ports that accept connections.
 #[derive(Debug)]
 pub(super) struct Observer {
     poses: Option<Watch>,
@@ -47,7 +47,7 @@ pub(super) struct Observer {
     asked_for_errors: Duration,
 }
 
-/// Minimum interval of state queries; the controller supports no more.
+/// Minimum interval of state queries. The controller supports no higher rate.
 const ASKED_EVERY: Duration = Duration::from_millis(10);
 const ASKED_FOR_ERRORS_EVERY: Duration = Duration::from_millis(100);
 /// Timeout for an answer.
@@ -58,7 +58,7 @@ pub(super) const STALE: Duration = Duration::from_millis(250);
 const GLANCE: Duration = Duration::from_millis(30);
 
 impl Observer {
-    /// Connects to both ports. A port that refuses is not used.
+    /// Connects to both report ports. Ignores a port that refuses the connection.
     pub(super) fn open(
         host: &str,
         pose_port: u16,
@@ -82,7 +82,7 @@ impl Observer {
         self.poses.as_ref().map(Watch::mailbox)
     }
 
-    /// Current state of the arm: newer than `last`, and fresh.
+    /// Current state of the arm, newer than `last` and at most [`STALE`] old.
     pub(super) fn observe(
         &mut self,
         exchange: &mut Exchange,
@@ -147,7 +147,7 @@ impl Observer {
         })
     }
 
-    /// Error of the controller, from its reports. Without reports it is queried at most every 100 ms, and `None` in between.
+    /// Error of the controller, from its reports. Without reports, queries the error at most every 100 ms and returns `None` in between.
     pub(super) fn error(
         &mut self,
         exchange: &mut Exchange,

@@ -5,12 +5,12 @@ use thiserror::Error;
 
 use super::command::floats;
 
-/// Port of a report.
+/// Kind of report, one for each report port.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ReportKind {
     /// State and pose, 100 per second.
     Pose,
-    /// Also errors and joints, a few per second.
+    /// State, pose, errors and joints, a few per second.
     Status,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct ArmReport {
     pub(super) status: Option<ArmStatus>,
 }
 
-/// Fields that only the slower reports have.
+/// Fields that only reports of [`ReportKind::Status`] have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct ArmStatus {
     /// One bit per joint whose motor is on.
@@ -72,9 +72,9 @@ pub(super) enum ReportError {
     State { state: u8, mode: u8 },
 }
 
-/// Maximum length of a report, bytes. Later firmware appends fields but stays far below it.
+/// Maximum length of a report, bytes. Reports of newer firmware have more fields but are far shorter.
 const LENGTH_MAX: usize = 4096;
-/// Offsets of fields in a report, bytes.
+/// Offset of the state in a report, bytes. Other fields follow below.
 const STATE: usize = 4;
 const QUEUED: usize = 5;
 const POSE: usize = 35;
@@ -82,7 +82,7 @@ const ENABLED: usize = 88;
 const ERROR: usize = 89;
 
 impl ReportKind {
-    /// Minimum length of a report, up to the last field that is read, bytes.
+    /// Minimum length of a report, up to the last used field, bytes.
     fn least(self) -> usize {
         match self {
             ReportKind::Pose => POSE + 24,

@@ -12,14 +12,14 @@ use super::command::{Command, TargetState};
 use super::exchange::{Exchange, ExchangeError, UNANSWERED, Writer};
 use super::firmware::Firmware;
 
-/// Timeout for the confirmation of a stop, before it is also sent over the other connection.
+/// Timeout for the confirmation of a stop. Afterwards the stop is also sent over the other connection.
 const CONFIRMATION: Duration = Duration::from_millis(40);
 /// Test interval of the connection while idle.
 const TRIAL_EVERY: Duration = Duration::from_millis(500);
 /// Test interval of a connection that does not answer. The arm does not move until the connection answers.
 const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
-/// Time after which unanswered commands on an abandoned connection count as lost. A run retries the end of a halt for longer.
+/// Time after which unanswered commands on an abandoned connection count as lost. A run retries to end a halt for a longer time.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 /// Polling interval for an answer of the connection.
 const GLANCE: Duration = Duration::from_millis(5);
@@ -28,16 +28,16 @@ const GLANCE: Duration = Duration::from_millis(5);
 #[derive(Debug)]
 pub(super) struct Stop {
     is_halted: AtomicBool,
-    /// True once the robot is dropped, when nothing is left to stop.
+    /// True after the robot is dropped. A halt then does nothing.
     is_gone: AtomicBool,
     /// True if the connection answered its last test.
     is_alive: AtomicBool,
     line: Mutex<Exchange>,
-    /// Abandoned connections, on which a stop may still be pending.
+    /// Abandoned connections on which a stop may be pending.
     given_up: Mutex<Vec<GivenUp>>,
-    /// Writing half of that connection, for use while another caller waits for an answer.
+    /// Writing half of the stop connection, for use while another caller waits for an answer.
     writer: Mutex<Writer>,
-    /// Connection of motions, in case the other one fails.
+    /// Connection for motions, used if the stop connection fails.
     spare: Writer,
     place: Place,
     /// Wakes the monitoring thread to end it.
@@ -83,8 +83,8 @@ impl Stop {
         self.is_alive()
     }
 
-    /// Waits until the controller has executed every stop that was sent. Each connection is processed in order but independently, so a late stop
-    /// could end a motion that begins after the halt.
+    /// Waits until the controller has executed every stop that was sent. The controller processes each connection independently, so a late stop could end a
+    /// motion after the halt.
     ///
     /// # Errors
     /// [`ExchangeError::Silent`] without an answer within `patience`. Then no motion may begin.
@@ -105,7 +105,7 @@ impl Stop {
         Ok(())
     }
 
-    /// Orders the controller to stop and to clear its queue, over either connection.
+    /// Sends the command to stop and to clear the queue, over the stop connection or the connection for motions.
     pub(super) fn stop(&self) -> Result<(), ExchangeError> {
         let command = Command::SetState(TargetState::Stopped);
         let unanswered = |writer: &Writer| writer.send(command, self.place.firmware, UNANSWERED);
@@ -127,7 +127,7 @@ impl Stop {
         }
     }
 
-    /// Tests the connection, and replaces it if it does not answer.
+    /// Tests the stop connection, and replaces it if it does not answer.
     fn keep(&self) {
         // A stop in progress owns the connection.
         let Ok(mut line) = self.line.try_lock() else {
@@ -186,7 +186,7 @@ impl Halt for Stop {
     }
 }
 
-/// Thread that monitors the connection; ends with the robot.
+/// Thread that monitors the stop connection. It ends with the robot.
 #[derive(Debug)]
 pub(super) struct Keeper {
     stop: Arc<Stop>,
@@ -194,7 +194,7 @@ pub(super) struct Keeper {
 }
 
 impl Keeper {
-    /// Starts monitoring `line`, an answering connection to the controller at `place`.
+    /// Starts to monitor `line`, a working connection to the controller at `place`.
     pub(super) fn start(line: Exchange, spare: Writer, place: Place) -> std::io::Result<Keeper> {
         let stop = Arc::new(Stop {
             is_halted: AtomicBool::new(false),

@@ -1,4 +1,4 @@
-//! Robot over a UR controller.
+//! Robot that is an arm of Universal Robots.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -44,7 +44,7 @@ pub(super) struct Arm {
 #[derive(Debug)]
 pub(super) struct Stop {
     is_halted: AtomicBool,
-    /// True once the robot is dropped, when nothing is left to stop.
+    /// True after the robot is dropped. A halt then does nothing.
     is_gone: AtomicBool,
     line: ScriptLine,
     deceleration_m_s2: f64,
@@ -54,15 +54,14 @@ pub(super) struct Stop {
 /// Last stop that was sent.
 #[derive(Debug)]
 struct Sent {
-    /// Number of the stop, which the controller reports once it begins the stop.
+    /// Number of the stop. The controller reports the number once it begins the stop.
     number: i32,
-    /// Time on the monotonic clock; `None` before the first stop.
+    /// Time at which the stop was sent, on the monotonic clock; `None` before the first stop.
     at: Option<Duration>,
 }
 
 impl Sent {
-    /// State before the first stop. Numbers begin at a time-based value, because the controller may still report a number from an earlier
-    /// connection.
+    /// State before the first stop. The first number depends on the time, because the controller may still report a number from an earlier connection.
     fn none() -> Sent {
         let number = monotonic().as_millis() & 0x3fff_ffff;
         Sent {
@@ -84,12 +83,12 @@ impl Stop {
         self.line.is_alive()
     }
 
-    /// Stop program for the connection of motions, where it stays in order.
+    /// Stop program for the connection for motions, which keeps the order of programs.
     pub(super) fn program(&self) -> String {
         stop(self.deceleration_m_s2)
     }
 
-    /// Sends a numbered stop, whose number the controller reports.
+    /// Sends a stop with a new number, which the controller will report.
     pub(super) fn send(&self) -> Result<(), LinkError> {
         let mut sent = self.sent();
         sent.number = sent.number.wrapping_add(1);
@@ -98,8 +97,7 @@ impl Stop {
         self.line.send(&program)
     }
 
-    /// True if a controller that reports `number` has executed the last stop, and so every earlier one, or if the last stop is lost. A late stop
-    /// would end a motion sent later on another connection.
+    /// True if `number`, as reported, shows that the last stop was executed, or if that stop counts as lost. Otherwise a late stop could end a later motion.
     pub(super) fn is_obeyed(&self, number: i32) -> bool {
         let sent = self.sent();
         sent.number == number
@@ -135,7 +133,7 @@ pub(super) fn failed(
 
 /// Timeout for the first state.
 const FIRST: Duration = Duration::from_secs(2);
-/// Maximum age of a state for a first look.
+/// Maximum age of a state that counts as current.
 const FRESH: Duration = Duration::from_millis(50);
 pub(super) const M_A_MM: f64 = 1e-3;
 
@@ -178,7 +176,7 @@ impl Arm {
         Ok(())
     }
 
-    /// Waits for a state newer than number `after`. Without `after`, returns an existing state if it is fresh.
+    /// Waits for a state with a number above `after`. Without `after`, returns the newest state if it is at most [`FRESH`] old.
     pub(super) fn look(
         &self,
         after: Option<u64>,
@@ -200,7 +198,7 @@ impl Arm {
     }
 }
 
-/// Pose of a state; an error if it has values that are not finite.
+/// Pose of a state. Fails for values that are not finite.
 pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pose, DriverError> {
     pose_of(state.pose).ok_or_else(|| {
         let why = format!("a pose of {:?}, expected finite numbers", state.pose);
@@ -208,7 +206,7 @@ pub(super) fn numbered_pose(state: &ArmState, doing: &'static str) -> Result<Pos
     })
 }
 
-/// Pose of a state; an error if the arm stopped by itself.
+/// Pose of a state. Fails if the arm stopped by itself.
 fn watched_pose(state: &ArmState) -> Result<Pose, DriverError> {
     match ArmFault::of(state).filter(|fault| fault.kind().is_some()) {
         Some(fault) => Err(fault.met(LOOK)),

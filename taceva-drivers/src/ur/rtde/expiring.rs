@@ -1,4 +1,4 @@
-//! Motion by expiring programs. The controller brakes when the renewal ends.
+//! Motion by programs that expire. The controller brakes if programs are no longer renewed.
 
 use std::time::Duration;
 
@@ -35,7 +35,7 @@ impl ExpiringMotion for Arm {
 }
 
 impl Arm {
-    /// Follows `course` until little is left. The arm is still moving then.
+    /// Follows `course` almost to its end. The arm still moves when this function returns.
     fn cruise(
         &mut self,
         course: &Course,

@@ -14,11 +14,11 @@ const TEXT: u8 = b'M';
 
 /// Protocol version.
 const PROTOCOL: u16 = 2;
-/// An output requested from the controller.
+/// Output that the driver requests from the controller.
 struct Output {
     name: &'static str,
     kind: &'static str,
-    /// First CB3 and e-Series versions that have the output, by the documents; empty if every version has it.
+    /// First CB3 and e-Series versions with the output, by the documents; empty for all versions.
     since: &'static str,
 }
 
@@ -26,7 +26,7 @@ const fn output(name: &'static str, kind: &'static str, since: &'static str) -> 
     Output { name, kind, since }
 }
 
-/// Requested outputs, in this order. The last is the register to which stops write their number: the first register for external programs.
+/// Requested outputs, in this order. Stops write their number to the last output, the first register for external programs.
 static ASKED: [Output; 7] = [
     output("timestamp", "DOUBLE", ""),
     output("actual_TCP_pose", "VECTOR6D", ""),
@@ -36,9 +36,9 @@ static ASKED: [Output; 7] = [
     output("target_speed_fraction", "DOUBLE", ""),
     output("output_int_register_24", "INT32", "3.9 and 5.3"),
 ];
-/// Type that the controller reports for an output it lacks.
+/// Type that the controller reports for an output that does not exist.
 const NOT_FOUND: &str = "NOT_FOUND";
-/// Number of that register in script.
+/// Number of the register for stops, in script.
 pub(super) const STOP_REGISTER: u8 = 24;
 /// Size of a data message, bytes: recipe number and outputs.
 const DATA_LENGTH: usize = 1 + 8 + 48 + 4 + 4 + 4 + 8 + 4;
@@ -68,7 +68,7 @@ pub(super) enum Message {
     Accepted(u8, bool),
     /// Types of the requested outputs.
     Types(String),
-    /// Version of the controller: major, minor, bug fix, build; `None` if it does not state it.
+    /// Version of the controller: major, minor, bug fix, build; `None` if the controller does not state its version.
     Controller(Option<[u32; 4]>),
     State(ArmState),
     /// Text for people.
@@ -76,7 +76,7 @@ pub(super) enum Message {
 }
 
 impl Message {
-    /// True if this answers a request of type `request`.
+    /// True if this message answers a request of type `request`.
     pub(super) fn answers(&self, request: u8) -> bool {
         match self {
             Message::Accepted(of, _) => *of == request,
@@ -138,7 +138,7 @@ fn message(kind: u8, says: &[u8]) -> Vec<u8> {
     [&length.to_be_bytes()[..], &[kind], says].concat()
 }
 
-/// Requested outputs that the controller lacks, each with the versions that have it. Empty if it has all.
+/// Requested outputs that the controller lacks, each with the versions that have it. Empty if no output is missing.
 ///
 /// # Errors
 /// [`MessageError::Types`] if the others do not have the expected types.

@@ -20,7 +20,7 @@ const STALE: Duration = Duration::from_millis(250);
 const BEGUN: Duration = Duration::from_millis(100);
 /// Time after which a program that does not run, with the arm elsewhere, counts as never begun.
 const NEVER_BEGUN: Duration = Duration::from_millis(1_000);
-/// Time during which an arm may settle at its target after the program.
+/// Time after the end of the program in which the arm may settle at its target.
 const SETTLED: Duration = Duration::from_millis(200);
 /// Time after which a started stop has ended.
 const BRAKED: Duration = Duration::from_millis(400);
@@ -30,7 +30,7 @@ const STOPPING: Duration = Duration::from_millis(400);
 const STOPPED: u32 = 1;
 
 impl Arm {
-    /// Moves the tip to `target` and returns once it rests there. An error says why it stopped elsewhere.
+    /// Moves the tip to `target` and returns once it rests there. An error states why the tip stopped elsewhere.
     pub(super) fn go(
         &mut self,
         target: Pose,
@@ -68,7 +68,7 @@ impl Arm {
         Ok(first)
     }
 
-    /// Waits for the first state after every sent stop was executed and has ended, or its time has passed.
+    /// Waits for the first state after all sent stops have ended or count as lost.
     fn after_every_stop(&self, until: Duration) -> Result<Seen<ArmState>, DriverError> {
         let left = || until.saturating_sub(monotonic());
         let mut seen = self.look(None, left())?;

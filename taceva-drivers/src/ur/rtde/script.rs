@@ -1,4 +1,4 @@
-//! Script programs, and the connection that accepts them. The controller's data on it is discarded.
+//! Script programs, and the connection for sending them. Data from the controller is discarded.
 
 use std::io::{self, Read, Write};
 use std::net::{Shutdown, SocketAddr, TcpStream};
@@ -35,7 +35,7 @@ pub(super) fn stop(deceleration_m_s2: f64) -> String {
     format!("def taceva_stop():\n  stopl({deceleration_m_s2:.6})\nend\n")
 }
 
-/// Like [`stop`], and writes `number` to a register once the controller begins it.
+/// Same as [`stop`], but the program first writes `number` to a register.
 pub(super) fn numbered_stop(number: i32, deceleration_m_s2: f64) -> String {
     format!(
         "def taceva_stop():\n  write_output_integer_register({STOP_REGISTER}, {number})\n  stopl({deceleration_m_s2:.6})\nend\n"
@@ -80,12 +80,12 @@ impl ScriptLine {
         })
     }
 
-    /// True until the reader notices that the connection ended.
+    /// True until the reader detects the end of the connection.
     pub(super) fn is_alive(&self) -> bool {
         !self.is_over.load(Ordering::Acquire)
     }
 
-    /// Sends a program. The controller does not confirm it.
+    /// Sends a program. The controller does not confirm a program.
     pub(super) fn send(&self, program: &str) -> Result<(), LinkError> {
         let address = self.address;
         if !self.is_alive() {

@@ -20,7 +20,7 @@ use crate::link::{LinkError, Mailbox, connect, monotonic};
 #[derive(Debug)]
 pub(super) struct States {
     states: Arc<Mailbox<ArmState>>,
-    /// Version of the controller, such as `5.11.0`; empty if it does not state it.
+    /// Version of the controller, such as `5.11.0`; empty if unknown.
     version: String,
     stream: TcpStream,
     reader: Option<JoinHandle<()>>,
@@ -114,7 +114,7 @@ impl States {
         })
     }
 
-    /// Version of the controller; empty if it does not state it.
+    /// Version of the controller; empty if unknown.
     pub(super) fn version(&self) -> &str {
         &self.version
     }
@@ -135,7 +135,7 @@ impl Drop for States {
     }
 }
 
-/// Version as errors name it.
+/// Version for error messages, also if unknown.
 fn named(version: &str) -> &str {
     match version {
         "" => "of an unknown version",

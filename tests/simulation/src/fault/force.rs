@@ -17,7 +17,7 @@ pub struct FaultyForce {
 }
 
 impl FaultyForce {
-    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`. Saturated, its normal force is
+    /// Wraps `inner`, called `driver`, behind a link with the faults of `plan` and the clock of `pace`. The normal force of a saturated transducer is
     /// `full_scale`.
     pub fn new(
         inner: Box<dyn ForceTransducer>,

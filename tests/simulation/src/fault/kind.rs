@@ -6,19 +6,19 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum FaultKind {
-    /// No answer within the deadline.
+    /// The device does not answer within the deadline.
     Silence,
-    /// The last value again, with a new stamp.
+    /// The device returns the last value again, with a new stamp.
     Freeze,
-    /// NaN: in a force, in a coordinate, and in the stamp of a frame, whose pixels cannot be NaN.
+    /// The device returns NaN in a force, in a coordinate, or in the stamp of a frame, whose pixels cannot be NaN.
     NotANumber,
-    /// Full scale without an error. No effect on a robot, which has no full scale.
+    /// The device returns full scale without an error. No effect on a robot, which has no full scale.
     Saturation,
-    /// A new value with the last stamp.
+    /// The device returns a new value with the last stamp.
     StaleStamp,
-    /// A value is lost, and the next one arrives. A lost motion command moves nothing.
+    /// A value is lost, and the caller receives the next value. A lost motion command has no effect.
     Drop,
-    /// The answer is late. Beyond the deadline it is lost.
+    /// The answer is late. An answer after the deadline is lost.
     SlowLink,
 }
 

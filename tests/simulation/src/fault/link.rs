@@ -1,4 +1,4 @@
-//! Link between the caller and a device, with most of the faults; shared by the wrappers.
+//! Link between the caller and a device, which causes most of the faults. All wrappers use this link.
 
 use std::time::Duration;
 
@@ -85,7 +85,7 @@ impl Link {
         Ok(deadline.less(delay))
     }
 
-    /// Stamp of a received value, changed by `fault`.
+    /// Stamp of a received value, as changed by `fault`.
     pub(super) fn stamped(&mut self, stamp: Stamp, fault: Option<FaultKind>) -> Stamp {
         match (fault, self.last_stamp) {
             (Some(FaultKind::StaleStamp), Some(last)) => {

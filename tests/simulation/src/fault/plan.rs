@@ -1,4 +1,4 @@
-//! Times of faults: a function of the seed and the call number only.
+//! Times of faults, which depend only on the seed and the call number.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -47,7 +47,7 @@ pub struct Likelihood {
 }
 
 impl FaultPlan {
-    /// No fault.
+    /// Plan without faults.
     pub fn none() -> FaultPlan {
         FaultPlan {
             faults: Vec::new(),
@@ -81,7 +81,7 @@ impl FaultPlan {
         self
     }
 
-    /// Fault of call number `call`; of several faults, the one planned first.
+    /// Fault of call number `call`: the first in the plan if there are several, `None` without a fault.
     pub fn at(&self, call: u64) -> Option<FaultKind> {
         self.faults.iter().find_map(|fault| fault.at(call))
     }

@@ -11,7 +11,7 @@ use super::link::Link;
 use super::{FaultKind, FaultPlan};
 use taceva_drivers::Pace;
 
-/// Robot whose poses and motions fail according to a plan. A halt always reaches it.
+/// Robot whose poses and motions fail according to a plan. A halt always reaches the robot.
 pub struct FaultyRobot {
     inner: Box<dyn Robot>,
     link: Link,

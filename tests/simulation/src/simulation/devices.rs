@@ -121,7 +121,7 @@ fn faulty(doing: &'static str, fault: Fault) -> DriverError {
 }
 
 impl Shared {
-    /// Records the start or the end of a motion.
+    /// Records that a motion starts or ends.
     fn is_moving(&self, is_moving: bool) {
         if let Some(guard) = &mut self.world().guard {
             guard.is_moving = is_moving;
@@ -171,7 +171,7 @@ impl Shared {
 /// Rounding error of times in binary64, s.
 const INSTANT_S: f64 = 1e-9;
 
-/// Transducer of the force.
+/// Force transducer of the simulated world.
 pub(super) struct SimulatedForce {
     shared: Shared,
     /// Number of readings of the reader thread at the last take.
@@ -183,7 +183,7 @@ impl SimulatedForce {
         SimulatedForce { shared, taken: 0 }
     }
 
-    /// The newest reading of the reader thread that was not yet taken, for a monitored run.
+    /// Takes the newest reading of the reader thread, for a monitored run. `None` if there is no new reading before `deadline_s`.
     fn take(&mut self, deadline_s: f64) -> Option<(Wrench, Stamp)> {
         let began_s = self.shared.world().now_s;
         let until_s = began_s + deadline_s;

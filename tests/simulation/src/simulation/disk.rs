@@ -5,7 +5,7 @@ use super::fault::FaultKind;
 use super::world::Sabotage;
 use super::world_handle::Shared;
 
-/// A file that only grows.
+/// File to which programs only append.
 pub(super) struct Disk {
     shared: Shared,
     draws: Draws,
@@ -14,7 +14,7 @@ pub(super) struct Disk {
     crashes: u64,
 }
 
-/// The disk is full.
+/// Error of a write to a full disk.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("no space left on the simulated disk")]
 pub(super) struct Full;
@@ -33,7 +33,7 @@ impl Disk {
         }
     }
 
-    /// Content for a process that opens the file: everything written, durable or not.
+    /// Content for a process that opens the file: all written bytes, durable or not.
     pub(super) fn read(&self) -> Vec<u8> {
         [self.durable.as_slice(), self.pending.as_slice()].concat()
     }
@@ -72,7 +72,7 @@ impl Disk {
         self.durable.truncate(length);
     }
 
-    /// Power cut: of the unsynced bytes a prefix of any length remains, perhaps with a changed last byte.
+    /// Simulates a power cut. A prefix of the unsynced bytes remains, of any length, perhaps with a changed last byte.
     pub(super) fn crash(&mut self) {
         self.crashes += 1;
         #[expect(

@@ -1,4 +1,4 @@
-//! Numbers drawn by counter: each is a function of the seed, the purpose and the place.
+//! Random numbers, each a function of seed, purpose and place.
 
 use taceva_core::random::{STEP, fnv_1a, mix, unit};
 

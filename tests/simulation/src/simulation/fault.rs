@@ -23,7 +23,7 @@ pub enum FaultKind {
     SlowLink,
     /// The robot reports a motion that it did not make.
     StuckRobot,
-    /// The disk writes part of the data, and then no more.
+    /// The disk writes part of the data, and then rejects all writes.
     FullDisk,
     /// The process ends between two instructions. Unsynced data may be lost or torn.
     Kill,
@@ -31,7 +31,7 @@ pub enum FaultKind {
     Cancel,
     /// The emergency stop is pressed. The robot does not move until a person acknowledges it.
     EmergencyStop,
-    /// The robot's reports do not reach its monitoring thread; it still answers queries.
+    /// Reports of the robot do not reach its monitoring thread. The robot still answers queries.
     NoReports,
     /// The enabling switch is released, for a moment or beyond the waiting time.
     Released,
@@ -184,7 +184,7 @@ impl Faults {
         }
     }
 
-    /// Fault of the enabling switch at `now_s`, with the time since when it is not held; `None` while it is held.
+    /// Fault of the enabling switch at `now_s`, and the time at which the fault began, s; `None` while a person holds the switch.
     pub(super) fn unheld(&self, now_s: f64) -> Option<(FaultKind, f64)> {
         let kinds = [FaultKind::Unplugged, FaultKind::Released];
         let of_kind = |kind| {
@@ -197,7 +197,7 @@ impl Faults {
         kinds.into_iter().find_map(of_kind)
     }
 
-    /// No fault.
+    /// Faults of a scenario without any fault.
     #[cfg(test)]
     pub(super) fn none() -> Faults {
         Faults {
@@ -247,7 +247,7 @@ impl Faults {
         Faults::from(kind, f64::NEG_INFINITY)
     }
 
-    /// True if a call at `now_s` is hit by `kind`; counts it.
+    /// True if a fault of `kind` affects a call at `now_s`. Counts the call.
     pub(super) fn strike(&mut self, kind: FaultKind, now_s: f64) -> bool {
         let active =
             |fault: &Fault| fault.kind == kind && (fault.from_s..fault.until_s).contains(&now_s);
@@ -258,7 +258,7 @@ impl Faults {
         strikes
     }
 
-    /// True if a one-time fault of `kind` is due at `now_s`; it does not occur again.
+    /// True if a one-time fault of `kind` is due at `now_s`. The fault does not occur again.
     pub(super) fn strike_once(&mut self, kind: FaultKind, now_s: f64) -> bool {
         let due = |fault: &Fault| fault.kind == kind && fault.from_s <= now_s;
         let place = self.faults.iter().position(due);

@@ -1,7 +1,7 @@
 //! Monitoring threads as events in simulated time: one reads the transducer, the other reads the robot and receives requests to stop.
 //!
-//! A thread's due time is fixed; the delay until it gets the processor is drawn. Its observations therefore reach the supervisor between
-//! any two calls of the run and during its motions. A thread waits for the supervisor while the run uses it, as at a lock.
+//! A thread's due time is fixed; the delay until it gets the processor is drawn. Its observations therefore reach the supervisor between any two calls of the
+//! run and during its motions. While the run uses the supervisor, a thread waits as for a lock.
 
 use taceva_core::{Pose, Stamp, Wrench};
 
@@ -11,7 +11,7 @@ use taceva_protocol::{Cancel, SharedSupervisor};
 /// Interval between readings, and between looks at the robot, s.
 const READING_S: f64 = 0.005;
 const LOOK_S: f64 = 0.01;
-/// Longest wait of a thread for the processor, s: usual, and in a share `LONG_OF` of its turns.
+/// Longest usual wait of a thread for the processor, s. The next constants are for longer waits in some turns.
 const SHORT_WAIT_S: f64 = 0.000_5;
 const LONG_WAIT_S: f64 = 0.02;
 const LONG_OF: f64 = 1.0 / 64.0;
@@ -23,7 +23,7 @@ pub(super) enum Thread {
     Watcher,
 }
 
-/// A reading that waits to be taken.
+/// Reading that the run has not yet taken.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Heard {
     pub(super) wrench: Wrench,
@@ -78,7 +78,7 @@ impl Guard {
         self.reader_s.min(self.watcher_s)
     }
 
-    /// The thread whose turn it is at `now_s`; schedules its next turn.
+    /// Returns the thread whose turn is due at `now_s`, and schedules its next turn. `None` if no turn is due.
     pub(super) fn due(&mut self, now_s: f64) -> Option<Thread> {
         if self.next_s() > now_s {
             return None;

@@ -1,4 +1,4 @@
-//! Press log on the simulated disk: framed records, synced before they count; a torn tail is truncated.
+//! Press log on the simulated disk. Records are framed and synced before they count. A torn tail is truncated.
 
 use std::collections::BTreeSet;
 
@@ -34,7 +34,7 @@ pub(super) struct EntrySample {
 pub(super) struct Journal<'a> {
     disk: &'a mut Disk,
     finished: BTreeSet<ContentId>,
-    /// All records acknowledged so far; kept outside the process, for comparison with the remaining ones.
+    /// All records acknowledged so far. The list survives the process, for comparison with the records on the disk.
     acknowledged: &'a mut Vec<ContentId>,
 }
 
@@ -68,7 +68,7 @@ impl PressLog for Journal<'_> {
         Ok(())
     }
 
-    /// Frames of the untouched gel are not recorded: the oracle checks only presses.
+    /// Ignores frames of the untouched gel, because the oracle checks only presses.
     fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
         Ok(())
     }

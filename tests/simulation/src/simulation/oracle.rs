@@ -76,7 +76,7 @@ impl fmt::Display for Violation {
     }
 }
 
-/// Number of checks of each invariant, so that an idle oracle is noticed.
+/// Number of checks of each invariant. A zero reveals an oracle that checked nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Checks {
     /// Motions whose depth and force were compared with the limits.
@@ -148,7 +148,7 @@ impl Stated {
         }
     }
 
-    /// The same for segments at this speed in contact, which noise may have lengthened.
+    /// Same limits, for segments at `speed_mm_s` in contact, whose length noise may have increased.
     pub(super) fn at_speed(self, speed_mm_s: f64, segment_mm: f64) -> Stated {
         Stated {
             late_look_s: (segment_mm / speed_mm_s - SEGMENT_S).max(0.0),
@@ -157,7 +157,7 @@ impl Stated {
     }
 }
 
-/// Range of the noise, as a factor: the noise is uniform and never exceeds it.
+/// Range of the noise, as a factor. Uniform noise never exceeds its range.
 const NOISE_SPAN: f64 = 1.0;
 
 /// State at the end of a motion.
@@ -173,12 +173,12 @@ pub(super) struct Ended {
     pub(super) is_frozen: bool,
 }
 
-/// Monitors the simulated world.
+/// Observer of the simulated world that checks the invariants.
 #[derive(Clone, Debug)]
 pub(super) struct Oracle {
     stated: Stated,
     hazard: Option<(&'static str, f64)>,
-    /// True if the force limit was exceeded while the transducer did not show it.
+    /// True if the force exceeded the limit while the readings did not.
     overlooked: bool,
     pub(super) violations: Vec<Violation>,
     pub(super) checks: Checks,
@@ -197,8 +197,8 @@ impl Oracle {
 
     /// Checks the end of a motion.
     ///
-    /// The stated overshoot limits how far the tip goes beyond a limit, so only the end of an inward motion can violate it. The tip then
-    /// comes out step by step, still beyond the limit for a while, which is not a second violation.
+    /// The stated overshoot limits how far the tip goes beyond a limit, so only the end of an inward motion can violate it. Afterwards the tip retreats step by
+    /// step, at first still beyond the limit. This is not a second violation.
     pub(super) fn moved(&mut self, ended: Ended) {
         let Ended {
             depth_mm, force_n, ..
@@ -243,14 +243,14 @@ impl Oracle {
         self.overlooked = true;
     }
 
-    /// Records that the transducer gives no force or an old one, to which no supervisor can react. The depth is still limited, and missing
-    /// readings are a separate hazard.
+    /// Records that the transducer gives no force or an old force, to which no supervisor can react. The depth is still limited, and missing readings are a
+    /// separate hazard.
     pub(super) fn blinded(&mut self) {
         let unseen = self.hazard.take_if(|(hazard, _)| *hazard == TOO_HARD);
         self.overlooked |= unseen.is_some();
     }
 
-    /// Records that readings have returned; a gap shorter than a stale reading is not a hazard.
+    /// Records that readings have returned. A gap shorter than the age of a stale reading is not a hazard.
     pub(super) fn heard(&mut self) {
         self.hazard.take_if(|(hazard, _)| *hazard == SILENCE);
     }
@@ -286,7 +286,7 @@ impl Oracle {
         }
     }
 
-    /// Advances time; an old hazard without a halt is a violation.
+    /// Advances time. An old hazard without a halt becomes a violation.
     pub(super) fn passed(&mut self, now_s: f64) {
         if let Some((hazard, since_s)) = self.hazard
             && now_s - since_s > self.within_s(hazard)
@@ -306,7 +306,7 @@ impl Oracle {
         }
     }
 
-    /// Ends all hazards: the process was killed and cannot react; the tip rests at the end of its segment.
+    /// Ends all hazards, because the process was killed and cannot react. The tip rests at the end of its segment.
     pub(super) fn killed(&mut self) {
         self.hazard = None;
         self.overlooked = false;

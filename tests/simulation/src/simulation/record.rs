@@ -52,8 +52,8 @@ pub(super) fn judge_log(
     found
 }
 
-/// Violation if a retreat lacks waypoints of its approach although the plan has them. One may be missing: with a limit just below a
-/// waypoint, the approach has two samples of almost equal depth.
+/// Violation if a retreat lacks waypoints of its approach although the plan has them. One waypoint may be missing, because a limit just below a waypoint gives
+/// the approach two samples of almost equal depth.
 fn one_sided(planned: &PlannedPress, entry: &Entry) -> Option<Violation> {
     let waypoints = planned.press.waypoints();
     let on_way_out = |sample: &&EntrySample| {

@@ -1,4 +1,4 @@
-//! One seed: a gel, a plan, faults, and as many processes as needed to finish.
+//! Scenario of one seed: a gel, a plan, faults, and as many processes as the study needs.
 
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 
@@ -41,7 +41,7 @@ pub struct SimulationReport {
     pub simulated_s: f64,
 }
 
-/// Most processes: faults are few and end, so more processes mean no progress.
+/// Maximum number of processes. Faults are few and temporary, so more processes mean that there is no progress.
 const MOST_PROCESSES: u32 = 40;
 /// Time between two processes, in which a person repairs the rig, s.
 const REPAIR_S: f64 = 3.0;
@@ -59,7 +59,7 @@ pub fn simulate(seed: u64) -> SimulationReport {
     simulate_with(seed, Sabotage::Nothing)
 }
 
-/// Like [`simulate`], with a planted bug.
+/// Same as [`simulate`], with a planted bug.
 pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
     let draws = Draws::new(seed, "faults");
     let part = |purpose| draws.fraction([purpose, 1]);
@@ -261,7 +261,7 @@ fn process(
     }
 }
 
-/// A person frees a tip that was left in place; a killed process may leave it anywhere.
+/// Simulates a person who frees the tip after a process. A killed process may leave the tip anywhere.
 fn repair(shared: &Shared, left: Left) {
     let mut world = shared.world();
     world.oracle.killed();

@@ -1,4 +1,4 @@
-//! Enabling switch of the world: its state, and invariants while nobody holds it.
+//! Enabling switch of the world: its state, and invariants while nobody holds the switch.
 
 use super::fault::FaultKind;
 use super::oracle::{HALT_WITHIN_S, UNHELD};
@@ -24,8 +24,7 @@ impl World {
         unheld.is_some_and(|(kind, _)| kind == FaultKind::Unplugged)
     }
 
-    /// Checks a robot that moves now, after a start at `began_s`: it must halt soon after the switch is released, and must not start long
-    /// after.
+    /// Checks a robot that moves now, after a start at `began_s`. Soon after a release of the switch, the robot must halt, and must not start again.
     pub(super) fn is_let_move(&mut self, began_s: f64) {
         let Some((_, since_s)) = self.faults.unheld(self.now_s) else {
             self.oracle.is_held();

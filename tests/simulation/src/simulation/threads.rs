@@ -10,7 +10,7 @@ use taceva_protocol::STALE_S;
 use taceva_protocol::{Observation, Supervisor};
 
 impl Shared {
-    /// Runs the threads whose turn it is; `false` if they wait for the supervisor.
+    /// Runs the threads whose turn is due. False if they wait for the supervisor.
     pub(super) fn look_on(&self) -> bool {
         let supervisor = match &self.world().guard {
             Some(guard) => guard.supervisor.clone(),
@@ -33,7 +33,7 @@ impl Shared {
         }
     }
 
-    /// Advances time with running threads.
+    /// Advances time, and runs the threads meanwhile.
     pub(super) fn elapse(&self, seconds: f64) {
         let mut world = self.world();
         if world.guard.is_none() {

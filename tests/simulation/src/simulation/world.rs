@@ -48,12 +48,12 @@ pub(super) struct World {
     pub(super) now_s: f64,
     pub(super) tip: [f64; 3],
     motion: Motion,
-    /// Place of contact while the gel is touched: the surface is uneven, and depth is measured from there.
+    /// Place of contact while the tip touches the gel. Depth is measured from the surface at this place, because the surface is uneven.
     touched: Option<[f64; 2]>,
     pub(super) halted: bool,
     /// True after the emergency stop was pressed, until a person acknowledges it.
     pub(super) stopped: bool,
-    /// True if a call of the run was already rejected because of it.
+    /// True if a call of the run was already rejected because of the emergency stop.
     has_noted_stop: bool,
     pub(super) gel: Gel,
     pub(super) oracle: Oracle,
@@ -261,7 +261,7 @@ impl World {
         Some(self.sense())
     }
 
-    /// No reading since `since_s`: the tip may move on only for the allowed silence.
+    /// Records that there was no reading since `since_s`. The tip may continue only for the allowed silence.
     pub(super) fn missed(&mut self, since_s: f64) {
         let listening_s = *self.listening_s.get_or_insert(since_s);
         self.oracle.blinded();
@@ -319,7 +319,7 @@ impl World {
         Some(self.sense())
     }
 
-    /// Starts a motion: silence is measured from now on.
+    /// Starts a motion, and measures silence from now on.
     pub(super) fn set_out(&mut self) {
         self.listening_s = None;
     }
@@ -358,7 +358,7 @@ impl World {
         self.zero_n = self.force(self.tip);
     }
 
-    /// Next frame: time until it arrives, and its exposure time; `None` if it does not arrive in time.
+    /// Time until the next frame arrives, and its exposure time, s. The exposure time is `None` if the frame does not arrive in time.
     pub(super) fn expose(&mut self, deadline_s: f64) -> (f64, Option<f64>) {
         if self.faults.strike(FaultKind::DroppedFrames, self.now_s) {
             // Every second frame arrives, with the previous picture.

@@ -1,4 +1,4 @@
-//! Shared world of devices, disk and clock: its time is the time of the run, and a kill may end the process at any call.
+//! Shared world of devices, disk and clock. Its time is the time of the run. A kill may end the process at any call.
 
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
@@ -13,7 +13,7 @@ use taceva_protocol::Timekeeper;
 #[derive(Clone)]
 pub(super) struct Shared(Arc<Mutex<World>>);
 
-/// The panic payload of a killed process, which no code handles as an error.
+/// Panic payload of a killed process. No code handles this payload as an error.
 pub(super) struct Killed;
 
 impl Shared {
@@ -21,7 +21,7 @@ impl Shared {
         Shared(Arc::new(Mutex::new(World::new(gel, oracle, faults, draws))))
     }
 
-    /// Locks the world. Kills occur between calls, so a poisoned lock still holds a consistent world.
+    /// Locks the world. Kills occur between calls, so that the world behind a poisoned lock is consistent.
     pub(super) fn world(&self) -> MutexGuard<'_, World> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,4 +1,4 @@
-//! The page in a real browser: its display, its buttons, and a console without messages.
+//! Tests of the page in a real browser: display, buttons, and a console without messages.
 //!
 //! Skipped, with an entry in the list of skips, if no Chromium is installed. `TACEVA_SHOTS` names a folder for screenshots.
 
@@ -180,7 +180,7 @@ impl Drop for Opened {
     }
 }
 
-/// A gel under a ball: a gradient of three lights, and a growing disc.
+/// Frame of a gel under a ball: a gradient of three lights, and a disc that grows with `share`.
 fn gel(share: f64) -> Frame {
     let info = FrameInfo {
         width: 320,

@@ -1,4 +1,4 @@
-//! The page over its socket: accepted and rejected clients, and no waiting for slow clients.
+//! Tests of the page over its socket: accepted and rejected clients, and slow clients that nothing waits for.
 
 mod access;
 mod display;

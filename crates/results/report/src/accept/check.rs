@@ -20,29 +20,29 @@ pub struct LimitCheck {
     pub limit: Limit,
     /// Value of the score; `None` if missing.
     pub value: Option<f64>,
-    /// Ends of the confidence interval of the score.
+    /// Ends of the confidence interval of the score; `None` if the score has no interval.
     pub ends: Option<[f64; 2]>,
     /// Number of trainings of the model whose variance the interval includes; 0 if none.
     pub trainings: usize,
-    /// Number of samples that the score is computed from.
+    /// Number of samples of the score.
     pub n: u64,
     /// Decision by the rule of the limit, with the uncertainty of the value. `None` without a value in the unit of the limit.
     pub decision: Option<Decision>,
-    /// Effect of the guard on the limit, such as `the limit divided by 1.57`. `None` without a guard, or if it is in the unit of the value.
+    /// Effect of the guard on the limit, such as `the limit divided by 1.57`. `None` without a guard, or if the guard has the unit of the value.
     pub guard: Option<String>,
-    /// Word of the decision. Without a decision rule, the limit passes or fails.
+    /// Result as a word: that of the decision, or pass or fail without a decision rule.
     pub verdict: Word,
-    /// True if the limit is met.
+    /// True if the score meets the limit.
     pub is_kept: bool,
-    /// Reason why the limit is not met, or a remark that it is met without an interval.
+    /// Reason why the score does not meet the limit, or a remark that it does so without an interval.
     pub reason: Option<String>,
-    /// Risks among units of one process, or the reason why they are unknown. `None` if no units are given.
+    /// Risks of wrong decisions among units of one process, or the reason why they are unknown. `None` if no units are given.
     pub process: Option<Result<ProcessRisk, String>>,
     /// Standing of the score. A limit on a score that is excluded from verdicts counts as not met.
     pub standing: Standing,
 }
 
-/// Reason why a result cannot be checked against limits.
+/// Error of a check of a result against limits.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AcceptError {
@@ -180,7 +180,7 @@ impl LimitCheck {
         }
     }
 
-    /// Sets the word from a decision by a rule.
+    /// Sets the word and reason of the check from a decision by a rule.
     fn take_word(&mut self, interval: &LimitInterval, counts_conditional: bool) {
         let Some(decision) = &self.decision else {
             return;
@@ -193,7 +193,7 @@ impl LimitCheck {
         self.reason = reason::of_decision(&self.limit, decision, interval);
     }
 
-    /// Sets the result of a limit without decision rule; `broken` says why it is not met.
+    /// Sets the result for a limit without a decision rule. `broken` is the reason why the value does not meet the limit.
     fn take_value(&mut self, broken: Option<String>) {
         self.is_kept = broken.is_none();
         self.reason = broken;

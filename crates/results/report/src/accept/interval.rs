@@ -14,12 +14,12 @@ pub(super) struct LimitInterval {
     pub(super) ends: Option<[f64; 2]>,
     /// Number of trainings whose variance the interval includes; 0 if none.
     pub(super) trainings: usize,
-    /// Value with its uncertainty, on the scale of the interval, or the reason why the uncertainty is unknown.
+    /// Value and its uncertainty on the scale of the interval, or the reason why the uncertainty is unknown.
     pub(super) measured: Result<Measurement, String>,
 }
 
 impl LimitInterval {
-    /// Interval of `score`, or of its `variant` if given. The variance between trainings of the model is added to that between clusters.
+    /// Interval of `score`, or of its `variant` if given. Includes the variance between clusters and between trainings of the model.
     pub(super) fn of(study: &Study, score: &Score, variant: Option<&str>) -> LimitInterval {
         let values = study.values_of_trainings(&score.metric, variant, &score.channel);
         let spread = TrainingSpread::of_one(&values).filter(TrainingSpread::varies);

@@ -4,7 +4,7 @@ use serde::Deserialize;
 use taceva_core::{Unit, shown};
 use taceva_metrology::conformity::{ConformityError, DecisionRule, Limits, RuleSettings};
 
-/// Version of limits files in which a limit is met by the value, or by its whole interval.
+/// Version of limits files without decision rules: the value, or its whole interval, meets the limit.
 const BY_VALUE: u32 = 1;
 /// Version of limits files with decision rules.
 pub(super) const BY_RULES: u32 = 2;
@@ -145,7 +145,7 @@ impl LimitsFile {
         Ok(file)
     }
 
-    /// The same limits; a conditional pass counts as met.
+    /// Same limits, with conditional passes counted as met.
     ///
     /// ```
     /// use taceva_report::LimitsFile;
@@ -167,7 +167,7 @@ impl LimitsFile {
         self.counts_conditional
     }
 
-    /// True for version 2, whose limits are decided by rules.
+    /// True for version 2, where rules decide on the limits.
     pub fn is_by_rules(&self) -> bool {
         self.limits_version == BY_RULES
     }
@@ -206,7 +206,7 @@ impl Limit {
         }
     }
 
-    /// Sets the rule from the settings of the limit and the defaults of the file. A limit with another rule than the file inherits only the
+    /// Sets the rule from the settings of the limit and the defaults of the file. A limit whose rule differs from the rule of the file inherits only the
     /// coverage.
     fn decide_by(&mut self, common: &RuleSettings) -> Result<(), String> {
         if self.whole_interval {

@@ -75,7 +75,7 @@ fn measured(study: &Study, limit: &Limit) -> Result<Measurement, String> {
     }
 }
 
-/// Remarks on the risks of `checks`: their meaning, and the reason for each missing one.
+/// Remarks on the risks of `checks`: meaning of the risks, and a reason for each missing risk.
 pub(super) fn notes(checks: &[LimitCheck]) -> Vec<String> {
     let mut known = checks.iter().filter_map(|check| check.process.as_ref());
     let units = known.find_map(|process| process.as_ref().ok());

@@ -36,7 +36,7 @@ pub(super) fn by_value_only(limit: &Limit, ends: Option<[f64; 2]>) -> Option<Str
         .then(|| "met by the value only: its interval crosses the limit".to_owned())
 }
 
-/// Reason why a rule gives no pass, or a remark on a pass that uses only the value.
+/// Reason why a rule gives no pass, or a remark that a pass ignores the interval.
 pub(super) fn of_decision(
     limit: &Limit,
     decision: &Decision,
@@ -71,7 +71,7 @@ pub(super) fn acceptance(decision: &Decision) -> Option<String> {
 /// Scale of a guard, between the rule and the effect of the guard.
 pub(super) const ON_SCALE: &str = ", on the logarithmic scale of the interval: ";
 
-/// Effect of a guard on the limits, such as `the limit divided by 1.57`. `None` without a guard, or if it is in the unit of the value.
+/// Effect of a guard on the limits, such as `the limit divided by 1.57`. `None` without a guard, or if the guard has the unit of the value.
 pub(super) fn guard(decision: &Decision, interval: &LimitInterval) -> Option<String> {
     let measured = interval.measured.as_ref().ok()?;
     let quantity = measured.guarded_quantity()?;

@@ -43,7 +43,7 @@ impl Acceptance<'_> {
         self.findings.iter().all(|finding| finding.is_kept)
     }
 
-    /// True if a limit is not met, and by rules at least one verdict is a fail or a conditional fail.
+    /// True if the sensor fails. Without rules, one limit that is not met suffices; with rules, one fail or conditional fail.
     fn is_failed(&self) -> bool {
         let is_fail = |word: Word| matches!(word, Word::Fail | Word::ConditionalFail);
         let mut findings = self.findings.iter();
@@ -96,7 +96,7 @@ impl Acceptance<'_> {
         table
     }
 
-    /// Table for programs, which have no notes: with the rule of each limit in the last column, if limits are decided by rules.
+    /// Table for programs, without notes. The last column has the rule of each limit if rules decide on the limits.
     pub fn numbers(&self) -> Table {
         let mut table = self.table();
         if self.limits.is_by_rules() {
@@ -195,7 +195,7 @@ impl Acceptance<'_> {
         self.words_but_pass(|finding| !finding.is_kept)
     }
 
-    /// Counts of decisions other than pass among findings for which `counts` is true, such as `1 conditional pass, 2 fail`; empty without rules.
+    /// Counts of the words other than pass among findings for which `counts` is true, such as `1 conditional pass, 2 fail`; empty without rules.
     fn words_but_pass(&self, counts: fn(&LimitCheck) -> bool) -> String {
         let others = [
             Word::ConditionalPass,
@@ -212,7 +212,7 @@ impl Acceptance<'_> {
         words.join(", ")
     }
 
-    /// Serial number of the tested unit. Of several numbers joined by commas, only those of units that samples name.
+    /// Serial number of the tested unit. If several numbers are joined by commas, only the numbers that samples name.
     fn serial(&self) -> String {
         let serial = &self.study.serial;
         let known: Vec<&str> = serial.split(", ").collect();

@@ -9,7 +9,7 @@ use crate::results::Study;
 /// Score of a study to which a limit applies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Subject<'a> {
-    /// The score with all of its variants.
+    /// Score with all of its variants.
     pub(super) whole: &'a Score,
     /// Name of the variant; `None` for the value of the score itself.
     pub(super) variant: Option<&'a str>,
@@ -32,7 +32,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// The score with value, unit and interval of the variant, or the reason why there is none.
+    /// Score with the value, unit and interval of the variant, or the reason why there is no such variant.
     pub(super) fn score(&self) -> Result<Score, String> {
         let Some(name) = self.variant else {
             return Ok(self.whole.clone());
@@ -48,7 +48,7 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// Reason for the lack of a score, with the nearest channel of its metric.
+/// Reason why `study` lacks the score, with the nearest channel that has the metric.
 fn no_such_score(study: &Study, metric: &str, channel: &str) -> String {
     let scores = study.scores.iter().filter(|score| score.metric == metric);
     let channels = scores.map(|score| score.channel.as_str());

@@ -1,4 +1,4 @@
-//! Initial limits file: limits that the result meets, each with the value of the result.
+//! Initial limits file. The result meets each limit, and a comment states the value of the result.
 
 use taceva_metrics::{Better, Range};
 use taceva_metrology::conformity::{DecisionRule, Limits, decide};
@@ -13,7 +13,7 @@ use taceva_results::{Score, not_measured};
 
 /// Distance of a limit from the result, as a share of the value.
 const MARGIN: f64 = 0.2;
-/// Significant digits of a limit; more would suggest a higher accuracy.
+/// Significant digits of a limit. More digits would suggest a higher accuracy.
 const DIGITS: i32 = 3;
 /// Decision rule of the template.
 const GUARDED: DecisionRule = DecisionRule::Guarded {
@@ -34,9 +34,9 @@ r = 1.0
 coverage = 0.95
 "#;
 
-/// Limits that `study` meets, as a file for [`super::LimitsFile::read`]. Each score with a better direction gets one limit. The limit is a fifth
-/// worse than the value, or at the worse end of its interval if that is farther away. The rule is `guarded`, or `simple` if the interval is missing
-/// or leaves no room for a guard band.
+/// Limits file for [`super::LimitsFile::read`] with limits that `study` meets. Each score with a better direction gets one limit. The limit is a fifth worse
+/// than the value, or at the worse end of its interval if that is farther away. The rule is `guarded`, or `simple` if the interval is missing or leaves no room
+/// for a guard band.
 ///
 /// ```
 /// use taceva_report::{LimitsFile, Study, accept, limits_template};
@@ -106,7 +106,7 @@ fn left_out(barred: &[&Score]) -> String {
     comments.collect()
 }
 
-/// Limit with the value of the result; `None` for descriptive scores, absent values and differences of 0.
+/// Limit of one score as text, with the value as a comment; `None` for descriptive scores, absent values and differences of 0.
 fn limit(study: &Study, score: &Score) -> Option<String> {
     let value = score.value.number()?;
     let variant = score.decided_by().map(|variant| variant.name.as_str());
@@ -188,7 +188,7 @@ fn is_below_one(score: &Score) -> bool {
     metric.is_some_and(|metric| metric.range == Range::BelowOne)
 }
 
-/// Text on a single comment line.
+/// Text without line breaks, for a comment.
 fn line(text: &str) -> String {
     terminal(text).replace(['\n', '\r'], " ")
 }

@@ -1,4 +1,4 @@
-//! Tests of checks: by value, by interval, and of what is unknown.
+//! Tests of checks by value and by interval, and of checks with unknown values.
 
 use super::*;
 use crate::catalogue;

@@ -6,7 +6,7 @@ use taceva_results::not_measured;
 use crate::escape::{terminal as line, toml_string as quoted};
 use crate::number::FormattedValue;
 
-/// Figures for which sources are written, each with the name and further keys of the source. A source with an open key is a comment.
+/// Figures that become sources, each with the name and further keys of the source. A source with a key that the user must complete is written as a comment.
 const SOURCES: [(&str, &str, &str); 7] = [
     ("bias", "mean residual", ""),
     ("error.between", "place to place", ""),
@@ -20,7 +20,7 @@ const SOURCES: [(&str, &str, &str); 7] = [
     ),
     ("certificate", "reference", ""),
 ];
-/// Figure that `error.within` includes.
+/// Figure that `error.within` already includes.
 const REPEATS: &str = "repeatability";
 
 /// Data for the file.
@@ -36,7 +36,7 @@ pub struct BudgetTemplate<'a> {
     pub measurand: &'a str,
     /// Unit of the channel.
     pub unit: &'a str,
-    /// Reading for which the budget is made, in `unit`.
+    /// Value of the measurand for which the budget is computed, in `unit`.
     pub at: f64,
     /// Measured figures.
     pub evidence: &'a Evidence,

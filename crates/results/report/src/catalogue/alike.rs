@@ -6,8 +6,8 @@ use super::{Published, Sensor};
 
 /// Definitions of this program, with the equivalent definition in the catalogue. Other pairs are not comparable.
 ///
-/// Success rates are excluded, because ours depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over
-/// the surface is excluded too. The published table differs from half the sum of the numbers in the figure, so its definition is unclear.
+/// Success rates are excluded, because ours depend on the number of spacings in a scene, and fewer spacings are easier to predict. Robustness over the surface
+/// is excluded too. Its definition is unclear, because the published table differs from half the sum of the numbers in the figure.
 const SAME: [(&str, &str); 6] = [
     (
         "mae/1",
@@ -27,8 +27,8 @@ const SAME: [(&str, &str); 6] = [
 ];
 
 impl Sensor {
-    /// Published number of a metric and channel that is comparable with ours of `definition` and `unit`; `None` if there is none, or its definition
-    /// differs.
+    /// Published number of a metric and channel that is comparable with our number of `definition` and `unit`. `None` without a published number, or if its
+    /// definition differs.
     pub fn published_alike(
         &self,
         metric: &str,

@@ -1,4 +1,4 @@
-//! Numbers that others measured with this program, each with the bundle that holds it.
+//! Numbers that others measured with this program, each with the digest of its bundle.
 
 use std::collections::BTreeMap;
 
@@ -8,16 +8,16 @@ use toml::value::Datetime;
 
 /// Depths of a verification, the shallowest first.
 pub const DEPTHS: [&str; 6] = ["files", "form", "scores", "predictions", "model", "fit"];
-/// Words for [`DEPTHS`] in messages.
+/// List of [`DEPTHS`] for messages.
 const DEPTH: &str = "files, form, scores, predictions, model or fit";
-/// Form of digests in messages.
+/// Format of digests, for messages.
 const DIGEST: &str = "sha256: and 64 hexadecimal digits";
 /// Beginning of a digest.
 const PREFIX: &str = "sha256:";
 /// Digits of a digest in names.
 const SHORT: usize = 8;
 
-/// Number of a bundle. Its keys are those of a row in an entry; it gets no further field without a new version of the entries.
+/// Number of a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the entries.
 ///
 /// ```
 /// use taceva_report::catalogue::{Origin, Sensor};
@@ -89,7 +89,7 @@ pub struct Measured {
     pub traceability: Vec<String>,
 }
 
-/// Table of an entry for numbers of bundles. It gets no further variant: a number was measured or was not, or nobody states it.
+/// Table of an entry for numbers of bundles. It gets no further variant: samples are measured, not measured, or of unknown origin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// `[[measured]]`: samples that a real sensor recorded.
@@ -129,7 +129,7 @@ impl Origin {
         }
     }
 
-    /// Origins of samples that belong into the table, for messages.
+    /// Origins of samples that the table accepts, for messages.
     const fn expected(self) -> &'static str {
         match self {
             Origin::Measured => "recorded; others belong into [[simulated]] or [[unknown]]",
@@ -141,7 +141,7 @@ impl Origin {
     }
 }
 
-/// Value of a row that breaks a rule.
+/// Invalid value of a row, with the key and the accepted values.
 pub(super) struct RowFault {
     pub(super) what: &'static str,
     pub(super) found: String,
@@ -170,13 +170,13 @@ impl Measured {
         short(&self.bundle)
     }
 
-    /// Place of [`verified`](Measured::verified) among [`DEPTHS`], from 0.
+    /// Index of [`verified`](Measured::verified) in [`DEPTHS`], from 0.
     pub fn depth(&self) -> usize {
         let place = DEPTHS.iter().position(|word| *word == self.verified);
         place.unwrap_or_default()
     }
 
-    /// First value that breaks a rule of a row in the table of `origin`.
+    /// First invalid value of a row in the table of `origin`; `None` if all values are valid.
     pub(super) fn fault(&self, origin: Origin) -> Option<RowFault> {
         let fault = |what, found: String, expected| {
             Some(RowFault {
@@ -246,7 +246,7 @@ pub fn rows_text(rows: &[Measured]) -> Result<String, toml::ser::Error> {
     toml::to_string(&tables)
 }
 
-/// Lines at which the rows of the table `origin` begin in the text of an entry; none if the table is written in another form.
+/// Line numbers at which the rows of the table `origin` begin in the text of an entry. Empty if the table has another TOML syntax.
 ///
 /// ```
 /// use taceva_report::catalogue::{Origin, row_lines};

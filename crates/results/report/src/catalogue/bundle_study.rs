@@ -1,4 +1,4 @@
-//! Converts numbers of bundles to studies, and to candidates for a task.
+//! Converts numbers of bundles to studies, and to sensors that `choose` considers.
 
 use std::collections::BTreeMap;
 
@@ -9,11 +9,11 @@ use super::bundle_row::{Measured, Origin, short};
 use super::entry::Sensor;
 use crate::results::{Made, Study, by_published_r2};
 
-/// Method of an interval whose row states none.
+/// Interval method for rows that state none.
 const AS_STATED: &str = "as the bundle states it";
 
 impl Sensor {
-    /// Published numbers, if there are any or no bundle has one, then the numbers of each bundle, as results.
+    /// Converts published numbers, then the numbers of each bundle, to results. Omits the published part if the entry has only bundles.
     pub fn studies(&self) -> Vec<Study> {
         let is_published = self.has_published() || !self.has_bundles();
         let published = is_published.then(|| self.as_study());
@@ -22,7 +22,7 @@ impl Sensor {
         published.into_iter().chain(of_bundles).collect()
     }
 
-    /// Numbers of each bundle as results, one for each of its studies. The name states origin, depth of the verification and bundle.
+    /// Numbers of each bundle as results, one for each of its studies. The name contains the origin, the depth of the verification, and the bundle.
     pub fn measured_studies(&self, origin: Origin) -> Vec<Study> {
         let mut bundles: BTreeMap<(&str, usize), Vec<&Measured>> = BTreeMap::new();
         for row in self.rows(origin) {
@@ -33,7 +33,7 @@ impl Sensor {
         studies.filter_map(|rows| study(&self.name, rows)).collect()
     }
 
-    /// The sensor by each of its measured bundles: its facts, with the numbers of one bundle in place of published ones.
+    /// One sensor for each measured bundle, with the facts of this sensor and the numbers of the bundle instead of published numbers.
     pub fn measured_candidates(&self) -> Vec<Sensor> {
         let studies = self.measured_studies(Origin::Measured).into_iter();
         let candidates = studies.map(|study| Sensor {
@@ -49,7 +49,7 @@ impl Sensor {
     }
 }
 
-/// Numbers of one bundle and study; `None` without a row.
+/// Numbers of one study of one bundle; `None` without rows.
 fn study(sensor: &str, rows: &[&Measured]) -> Option<Study> {
     let first = rows.first()?;
     let least = rows.iter().min_by_key(|row| row.depth())?;

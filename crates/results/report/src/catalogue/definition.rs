@@ -1,4 +1,4 @@
-//! Definitions of metrics that share a column with results of this program. A number with another definition needs another name.
+//! Definitions of metrics in columns that published numbers share with results of this program. A number with another definition needs another metric name.
 
 /// Metrics, with their channel if it matters, and the definition of published numbers.
 const DEFINITIONS: &[(&str, &str)] = &[
@@ -47,7 +47,7 @@ const DEFINITIONS: &[(&str, &str)] = &[
     ("intrinsic thickness", "thickness of the sensor"),
 ];
 
-/// Required definition of a published number called `metric`; `None` for names that this program does not use.
+/// Definition that a published number called `metric` must have; `None` for names that this program does not use.
 pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     let family = metric.split_once('.').map_or(metric, |(family, _)| family);
     // A variant with its own definition precedes its metric.
@@ -58,7 +58,7 @@ pub(super) fn of(metric: &str, channel: &str) -> Option<&'static str> {
     found.next().map(|(_, definition)| *definition)
 }
 
-/// True if a published number of that name may stand without a definition: a fact about the construction, which no verdict rests on.
+/// True if a published number of `metric` may lack a definition: construction facts, which no verdict uses.
 pub(super) fn may_be_unstated(metric: &str) -> bool {
     metric == "intrinsic"
 }

@@ -31,7 +31,7 @@ pub struct Sensor {
     pub opaque: Option<bool>,
     /// True if the gel has markers.
     pub markers: Option<bool>,
-    /// Remark on the product that the numbers belong to, if no source states it.
+    /// Remark on the product that the published numbers describe, if no source states the product.
     pub identity: Option<String>,
     /// Limits of depth, force and radius.
     pub limits: Option<Limits>,
@@ -55,19 +55,19 @@ pub struct Sensor {
     /// Numbers of bundles whose samples have no stated origin.
     #[serde(default)]
     pub unknown: Vec<Measured>,
-    /// Numbers of bundles whose samples nobody measured.
+    /// Numbers of bundles whose samples are simulated or synthetic.
     #[serde(default)]
     pub simulated: Vec<Measured>,
     /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
-    /// Numbers that are not published, with the reason.
+    /// Unpublished numbers, each with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,
-    /// Properties that the work reports, each `yes`, `no` or `partial`; the key `source` names their source.
+    /// Properties that the publication reports, each `yes`, `no` or `partial`. The key `source` has the id of the source.
     #[serde(default)]
     pub reported: BTreeMap<String, String>,
-    /// Applications in its evaluation, by theme.
+    /// Applications in the evaluation of the sensor, by theme.
     #[serde(default)]
     pub applications: BTreeMap<String, Vec<String>>,
 }
@@ -83,7 +83,7 @@ pub enum Kind {
 }
 
 impl Sensor {
-    /// Published number of a metric and channel, if it is stated exactly.
+    /// Published number of a metric and channel; `None` if the source states none, or only an inexact one.
     pub fn result(&self, metric: &str, channel: &str) -> Option<&Published> {
         let exact = self.results.iter().filter(|result| result.bound.is_none());
         let mut named = exact.filter(|result| result.metric == metric);
@@ -115,7 +115,7 @@ impl Sensor {
         ready.min_by(|left, right| left.amount.total_cmp(&right.amount))
     }
 
-    /// Numbers of bundles in the table of `origin`.
+    /// Rows of bundles in the table of `origin`.
     pub fn rows(&self, origin: Origin) -> &[Measured] {
         match origin {
             Origin::Measured => &self.measured,
@@ -124,7 +124,7 @@ impl Sensor {
         }
     }
 
-    /// Numbers of bundles in all tables.
+    /// Rows of bundles in all tables.
     pub fn all_rows(&self) -> impl Iterator<Item = &Measured> {
         Origin::ALL
             .into_iter()
@@ -136,12 +136,12 @@ impl Sensor {
         self.sources.iter().find(|source| source.id == id)
     }
 
-    /// Name for files and links, as of [`slug_of`](Sensor::slug_of).
+    /// Name of the sensor for files and links; see [`slug_of`](Sensor::slug_of).
     pub fn slug(&self) -> String {
         Sensor::slug_of(&self.name)
     }
 
-    /// Name for files and links of a sensor called `name`: lower-case ASCII letters and digits; `-` for any other character.
+    /// Name for files and links of a sensor called `name`. Replaces each character other than lower-case ASCII letters and digits by `-`.
     pub fn slug_of(name: &str) -> String {
         let letters = name.chars().map(|letter| {
             if letter.is_ascii_alphanumeric() {

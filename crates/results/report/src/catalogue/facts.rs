@@ -44,7 +44,7 @@ impl Limits {
     }
 }
 
-/// Conditions of the limits.
+/// Test conditions of the limits.
 pub(super) const TESTED: &str = "presses of the study; the sensor may withstand more";
 /// Definition of outer dimensions.
 pub(super) const SIZE: &str = "outer dimensions in the order of the source";
@@ -86,7 +86,7 @@ impl Size {
         (self.mm.len() > 1).then(|| sides.fold(0.0, f64::max))
     }
 
-    /// Middle of the three outer dimensions, in mm; a diameter counts twice. The sensor passes lengthwise through a square opening with this side.
+    /// Median of the three outer dimensions, in mm; a diameter counts as two dimensions. The sensor passes lengthwise through a square opening with this side.
     pub fn middle_mm(&self) -> Option<f64> {
         match self.mm[..] {
             [a, b, c] => Some(a.min(b).max(a.max(b).min(c))),

@@ -7,7 +7,7 @@ use super::offer::Goods;
 use super::{Kind, Sensor};
 use crate::table::{Column, Direction, Table};
 
-/// Meaning of the words for mechanisms.
+/// Explanation of the abbreviations of mechanisms.
 pub(crate) const MECHANISMS: &str = "IMM: the camera maps intensity. MDM: the camera follows displacements of markers. MFM: the sensor fuses modalities. \
                                      Magnetic, capacitive, resistive and optical sensors have taxels and no camera.";
 

@@ -7,7 +7,7 @@ use super::published::Roughly;
 /// Format of a date in the catalogue.
 pub(super) const DAY: &str = "a day such as 2026-11-28";
 
-/// A price and its date.
+/// Price with its source and date.
 ///
 /// ```
 /// use taceva_report::catalogue;
@@ -23,7 +23,7 @@ pub struct Price {
     pub currency: String,
     /// Kind of the goods.
     pub goods: Goods,
-    /// Quantity and goods for that amount: `parts of one sensor, of 1000 made`.
+    /// Description of the goods and quantity at this price: `parts of one sensor, of 1000 made`.
     pub of: String,
     /// Relation of the true price to the amount, if the amount is inexact.
     pub bound: Option<Roughly>,
@@ -31,7 +31,7 @@ pub struct Price {
     pub source: String,
     /// Place in the source: `table`, `text` or `abstract`.
     pub read_from: String,
-    /// Date of the price.
+    /// Date at which the price was seen.
     pub seen: String,
     /// Remarks for readers.
     pub note: Option<String>,
@@ -49,7 +49,7 @@ pub struct Price {
 pub enum Goods {
     /// A sensor that is ready, from a seller.
     Sensor,
-    /// Parts or material for a sensor, or the production of one.
+    /// Parts or material for a sensor, or the production of a sensor.
     Parts,
     /// Not stated by the source.
     Unstated,
@@ -87,8 +87,8 @@ impl Price {
         format!("{sign}{} {}", self.amount, self.currency)
     }
 
-    /// Class of the price by powers of ten from 100 in its currency: `below 100 USD`, `below 1000 USD`. A price stated as above 1000 is `1000 USD and
-    /// more`.
+    /// Class of the price by powers of ten from 100 in its currency: `below 100 USD`, `below 1000 USD`. A price published as `> 1000 USD` has the class `1000
+    /// USD and more`.
     pub fn class(&self) -> String {
         let edges = (2..=9).map(|power| 10_f64.powi(power));
         let is_open = self.bound == Some(Roughly::Above);
@@ -113,11 +113,11 @@ impl Price {
 pub struct Availability {
     /// Bought or built.
     pub way: Way,
-    /// Seller, or published files.
+    /// Name of the seller, or description of the published files.
     pub conditions: String,
     /// Id of the source.
     pub source: String,
-    /// Date of this information.
+    /// Date at which the source was read.
     pub seen: String,
 }
 

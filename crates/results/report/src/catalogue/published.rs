@@ -41,7 +41,7 @@ pub struct Published {
     pub bound: Option<Roughly>,
     /// Remark for readers, if any.
     pub note: Option<String>,
-    /// Standing by the published R² of the channel.
+    /// Standing of the number in verdicts, by the published R² of the channel.
     #[serde(skip)]
     pub standing: Standing,
     /// 95 % confidence interval; `None` for published numbers.
@@ -62,7 +62,7 @@ impl Published {
     }
 }
 
-/// Relation of the true value to an inexact published number. Such a number is displayed but not compared.
+/// Relation of the true value to an inexact published number. Reports show an inexact number but do not compare it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Roughly {
@@ -75,7 +75,7 @@ pub enum Roughly {
 }
 
 impl Roughly {
-    /// Sign before the number.
+    /// Sign printed before the number.
     pub const fn sign(self) -> &'static str {
         match self {
             Roughly::About => "≈ ",

@@ -1,4 +1,4 @@
-//! Questions of a reader who chooses a sensor, and the entries that answer them.
+//! Questions for the choice of a sensor, and the catalogue entries that answer them.
 
 use super::entry::Sensor;
 
@@ -44,7 +44,7 @@ impl Question {
 }
 
 impl Sensor {
-    /// True if the entry answers `question` with a number, or with a way to get the sensor.
+    /// True if the entry answers `question` with a number, a seller, or files for building.
     pub fn answers(&self, question: Question) -> bool {
         let of = |metric: &str| self.results.iter().any(|result| result.metric == metric);
         let intrinsic = |channel: &str| {

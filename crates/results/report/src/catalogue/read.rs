@@ -17,9 +17,9 @@ pub enum CatalogueError {
     Toml {
         /// Name of the file.
         file: String,
-        /// Line of the fault.
+        /// Line number of the error.
         line: usize,
-        /// Fault, with what is expected.
+        /// Message of the parser, with the expected value.
         problem: String,
     },
     /// A value is invalid.
@@ -27,14 +27,14 @@ pub enum CatalogueError {
     Value {
         /// Name of the file.
         file: String,
-        /// Name of the value.
+        /// Key of the invalid value.
         what: &'static str,
         /// Value found.
         found: String,
         /// Accepted values.
         expected: &'static str,
     },
-    /// A value of a number of a bundle is invalid.
+    /// Invalid value in a row of a bundle.
     #[error("{file}:{line}: {what} `{found}`: expected {expected}")]
     Row {
         /// Name of the file.
@@ -50,7 +50,7 @@ pub enum CatalogueError {
     },
 }
 
-/// Sensing mechanisms: for cameras as in the TacEva study, or for taxels.
+/// Sensing mechanisms: classes of the TacEva study for cameras, and classes of taxels.
 const MECHANISMS: [&str; 7] = [
     "IMM",
     "MDM",
@@ -167,7 +167,7 @@ impl Sensor {
     }
 }
 
-/// Rejects a row of a bundle with an invalid value, by its line.
+/// Rejects an invalid value in a row of a bundle. The error has the line of the row.
 fn check_rows(sensor: &Sensor, file: &str, text: &str) -> Result<(), CatalogueError> {
     for origin in Origin::ALL {
         for (at, row) in sensor.rows(origin).iter().enumerate() {

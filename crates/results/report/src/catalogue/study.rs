@@ -13,8 +13,8 @@ use crate::results::{Fact, Made, PUBLISHED, Statement, Study, by_published_r2};
 use taceva_results::{Interval, Score};
 
 impl Sensor {
-    /// Converts results to a sensor for `choose`: their numbers, and opacity if the results state it. Limits come from the catalogue sensor of the
-    /// same name; without one, and for simulated sensors, they stay unknown.
+    /// Converts results to a sensor for `choose`: their numbers, and opacity if the results state it. Limits come from the catalogue sensor of the same name;
+    /// without such a sensor, and for simulated sensors, limits are unknown.
     pub fn of_study(study: &Study) -> Sensor {
         let result = |score: &Score| {
             let decided_by = score.decided_by().map(|variant| variant.name.clone());
@@ -66,7 +66,7 @@ impl Sensor {
         }
     }
 
-    /// Converts published numbers to results for tables and comparisons. Their source is `published`, and none has an interval.
+    /// Converts published numbers to results for tables and comparisons. The results have the source `published` and no intervals.
     pub fn as_study(&self) -> Study {
         let score = |metric: &str, channel: &str, value: f64, unit: Unit| Score {
             interval: Some(Interval::Absent("published without one".to_owned())),
@@ -106,7 +106,7 @@ impl Sensor {
         }
     }
 
-    /// Values without a test: numbers of other definitions, inexact numbers, size, price and limits; and ways to get a sensor.
+    /// Values that tables show without a test: numbers of other definitions, inexact numbers, size, price, limits, and ways to get the sensor.
     fn facts(&self) -> Vec<Fact> {
         let size = self.size.iter();
         let mut facts: Vec<Fact> = size.map(|of| fact("size", of.shown(), "mm")).collect();
@@ -145,7 +145,7 @@ impl Sensor {
 }
 
 impl Sensor {
-    /// Source, conditions and definition of each number, by the name of its row in tables.
+    /// Source, conditions and definition of each number, by its row name in tables.
     fn statements(&self) -> Vec<Statement> {
         let text = |id: &str| {
             self.source(id)

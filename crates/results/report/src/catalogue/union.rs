@@ -3,7 +3,7 @@
 use super::{NameError, Sensor, all, lookup};
 
 impl Sensor {
-    /// True if the entry states published facts or numbers, and not only those of bundles.
+    /// True if the entry has published facts or numbers. Numbers of bundles do not count.
     pub fn has_published(&self) -> bool {
         let is_empty = self.results.is_empty()
             && self.prices.is_empty()
@@ -19,8 +19,8 @@ impl Sensor {
         self.all_rows().next().is_some()
     }
 
-    /// True if `name` is the name or an alias of the entry, but for case and for characters other than letters and digits. Names with one slug are
-    /// alike too.
+    /// True if `name` equals the name or an alias of the entry, apart from case and from characters other than letters and digits. Also true for names with
+    /// equal slugs.
     ///
     /// ```
     /// let sensor = taceva_report::catalogue::find("GelSight").expect("there");
@@ -33,7 +33,7 @@ impl Sensor {
         names.any(|own| letters(own) == wanted || Sensor::slug_of(own) == slug)
     }
 
-    /// True if `name` is the name or an alias of the entry, but for case.
+    /// True if `name` equals the name or an alias of the entry, ignoring case.
     pub fn is_called(&self, name: &str) -> bool {
         let wanted = name.to_lowercase();
         let mut names = std::iter::once(&self.name).chain(&self.aliases);
@@ -41,7 +41,7 @@ impl Sensor {
     }
 }
 
-/// Letters and digits of a name, in lower case; the whole name if it has none.
+/// Lower-case letters and digits of a name; the whole name if it has none.
 fn letters(name: &str) -> String {
     let lower = name.to_lowercase();
     let letters: String = lower.chars().filter(|own| own.is_alphanumeric()).collect();
@@ -51,9 +51,9 @@ fn letters(name: &str) -> String {
     }
 }
 
-/// Built-in sensors and `entries`, by name.
+/// Merges built-in sensors and `entries`, sorted by name.
 ///
-/// An entry with the name of a built-in sensor adds its numbers of bundles and its aliases. Published numbers of the built-in sensor stay.
+/// An entry with the name of a built-in sensor adds its numbers of bundles and its aliases. The built-in sensor keeps its published numbers.
 pub fn joined(entries: &[Sensor]) -> Vec<Sensor> {
     let mut sensors = all();
     for entry in entries {
@@ -75,7 +75,7 @@ pub fn joined(entries: &[Sensor]) -> Vec<Sensor> {
     sensors
 }
 
-/// Entry of `sensors` called `name`, or the only one with that alias; ignores case.
+/// Entry of `sensors` called `name`, or the only entry with that alias; ignores case.
 ///
 /// # Errors
 /// As [`named`](super::named).

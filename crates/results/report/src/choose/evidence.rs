@@ -15,17 +15,17 @@ use crate::spread;
 /// Significant difference between two ranked sensors in one ranking number.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Evidence {
-    /// Better sensor.
+    /// Name of the better sensor.
     pub better: String,
-    /// Worse sensor.
+    /// Name of the worse sensor.
     pub than: String,
-    /// Property in which it is better.
+    /// Property in which the difference is significant.
     pub property: Property,
     /// P value, adjusted by Holm's method over all pairs and channels of the metric.
     pub p: f64,
 }
 
-/// Chooses among the sensors of `studies` for `needs`, as [`choose`], and tests the differences that rank them.
+/// Chooses among the sensors of `studies` like [`choose`], and tests the differences of the numbers that rank them.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose_results};
@@ -90,7 +90,7 @@ fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence>
     comparison.answers.iter().filter_map(of_answer).collect()
 }
 
-/// Position of the study that is significantly higher in the needed property, for a score without a better direction.
+/// Position of the significantly better study by the needed property, for a score without a better direction.
 fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     let describes = answer.direction == Better::Described;
     let difference = answer.difference.as_ref();
@@ -102,7 +102,7 @@ fn by_need(answer: &Answer, property: Property) -> Option<usize> {
     }
 }
 
-/// Remark on ranking scores, if the label spreads of the ranked sensors differ.
+/// Remark on scores used for ranks, if the label spreads of the ranked sensors differ.
 fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String> {
     let steps = choice.ranked.first()?.steps.iter();
     let scores: BTreeSet<(&str, &str)> = steps.filter_map(|step| step.property.score()).collect();
@@ -111,7 +111,7 @@ fn spread(studies: &[Study], names: &[String], choice: &Choice) -> Option<String
 }
 
 impl Choice {
-    /// Sentences on tests: the best sensor against each other one, and other significant differences. Empty if nothing was tested, as with
+    /// Sentences on tests: the best sensor against each other sensor, then other significant differences. Empty if nothing was tested, for example with
     /// published numbers.
     pub(super) fn tested(&self) -> Vec<String> {
         let Some(best) = self.ranked.first().filter(|_| self.evidence.is_some()) else {
@@ -138,7 +138,7 @@ impl Choice {
         sentences
     }
 
-    /// `a is shown to be better than b in MAE of Fz (p = 0.001)`
+    /// Sentence on a significant difference: `a is shown to be better than b in MAE of Fz (p = 0.001)`.
     fn shown(&self, better: &str, than: &str) -> Option<String> {
         let of_both = self.evidence.iter().flatten();
         let of_both = of_both.filter(|of| of.better == better && of.than == than);
@@ -153,7 +153,7 @@ impl Choice {
         })
     }
 
-    /// Addition to the sentence on first and second place: whether tests support or contradict the order.
+    /// Addition to the sentence on first and second place: tests support or contradict the order.
     pub(super) fn caveat(&self) -> String {
         let [first, second, ..] = self.ranked.as_slice() else {
             return String::new();

@@ -6,12 +6,12 @@ use taceva_core::shown;
 use super::property::Property;
 use super::words::{CURRENCIES, OTHER_UNITS, QUANTITIES, Quantity, WORDS};
 
-/// Need of a task.
+/// Need of a task: bounds that exclude sensors, and properties that rank sensors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Need {
     /// Need as written.
     pub words: String,
-    /// Bounds; a sensor that does not meet one is excluded.
+    /// Bounds. A sensor that does not meet one of the bounds is excluded.
     pub bounds: Vec<Bound>,
     /// Properties that rank the remaining sensors.
     pub ranks: Vec<Property>,
@@ -47,18 +47,18 @@ pub enum NeedError {
         words: String,
         /// Expected units, as text.
         units: String,
-        /// The need with a valid number.
+        /// Example of the need with a valid number.
         example: String,
     },
-    /// A bound excludes its number.
+    /// A strict sign, `<` or `>`, which excludes its number.
     #[error("`{words}`: a bound includes its number; write `{instead}`")]
     Strict {
         /// Need as written.
         words: String,
-        /// The need with an accepted sign.
+        /// The same need with an accepted sign, `<=` or `>=`.
         instead: String,
     },
-    /// The need concerns a price without a number.
+    /// A price without a bound, which cannot rank sensors.
     #[error(
         "`{0}`: prices are not ranked; bound the price of a ready sensor, such as `price <= 500 USD`"
     )]
@@ -184,7 +184,7 @@ fn one(words: &str) -> Result<Need, NeedError> {
     })
 }
 
-/// Parses `<= 1 N`, `>= 50 Hz`, or a bare number, which limits the worse direction.
+/// Parses `<= 1 N`, `>= 50 Hz`, or a bare number. A bare number is the worst accepted value.
 fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedError> {
     let refuse = || NeedError::Number {
         words: shown(words).to_string(),
@@ -223,7 +223,7 @@ fn bound(quantity: &Quantity, words: &str, rest: &str) -> Result<Bound, NeedErro
     })
 }
 
-/// Property with the number in its own unit; `None` for an unknown unit.
+/// Property and `number` converted to the unit of the property; `None` for an unknown unit.
 fn measured(quantity: &Quantity, number: f64, unit: &str) -> Option<(Property, f64)> {
     if let Property::Price(_) = quantity.property {
         let mut known = CURRENCIES.into_iter();
@@ -264,7 +264,7 @@ impl fmt::Display for Bound {
     }
 }
 
-/// Sentences of several errors; the known needs are listed once.
+/// Text of several errors, with one list of the known needs.
 fn all(errors: &[NeedError]) -> String {
     let is_unknown = |error: &&NeedError| matches!(error, NeedError::Unknown(_));
     let others = errors.iter().filter(|error| !is_unknown(error));

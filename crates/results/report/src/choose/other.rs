@@ -1,4 +1,4 @@
-//! Numbers of one quantity by other definitions. They are shown, but neither rank nor meet a need.
+//! Numbers of one quantity by other definitions. Such numbers are shown, but do not affect the choice.
 
 use super::property::Property;
 use crate::catalogue::{Published, Sensor};
@@ -66,7 +66,7 @@ impl Property {
     }
 }
 
-/// `force_error F 0.07 N (mean absolute error of the force as its authors sum it up)`
+/// Number with its definition: `force_error F 0.07 N (mean absolute error of the force as its authors sum it up)`.
 fn shown(result: &Published) -> String {
     let unit = match result.unit.as_str() {
         "1" => String::new(),

@@ -8,7 +8,7 @@ const FIRST: &str = "first";
 const SECOND: &str = "second";
 
 impl Choice {
-    /// Rank of each sensor, from 1. Equal sensors share a rank, and the next rank counts all of them.
+    /// Rank of each sensor, from 1. Equal sensors share a rank; the following rank counts every sensor above it.
     pub fn places(&self) -> Vec<usize> {
         let mut places: Vec<usize> = Vec::new();
         for (at, candidate) in self.ranked.iter().enumerate() {

@@ -16,7 +16,7 @@ pub enum Property {
     Repeatability(&'static str),
     /// Spatial robustness of a channel or plane, in mm or N.
     Spatial(&'static str),
-    /// Share of line or dot gratings whose spacing is predicted to within 0.05 mm.
+    /// Share of line or dot gratings for which the error of the predicted spacing is at most 0.05 mm.
     Resolution(&'static str),
     /// Indentation per normal force, in mm/N.
     Sensitivity,
@@ -32,7 +32,7 @@ pub enum Property {
     GelThickness,
     /// Greatest outer dimension, in mm.
     Size,
-    /// Middle of the three outer dimensions, in mm; a diameter counts twice.
+    /// Median of the three outer dimensions, in mm; a diameter counts as two dimensions.
     Width,
     /// Lowest exact price of a ready sensor in a currency: `USD`.
     Price(&'static str),
@@ -42,7 +42,7 @@ pub enum Property {
     GreatestDepth,
     /// Greatest normal force, in N.
     GreatestForce,
-    /// Opacity to ambient light: 1 or 0.
+    /// Opacity of the sensor to ambient light: 1 for opaque, 0 for transparent.
     Opaque,
 }
 
@@ -77,17 +77,17 @@ impl Property {
         }
     }
 
-    /// True for greatest depths and forces. Their values are the greatest tested values, which may be below the limit of the gel.
+    /// True for greatest depths and forces. Values are the greatest tested values, which may be below the limit of the gel.
     pub(super) fn is_reached(self) -> bool {
         matches!(self, Property::GreatestDepth | Property::GreatestForce)
     }
 
-    /// True for errors in a plane. Their value is the mean of both axes, not a distance.
+    /// True for errors in a plane. The value is the mean of both axes, not a distance.
     pub(super) fn is_of_both_axes(self) -> bool {
         matches!(self, Property::Error("Pxy" | "Fxy"))
     }
 
-    /// Metric and channel of the score; `None` for other properties.
+    /// Metric and channel of the score that the property uses; `None` for properties other than scores.
     pub(super) fn score(self) -> Option<(&'static str, &'static str)> {
         match self {
             Property::Error(channel) => Some(("mae", channel)),
@@ -123,7 +123,7 @@ impl Property {
         result.map_or(Standing::Counts, |result| result.standing)
     }
 
-    /// Measured part or sold goods of `sensor`, for sizes and prices.
+    /// Measured part for a size, goods for a price; `None` for other properties.
     pub(super) fn part(self, sensor: &Sensor) -> Option<String> {
         match self {
             Property::Size | Property::Width => {

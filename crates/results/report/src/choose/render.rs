@@ -142,7 +142,7 @@ impl Choice {
         table
     }
 
-    /// True if a need ranks the sensors.
+    /// True if at least one need ranks the sensors.
     fn is_ranking(&self) -> bool {
         let all = self.ranked.iter().chain(&self.others);
         let mut steps = all.flat_map(|candidate| &candidate.steps);
@@ -169,7 +169,7 @@ impl Choice {
         }
     }
 
-    /// One sentence with the result.
+    /// Sentence with the result of the choice.
     pub fn headline(&self) -> String {
         match self.ranked.as_slice() {
             [] if !self.unplaced.is_empty() => {
@@ -274,7 +274,7 @@ impl Choice {
     }
 }
 
-/// The first names, and the number of the others.
+/// The first [`SHOWN`] names, and the number of further names.
 fn first(names: &[String]) -> String {
     match names.len().checked_sub(SHOWN) {
         Some(others) if others > 1 => format!(

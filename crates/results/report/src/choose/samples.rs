@@ -1,11 +1,11 @@
-//! Candidates that were measured on other samples than the rest: they meet needs, and no need ranks them.
+//! Sensors that meet the needs but have no rank, because their samples differ from the samples of other sensors.
 
 use std::collections::BTreeSet;
 
 use super::{Dropped, Need, Property};
 use crate::catalogue::{Sensor, short};
 
-/// Takes the measured candidates out of `remaining` if a need ranks and not all of them rest on the same samples and definitions.
+/// Removes measured sensors from `remaining` and returns them, if a need ranks and the samples or definitions of `remaining` differ.
 pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dropped> {
     let ranks: Vec<Property> = needs.iter().flat_map(|need| need.ranks.clone()).collect();
     let bases = remaining.iter().map(|sensor| basis(sensor, &ranks));
@@ -30,7 +30,7 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
     apart
 }
 
-/// Samples and definitions behind the numbers that rank `sensor`; `None` for numbers that no bundle holds.
+/// Samples and definitions of the numbers that rank `sensor`, as one text; `None` for numbers without a bundle.
 fn basis(sensor: &Sensor, ranks: &[Property]) -> Option<String> {
     let samples = sensor.samples.clone()?;
     let results = ranks.iter().filter_map(|property| {

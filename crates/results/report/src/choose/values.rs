@@ -83,7 +83,7 @@ impl Choice {
         }
     }
 
-    /// True for a sensor with known numbers but without a rank.
+    /// True for a sensor with known numbers but no rank.
     pub(super) fn sets_aside(&self, sensor: &Sensor) -> bool {
         let dropped = self.dropped.iter().chain(&self.barred);
         let dropped = dropped.chain(&self.unplaced).chain(&self.apart);
@@ -98,7 +98,7 @@ fn mark(step: &Step) -> &'static str {
     step.value.map_or("", |_| sign(step.standing))
 }
 
-/// `0.0361 N† (0.034 … 0.038)`, or `unknown`.
+/// Number with its interval: `0.0361 N† (0.034 … 0.038)`, or `unknown`.
 fn cell(step: &Step, mark: &str) -> String {
     let Some(value) = step.value else {
         return "unknown".to_owned();

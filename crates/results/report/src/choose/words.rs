@@ -4,7 +4,7 @@ use taceva_metrics::Better;
 
 use super::property::Property;
 
-/// A word and its meaning.
+/// Word of a need, with its synonyms, bounds and ranking properties.
 pub(super) struct Word {
     /// Synonyms of the word.
     pub(super) names: &'static [&'static str],
@@ -14,7 +14,7 @@ pub(super) struct Word {
     pub(super) ranks: &'static [Property],
 }
 
-/// Words without a number.
+/// Words that are accepted without a number.
 pub(super) const WORDS: &[Word] = &[
     Word {
         names: &["shear", "accurate shear", "shear force"],
@@ -116,7 +116,7 @@ pub(super) const WORDS: &[Word] = &[
     },
 ];
 
-/// A quantity that can be bounded.
+/// Quantity that a need can bound.
 pub(super) struct Quantity {
     pub(super) name: &'static str,
     pub(super) unit: &'static str,
@@ -132,7 +132,7 @@ impl Quantity {
         self.is_reach || self.property.better() == Better::Higher
     }
 
-    /// Need with `number` in its written form: `rate >= 30 Hz`.
+    /// Need with `number`, as a user would write it: `rate >= 30 Hz`.
     pub(super) fn written(&self, number: &str) -> String {
         let sign = if self.is_least() { ">=" } else { "<=" };
         let need = format!("{} {sign} {number} {}", self.name, self.unit);
@@ -148,7 +148,7 @@ impl Quantity {
         }
     }
 
-    /// Need with a typical number.
+    /// Need with a typical number, for messages.
     pub(super) fn example(&self) -> String {
         self.written(match self.unit {
             "Hz" => "30",
@@ -187,7 +187,7 @@ pub(super) struct OtherUnit {
     pub(super) written: &'static str,
     /// Unit of the quantity.
     pub(super) unit: &'static str,
-    /// Factor and divisor; one of them is 1, so that decimal numbers stay exact.
+    /// Factor and divisor of the conversion. One of them is 1, so that decimal numbers remain exact.
     pub(super) times: f64,
     pub(super) over: f64,
 }
@@ -201,7 +201,7 @@ const fn other_unit(written: &'static str, unit: &'static str, times: f64, over:
     }
 }
 
-/// Units that are converted.
+/// Accepted units that differ from the unit of the quantity.
 pub(super) const OTHER_UNITS: &[OtherUnit] = &[
     other_unit("mN", "N", 1.0, 1000.0),
     other_unit("um", "mm", 1.0, 1000.0),

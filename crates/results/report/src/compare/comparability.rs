@@ -1,4 +1,4 @@
-//! Decides whether two scores are comparable: by their standing, and by the samples that showed skill.
+//! Decides whether two scores are comparable, by their standing and by the samples that demonstrate skill.
 
 use std::collections::BTreeSet;
 
@@ -9,7 +9,7 @@ use crate::names::listed;
 use crate::results::Study;
 use taceva_results::Score;
 
-/// Reason why two scores give no verdict, such as `ViTacTip: not better than predicting the mean: …`.
+/// Reason why verdicts exclude one of two scores, such as `ViTacTip: not better than predicting the mean: …`; `None` if both take part.
 pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String> {
     let sides = [(scores.a, names.a), (scores.b, names.b)];
     let reasons: Vec<String> = sides
@@ -22,7 +22,7 @@ pub(super) fn barred(scores: Sides<&Score>, names: Sides<&str>) -> Option<String
     (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
-/// Reason why numbers of a catalogue give no verdict: a rank takes one set of samples and one definition.
+/// Reason why numbers of a catalogue give no verdict: they have different samples or definitions.
 pub(super) fn of_other_samples(scores: Sides<&Score>, studies: Sides<&Study>) -> Option<String> {
     let samples = [studies.a, studies.b].map(|study| study.made.samples_digest.as_deref());
     let [of_a, of_b] = samples;
@@ -38,7 +38,7 @@ pub(super) fn of_other_samples(scores: Sides<&Score>, studies: Sides<&Study>) ->
     (own != other).then(|| format!("the definitions `{own}` and `{other}` differ"))
 }
 
-/// Reason why a difference between units gives no verdict: a single pair of units cannot represent other units.
+/// Reason why a difference between units gives no verdict: one pair of units does not represent other units.
 fn of_one_pair(score: &Score) -> Option<&'static str> {
     let pairs = score.counts.iter().find(|(name, _)| name == "pairs_valid");
     pairs
@@ -46,7 +46,7 @@ fn of_one_pair(score: &Score) -> Option<&'static str> {
         .map(|_| "only one pair of units was compared")
 }
 
-/// Note if different samples showed the skill of the studies.
+/// Note that the skill of the studies comes from different samples; `None` if the samples are equal.
 pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
     let shown: Vec<(&str, String)> = studies
         .iter()
@@ -67,7 +67,7 @@ pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
     })
 }
 
-/// Samples that showed the skill of a study, as text.
+/// Description of the samples that demonstrate the skill of a study.
 fn ground(study: &Study) -> String {
     let of = |key: &str| study.stated(key);
     let n = study.of_metric("skill").map(|skill| skill.n).max();

@@ -7,7 +7,7 @@ use taceva_results::{Interval, Score};
 /// Flag of a skill whose constant is not the mean of the training part.
 const MEAN_OF_TRUTH: &str = "constant is the mean of truth";
 
-/// Estimates of both scores; an error message if their meanings differ.
+/// Estimates of both scores, or the reason why the scores have different meanings.
 pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> {
     let Sides { a, b } = scores;
     let meaning = |score: &Score| {
@@ -36,7 +36,7 @@ pub(super) fn of_both(scores: Sides<&Score>) -> Result<Sides<Estimate>, String> 
     })
 }
 
-/// Estimate of a score with its interval. If an older result states no degrees of freedom, they are the number of clusters minus one.
+/// Estimate of a score with its interval. Degrees of freedom default to the number of clusters minus one, for older results.
 pub(crate) fn estimate(score: &Score) -> Result<Estimate, String> {
     let Some(value) = score.value.number() else {
         let reason = score.value.reason();

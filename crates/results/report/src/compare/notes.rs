@@ -10,7 +10,7 @@ use crate::names::listed;
 use crate::results::Study;
 use crate::training::demonstration;
 
-/// All notes. `unpaired` holds the reasons why predictions of the same truth were not compared sample by sample.
+/// All notes. `unpaired` contains the reasons why predictions of the same truth were not compared sample by sample.
 pub(super) fn notes(
     studies: &[Study],
     names: &[String],
@@ -30,7 +30,7 @@ pub(super) fn notes(
         .collect()
 }
 
-/// Note that some or all samples are not measurements.
+/// Note that samples are simulated, synthetic or of unknown origin; `None` if all are measured.
 fn unmeasured(studies: &[Study]) -> Option<String> {
     let words = not_measured(studies.iter().map(|study| study.source.as_str()))?;
     Some(words.trim_end_matches('.').to_owned())
@@ -56,7 +56,7 @@ fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
     })
 }
 
-/// Note on differences that depend on a single training of a model with a random seed, with the option for more seeds.
+/// Note on differences that depend on a single training of a model with a random seed. Names the option for more seeds.
 fn trainings(names: &[String], answers: &[Answer]) -> Option<String> {
     let shown = answers.iter().filter(|answer| answer.better().is_some());
     let drawn: BTreeSet<&str> = shown.flat_map(|answer| answer.drawn(names)).collect();

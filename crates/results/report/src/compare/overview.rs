@@ -17,7 +17,7 @@ pub const OVERVIEW_LINES: usize = 12;
 /// Greatest number of characters in a terminal line.
 pub const OVERVIEW_WIDTH: usize = 100;
 
-/// First questions of a reader: metric, channel and words.
+/// Most important questions about sensors: metric, channel, and words of the question.
 pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
     ("mae", "Pz", "Depth"),
     ("mae", "Pxy", "Position in the plane"),
@@ -31,10 +31,10 @@ pub(crate) const QUESTIONS: [(&str, &str, &str); 10] = [
     ("hysteresis", "Fz", "Hysteresis"),
 ];
 
-/// Question about one score, with its answer.
+/// Question about one score, with the answer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Decision {
-    /// Question: `Depth`; empty if it has no name.
+    /// Words of the question: `Depth`; empty for scores without words.
     pub question: String,
     /// Name of the metric.
     pub metric: String,
@@ -48,12 +48,12 @@ pub struct Decision {
     pub winner: Option<usize>,
     /// Positions of the studies with exactly equal best values; empty without a tie.
     pub tied: Vec<usize>,
-    /// Best study with its value, the studies that it significantly beats, and the p value, as text.
+    /// Answer as text: best study with its value, significantly worse studies, and p value.
     pub words: String,
 }
 
 impl Decision {
-    /// `Depth (mae Pz ↓)`
+    /// Question with its score: `Depth (mae Pz ↓)`.
     pub fn asked(&self) -> String {
         let metric = match &self.decided_by {
             Some(variant) => format!("{}.{variant}", self.metric),
@@ -67,15 +67,15 @@ impl Decision {
         }
     }
 
-    /// `Depth (mae Pz ↓): GelSight, 0.056 mm, better than all 3 others (p < 0.001)`
+    /// Question and answer on one line: `Depth (mae Pz ↓): GelSight, 0.056 mm, better than all 3 others (p < 0.001)`.
     pub(super) fn line(&self) -> String {
         format!("{}: {}", self.asked(), self.words)
     }
 }
 
 impl Comparison {
-    /// First questions with their answers. Includes each named question, and the first score of each other requested metric. If no question has a
-    /// name, the first score of each metric.
+    /// Most important questions with answers: each question with words, and the first score of each other requested metric. Without such questions, the first
+    /// score of each metric.
     pub fn decisions(&self) -> Vec<Decision> {
         let named = QUESTIONS.iter();
         let named =
@@ -144,8 +144,8 @@ impl Comparison {
         format!("{pairs} of scores: {shown}{others}{why} (5 %, Holm-corrected per metric)")
     }
 
-    /// First questions with their answers, in at most [`OVERVIEW_LINES`] lines before wrapping. With a `width`, wraps lines between words to that
-    /// many characters. Counts the omitted questions.
+    /// Most important questions with answers, in at most [`OVERVIEW_LINES`] lines before wrapping. Wraps lines between words to `width` characters, if given.
+    /// Counts the omitted questions.
     pub fn overview(&self, width: Option<usize>) -> String {
         let line = |words: &str| {
             let words = crate::escape::terminal(words);
@@ -292,7 +292,7 @@ impl Comparison {
 }
 
 impl Comparison {
-    /// `equivalent to GelSight and TacTip within 0.05 N`
+    /// Clause on equivalent studies: `equivalent to GelSight and TacTip within 0.05 N`.
     fn equivalent(&self, answers: &[&Answer], who: &[usize]) -> String {
         let names: Vec<String> = who.iter().map(|at| self.names[*at].clone()).collect();
         let margin = answers.iter().find_map(|answer| match &answer.verdict {
@@ -308,7 +308,7 @@ impl Comparison {
 }
 
 impl Answer {
-    /// True for scores within the margin of each other.
+    /// True if the verdict is equivalence within the margin.
     fn is_equivalent(&self) -> bool {
         matches!(self.verdict, Verdict::Equivalent { .. })
     }
@@ -322,13 +322,13 @@ impl Answer {
         words.split([':', '(']).next().unwrap_or(words).trim_end()
     }
 
-    /// `mae Pz ↓`, or `repeatability.pooled Pz ↓` for a compared variant.
+    /// Score with its direction: `mae Pz ↓`, or `repeatability.pooled Pz ↓` for a compared variant.
     pub(super) fn named(&self) -> String {
         let metric = self.compared();
         self.direction.beside(&format!("{metric} {}", self.channel))
     }
 
-    /// `mae`, or `repeatability.pooled`
+    /// Metric, with the variant if compared: `mae`, or `repeatability.pooled`.
     pub(super) fn compared(&self) -> String {
         match &self.decided_by {
             Some(variant) => format!("{}.{variant}", self.metric),

@@ -10,11 +10,11 @@ use taceva_metrics::{
 use crate::results::{BY_GROUP, Study};
 use taceva_results::{Interval, SampleChannel, Samples, Score};
 
-/// Difference of both mean absolute errors, or the reason why no paired comparison is possible.
+/// Compares mean absolute errors in pairs, or returns the reason why this is impossible.
 ///
-/// Pairing requires three conditions. Both results name the same truth, or neither names one. Both have the same ids with bit-equal truth. The sample
-/// errors have the mean that the score states; otherwise the table belongs to other results. Two sensors pressed by the same plan share ids and
-/// commanded positions, but not samples.
+/// Pairing requires three conditions. Both results name the same truth, or neither names one. Both have the same ids with bit-equal truth. The mean of the
+/// sample errors equals the score, otherwise the table belongs to other results. Two sensors pressed by the same plan share ids and commanded positions, but
+/// not samples.
 ///
 /// Uses a paired t test with the variance between trainings if either model has several trainings with different errors, otherwise the sign-flip
 /// test.
@@ -60,14 +60,14 @@ fn truth(study: &Study) -> Option<&str> {
 
 /// |truth − prediction| of each sample, by cluster.
 struct Errors<'a> {
-    /// Bits of the truth of each sample, axis by axis.
+    /// Truth of each sample as bits, one number for each axis.
     truths: BTreeMap<&'a str, Vec<u64>>,
     sums: ClusterSums,
 }
 
 impl<'a> Errors<'a> {
-    /// Prediction errors of the samples of `score`, or the reason why they are unknown. The error of a plane is the mean over its axes, as its score
-    /// is.
+    /// Prediction errors of the samples of `score`, or the reason why they are unknown. The error of a plane is the mean over its axes, like the score of a
+    /// plane.
     fn of(study: &'a Study, score: &Score) -> Result<Errors<'a>, String> {
         let samples = study
             .samples
@@ -118,7 +118,7 @@ impl<'a> Errors<'a> {
     }
 }
 
-/// Clusters that the interval of a score leaves out. The errors are summed by the same clusters.
+/// Clusters that the interval of a score leaves out, for sums of errors by cluster.
 struct Clusters {
     name: &'static str,
     column: &'static str,
@@ -142,7 +142,8 @@ impl Clusters {
     }
 }
 
-/// Rows that a score of `n` samples uses: all rows with a prediction of each channel, or only those of the calibration.
+/// Rows of the `n` samples of a score: all rows with a prediction of each channel, or only those of the calibration. `None` if neither number of rows equals
+/// `n`.
 fn scored(samples: &Samples, channels: &[SampleChannel<'_>], n: u64) -> Option<Vec<usize>> {
     let paired = |rows: Vec<usize>| -> Vec<usize> {
         let mut rows = rows;

@@ -1,15 +1,15 @@
-//! Tests with too few groups to show any difference.
+//! Finds tests that cannot show any difference, because they have too few groups.
 
 use taceva_metrics::{Difference, DifferenceTest, SignFlip, holm};
 
 use crate::number::significant;
 
-/// Significance level of a family.
+/// Significance level of the tests of a family.
 const LEVEL: f64 = 0.05;
 
 /// Reason, for each test of `family`, why it cannot show any difference; `None` if it can.
 ///
-/// An adjusted p value rises with each p value of its family. The least p values of all tests therefore give the least adjusted p values.
+/// An adjusted p value increases with each p value of the family. The least possible p values therefore give the least adjusted p values.
 pub(super) fn out_of_reach(family: &[Difference]) -> Vec<Option<String>> {
     let tests = family.iter().map(|difference| difference.test);
     let tests: Vec<DifferenceTest> = tests.collect();
@@ -21,7 +21,7 @@ pub(super) fn out_of_reach(family: &[Difference]) -> Vec<Option<String>> {
         .collect()
 }
 
-/// `5 groups cannot show a difference: the smallest possible p is 0.0625; 6 groups or more can`
+/// Reason as text: `5 groups cannot show a difference: the smallest possible p is 0.0625; 6 groups or more can`.
 fn words(test: DifferenceTest, adjusted: f64, tests: usize) -> Option<String> {
     let DifferenceTest::SignFlip { clusters, .. } = test else {
         return None;
@@ -44,7 +44,7 @@ fn words(test: DifferenceTest, adjusted: f64, tests: usize) -> Option<String> {
     ))
 }
 
-/// Test by the signs of this many groups, fewer than 32.
+/// Sign-flip test over `clusters` groups, fewer than 32.
 fn sign_flips(clusters: usize) -> DifferenceTest {
     let (patterns, most) = (1_u32 << clusters, SignFlip::default().flips);
     DifferenceTest::SignFlip {

@@ -1,4 +1,4 @@
-//! Remarks on a verdict: ties, light that hardly changed, and different label spreads.
+//! Remarks on a verdict: ties, nearly constant light, and different label spreads.
 
 use taceva_metrics::Standing;
 
@@ -19,12 +19,12 @@ pub(super) struct Remarks {
     pub(super) barred: Vec<(usize, String)>,
     /// True if the models were trained at too few places for a verdict on sensors.
     pub(super) is_demonstration: bool,
-    /// Remark on different label spreads of the other studies; empty if they are similar.
+    /// Remark on different label spreads of the studies in verdicts; empty if they are similar.
     pub(super) spread: String,
 }
 
 impl Remarks {
-    /// Remarks on the score of `answer`.
+    /// Creates remarks on the score of `answer`.
     pub(super) fn of(studies: &[Study], names: &[String], answer: &Answer) -> Remarks {
         let (metric, channel) = (answer.metric.as_str(), answer.channel.as_str());
         let scores = studies.iter().enumerate();

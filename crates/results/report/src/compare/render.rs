@@ -10,13 +10,13 @@ use crate::number::{fixed, numeral, significant, spaced};
 use crate::table::{Column, Table};
 use crate::wrap::wrapped;
 
-/// Indent of answers below their score.
+/// Indent of answers below the name of the score, in characters.
 const INDENT: usize = 2;
 
 /// Schema of a comparison as JSON. 2.1: `values` lists the values side by side.
 pub const COMPARISON_SCHEMA: &str = "taceva.comparison/2.1";
 
-/// Column names of every answer, after the metric.
+/// Heads of the columns of an answer, after the column of the metric.
 const HEAD: [&str; 12] = [
     "channel",
     "A",
@@ -125,7 +125,7 @@ impl Comparison {
         out
     }
 
-    /// Summary, first questions with their answers, and every pair, as Markdown.
+    /// Summary, most important questions with answers, and all pairs, as Markdown.
     pub fn markdown(&self) -> String {
         let mut out = format!("{}.\n", markdown(&self.summary()));
         let decisions = self.decisions();
@@ -146,7 +146,7 @@ impl Comparison {
         out
     }
 
-    /// `GelSight 0.041, TacTip 0.053: GelSight better by 0.012 N (99 % 0.004…0.020, p = 0.004); p = 0.001 alone`
+    /// Values and verdict of a pair on one line: `GelSight 0.041, TacTip 0.053: GelSight better by 0.012 N (99 % 0.004…0.020, p = 0.004); p = 0.001 alone`.
     fn line(&self, answer: &Answer) -> String {
         let number = |value: Option<f64>| value.map_or_else(|| "–".to_owned(), numeral);
         let [a, b] = [answer.sides.a, answer.sides.b].map(|at| self.names[at].as_str());
@@ -170,7 +170,7 @@ impl Comparison {
         format!("{:#}\n", self.document())
     }
 
-    /// The content of [`json`](Comparison::json).
+    /// Content of [`json`](Comparison::json).
     pub(crate) fn document(&self) -> Value {
         let answer = |answer: &Answer| {
             let difference = answer.difference.as_ref().map(|difference| {
@@ -224,7 +224,7 @@ impl Comparison {
     }
 }
 
-/// End of an interval, which may be infinite.
+/// End of an interval as text. The end may be infinite.
 fn end(end: f64) -> String {
     if end.is_finite() {
         numeral(end)
@@ -235,7 +235,7 @@ fn end(end: f64) -> String {
     }
 }
 
-/// Degrees of freedom of both intervals, for a test by intervals.
+/// Degrees of freedom of both intervals; `None` for a test that does not use intervals.
 fn freedom(test: DifferenceTest) -> Option<[f64; 2]> {
     match test {
         DifferenceTest::Intervals { freedom } => Some([freedom.a, freedom.b]),

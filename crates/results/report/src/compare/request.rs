@@ -8,22 +8,22 @@ use taceva_metrics::{Better, UnknownMetric, catalogue};
 use super::CompareRequest;
 use crate::results::Study;
 
-/// A name in a request matches no score.
+/// Error for a name in a request that matches no score.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RequestError {
     /// Neither the catalogue nor a result has the metric.
     #[error(transparent)]
     Metric(UnknownMetric),
-    /// No result has the score of a margin; the text names it and the accepted names.
+    /// No result has the score of a margin. The text has the given name and the accepted names.
     #[error("{0}")]
     Margin(String),
 }
 
 impl CompareRequest {
-    /// The request with each group replaced by its metrics, if all names are known.
+    /// Replaces each group in the request by its metrics with scores and a better direction.
     ///
-    /// Names are those of the catalogue and of the scores in `studies`. A group stands for its metrics with scores and a better direction.
+    /// Accepts names of the catalogue and of the scores in `studies`.
     ///
     /// ```
     /// use taceva_report::{CompareRequest, catalogue};
@@ -64,7 +64,7 @@ impl CompareRequest {
     }
 }
 
-/// Metrics that `name`, a metric, a group or a score, stands for.
+/// Metrics selected by `name`, which is a metric, a group or a score.
 fn meant(name: &str, studies: &[Study]) -> Result<Vec<String>, UnknownMetric> {
     if is_scored(name, studies) {
         return Ok(vec![name.to_owned()]);
@@ -90,7 +90,7 @@ fn is_scored(metric: &str, studies: &[Study]) -> bool {
     studies.any(|study| study.of_metric(metric).next().is_some())
 }
 
-/// `drift: no result has such a score; they have mae, r2`
+/// Message for a missing score: `drift: no result has such a score; they have mae, r2`.
 fn no_score(metric: &str, studies: &[Study]) -> String {
     let scores = studies.iter().flat_map(|study| &study.scores);
     let metrics: BTreeSet<&str> = scores.map(|score| score.metric.as_str()).collect();
@@ -110,7 +110,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     }
 }
 
-/// Rejects the margin of a score that no result has, because it would have no effect.
+/// Rejects the margin of a score that no result has. A margin without a score would have no effect.
 fn check_margin(name: &str, studies: &[Study]) -> Result<(), RequestError> {
     let metric = name.split('.').next().unwrap_or_default();
     if !is_scored(metric, studies) {

@@ -5,8 +5,8 @@ use taceva_metrics::{Sides, catalogue};
 use crate::results::Study;
 use taceva_results::kept_together;
 
-/// Reason why two results of one dataset give no verdict on `metric`: their splits group samples differently. Metrics without predictions do not
-/// depend on a split.
+/// Reason why `metric` gives no verdict: the results of one dataset have splits that group samples differently. Metrics without predictions do not depend on a
+/// split.
 pub(super) fn barred(metric: &str, studies: Sides<&Study>, names: Sides<&str>) -> Option<String> {
     if catalogue::find(metric).is_some_and(|metric| !metric.reads_predictions()) {
         return None;

@@ -1,4 +1,4 @@
-//! Studies that the tied studies do not significantly beat.
+//! Finds ties, and studies that the tied studies do not significantly beat.
 
 use super::{Answer, CompareRequest, compare};
 use crate::names::listed;
@@ -36,7 +36,7 @@ pub fn ties(studies: &[Study]) -> Vec<String> {
 }
 
 impl Tie {
-    /// Clause on studies that the tied studies do not beat, from `answers` about this score. Example: `; neither is shown to be better than
+    /// Clause on studies that the tied studies do not significantly beat, by the `answers` on one score. Example: `; neither is shown to be better than
     /// MagicTac and ViTacTip`.
     pub(crate) fn unbeaten(
         &self,

@@ -70,7 +70,7 @@ impl CalibrationCurve {
         Ok(figures)
     }
 
-    /// Relative errors at each force, and the row of limits that they meet.
+    /// Relative errors at each force. The remark of an error names the row of limits that the errors at the force meet.
     fn of_proving(&self, found: &ProvingFigures) -> Vec<CurveFigure> {
         let mut figures = Vec::new();
         for (at, level) in found.levels.iter().enumerate() {
@@ -94,7 +94,7 @@ impl CalibrationCurve {
         figures
     }
 
-    /// Statistics of the relative errors of readings, of this number of contact points.
+    /// Statistics of the relative errors of readings at `points` contact points.
     fn of_indications(&self, readings: &[Indication], points: Option<usize>) -> [CurveFigure; 3] {
         let found = IndicationSummary::of(readings);
         let points = points.map_or_else(String::new, |points| {
@@ -188,7 +188,7 @@ impl CalibrationCurve {
         }
     }
 
-    /// Unit of the coefficient of x to the power `power`.
+    /// Unit of the polynomial coefficient of x to the power `power`.
     fn unit_of(&self, power: usize) -> String {
         let [x, y] = [&self.x.unit, &self.y.unit];
         let power = match power {

@@ -1,6 +1,6 @@
 //! Canvas of a figure: marks in drawing order, each in one ink.
 
-/// Colour role. The page maps it to colours for light and dark mode.
+/// Colour role. A page assigns a light-mode and a dark-mode colour to each role.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Ink {
     /// Primary text.
@@ -36,7 +36,7 @@ impl Stroke {
         }
     }
 
-    /// Line of a series, with its own dashes as well as colour.
+    /// Line of the series at `position`, with its own colour and dashes.
     pub(crate) fn series(position: usize) -> Stroke {
         const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
         Stroke {
@@ -69,7 +69,7 @@ pub(crate) struct Label {
 }
 
 impl Label {
-    /// Text of the default size.
+    /// Creates a text of the default size.
     pub(crate) fn new(at: [f64; 2], text: impl Into<String>, anchor: Anchor) -> Label {
         Label {
             at,
@@ -141,7 +141,7 @@ pub(crate) struct Canvas {
     pub(crate) height: f64,
     pub(crate) marks: Vec<Mark>,
     pub(crate) print: Print,
-    /// True if a remark on it explains why a value is not drawn.
+    /// True if the drawing contains a remark on an absent value.
     pub(crate) is_remarked: bool,
 }
 
@@ -174,7 +174,7 @@ impl Canvas {
         });
     }
 
-    /// Adds a filled box with the tooltip `words`, unless empty.
+    /// Adds a filled box with the tooltip `words`; no tooltip if `words` is empty.
     pub(crate) fn fill(&mut self, place: [f64; 4], ink: Ink, words: String) {
         self.marks.push(Mark::Box { place, ink, words });
     }
@@ -194,7 +194,7 @@ impl Canvas {
         self.marks.push(Mark::Label(label));
     }
 
-    /// Adds a text on a coloured cell. It is always dark, because cell colours are the same in both modes.
+    /// Adds a text on a coloured cell. The text is always dark, because cell colours do not depend on the mode.
     pub(crate) fn cell_label(&mut self, label: Label) {
         let ink = Ink::Rgb([27, 31, 36]);
         self.marks.push(Mark::Label(Label { ink, ..label }));
@@ -208,7 +208,7 @@ impl Canvas {
         }
     }
 
-    /// As [`Canvas::legend`], with dots.
+    /// Same as [`Canvas::legend`], with dots instead of lines.
     pub(crate) fn dot_legend(&mut self, at: [f64; 2], series: &[(usize, String)]) {
         for ([x, y], position, name) in self.entries(at, series) {
             let dot = Points {
@@ -245,7 +245,7 @@ impl Canvas {
 
 use super::words::short;
 
-/// Approximate width of a text. East Asian letters, and those after them in Unicode, are as wide as high.
+/// Approximate width of a text. East Asian letters, and all letters with greater code points, are as wide as high.
 pub(crate) fn width_of(text: &str, size: f64) -> f64 {
     let wide = text
         .chars()

@@ -1,4 +1,4 @@
-//! Equal panels in rows, with room for axes between them.
+//! Grid of equal panels, with gaps for axes.
 
 use super::canvas::Canvas;
 use super::panel::Area;
@@ -19,8 +19,7 @@ pub(crate) struct Grid {
 }
 
 impl Grid {
-    /// Grid of `count` panels of the size of `first`, the upper left one, with at most `most` in a row. `gaps` are the horizontal and vertical
-    /// distances.
+    /// Grid of `count` panels, at most `most` in a row. `first` is the upper left panel; `gaps` are the horizontal and vertical distances.
     pub(crate) fn new(count: usize, most: usize, first: Area, gaps: [f64; 2]) -> Grid {
         let columns = count.min(most).max(1);
         Grid {
@@ -32,8 +31,8 @@ impl Grid {
         }
     }
 
-    /// The same panels on a canvas of the width `room`, with the margin `right` after the last one of a row. Fewer panels are in a row if they would
-    /// be too narrow. Panels keep their proportions.
+    /// Fits the grid to a canvas of the width `room`, with the margin `right` after the last panel of a row. Reduces the panels per row if panels would be too
+    /// narrow. Panels keep their proportions.
     #[must_use]
     pub(crate) fn within(self, room: Option<f64>, right: f64) -> Grid {
         let Some(room) = room else { return self };
@@ -58,7 +57,7 @@ impl Grid {
         }
     }
 
-    /// Grid of `count` square maps, two in a row, each with room for a colour scale; and its canvas.
+    /// Canvas and grid of `count` square maps, two in a row, each with a gap for a colour scale.
     pub(crate) fn of_maps(count: usize, room: Option<f64>) -> (Grid, Canvas) {
         let first = Area {
             left: 58.0,

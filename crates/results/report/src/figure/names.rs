@@ -1,9 +1,9 @@
-//! Places names beside dots so that they cover neither dots nor other names, if possible.
+//! Places names beside dots. Avoids overlap with dots and other names.
 
 use super::canvas::{Anchor, Ink, Label, width_of};
 use super::panel::Area;
 
-/// Half the side of the square around a dot.
+/// Half the side of the square that a dot occupies.
 const DOT: f64 = 6.5;
 const SIZE: f64 = 11.0;
 /// Positions of a name beside its dot, best first.
@@ -82,7 +82,7 @@ fn shared(a: Bounds, b: Bounds) -> f64 {
     across.max(0.0) * down.max(0.0)
 }
 
-/// Penalty for the area of bounds outside `area`, greater than for covering another name.
+/// Penalty for the area of `bounds` outside `area`, greater than the penalty for an overlap with another name.
 fn outside(bounds: Bounds, area: Area) -> f64 {
     let inside = [area.left, area.top, area.right(), area.bottom()];
     let size = (bounds[2] - bounds[0]) * (bounds[3] - bounds[1]);

@@ -7,7 +7,7 @@ pub const SERIES: usize = 7;
 pub const LIGHT: [&str; SERIES] = [
     "#0072b2", "#d55e00", "#009e73", "#b5568d", "#c98a00", "#3d9bd6", "#857c00",
 ];
-/// The same hues on black, lightened to the same contrast.
+/// The same hues for a black background, lightened to the same contrast.
 pub const DARK: [&str; SERIES] = [
     "#5cb3ea", "#ff8d4a", "#3fcba1", "#e59ac8", "#f2b94b", "#9ad4f7", "#d8cd3a",
 ];

@@ -55,7 +55,7 @@ impl Panel {
         [self.x.at(x), self.y.at(y)]
     }
 
-    /// Draws grid, ticks and names; draw the data afterwards.
+    /// Draws grid, ticks and titles. Call before drawing the data.
     pub(crate) fn axes(&self, axes: &Axes, canvas: &mut Canvas) {
         let (top, bottom) = (self.area.top, self.area.bottom());
         let room = (self.area.width / 62.0).clamp(2.0, 8.0);
@@ -67,7 +67,7 @@ impl Panel {
         self.frame(axes, bottom + 32.0, canvas);
     }
 
-    /// As [`Panel::axes`], with a column on the x axis for each of `names`. Names run upwards if they are too long for a row.
+    /// Same as [`Panel::axes`], with one column on the x axis for each of `names`. Names are vertical if they do not fit side by side.
     pub(crate) fn axes_of_names(&self, axes: &Axes, names: &[String], canvas: &mut Canvas) {
         let (top, bottom) = (self.area.top, self.area.bottom());
         let room = self.area.width / names.len().max(1) as f64;
@@ -115,7 +115,7 @@ impl Panel {
         canvas.label(y);
     }
 
-    /// Draws a line through the levels with a value, with gaps elsewhere.
+    /// Draws a line through the levels with a value. Levels without a value interrupt the line.
     pub(crate) fn curve(
         &self,
         levels: impl Iterator<Item = (f64, Option<f64>)>,
@@ -132,7 +132,7 @@ impl Panel {
         self.end_run(&mut run, stroke, canvas);
     }
 
-    /// Ends a section of levels; a single level between two gaps becomes a dot.
+    /// Draws a section of levels without gaps. A section of one level becomes a dot.
     fn end_run(&self, run: &mut Vec<[f64; 2]>, stroke: Stroke, canvas: &mut Canvas) {
         if let [alone] = run[..] {
             let points = Points {
@@ -144,7 +144,7 @@ impl Panel {
         canvas.path(std::mem::take(run), stroke);
     }
 
-    /// Draws the band between two curves, with gaps at levels without a band.
+    /// Draws the band between two curves. Levels without a band interrupt it.
     pub(crate) fn band(
         &self,
         levels: impl Iterator<Item = (f64, Option<[f64; 2]>)>,

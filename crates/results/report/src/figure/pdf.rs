@@ -17,7 +17,7 @@ use content::{Painter, number};
 /// Compression level of streams, from 0 to 10.
 const COMPRESSION: u8 = 8;
 
-/// Writes `figure` as a PDF 1.5 file. Deterministic, without a date or a random id.
+/// Writes `figure` as a PDF 1.5 file. Equal figures give equal bytes, because the file has no date and no random id.
 pub(super) fn write(figure: &Figure) -> Vec<u8> {
     let [catalog, pages, page, content, info] = [1, 2, 3, 4, 5].map(Ref::new);
     let canvas = &figure.canvas;
@@ -69,7 +69,7 @@ pub(super) fn write(figure: &Figure) -> Vec<u8> {
     pdf.finish()
 }
 
-/// Letters in the labels of `figure` without a glyph. They become boxes with their code point.
+/// Letters in the labels of `figure` without a glyph. The PDF shows boxes with their code points instead.
 pub(super) fn letters_without_glyph(figure: &Figure) -> BTreeSet<char> {
     let labels = figure.canvas.marks.iter().filter_map(|mark| match mark {
         Mark::Label(label) => Some(label),

@@ -21,7 +21,7 @@ pub(crate) struct Tick {
 }
 
 impl Scale {
-    /// Linear scale; an empty range is widened.
+    /// Linear scale. Widens an empty range.
     pub(crate) fn linear(values: [f64; 2], places: [f64; 2]) -> Scale {
         Scale {
             values: widened(values),
@@ -60,7 +60,7 @@ impl Scale {
         self.values
     }
 
-    /// Position of `value`; extrapolated beyond the ends.
+    /// Position of `value`. Extrapolates beyond the ends.
     pub(crate) fn at(&self, value: f64) -> f64 {
         let [low, high] = self.values;
         let share = if self.is_logarithmic {
@@ -72,7 +72,7 @@ impl Scale {
         from + share * (to - from)
     }
 
-    /// Round values within the scale, about `count` of them.
+    /// About `count` labelled round values within the scale.
     pub(crate) fn ticks(&self, count: f64) -> Vec<Tick> {
         if self.is_logarithmic {
             return self.logarithmic_ticks();
@@ -145,7 +145,7 @@ fn widened([low, high]: [f64; 2]) -> [f64; 2] {
     [low - half, low + half]
 }
 
-/// Step of 1, 2 or 5 times a power of ten that makes about `count` steps.
+/// Step of 1, 2 or 5 times a power of ten, for about `count` steps in the range.
 fn step([low, high]: [f64; 2], count: f64) -> f64 {
     let raw = (high - low) / count.max(1.0);
     let power = 10_f64.powf(raw.log10().floor());

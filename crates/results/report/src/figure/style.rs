@@ -9,10 +9,10 @@ const LETTERS: f64 = 11.0;
 const USUAL_PT: f64 = 8.0;
 /// Points per millimetre.
 pub(super) const PT_PER_MM: f64 = 72.0 / 25.4;
-/// Greatest enlargement of letters in a drawing that is wider than its space.
+/// Greatest factor by which letters grow in a drawing that is wider than its space.
 const MOST_GROWN: f64 = 1.3;
 
-/// Size and text of figures for print. Unset fields keep the screen layout.
+/// Size and text of figures for print. Fields that are `None` keep the screen layout.
 ///
 /// ```
 /// use taceva_report::{FigureStyle, figures_for};
@@ -23,15 +23,15 @@ const MOST_GROWN: f64 = 1.3;
 pub struct FigureStyle {
     /// Width of each figure, in mm.
     pub width_mm: Option<f64>,
-    /// Size of most letters, in points (1/72 in); 8 if only a width is set. Drawings narrower than the page have larger letters. Drawings more than
-    /// 1.3 times too wide have smaller letters.
+    /// Size of most letters, in points (1/72 in); 8 if only a width is set. Letters are larger in drawings narrower than the page. Letters are smaller in
+    /// drawings more than 1.3 times too wide.
     pub letters_pt: Option<f64>,
     /// Preferred font family of SVG. PDF embeds Arimo, which has the widths of Arial and Helvetica.
     pub font: Option<String>,
 }
 
 impl FigureStyle {
-    /// Canvas width at which letters have the requested size in print; `None` without a set width.
+    /// Canvas width at which printed letters have the requested size; `None` if the style sets no width.
     pub(crate) fn room(&self) -> Option<f64> {
         let letters = self.letters_pt.unwrap_or(USUAL_PT);
         self.width_mm

@@ -1,4 +1,4 @@
-//! Figures as SVG, with classes for inks, so that a page can be light or dark without inline styles.
+//! Writes figures as SVG. Classes for inks let a page choose colours for light and dark mode without inline styles.
 
 use std::fmt::Write;
 
@@ -7,7 +7,7 @@ use super::canvas::{Anchor, Ink, Label, Mark, Points, Stroke};
 use super::palette::LIGHT;
 use crate::escape;
 
-/// Style of figures. A page or a standalone figure also needs the values of its variables.
+/// Style of figures. A page or a standalone figure must also define the variables of the style.
 pub const STYLE: &str = "\
 svg text{font-family:system-ui,-apple-system,'Segoe UI',Roboto,'Helvetica Neue',Arial,sans-serif;font-variant-numeric:tabular-nums}\
 svg .b{font-weight:600}\
@@ -61,7 +61,7 @@ pub(super) fn write(figure: &Figure, alone: bool) -> String {
     out
 }
 
-/// CSS rule that puts the requested font first; empty without one.
+/// CSS rule that puts the requested font first; empty without a requested font.
 fn font(figure: &Figure) -> String {
     let plain = |letter: &char| letter.is_alphanumeric() || matches!(letter, ' ' | '-' | '_' | '.');
     match &figure.canvas.print.font {
@@ -73,7 +73,7 @@ fn font(figure: &Figure) -> String {
     }
 }
 
-/// Variables of a figure on white paper.
+/// Values of the style variables for a figure on white paper.
 fn paper() -> String {
     let series = LIGHT.iter().enumerate();
     let series: String = series.fold(String::new(), |mut all, (at, colour)| {
@@ -148,7 +148,7 @@ fn dots(points: &Points, ink: Ink, radius: f64, opacity: f64, alone: bool, out: 
     out.push_str("</g>");
 }
 
-/// Ends an element. `words` become data for the tooltip of the page, or a title in a standalone figure.
+/// Ends an element with its tooltip `words`: a data attribute on a page, a title in a standalone figure.
 fn close(words: &str, element: &str, alone: bool, out: &mut String) {
     match (words.is_empty(), alone) {
         (true, _) => out.push_str("/>"),
@@ -214,7 +214,7 @@ fn paint(ink: Ink, class: &str, attribute: &str) -> String {
     }
 }
 
-/// Writes to a string, which never fails.
+/// Appends formatted text to `out`.
 fn push(out: &mut String, words: std::fmt::Arguments<'_>) {
     out.write_fmt(words)
         .expect("a text takes whatever is written to it");

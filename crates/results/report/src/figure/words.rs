@@ -3,7 +3,7 @@
 use taceva_core::Unit;
 use taceva_metrics::Better;
 
-/// Axis label: `indentation depth (mm)`; a ratio has no unit.
+/// Axis label with the unit: `indentation depth (mm)`; without a unit for a ratio.
 pub(crate) fn axis_label(name: &str, unit: Unit) -> String {
     match unit {
         Unit::One => name.to_owned(),
@@ -16,7 +16,7 @@ pub(crate) fn directed(label: &str, metric: &str) -> String {
     Better::of(metric).map_or_else(|| label.to_owned(), |better| better.beside(label))
 }
 
-/// `name` cut to `most` letters, without control characters.
+/// `name`, shortened to `most` letters, without control characters.
 pub(crate) fn short(name: &str, most: usize) -> String {
     let plain = || name.chars().filter(|letter| !letter.is_control());
     if plain().count() <= most {
@@ -26,7 +26,7 @@ pub(crate) fn short(name: &str, most: usize) -> String {
     format!("{start}…")
 }
 
-/// `name` cut in the middle to `most` letters, because ids often differ at the end.
+/// `name`, shortened to `most` letters by omitting the middle, because ids often differ at the end.
 pub(crate) fn middle_cut(name: &str, most: usize) -> String {
     let letters: Vec<char> = name.chars().filter(|letter| !letter.is_control()).collect();
     if letters.len() <= most {

@@ -10,7 +10,7 @@ use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use taceva_results::Samples;
 
-/// A point measured on two units.
+/// Contact point that was measured on two units.
 struct Gap {
     at: [f64; 2],
     height: f64,
@@ -110,7 +110,7 @@ fn panel(gaps: &[Gap], title: String, area: Area, canvas: &mut Canvas) {
     canvas.label(Label::new([left + 5.0, top - 9.0], "mm", Anchor::Middle));
 }
 
-/// Points common to the first two units by name.
+/// Contact points that the first two units, ordered by name, have in common, and the names of these units.
 fn gaps(samples: &Samples) -> Option<(Vec<Gap>, [String; 2])> {
     let channels = ["Px", "Py", "surface_z"].map(|name| samples.channel(name));
     let [Some(x), Some(y), Some(height)] = channels else {

@@ -1,4 +1,4 @@
-//! Heat map: numbers by position as colours, with a colour scale.
+//! Heat map: coloured numbers by position, with a colour scale.
 
 use taceva_core::Unit;
 use taceva_metrics::Map;
@@ -13,14 +13,14 @@ const MOST_CELLS: usize = 10_000;
 pub(super) struct Heat<'a> {
     pub(super) map: &'a Map,
     pub(super) title: String,
-    /// Quantity shown: `sensitivity`.
+    /// Name of the drawn quantity: `sensitivity`.
     pub(super) what: &'a str,
     pub(super) unit: Unit,
     /// Ends of a logarithmic scale that several maps share; `None` for a linear scale of its own.
     pub(super) shared: Option<[f64; 2]>,
 }
 
-/// Draws `heat` into `area`, or a remark that it is too large.
+/// Draws `heat` into `area`, or a remark if the map has too many cells.
 pub(super) fn draw(heat: &Heat<'_>, area: Area, canvas: &mut Canvas) {
     let Map {
         x_mm,
@@ -116,7 +116,7 @@ pub(super) fn colour_bar(
     canvas.label(Label::new(at, label, Anchor::Middle));
 }
 
-/// Range from the 2nd to the 98th percentile, so that single edge cells do not dominate the colours.
+/// Range from the 2nd to the 98th percentile. Single extreme cells do not affect the range.
 pub(super) fn inner_range(values: &[Vec<Option<f64>>]) -> Option<[f64; 2]> {
     let mut known: Vec<f64> = values.iter().flatten().flatten().copied().collect();
     known.sort_by(f64::total_cmp);

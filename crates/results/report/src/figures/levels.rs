@@ -10,10 +10,10 @@ use taceva_results::Value;
 use super::SIX;
 use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 
-/// Least number of samples in a bin with a drawn bias; the mean of fewer is noise.
+/// Least number of samples in a drawn bin. The mean of fewer samples is noise.
 const FEWEST: u64 = 5;
 
-/// Levels of a curve, unchanged.
+/// Levels of `curve` without smoothing.
 pub(super) fn levels(curve: &Curve) -> Vec<Level> {
     let band = |at: usize| {
         let band = curve.band.as_ref()?;

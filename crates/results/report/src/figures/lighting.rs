@@ -11,10 +11,10 @@ use crate::results::Study;
 
 use super::SIX;
 
-/// Light scene in which the models were trained.
+/// Light scene of the training samples.
 const LEARNT_IN: &str = SensorFacts::REFERENCE_SCENE;
 
-/// Scores of one channel, for all sensors that ambient light reaches.
+/// Lighting scores of one channel, for all sensors that ambient light reaches.
 struct Sheet {
     channel: &'static str,
     /// Lighting scores by the position of the study.
@@ -87,7 +87,7 @@ fn in_order<'a>(scenes: impl Iterator<Item = &'a Scene>) -> Vec<String> {
     all.into_iter().map(str::to_owned).collect()
 }
 
-/// Error ratio of a scene; `None` if a logarithmic axis cannot show it.
+/// Error ratio of a scene; `None` if a logarithmic axis cannot show the ratio.
 fn drawn(scene: &Scene) -> Option<f64> {
     scene.error.filter(|ratio| *ratio > 0.0)
 }

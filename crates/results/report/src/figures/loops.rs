@@ -9,10 +9,10 @@ use crate::number::{numeral, with_interval};
 use crate::results::Study;
 use taceva_results::Samples;
 
-/// Greatest number of points with a drawn loop.
+/// Greatest number of contact points whose loops are drawn.
 const MOST: usize = 12;
 
-/// Depth and force during loading and unloading.
+/// Loading and unloading branch of one contact point, as pairs of depth and force.
 #[derive(Default)]
 struct Loop {
     load: Vec<[f64; 2]>,
@@ -109,7 +109,7 @@ fn panel(loops: &BTreeMap<String, Loop>, at: usize, name: &str, area: Area, canv
     }
 }
 
-/// Both branches of each point that has them, sorted by depth.
+/// Loop of each contact point that has both branches, sorted by depth.
 fn loops(samples: &Samples) -> BTreeMap<String, Loop> {
     let mut loops: BTreeMap<String, Loop> = BTreeMap::new();
     let (Some(depth), Some(force)) = (samples.channel("Pz"), samples.channel("Fz")) else {

@@ -9,7 +9,7 @@ use crate::figure::{
 use crate::number::numeral;
 use crate::results::{BenchRecording, ChannelError, ModelBench, ModelRow};
 
-/// Ratio of errors above which the axis is logarithmic.
+/// Ratio of greatest to least error above which the axis is logarithmic.
 const FAR: f64 = 8.0;
 const MILLI: f64 = 1e3;
 

@@ -11,12 +11,12 @@ mod spokes;
 use crate::figure::{Figure, FigureStyle};
 use crate::results::Study;
 
-/// Figures of the study, and the missing data of figures that are not drawn.
+/// Drawn figures of the study, and the reasons why others are not drawn.
 #[derive(Clone, Debug, Default)]
 pub struct StudyFigures {
     /// Figures with values, in the order of the study.
     pub drawn: Vec<Figure>,
-    /// Figures without values: name and reason.
+    /// Name of each figure without values, with the reason.
     pub absent: Vec<(String, String)>,
 }
 

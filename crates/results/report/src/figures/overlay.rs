@@ -28,7 +28,7 @@ pub(super) struct Sheet {
     pub(super) x: String,
     pub(super) y: String,
     pub(super) y_unit: Unit,
-    /// Least range of y, widened to contain the curves.
+    /// Least range of the y axis. Values outside widen the range.
     pub(super) least: Option<[f64; 2]>,
     pub(super) ways: Ways,
     pub(super) lines: Vec<Line>,
@@ -89,7 +89,7 @@ pub(super) fn draw(
     })
 }
 
-/// First panel of a row of `columns`, sized to fill the page width.
+/// Size and place of the first panel in a row of `columns` that fills the page width.
 fn panel_size(columns: usize) -> Area {
     let (width, height) = match columns {
         1 => (620.0, 260.0),

@@ -11,7 +11,7 @@ use taceva_results::{SampleChannel, Samples};
 use super::SIX;
 use super::thin::{rule, thin};
 
-/// Greatest number of dots in a panel. More would overlap and enlarge the page.
+/// Greatest number of dots in a panel. More dots would overlap and enlarge the page.
 const MOST: usize = 400;
 
 pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Vec<Option<Figure>> {
@@ -147,7 +147,7 @@ fn panel(
     Some((pairs.len(), drawn.len()))
 }
 
-/// `words` in the upper left corner of `area`, or in the lower right one if fewer points lie there.
+/// Label in the upper left corner of `area`, or in the lower right corner if fewer points are there.
 fn beside_points(words: String, area: Area, points: &[[f64; 2]]) -> Label {
     let upper = Label::new([area.left + 5.0, area.top + 11.0], words, Anchor::Start);
     let upper = Label {

@@ -1,4 +1,4 @@
-//! Cost against gain: points at the lower right have the greatest gain at the least cost.
+//! Chart of cost against gain. Points at the lower right have the greatest gain at the least cost.
 
 use crate::figure::{
     Anchor, Area, Axes, Canvas, Figure, Ink, Label, Panel, Points, Scale, Stroke, beside, extent,
@@ -13,11 +13,11 @@ pub struct Race {
     pub title: String,
     /// Conditions for the caption, such as machine, sizes and rounds.
     pub caption: String,
-    /// Name of the horizontal axis, where more is better: `right digits`.
+    /// Name of the horizontal axis, where greater is better: `right digits`.
     pub gain: String,
-    /// Name of the vertical axis, which is logarithmic and where less is better: `ns a pair`.
+    /// Name of the vertical axis, where less is better: `ns a pair`. The axis is logarithmic.
     pub cost: String,
-    /// Lower bound of the cost, with its name.
+    /// Lower bound of the cost, with the name of the bound.
     pub floor: Option<(f64, String)>,
     /// Drawn points.
     pub points: Vec<RacePoint>,
@@ -32,11 +32,11 @@ pub struct RacePoint {
     pub gain: f64,
     /// Cost; above 0.
     pub cost: f64,
-    /// True if no other point is better in both.
+    /// True if no other point has both a greater gain and a lower cost.
     pub is_on_front: bool,
 }
 
-/// Draws the points; those on the Pareto front are filled.
+/// Draws the points. Points on the Pareto front are filled.
 pub fn race(race: &Race) -> Figure {
     let mut canvas = Canvas::new(760.0, 470.0);
     let area = Area {

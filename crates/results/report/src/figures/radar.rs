@@ -1,4 +1,4 @@
-//! Radar charts of several sensors: each axis as a share of the best, with gaps at missing values.
+//! Radar charts of several sensors. A radius is the ratio to the best value of the axis; missing values leave gaps.
 
 use std::f64::consts::TAU;
 
@@ -13,7 +13,7 @@ use taceva_results::Score;
 struct Axis {
     metric: &'static str,
     channel: &'static str,
-    /// Variant shown; empty for the score itself.
+    /// Drawn variant of the metric; empty for the score itself.
     variant: &'static str,
     name: &'static str,
     better: Better,
@@ -46,7 +46,7 @@ const ACCURACY: [Axis; 6] = [
     low("mae", "Fz", "MAE Fz"),
     low("mae", "Fxy", "MAE Fxy"),
 ];
-/// Excludes scores without a better direction, such as frame rate and field of view, for which the rim would not mean "best".
+/// Axes of sensor properties. Excludes scores without a better direction, such as frame rate, because the rim means "best".
 const SENSOR: [Axis; 4] = [
     high("uniformity", "Fz", "uniformity U"),
     Axis {
@@ -69,7 +69,7 @@ const ROBUSTNESS: [Axis; 7] = [
     },
 ];
 
-/// Name and direction of an axis, at its rim.
+/// Name and better direction of an axis, printed at the rim.
 pub(super) struct Rim<'a> {
     pub(super) name: &'a str,
     pub(super) better: Better,
@@ -170,7 +170,7 @@ fn one(studies: &[Study], axes: &[Axis], id: &str, title: &str) -> Option<Figure
     })
 }
 
-/// A value that is not drawn because it is excluded from verdicts.
+/// Value that is not drawn, because verdicts exclude its score.
 struct Barred {
     axis: &'static str,
     study: usize,
@@ -206,7 +206,7 @@ fn unproven(studies: &[Study], axes: &[Axis]) -> String {
     out
 }
 
-/// Each value with its share of the best.
+/// Ratio to the best value, and the value itself, for each of `values`; `None` for an absent value.
 pub(super) fn shares(values: &[Option<f64>], better: Better) -> Vec<Option<(f64, f64)>> {
     // A share of a negative number has no meaning.
     let values = values
@@ -237,7 +237,7 @@ impl Axis {
         (score.value.number().is_some() && self.without_place(score).is_none()).then_some(score)
     }
 
-    /// Values that are not drawn because they are excluded from verdicts: `spatial Pz of GelSightWM (not above chance)`.
+    /// Values that are not drawn because verdicts exclude them: `spatial Pz of GelSightWM (not above chance)`.
     fn barred(&self, studies: &[Study]) -> Vec<Barred> {
         let of_one = |(at, study): (usize, &Study)| {
             let score = study.score(self.metric, self.channel)?;
@@ -251,8 +251,7 @@ impl Axis {
         studies.iter().enumerate().filter_map(of_one).collect()
     }
 
-    /// Reason why `score` is not drawn, because a position on the axis is a verdict: its standing, or a missing interval. Published values need no
-    /// interval.
+    /// Reason why `score` is not drawn: its standing, or a missing interval. A drawn position is a verdict. Published values need no interval.
     fn without_place(&self, score: &Score) -> Option<&'static str> {
         score.value.number()?;
         let interval = match self.variant {
@@ -269,7 +268,7 @@ impl Axis {
         barred.or_else(|| is_unsure().then_some("no interval"))
     }
 
-    /// Share of the best and value of each study.
+    /// Ratio to the best value, and value, of each study.
     fn shares(&self, studies: &[Study]) -> Vec<Option<(f64, f64)>> {
         let value = |score: &Score| {
             if self.variant.is_empty() {

@@ -10,7 +10,7 @@ use taceva_results::Samples;
 use super::levels::sheets;
 use super::overlay::{Ways, Words, draw as overlay};
 
-/// Magnification of a drawn spread.
+/// Magnification of the spread in the drawing.
 const LARGER: f64 = 3.0;
 
 pub(super) fn curves(studies: &[Study], room: Option<f64>) -> Option<Figure> {
@@ -33,7 +33,7 @@ pub(super) fn curves(studies: &[Study], room: Option<f64>) -> Option<Figure> {
     overlay(&sheets, studies, 3, words, room)
 }
 
-/// Predictions of one point at its greatest common depth.
+/// Predictions of one contact point at the greatest depth that all of its presses reach.
 struct Cloud {
     point: String,
     mean: [f64; 3],
@@ -133,7 +133,7 @@ fn panel(clouds: &[Cloud], at: usize, name: &str, area: Area, canvas: &mut Canva
     canvas.points(centres, Ink::Series(at), 2.6, 1.0);
 }
 
-/// Cloud of each point that was pressed at least twice.
+/// Clouds of all contact points that were pressed at least twice.
 fn clouds(samples: &Samples) -> Vec<Cloud> {
     let Some(channels) = ["Px", "Py", "Pz"]
         .into_iter()

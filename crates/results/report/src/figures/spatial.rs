@@ -13,7 +13,7 @@ use super::overlay::{Level, Line, Sheet, Ways, Words, draw as overlay};
 /// Number of bins in a rolling mean, odd.
 const WINDOW: usize = 5;
 
-/// Error over distance, and over depth.
+/// Figures of the error over distance and of the error over depth.
 pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Vec<Option<Figure>> {
     vec![one(studies, "distance", room), one(studies, "depth", room)]
 }
@@ -63,7 +63,7 @@ fn one(studies: &[Study], over: &str, room: Option<f64>) -> Option<Figure> {
     overlay(&sheets, studies, 3, words, room)
 }
 
-/// Rolling mean over non-empty bins, weighted by samples, with the spread of these bins.
+/// Rolling mean over non-empty bins, weighted by samples, with the spread of the averaged bins.
 pub(super) fn rolling(curve: &Curve) -> Vec<Level> {
     let bins: Vec<(f64, f64, u64)> = curve
         .x

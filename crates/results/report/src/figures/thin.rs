@@ -2,8 +2,8 @@
 
 use taceva_core::counted;
 
-/// Positions of the samples to draw, ascending: all if at most `most`. Otherwise evenly spaced rows, and a tenth of `most` with the largest errors,
-/// so that outliers stay visible.
+/// Positions of the samples to draw, ascending: all if at most `most`. Otherwise a tenth of `most` with the largest errors, so that outliers are visible, and
+/// evenly spaced rows.
 pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
     if errors.len() <= most {
         return (0..errors.len()).collect();
@@ -19,7 +19,7 @@ pub(crate) fn thin(errors: &[f64], most: usize) -> Vec<usize> {
     drawn
 }
 
-/// Description of the selection by [`thin`].
+/// Sentence that describes the selection by [`thin`], for `drawn` of `all` samples.
 pub(crate) fn rule(drawn: usize, all: usize) -> String {
     if drawn == all {
         format!("{}, all drawn", counted(all, "sample"))

@@ -3,7 +3,7 @@
 use crate::figure::Figure;
 use crate::results::Study;
 
-/// Figures: id, metric of the drawn curve or map (empty for samples), and required data.
+/// Id of each figure, metric of its curve or map (empty for samples), and required data.
 const NEEDS: [(&str, &str, &str); 15] = [
     (
         "labels",
@@ -82,7 +82,7 @@ const NEEDS: [(&str, &str, &str); 15] = [
     ),
 ];
 
-/// Known figures that are not among `drawn`, each with its id and the missing data.
+/// Ids of known figures that are not among `drawn`, each with the missing data.
 ///
 /// If the results state why the metric was skipped, that reason replaces the missing data.
 pub fn undrawn(studies: &[Study], drawn: &[Figure]) -> Vec<(String, String)> {

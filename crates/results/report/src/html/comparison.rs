@@ -25,7 +25,7 @@ impl Comparison {
         document.finish()
     }
 
-    /// First questions with their answers.
+    /// Most important questions with answers, as HTML.
     fn decided(&self) -> Markup {
         html! {
             p { (self.summary()) "." } "\n"
@@ -42,7 +42,7 @@ impl Comparison {
         }
     }
 
-    /// Significant differences by score, and all answers; both folded.
+    /// Folded lists of significant differences by score, and of all answers.
     fn pairs(&self) -> Markup {
         let (won, table) = (self.won(), self.table().html_with_links());
         let shown = html! { ul.verdicts { @for won in &won { (won.html(&self.names)) } } };
@@ -81,7 +81,7 @@ impl Comparison {
     }
 }
 
-/// Answers about one score in which one study is better than others.
+/// Answers about one score in which the same study is the better one.
 struct Won<'a> {
     winner: usize,
     /// Answers about the score; at least one.
@@ -89,7 +89,7 @@ struct Won<'a> {
 }
 
 impl Won<'_> {
-    /// `mae Fz: MagicTac is better than ViTacTip (0.092 and 0.17 N) and GelSight (0.092 and 0.3 N)`.
+    /// Line of a list: `mae Fz: MagicTac is better than ViTacTip (0.092 and 0.17 N) and GelSight (0.092 and 0.3 N)`.
     fn html(&self, names: &[String]) -> Markup {
         let of = self.answers[0];
         let than = |answer: &&Answer| {

@@ -1,4 +1,4 @@
-//! Frame of all pages: style, script, policy, navigation, sections.
+//! Layout of all pages: style, script, policy, navigation, sections.
 
 use base64::Engine as _;
 use base64::prelude::BASE64_STANDARD;
@@ -25,7 +25,7 @@ struct Section {
 }
 
 impl Document {
-    /// Page without sections; `lead` is below the title.
+    /// Creates a page without sections. `lead` is the text below the title.
     pub(crate) fn new(title: &str, lead: Markup) -> Document {
         Document {
             title: title.to_owned(),
@@ -39,7 +39,7 @@ impl Document {
         self.sections.push(Section { id, title, body });
     }
 
-    /// Returns the page as a file. Replaces invisible and direction-changing characters here, for all parts of the page.
+    /// Returns the page as a file. Replaces invisible and direction-changing characters in all parts of the page.
     pub(crate) fn finish(self) -> String {
         let style = style();
         let policy = format!(

@@ -6,7 +6,7 @@ use crate::markup::{heads, scroll};
 use crate::names::names;
 use crate::results::Study;
 
-/// Number and rows of skipped scores and remarks.
+/// Number of skipped scores and remarks, and their rows.
 pub(super) fn section(studies: &[Study]) -> (usize, Markup) {
     let mut rows: Vec<Markup> = Vec::new();
     for (study, name) in studies.iter().zip(names(studies)) {

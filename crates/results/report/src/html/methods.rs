@@ -29,14 +29,14 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     }
 }
 
-/// Text with a copy button, which the script of the page reveals.
+/// Text with a copy button. The script of the page makes the button visible.
 fn copied(id: &str, what: &str, body: &Markup) -> Markup {
     html! {
         div.copied { button.act type="button" data-copy=(id) hidden { "Copy " (what) } "\n" (body) } "\n"
     }
 }
 
-/// Methods paragraph for a paper.
+/// Text of the methods paragraph for a paper.
 fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     let mut out = format!(
         "We evaluated {} ({}) with TacEva {}.",
@@ -57,7 +57,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
     out + &places(studies)
 }
 
-/// Number of results, and number of sensors if different.
+/// Number of results, and number of sensors if the numbers differ.
 fn evaluated(studies: &[Study]) -> String {
     let units = studies
         .iter()
@@ -126,7 +126,7 @@ fn places(studies: &[Study]) -> String {
     }
 }
 
-/// Presses of the recordings, and places of the scored samples.
+/// Number of presses of the recordings, and number of contact places of the scored samples.
 fn pressed(studies: &[Study]) -> String {
     let presses = counted_span(studies, "press", |study| whole(study.made.presses));
     let points = counted_span(studies, "contact point", points);
@@ -234,7 +234,7 @@ fn model(studies: &[Study]) -> String {
     }
 }
 
-/// Sentence on the test samples of predictions.
+/// Sentence that scored samples were unseen in training, with the studies for which this is false.
 fn unseen(studies: &[Study]) -> String {
     let seen = studies.iter().filter_map(|study| {
         let part = study.made.seen_part.as_ref()?;
@@ -252,7 +252,7 @@ fn unseen(studies: &[Study]) -> String {
         + " scores without predictions, such as sensitivity, uniformity and hysteresis, use all samples that they apply to."
 }
 
-/// Sentence on the scope of intervals and p values.
+/// Sentence on the limits of validity of intervals and p values.
 fn scope(studies: &[Study]) -> String {
     let own = studies.iter();
     let own = own.filter(|study| study.source != "published" && !study.scores.is_empty());
@@ -279,7 +279,7 @@ fn scope(studies: &[Study]) -> String {
     )
 }
 
-/// Clusters that intervals leave out, in the plural: `contact points`, `groups by object`, `samples`.
+/// Name in the plural of the clusters that intervals leave out: `contact points`, `groups by object`, `samples`.
 pub(super) fn clusters(studies: &[Study]) -> String {
     let are_samples = |study: &Study| {
         let intervals = study.scores.iter();
@@ -311,7 +311,7 @@ fn gratings(studies: &[Study]) -> String {
     ways.into_iter().map(sentence).collect()
 }
 
-/// Distinct values of a provenance entry, in the order of the studies.
+/// Distinct values of a provenance entry, in the order of the studies; `None` if no study has the entry.
 fn values(studies: &[Study], name: &str) -> Option<Vec<String>> {
     let mut values: Vec<String> = Vec::new();
     for (_, value) in studies
@@ -349,7 +349,7 @@ fn bibtex(studies: &[Study]) -> String {
     entries.join("\n\n")
 }
 
-/// Replaces the special characters of BibTeX.
+/// Text with the special characters of BibTeX replaced.
 fn plain(text: &str) -> String {
     text.replace(['{', '}', '\\', '"', '%', '#', '$', '~', '^'], " ")
         .replace('&', "and")

@@ -1,4 +1,4 @@
-//! Uncertainty of a reading of each measured or simulated sensor, by the residuals of its samples.
+//! Uncertainty of a reading of each measured or simulated sensor, computed from residuals of the samples.
 
 use maud::{Markup, html};
 use taceva_core::{Unit, shown};
@@ -13,11 +13,11 @@ use crate::reference::reference_certificate;
 use crate::residuals::residual_components;
 use crate::results::Study;
 
-/// Part of the protocol and grouping column for the residuals.
+/// Part of the protocol that gives residuals, and the column that groups them.
 const PLACES: [&str; 2] = ["calibration", "point_id"];
 /// Part of the protocol with several light scenes, and the column of the scene.
 const LIGHTS: [&str; 2] = ["light-sweep", "scene"];
-/// Figures for which sources are written, each with the name and a further key of the source.
+/// Figures that become sources of the budget, each with the name and a further key of the source.
 const SOURCES: [(&str, &str, &str); 3] = [
     ("error.between", "between places", ""),
     ("error.within", "within places", "readings = 1\n"),
@@ -26,7 +26,7 @@ const SOURCES: [(&str, &str, &str); 3] = [
 /// Command that writes a budget file.
 const TEMPLATE: &str = "taceva budget --template RESULT.json > budget.toml";
 
-/// Budget of each sensor, or the reason why there is none; `None` if all samples are synthetic or published.
+/// Section with the budget of each sensor, or the reason for a missing budget. `None` if all samples are synthetic or published.
 pub(super) fn section(studies: &[Study]) -> Option<Markup> {
     let named = (1_usize..).zip(studies.iter().zip(names(studies)));
     let shown = named.filter(|(_, (study, _))| has_rows(study));
@@ -171,7 +171,7 @@ fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
     format!("{median:.1e}").parse().unwrap_or(median)
 }
 
-/// Figures of the residuals, and further measured figures, which the budget names as effects without a source.
+/// Measured figures: those of residuals, and others that the budget lists as effects without a source.
 fn evidence(
     study: &Study,
     samples: &Samples,

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::results::Study;
 use taceva_results::{SampleChannel, Samples};
 
-/// Number of best, and of worst, samples for each study.
+/// Number of best samples, and of worst samples, for each study.
 const EACH: usize = 4;
 
 /// Selected sample.
@@ -21,8 +21,8 @@ pub struct Pick {
     pub error: f64,
 }
 
-/// The four worst and the four best predicted samples of a study. Each is from another group of the split or contact point, because frames of one
-/// press or place fail alike. Fewer if there are few; empty without samples.
+/// The four worst and the four best predicted samples of a study. Each pick is from another group of the split or contact point, because frames of one place
+/// have similar errors. Fewer picks for few places; empty without samples.
 pub fn picks(study: &Study) -> Vec<Pick> {
     let Some(samples) = &study.samples else {
         return Vec::new();
@@ -67,7 +67,7 @@ pub fn picks(study: &Study) -> Vec<Pick> {
     worst.chain(best.into_iter().map(pick(false))).collect()
 }
 
-/// Group of a sample, or its contact point; without both, each sample is its own.
+/// Group of the split of the sample in `row`, otherwise its contact point, otherwise the id of the sample.
 fn place(samples: &Samples, row: usize) -> Option<&str> {
     samples
         .word(Samples::GROUP, row)
@@ -75,7 +75,7 @@ fn place(samples: &Samples, row: usize) -> Option<&str> {
         .or_else(|| samples.word(Samples::KEY, row))
 }
 
-/// First of `rows` for each unused contact point, at most `most`.
+/// First row of each place among `rows` that `taken` lacks, at most `most`. Adds the places to `taken`.
 fn apart<'a>(
     samples: &'a Samples,
     rows: impl Iterator<Item = &'a (usize, f64)>,

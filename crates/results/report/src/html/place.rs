@@ -9,9 +9,9 @@ use crate::figures::SIX;
 use crate::number::numeral;
 use taceva_results::Samples;
 
-/// Side of the drawing, in its own units.
+/// Side of the drawing, in SVG units.
 const SIZE: f64 = 160.0;
-/// Drawn length of the greatest shear force.
+/// Length of the arrow for the greatest shear force, in SVG units.
 const LONGEST: f64 = 34.0;
 
 /// Scale of the positions of one sensor.
@@ -46,7 +46,7 @@ impl Place {
         })
     }
 
-    /// Circle with both positions; empty if one is unknown.
+    /// Circle with the true and the predicted position; empty if one of them is unknown.
     pub(super) fn draw(&self, samples: &Samples, pick: &Pick) -> Markup {
         let pair = |name: &str| samples.channel(name)?.pair(pick.row);
         let (Some([true_x, predicted_x]), Some([true_y, predicted_y])) =

@@ -27,7 +27,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     }
 }
 
-/// Methods of intervals, with their metrics if there are several: `jackknife by point_id, G=20, logarithmic (mae, rmse)`.
+/// Methods of intervals, each with its metrics if methods differ: `jackknife by point_id, G=20, logarithmic (mae, rmse)`.
 fn methods(table: &ScoreTable) -> Vec<String> {
     let mut methods: BTreeMap<String, Vec<&str>> = BTreeMap::new();
     for row in &table.rows {
@@ -48,7 +48,7 @@ fn methods(table: &ScoreTable) -> Vec<String> {
     methods.into_iter().map(named).collect()
 }
 
-/// Renames left-out samples, which belong to other parts of the protocol, for other metrics.
+/// Text of a provenance entry, where left-out samples are named samples of other parts of the protocol.
 fn of_parts(term: &str, text: &str) -> String {
     match term {
         "samples" => text.replace("left_out ", "of other parts of the protocol "),

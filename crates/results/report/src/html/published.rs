@@ -12,7 +12,7 @@ use crate::markup::{heads, right_heads, scroll};
 use crate::number::{minus, spaced, with_interval};
 use crate::results::Study;
 
-/// Sentence on the agreement of the order of the sensors with the published one; `None` without comparable published scores of two sensors.
+/// Sentence that compares the order of the sensors with the published order. `None` without comparable published scores of two sensors.
 pub(super) fn order(studies: &[Study]) -> Option<String> {
     let mut values: BTreeMap<(&str, &str), Vec<[f64; 2]>> = BTreeMap::new();
     for study in studies.iter().filter(|study| study.source != "published") {
@@ -54,7 +54,7 @@ pub(super) fn order(studies: &[Study]) -> Option<String> {
     })
 }
 
-/// Number of comparable published values, with their table; `None` if there are none.
+/// Number of comparable published values, and their section; `None` without such values.
 pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     let mut rows: Vec<Markup> = Vec::new();
     for study in studies.iter().filter(|study| study.source != "published") {

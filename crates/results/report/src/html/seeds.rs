@@ -1,4 +1,4 @@
-//! Variation of scores over training seeds, separate from intervals by contact point.
+//! Variation of scores over training seeds. Intervals by contact point do not include this variation.
 
 use maud::{Markup, html};
 use taceva_core::Unit;
@@ -10,7 +10,7 @@ use crate::number::{FormattedValue, minus, numeral};
 use crate::results::Study;
 use taceva_results::{OverSeeds, SeedScore};
 
-/// Number of scores, with a table for each study; `None` if no model was fitted with several seeds.
+/// Number of scores, and the section with a table for each study. `None` if no model was fitted with several seeds.
 pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
     let named = studies.iter().zip(names(studies));
     let over = named.filter_map(|(study, name)| Some((study.over_seeds.as_ref()?, name)));

@@ -50,7 +50,7 @@ pub(super) fn studied(studies: &[Study]) -> String {
     out
 }
 
-/// `400`, or `380 to 400` if studies differ; `None` if unknown.
+/// Range of a number over the studies as text: `400`, or `380 to 400`; `None` if unknown.
 pub(super) fn span(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> Option<String> {
     let [least, most] = ends(studies, of)?;
     Some(match least == most {
@@ -59,7 +59,7 @@ pub(super) fn span(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> O
     })
 }
 
-/// `1 press`, or `380 to 400 presses` if studies differ; `None` if unknown.
+/// Range of a number with its noun: `1 press`, or `380 to 400 presses`; `None` if unknown.
 pub(super) fn counted_span(
     studies: &[Study],
     noun: &str,
@@ -73,7 +73,7 @@ pub(super) fn counted_span(
     })
 }
 
-/// The least and the greatest known number.
+/// Least and greatest known number over the studies; `None` if no study has the number.
 fn ends(studies: &[Study], of: impl Fn(&Study) -> Option<usize>) -> Option<[usize; 2]> {
     let known: Vec<usize> = studies.iter().filter_map(of).collect();
     Some([*known.iter().min()?, *known.iter().max()?])
@@ -89,7 +89,7 @@ pub(super) fn points(study: &Study) -> Option<usize> {
     (!points.is_empty()).then_some(points.len())
 }
 
-/// `count`, or `None` if it is zero.
+/// `count` as `usize`; `None` for zero.
 pub(super) fn whole(count: u64) -> Option<usize> {
     usize::try_from(count).ok().filter(|count| *count > 0)
 }

@@ -20,7 +20,7 @@ pub(crate) fn lead(studies: &[Study]) -> Markup {
     html! { p.lead { (listed(&names(studies))) } (badge(studies)) }
 }
 
-/// Badge for simulated samples; empty if everything was measured.
+/// Badge for simulated samples; empty if all samples were measured.
 pub(crate) fn badge(studies: &[Study]) -> Markup {
     let words = not_measured(studies.iter().map(|study| study.source.as_str()));
     html! {
@@ -51,7 +51,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
     html! { ul.verdicts { @for line in &lines { (line) } } "\n" }
 }
 
-/// Verdict; for lighting scores, followed by the effect of light.
+/// Verdict on a row; for lighting scores, followed by the effect of light. `None` without a value.
 fn answer(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Markup> {
     let verdict = match studies {
         [study] => alone(study, row)?,
@@ -129,7 +129,7 @@ fn verdict(studies: &[Study], table: &ScoreTable, row: &ScoreRow) -> Option<Mark
     Some(html! { (name) " " (verdict) ", with " (value) (spread) "." (beside) })
 }
 
-/// Cell whose value is known.
+/// Known value of one study.
 struct Known<'a> {
     at: usize,
     cell: &'a ScoreCell,
@@ -162,7 +162,7 @@ fn barred(known: &[Known<'_>], table: &ScoreTable) -> String {
     }
 }
 
-/// Sensors that the best is not significantly better than.
+/// Text on the sensors over which the best sensor is not significantly better.
 fn rivals(best: usize, known: &[Known<'_>], table: &ScoreTable, row: &ScoreRow) -> String {
     let loses = |at: usize| {
         table.answers.iter().any(|answer| {

@@ -10,7 +10,7 @@ use crate::figure::Figure;
 use crate::markup::fold;
 use crate::scores::{ScoreRow, ScoreTable};
 
-/// Section of a page: a theme of the catalogue, or the label distributions.
+/// Section of the page: a theme of the catalogue, or the label distributions.
 struct Section {
     id: &'static str,
     title: &'static str,
@@ -19,7 +19,7 @@ struct Section {
     figures: &'static [&'static str],
 }
 
-/// Sections in report order; all others follow them.
+/// Sections in report order. Other themes follow them.
 const SECTIONS: [Section; 6] = [
     Section {
         id: "asked",
@@ -125,7 +125,7 @@ impl Section {
     }
 }
 
-/// Fold of a theme; `None` without rows and figures.
+/// Folded section of a theme; `None` without rows and figures.
 fn one(
     id: &str,
     title: &str,

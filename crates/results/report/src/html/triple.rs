@@ -6,7 +6,7 @@ use super::data_address::address;
 use crate::names::names;
 use crate::results::Study;
 
-/// Encoded frames of one sensor, with equal size and brightness scale.
+/// Encoded frames of one sensor, equal in size and brightness scale.
 #[derive(Clone, Debug)]
 pub struct Triple {
     /// Position of its study.
@@ -25,7 +25,7 @@ pub struct Triple {
     pub words: String,
 }
 
-/// Card for each sensor with frames; empty if there are none.
+/// Cards of all sensors with frames, one card each; empty without frames.
 pub(crate) fn cards(studies: &[Study], triples: &[Triple]) -> Markup {
     let names = names(studies);
     let known = triples

@@ -1,8 +1,8 @@
-//! Sections that are folded on screen until opened, and always open in print.
+//! Sections that a reader unfolds on screen, and that are open in print.
 
 use maud::{Markup, html};
 
-/// `body` folded behind `title` and a short description of its content; `id` is a single word.
+/// Folds `body` behind `title` and `holds`, a short description of the content. `id` is a single word.
 pub(crate) fn fold(id: &str, title: &str, holds: &str, body: &Markup) -> Markup {
     html! {
         details.fold #(id) {

@@ -1,4 +1,4 @@
-//! Glossary of metrics from their catalogue, with links to it.
+//! Glossary of metrics from the catalogue of metrics, and links to its entries.
 
 use std::collections::BTreeSet;
 
@@ -7,7 +7,7 @@ use taceva_metrics::{Better, Metric, ScoreUnit, catalogue};
 
 use super::fold::fold;
 
-/// Entries of the metrics in `ids`, in catalogue order: title, meaning, unit, direction and definition. A variant selects its metric.
+/// Entries of the metrics in `ids`, in catalogue order: title, meaning, unit, direction and definition. The id of a variant selects the entry of its metric.
 pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let named: BTreeSet<&str> = ids.map(base).collect();
     let metrics = catalogue::ALL.iter().copied();
@@ -21,7 +21,7 @@ pub(crate) fn glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     }
 }
 
-/// Folded glossary that opens on a link to a metric.
+/// Folded glossary. A link to a metric unfolds it.
 pub(crate) fn folded_glossary<'a>(ids: impl Iterator<Item = &'a str>) -> Markup {
     let holds = "what each metric means, its unit and its definition";
     fold("glossary", "Glossary", holds, &glossary(ids))
@@ -37,7 +37,7 @@ pub(crate) fn score_link(id: &str, channel: &str) -> Markup {
     html! { (link(id)) " " (channel) (sign(id)) }
 }
 
-/// ` ↓`, or empty without a known direction.
+/// Direction sign after a space, ` ↓`; empty without a better direction.
 fn sign(id: &str) -> String {
     Better::of(id).map_or_else(String::new, |better| better.beside(""))
 }
@@ -52,7 +52,7 @@ fn link(id: &str) -> Markup {
     }
 }
 
-/// Metric of a variant: `hysteresis` of `hysteresis.ratio`.
+/// Metric without the variant: `hysteresis` for `hysteresis.ratio`.
 fn base(id: &str) -> &str {
     id.split('.').next().unwrap_or_default()
 }

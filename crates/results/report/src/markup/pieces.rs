@@ -2,7 +2,7 @@
 
 use maud::{Markup, Render, html};
 
-/// Table in a box that scrolls on narrow pages. `label` is its accessible name.
+/// Table in a box that scrolls on narrow pages. Screen readers announce `label`.
 pub(crate) fn scroll(label: &str, table: &Markup) -> Markup {
     html! { div.scroll tabindex="0" role="group" aria-label=(label) { (table) } "\n" }
 }
@@ -22,7 +22,7 @@ pub(crate) fn terms<T: Render, U: Render>(entries: impl IntoIterator<Item = (T, 
     html! { @for (term, words) in entries { dt { (term) } dd { (words) } } }
 }
 
-/// Filter for rows or cards by the tag of the chosen option; `any` selects all.
+/// Filter that shows the rows or cards with the tag of the chosen option. The option `any` shows all.
 pub(crate) fn filter<T: Render, U: Render>(
     label: &str,
     any: &str,

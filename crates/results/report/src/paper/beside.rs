@@ -12,9 +12,9 @@ pub(super) const SENSORS: [&str; 4] = ["ViTacTip", "MagicTac", "GelSight", "GelS
 /// Number format of a table in the study.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Digits {
-    /// This many significant digits.
+    /// Number of significant digits.
     Significant(i32),
-    /// As percent with one decimal.
+    /// Percent with one decimal.
     Percent,
 }
 
@@ -34,7 +34,7 @@ impl Digits {
     }
 }
 
-/// Our score of a metric and channel beside the printed one; a dash if we have none.
+/// Our score of a metric and channel beside the published number; a dash if our score is missing.
 pub(super) fn cell(
     studies: &[Study],
     scores: &ScoreTable,
@@ -56,7 +56,7 @@ pub(super) fn cell(
     Cell::Estimate(estimate)
 }
 
-/// Our value beside a printed one.
+/// Our value beside a published value.
 pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) -> Estimate {
     let below = printed.map(|printed| {
         let shown = digits.print(printed);
@@ -85,7 +85,7 @@ pub(super) fn printed(study: &Study, metric: &str, channel: &str) -> Option<f64>
         .map(|result| result.value)
 }
 
-/// A ratio with two decimals, fewer if it is large.
+/// Ratio with two decimals, or fewer if the ratio is large.
 fn ratio(ratio: f64) -> String {
     match ratio.abs() {
         size if size >= 100.0 => fixed(ratio, 0),

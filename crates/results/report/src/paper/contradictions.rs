@@ -1,19 +1,19 @@
-//! Contradictions in the printed study, with the numbers on both sides.
+//! Contradictions in the published study, each with both contradictory numbers.
 
 use super::beside::SENSORS;
 use crate::catalogue::find;
 use crate::number::fixed;
 use crate::variables::VARIABLES;
 
-/// Least and greatest spacing of its gratings and their step, in micrometres, and the number of boards in its text.
+/// Least spacing, greatest spacing and step of the gratings in the study, in micrometres. [`BOARDS`] is the number in its text.
 const GRATINGS_UM: [u32; 3] = [250, 1750, 50];
 const BOARDS: u32 = 72;
-/// Radius of its indenter by its text and by the caption of a figure, in mm.
+/// Radius of the indenter in the text of the study and in the caption of a figure, mm.
 const INDENTER_MM: [f64; 2] = [2.0, 10.0];
-/// Light and error of scene S4 in its text, as ratios to those of reference light.
+/// Ratio of light in scene S4 to reference light, in the text of the study.
 const LIGHT: f64 = 7.0;
 const ERROR: f64 = 10.0;
-/// Printed means in its table of lighting that differ from the mean of their rows, in percent.
+/// Published means in the table of lighting that differ from the mean of their rows, in percent.
 const MEANS: [(&str, f64); 2] = [("Fxy", 9.3), ("Pxy", 5.0)];
 
 /// All contradictions, one sentence each.
@@ -38,7 +38,7 @@ pub(super) fn all() -> Vec<String> {
     said
 }
 
-/// Success rates in the text that are not between those of lines and dots in the figure.
+/// Contradiction on gratings: success rates in the text are not between those of lines and dots in the figure.
 fn gratings() -> Option<String> {
     let words = SENSORS.iter().filter_map(|name| {
         let sensor = find(name)?;
@@ -61,7 +61,7 @@ fn gratings() -> Option<String> {
     })
 }
 
-/// Robustness of Fz over the surface by its table, and by its formula from the numbers of its figure.
+/// Contradiction on Fz over the surface: the table differs from the formula applied to the numbers of the figure.
 fn spatial() -> Option<String> {
     let words = SENSORS.iter().filter_map(|name| {
         let sensor = find(name)?;
@@ -88,7 +88,7 @@ fn spatial() -> Option<String> {
     })
 }
 
-/// Error in bright light by its text and by its table.
+/// Contradiction on bright light: the error in the text differs from the error in the table.
 fn light() -> Option<String> {
     let sensor = find("ViTacTip")?;
     let shares = VARIABLES
@@ -108,7 +108,7 @@ fn light() -> Option<String> {
     ))
 }
 
-/// Printed means that differ from those of their rows.
+/// Contradiction on means: published means differ from the means of their rows.
 fn means() -> Option<String> {
     let sensor = find("ViTacTip")?;
     let of_rows = |channel: &str| {

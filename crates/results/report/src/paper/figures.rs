@@ -1,4 +1,4 @@
-//! Numbers that the study prints in its figures, beside ours.
+//! Numbers that the study publishes in its figures, beside ours.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,7 @@ use crate::scores::ScoreTable;
 use crate::table::{Cell, NAME_PT, Row, Table, VALUE_SIZE, Words, latex_symbol, stacked};
 use crate::variables::VARIABLES;
 
-/// Sentence on the figures without printed numbers.
+/// Sentence on the figures of the study without numbers.
 pub(super) const UNPRINTED: &str = "The study prints no numbers with its figures 6a, 7a, 7b and 8a to 8c; its table V has the means of figure 7b, and its tables and figures 3c and 4 have the quantities of figure 8.";
 
 /// A number of a figure: its name, its score, and the printed digits.
@@ -22,7 +22,7 @@ struct Quantity {
     digits: Digits,
 }
 
-/// Table of every figure with numbers of ours and of the study, by the name of the figure.
+/// Table of each figure with numbers of ours and of the study, with the name of the figure.
 pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> Vec<(String, Table)> {
     let sheet = Sheet { studies, scores };
     let quantity = |name: &str, metric, channel, digits| Quantity {

@@ -10,14 +10,14 @@ use crate::table::{HEAD_PT, NAME_PT, SMALL_SIZE, VALUE_SIZE};
 use crate::variables::VARIABLES;
 use taceva_metrics::Better;
 
-/// Table of the study, or its missing data.
+/// Table of the study, or the data that it lacks.
 pub(super) struct Made {
     pub(super) number: usize,
     pub(super) table: Option<Table>,
     pub(super) needs: &'static str,
 }
 
-/// Variables by quantity, in the order of the tables of calibration and lighting.
+/// Variables of force, then of position, in the order of the tables of calibration and lighting.
 const BLOCKS: [[&str; 2]; 2] = [["Fxy", "Fz"], ["Pxy", "Pz"]];
 /// Light scenes.
 pub(super) const SCENES: [&str; 4] = ["S1", "S2", "S3", "S4"];
@@ -46,7 +46,7 @@ pub(super) fn all(studies: &[Study], scores: &ScoreTable) -> [Made; 5] {
     ]
 }
 
-/// True if a cell has a number of ours.
+/// True if a cell has one of our numbers.
 pub(super) fn has_values(table: &Table) -> bool {
     let mut cells = table.rows.iter().flat_map(|row| &row.cells);
     cells.any(|cell| matches!(cell, Cell::Estimate(of) if !matches!(of.formatted.value.as_str(), "" | "–")))
@@ -58,7 +58,7 @@ pub(super) struct Sheet<'a> {
     pub(super) scores: &'a ScoreTable,
 }
 
-/// Number of Table I of the study.
+/// Number of `fact` in Table I of the study; `None` if absent.
 fn fact_of_study(sensor: &Sensor, fact: &str) -> Option<f64> {
     let of = |metric: &str, channel: &str| {
         let mut results = sensor.results.iter().filter(|of| of.source == "study");
@@ -253,7 +253,7 @@ impl Sheet<'_> {
         Table::new(format!("{caption}{whose}"), columns)
     }
 
-    /// Adds the legend of values, bold and marks.
+    /// Adds notes that explain values, bold type and marks.
     pub(super) fn explain(&self, table: &mut Table) {
         let cells = || {
             let cells = table.rows.iter().flat_map(|row| &row.cells);

@@ -1,6 +1,6 @@
 //! Properties of a sensor other than scores.
 
-/// Published property of a sensor other than a score, such as its size or price. It is shown beside scores and never compared.
+/// Published property of a sensor other than a score, such as its size or price. Tables show facts beside scores. Facts are never compared.
 ///
 /// ```
 /// let digit = taceva_report::catalogue::find("DIGIT").expect("there").as_study();
@@ -10,9 +10,9 @@
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Fact {
-    /// Name: `size`, `price`, `cost of parts`.
+    /// Name of the property: `size`, `price`, `cost of parts`.
     pub name: String,
-    /// Unit; empty if the value states it, or for text.
+    /// Unit; empty for text, or if the value contains the unit.
     pub unit: String,
     /// Value as published, with `≈`, `>` or `<` if inexact.
     pub value: String,

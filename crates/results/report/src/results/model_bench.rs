@@ -6,7 +6,7 @@ use taceva_core::shown;
 
 use taceva_results::ResultsError;
 
-/// Schema of all benchmarks as JSON. The subject of this one is `models`.
+/// Schema of all benchmarks as JSON. Benchmarks of models have the subject `models`.
 pub const BENCH_SCHEMA: &str = "taceva.bench/1";
 const SUBJECT: &str = "models";
 
@@ -26,7 +26,7 @@ pub struct ModelBench {
     pub rows: Vec<ModelRow>,
 }
 
-/// Machine that ran the models, needed to interpret times.
+/// Machine that ran the benchmark, needed to interpret times.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct BenchMachine {
@@ -36,7 +36,7 @@ pub struct BenchMachine {
     pub cores: usize,
     /// Number of threads used.
     pub threads: usize,
-    /// Instruction sets of the processor with dedicated code in the program, the widest first.
+    /// Instruction sets for which the program has dedicated code, the widest first.
     pub isa: Vec<String>,
     /// Load per core over the preceding minute; `None` if the system does not report it.
     pub load: Option<f64>,
@@ -99,13 +99,13 @@ pub struct ChannelError {
     pub ci95: Option<[f64; 2]>,
     /// Number of samples.
     pub n: u64,
-    /// Models that need less processor time to fit and are not shown to have a larger error.
+    /// Models that need less processor time to fit, and whose errors are not shown to be larger.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub beaten_by: Vec<String>,
 }
 
 impl ModelBench {
-    /// Benchmark without models.
+    /// Creates a benchmark without models.
     pub fn new(machine: BenchMachine, recording: BenchRecording) -> ModelBench {
         ModelBench {
             schema: BENCH_SCHEMA.to_owned(),
@@ -144,7 +144,7 @@ impl ModelBench {
         text + "\n"
     }
 
-    /// True if its samples are simulated or synthetic, without a real sensor.
+    /// True if the samples of the benchmark are simulated or synthetic, without a real sensor.
     pub fn is_simulated(&self) -> bool {
         is_simulated(&self.recording.source)
     }
@@ -172,8 +172,7 @@ impl ModelRow {
         self.errors.iter().find(|error| error.channel == channel)
     }
 
-    /// Channels with this model on their Pareto front: every model that fits in less processor time is shown to have a larger error. `None` if no
-    /// time is known.
+    /// Channels for which this model is on the Pareto front: the error of every faster fit is shown to be larger. `None` if no time is known.
     pub fn front_of(&self) -> Option<Vec<&str>> {
         self.fit_cpu_s?;
         let errors = self.errors.iter();

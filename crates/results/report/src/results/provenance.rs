@@ -1,4 +1,4 @@
-//! Provenance as lines of a page, each with a name and a text.
+//! Provenance entries for a page, each with a name and a text.
 
 use std::fmt::Display;
 
@@ -76,7 +76,7 @@ fn model(model: &ModelProvenance) -> String {
     )
 }
 
-/// `train 40, test 10`
+/// Pairs as text: `train 40, test 10`.
 fn pairs<'a, K: Display + 'a, V: Display + 'a>(
     pairs: impl IntoIterator<Item = (&'a K, &'a V)>,
 ) -> String {

@@ -4,7 +4,7 @@ use taceva_metrics::{Standing, catalogue};
 
 use taceva_results::Score;
 
-/// Sets the standing of `scores` from their published R², which has no interval.
+/// Sets the standing of `scores` by their published R². A published R² has no interval.
 pub(crate) fn by_published_r2(scores: &mut [Score]) {
     judge(scores, |r2| match r2.value.number() {
         None => Standing::SkillUnknown,

@@ -1,6 +1,6 @@
-//! Origin of published numbers.
+//! Source, conditions and definition of published numbers.
 
-/// Definition of a published number whose source states none.
+/// Text for a published number whose source states no definition.
 pub(crate) const UNSTATED: &str = "definition not stated by the source";
 
 /// Source, conditions and definition of a published number.
@@ -24,7 +24,7 @@ pub struct Statement {
 }
 
 impl Statement {
-    /// Origin of the number called `name`.
+    /// Creates the statement on the number called `name`.
     pub fn new(name: &str, source: &str, conditions: &str, definition: &str) -> Statement {
         Statement {
             name: name.to_owned(),

@@ -1,4 +1,4 @@
-//! Traceability of the labels of a result, in one line.
+//! Sentence on the certificates behind the labels of a result.
 
 use taceva_core::Instrument;
 use taceva_results::Provenance;
@@ -6,7 +6,7 @@ use taceva_results::Provenance;
 /// Line for labels without a certificate.
 pub(super) const NOT_TRACEABLE: &str = "not traceable: no certificate of the force transducer";
 
-/// Certificates of the instruments that measured the labels, in the order of the recordings. Missing certificates come first.
+/// Certificates of the instruments that measured the labels, in the order of the recordings. The line begins with missing certificates.
 pub(super) fn traceability_line(provenance: &Provenance) -> String {
     let of_force = provenance.traceability.iter();
     let of_force = of_force.filter(|of| of.instrument == Instrument::Force);

@@ -1,4 +1,4 @@
-//! Caption of the main table: one sentence with the number and the source of the scored samples.
+//! Caption of the main table: a sentence with number and origin of the scored samples.
 
 use std::collections::BTreeSet;
 
@@ -8,18 +8,18 @@ use super::{ScoreCell, ScoreTable};
 use crate::results::Study;
 use taceva_results::OPTIMISTIC;
 
-/// Entries of a study for a caption.
+/// Facts on a study that a caption uses.
 #[derive(Clone, Debug, Default)]
 pub(super) struct About {
     sensor: String,
     model: Option<String>,
     part: Option<String>,
     recordings: usize,
-    /// Notes that the scores are too good.
+    /// Warnings that the scores are optimistic.
     pub(super) optimistic: Vec<String>,
     /// Cross-validation as text, if each sample was held out once.
     folds: Option<String>,
-    /// Groups that the split keeps together.
+    /// Groups that the split does not divide.
     group: Option<String>,
 }
 
@@ -57,13 +57,13 @@ impl ScoreTable {
         main.captioned(what)
     }
 
-    /// `Values of 2 sensors, as published, without intervals.`
+    /// Caption that begins with `what`: `Values of 2 sensors, as published, without intervals.`
     pub(super) fn captioned(&self, what: &str) -> String {
         let (samples, intervals) = (self.samples(), self.intervals());
         format!("{what} of {}{samples}{intervals}.", self.subjects())
     }
 
-    /// `GelSight (ridge)`, `4 sensors`, `3 models of GelSight`
+    /// Sensors and models of the caption: `GelSight (ridge)`, `4 sensors`, `3 models of GelSight`.
     fn subjects(&self) -> String {
         let sensors: BTreeSet<&str> = self.about.iter().map(|of| of.sensor.as_str()).collect();
         match (self.about.as_slice(), sensors.len()) {
@@ -139,7 +139,7 @@ impl ScoreTable {
         format!(" on {many}{source}{part}{noun}{each}{groups}{recordings}{held_out}")
     }
 
-    /// ` of 5 groups by object`, if all intervals leave out as many groups of one split.
+    /// Groups of the caption: ` of 5 groups by object`. Empty unless all intervals leave out the same number of groups of one split.
     fn groups(&self) -> String {
         let groups: BTreeSet<Option<&str>> =
             self.about.iter().map(|of| of.group.as_deref()).collect();
@@ -157,14 +157,14 @@ impl ScoreTable {
         }
     }
 
-    /// Common number of samples behind all values, if known.
+    /// Number of samples behind every value; `None` if numbers differ or are unknown.
     pub(super) fn common_n(&self) -> Option<u64> {
         let counts: BTreeSet<u64> = self.valued().map(|cell| cell.n).collect();
         let count = counts.first().copied().filter(|_| counts.len() == 1);
         count.filter(|n| *n > 0)
     }
 
-    /// `, with 95 % intervals`, or the reason why there are none.
+    /// Intervals of the caption: `, with 95 % intervals`, or the reason why there are none.
     fn intervals(&self) -> String {
         if self.valued().any(|cell| cell.ends.is_some()) {
             return ", with 95 % intervals".to_owned();

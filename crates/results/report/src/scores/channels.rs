@@ -1,9 +1,9 @@
-//! Scores of named channels.
+//! Selection of scores by channel.
 
 use super::ScoreTable;
 
 impl ScoreTable {
-    /// Scores of the channels and planes called `names`, or all scores if it is empty. Without the score of a plane, its axes keep their own.
+    /// Scores of the channels and planes in `names`, or all scores if `names` is empty.
     #[must_use]
     pub fn of_channels(mut self, names: &[String]) -> ScoreTable {
         self.rows

@@ -1,4 +1,4 @@
-//! Main scores as tables of the width of a paper column.
+//! Main scores as tables that fit the column of a paper.
 
 use std::collections::BTreeSet;
 
@@ -12,13 +12,13 @@ use crate::number::FormattedValue;
 use crate::table::{Align, Cell, Column, Estimate, Row, Table, Words, latex_symbol, stacked};
 use crate::table::{COLUMN_PT, GAP_PT, SMALL_SIZE, VALUE_SIZE, letters_pt};
 
-/// Greatest number of rows in one table; with intervals, they fill half a page.
+/// Greatest number of rows in one table. Eighteen rows with intervals fill half a page.
 const MOST_ROWS: usize = 18;
 /// Greatest width of a row name, and of a column head, in TeX points.
 const NAME_PT: f64 = 76.0;
 const HEAD_PT: f64 = 47.5;
 
-/// One line of the main table before the division into tables.
+/// Line of the main table, before the division into several tables.
 struct Line<'a> {
     /// Metric, if the table is grouped by metric.
     group: Option<&'a str>,
@@ -33,18 +33,18 @@ struct Line<'a> {
 struct Sheet<'a> {
     heads: Vec<Words>,
     lines: Vec<Line<'a>>,
-    /// True if the heads are names of studies, which may stand on several lines.
+    /// True if the heads are names of studies. Long names have several lines.
     has_names: bool,
     /// True if a last column has the number of samples of each line.
     has_n: bool,
-    /// Numbers of samples of the columns, if shown in a last row.
+    /// Numbers of samples for the last row, one for each column; `None` without this row.
     counts: Option<Vec<String>>,
 }
 
 impl ScoreTable {
     /// Main scores as tables with intervals below the values, each of the width of a paper column.
     ///
-    /// One study has one row for each channel; several have one column for each study. Columns and rows that do not fit go to further tables.
+    /// Rows are channels for one study. Columns are studies for several. Columns and rows that do not fit form further tables.
     pub fn for_column(&self, caption: &str) -> Vec<Table> {
         let main = self.main();
         let sheet = match main.names.len() == 1 && main.is_of_accuracy() {
@@ -150,7 +150,7 @@ impl ScoreTable {
         is_wanted.then(|| (0..self.names.len()).map(of).collect())
     }
 
-    /// Legend of bold and marked values, with differences between labels, in one paragraph.
+    /// Note on bold and marked values and on different label spreads, in one paragraph.
     fn note(&self) -> Option<Words> {
         let mut sentences = Vec::new();
         if self.valued().any(|cell| cell.is_best) {
@@ -181,7 +181,7 @@ impl ScoreTable {
 }
 
 impl ScoreRow {
-    /// Channel with its unit. LaTeX shows the metric above it, other formats before it.
+    /// Channel with its unit. The metric is above the channel in LaTeX, and before it in other formats.
     pub(super) fn named(&self, channel: &Words) -> Words {
         let plain = format!("{} {}", self.metric, channel.plain());
         let plain = Better::of(&self.metric).map_or(plain.clone(), |better| better.beside(&plain));
@@ -199,7 +199,7 @@ impl Sheet<'_> {
         }
     }
 
-    /// Number of value columns with this number of digits that fit a table.
+    /// Number of value columns that fit a table if values have `digits` digits.
     fn columns_of(&self, digits: usize) -> usize {
         let names = self.lines.iter().map(|line| line.name_pt);
         let name = names.fold(20.0, f64::max).min(NAME_PT);
@@ -226,7 +226,7 @@ impl Sheet<'_> {
         count
     }
 
-    /// Table of some lines and columns.
+    /// Table of the selected lines and columns, with values of `digits` digits.
     fn table(&self, lines: &[Line<'_>], columns: &[usize], digits: usize) -> Table {
         let share = (COLUMN_PT - NAME_PT) / columns.len().max(1) as f64 - GAP_PT;
         let heads = columns.iter().map(|at| {
@@ -275,7 +275,7 @@ impl Sheet<'_> {
     }
 }
 
-/// `caption` of one of several tables.
+/// `caption` with the number of the table, if there are several tables.
 fn numbered(caption: &str, at: usize, count: usize) -> String {
     format!("{}, part {at} of {count}.", caption.trim_end_matches('.'))
 }
@@ -315,7 +315,7 @@ fn counts<'a>(cells: impl Iterator<Item = &'a ScoreCell>) -> String {
     }
 }
 
-/// Value with its interval, both with as many digits as fit.
+/// Value with its interval, both with at most `digits` digits.
 fn estimate(cell: Option<&ScoreCell>, digits: usize) -> Estimate {
     let Some((cell, value)) = cell.and_then(|cell| Some((cell, cell.value?))) else {
         return Estimate::default();

@@ -7,7 +7,7 @@ use super::mark::{BARRED, UNPROVEN};
 use super::{ScoreCell, ScoreRow, ScoreTable};
 use crate::table::{Align, Cell, Column, Direction, Estimate, Row, Table, Words, latex_symbol};
 
-/// Legend of bold numbers, plain and in LaTeX.
+/// Legend of bold numbers, as plain text and as LaTeX.
 const BOLD: [&str; 2] = [
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5 % after Holm's adjustment.",
     "Bold: better than every other sensor that takes part in verdicts, at a level of 5\\,\\% after Holm's adjustment.",
@@ -112,7 +112,7 @@ impl ScoreTable {
         table
     }
 
-    /// Table with these columns and one for each study.
+    /// Table with `columns`, then one column for each study.
     fn of_studies<const N: usize>(&self, columns: [Column; N]) -> Table {
         let studies = self.names.iter();
         let studies = studies.map(|name| Column::new(name.as_str()).align(Align::Right));
@@ -155,7 +155,7 @@ fn estimate(cell: Option<&ScoreCell>) -> Cell {
     }))
 }
 
-/// Value with its interval and the sign of its standing, without words, because a paper lacks room.
+/// Value with its interval and the sign of its standing. Omits words to save space in a paper.
 fn without_words(cell: Option<&ScoreCell>) -> Cell {
     let valued = cell.filter(|cell| cell.value.is_some());
     Cell::Estimate(valued.map_or_else(Estimate::default, |cell| {

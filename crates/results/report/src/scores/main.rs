@@ -6,11 +6,11 @@ use super::{ScoreRow, ScoreTable};
 
 /// Metrics of the main table, in order.
 const METRICS: [&str; 3] = ["mae", "r2", "smape"];
-/// Channels and planes in the order of papers; others follow.
+/// Channels and planes in the order of papers. Other channels follow.
 const CHANNELS: [&str; 8] = ["Fxy", "Fx", "Fy", "Fz", "Pxy", "Px", "Py", "Pz"];
 
 impl ScoreTable {
-    /// Rows that a paper shows first: MAE, R² and sMAPE, of planes if there are any. Results without them keep all their scores.
+    /// Rows of the main table: MAE, R² and sMAPE, of planes if present. Returns all rows if none of these metrics is present.
     #[must_use]
     pub fn main(&self) -> ScoreTable {
         let headlines = self.headlines();
@@ -27,7 +27,7 @@ impl ScoreTable {
         }
     }
 
-    /// Metrics that [`main`](ScoreTable::main) leaves out.
+    /// Metrics of rows that [`main`](ScoreTable::main) omits.
     pub fn beside_main(&self) -> BTreeSet<&str> {
         let main = self.main();
         let is_shown = |row: &&ScoreRow| main.rows.iter().any(|own| own.metric == row.metric);

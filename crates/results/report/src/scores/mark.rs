@@ -1,4 +1,4 @@
-//! Signs after values of limited standing, for places without room for words.
+//! Signs for values of limited standing, where words do not fit.
 
 use std::collections::BTreeSet;
 
@@ -8,10 +8,10 @@ use super::{ScoreCell, ScoreTable};
 
 /// Sign of a value that is excluded from verdicts.
 pub(crate) const BARRED: &str = "†";
-/// Sign of a value in verdicts whose model is not shown to beat a constant.
+/// Sign of a value that takes part in verdicts, although the skill of the model is not shown.
 pub(super) const UNPROVEN: &str = "‡";
 
-/// Sign of `standing`; empty if it counts without remark.
+/// Sign of `standing`; empty if the score counts without remark.
 pub(crate) fn sign(standing: Standing) -> &'static str {
     match (standing.takes_part(), standing.phrase()) {
         (false, _) => BARRED,
@@ -21,7 +21,7 @@ pub(crate) fn sign(standing: Standing) -> &'static str {
 }
 
 impl ScoreCell {
-    /// Sign of the standing of its value; empty if it counts without remark.
+    /// Sign of the standing of the value; empty if the value counts without remark.
     pub(super) fn mark(&self) -> &'static str {
         match self.value {
             None => BARRED,
@@ -31,7 +31,7 @@ impl ScoreCell {
 }
 
 impl ScoreTable {
-    /// Meaning of `mark` with its reasons; `None` if no value has it.
+    /// Meaning of `mark` with the reasons in this table; `None` if no value has the mark.
     pub(super) fn legend(&self, mark: &str) -> Option<String> {
         let marked = self.valued().filter(|cell| cell.mark() == mark);
         let reasons = marked.filter_map(|cell| cell.standing.phrase());

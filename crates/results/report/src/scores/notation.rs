@@ -1,4 +1,4 @@
-//! Metrics in the notation of papers.
+//! Notation of metrics in papers.
 
 use taceva_metrics::catalogue;
 

@@ -14,22 +14,22 @@ use crate::compare::{CompareRequest, QUESTIONS};
 use crate::results::Study;
 use crate::table::{Align, Cell, Column, Estimate, Table, Words};
 
-/// Word for a number or fact that an entry of the catalogue lacks.
+/// Text for a number or fact that an entry of the catalogue lacks.
 const NOT_THERE: &str = "not in the catalogue";
-/// Words and marks whose places are visible in the table, so that their note names no places.
+/// Words and marks whose notes list no scores, because the table shows the words and marks themselves.
 const SEEN: [&str; 4] = [UNPROVEN, NOT_THERE, "not scored", "unknown"];
 
-/// A score or a fact of each study.
+/// Line of the table: a score or a fact of each study.
 struct Line<'a> {
     name: Words,
     /// Name without unit and direction: `mae Fz`.
     quantity: String,
     /// Unit; empty for shares and text.
     unit: String,
-    /// The score; `None` for a fact.
+    /// Row of the score; `None` for a fact.
     row: Option<&'a ScoreRow>,
     cells: Vec<Option<Cell>>,
-    /// Comparability of its published numbers as text; empty for fewer than two numbers.
+    /// Word on the comparability of the published numbers; empty for fewer than two numbers.
     origins: &'static str,
 }
 
@@ -47,7 +47,7 @@ impl Line<'_> {
 struct Note {
     word: &'static str,
     reason: String,
-    /// Scores with that word, by study.
+    /// Scores with the word or mark, by study.
     places: Vec<(String, Vec<String>)>,
 }
 
@@ -57,8 +57,8 @@ struct Notes(Vec<Note>);
 impl ScoreTable {
     /// Values of `studies` side by side: one row for each score or published fact, one column for each study.
     ///
-    /// The rows are the main scores and those of the first questions; with `is_all`, every score without its variants. If `request` names metrics,
-    /// only their scores. A short word stands for an absent value, and a note states the reason.
+    /// The rows are the main scores and those of the first questions; with `is_all`, all scores without variants. If `request` names metrics, the rows are
+    /// their scores. A short word replaces an absent value, and a note states the reason.
     ///
     /// ```
     /// use taceva_report::{CompareRequest, ScoreTable, catalogue};
@@ -99,7 +99,7 @@ impl ScoreTable {
         table
     }
 
-    /// All lines, with words for absent values, and the explanations of words and marks.
+    /// All lines, and notes that explain words and marks.
     fn lines(&self, studies: &[Study], request: &CompareRequest) -> (Vec<Line<'_>>, Notes) {
         let mut notes = Notes::default();
         let rows = self.rows.iter();
@@ -190,7 +190,7 @@ impl Notes {
 }
 
 impl Note {
-    /// `skipped: the sensor keeps light out (GelSight: r_light Fz).`
+    /// Sentence of the note: `skipped: the sensor keeps light out (GelSight: r_light Fz).`
     fn sentence(&self) -> String {
         let reason = &self.reason;
         let is_untested = Standing::SkillUnknown.phrase() == Some(reason.as_str());
@@ -212,14 +212,14 @@ impl Note {
     }
 }
 
-/// True for the main scores and those of the first questions.
+/// True for the main scores and for scores of the most important questions.
 fn is_asked_first(row: &ScoreRow) -> bool {
     let mut questions = QUESTIONS.iter();
     let is_question = questions.any(|(metric, ..)| *metric == row.metric);
     is_main(row) || is_question || row.metric == "intrinsic"
 }
 
-/// Value with its interval. Published values are not rounded, but lose trailing zeros.
+/// Value with its interval. Published values are not rounded; only trailing zeros are removed.
 fn value(cell: &ScoreCell, source: &str, mark: &'static str) -> Cell {
     let mut formatted = cell.formatted.clone();
     if let Some(value) = cell.value.filter(|_| source == "published") {
@@ -248,7 +248,7 @@ fn fact_line(quantity: &str, unit: &str, cells: Vec<Option<Cell>>) -> Line<'stat
     line
 }
 
-/// Adds the facts of `studies` to the lines; several facts of one name share a cell.
+/// Adds the facts of `studies` to the lines. Several facts with one name share a cell.
 fn enter_facts(studies: &[Study], lines: &mut Vec<Line<'_>>) {
     for (at, study) in studies.iter().enumerate() {
         for fact in &study.facts {

@@ -12,7 +12,7 @@ use crate::number::numeral;
 
 /// Name of the page with the numbers of all sensors.
 pub(super) const FILE: &str = "measured.html";
-/// Meaning of the columns.
+/// Explanation of the columns.
 const NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` computes it \
                     again from sums, and `predictions` from tables of truth and prediction. Numbers of different samples or definitions are not comparable, \
                     and none is ranked. A grey number has no interval. A seal is a digest and no signature.";
@@ -41,7 +41,7 @@ pub(super) fn page(sensors: &[Sensor]) -> Option<SitePage> {
     })
 }
 
-/// Adds the numbers of the bundles of `sensors` to a page, a section for each origin.
+/// Adds the numbers of the bundles of `sensors` to a page, with one section for each origin.
 pub(super) fn add_sections(document: &mut Document, sensors: &[Sensor]) {
     for origin in Origin::ALL {
         let mut entries: Vec<Entry<'_>> = Vec::new();

@@ -1,25 +1,25 @@
-//! Division of a table that is wider than a paper into blocks of columns.
+//! Divides tables wider than a paper into blocks of columns.
 
 use super::room::{GAP_PT, letters_pt};
 use super::{Cell, Row, Table};
 
-/// Greatest width of a row name, and of a column head, in TeX points; wider ones have several lines.
+/// Greatest width of a row name and of a column head, in TeX points. Wider names have several lines.
 pub(crate) const NAME_PT: f64 = 62.0;
 pub(crate) const HEAD_PT: f64 = 50.0;
-/// Font sizes in points: of values, and of heads and the line below a value.
+/// Font size of values, in points. [`SMALL_SIZE`] is the size of heads and of the line below a value.
 pub(crate) const VALUE_SIZE: f64 = 8.0;
 pub(crate) const SMALL_SIZE: f64 = 7.0;
-/// Bold digits are wider by this factor.
+/// Ratio of the width of bold digits to that of regular digits.
 const BOLD: f64 = 1.2;
 
 impl Table {
-    /// Approximate width in TeX points.
+    /// Approximate width of the table, in TeX points.
     pub(super) fn width_pt(&self) -> f64 {
         let columns = 0..self.columns.len();
         columns.map(|column| self.column_pt(column)).sum()
     }
 
-    /// Parts of at most `width_pt`, with about equally many columns of values. Each part repeats the columns of names.
+    /// Parts of at most `width_pt`, with about equally many columns of values. Each block repeats the columns of names.
     pub(super) fn blocks(&self, width_pt: f64) -> Vec<Table> {
         let names = (0..self.columns.len())
             .take_while(|column| self.has_only_text(*column))
@@ -45,7 +45,7 @@ impl Table {
         parts.collect()
     }
 
-    /// These columns alone.
+    /// Table with only the selected columns.
     pub(super) fn of_columns(&self, columns: &[usize]) -> Table {
         let rows = self.rows.iter().map(|row| Row {
             cells: columns.iter().map(|at| row.cells[*at].clone()).collect(),
@@ -63,7 +63,7 @@ impl Table {
         rows.all(|row| matches!(row.cells[column], Cell::Text(_)))
     }
 
-    /// Width of a column with the gap beside it.
+    /// Width of a column and the gap beside it, in TeX points.
     fn column_pt(&self, column: usize) -> f64 {
         let head = self.columns[column].head();
         let head = letters_pt(head.plain(), SMALL_SIZE).min(HEAD_PT);

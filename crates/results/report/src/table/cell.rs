@@ -10,7 +10,7 @@ use crate::number::FormattedValue;
 pub enum Cell {
     /// Text, even if it looks like a number.
     Text(Words),
-    /// Number as printed.
+    /// Number, formatted as text.
     Number(String),
     /// Value with its interval.
     Estimate(Estimate),
@@ -23,7 +23,7 @@ pub enum Cell {
 pub struct Estimate {
     /// Value and interval, or the reason why they are absent.
     pub formatted: FormattedValue,
-    /// Unit of this cell; empty if stated elsewhere, or for a ratio.
+    /// Unit of the cell; empty for a ratio, or if row or column state the unit.
     pub unit: String,
     /// Remark for readers, if any.
     pub remark: Option<String>,
@@ -39,7 +39,7 @@ impl Cell {
         Cell::Text(words.into())
     }
 
-    /// Cell of a number in the shortest form that reads back; empty without a number.
+    /// Cell of a number in shortest round-trip form; empty without a number.
     pub fn exact(value: Option<f64>) -> Cell {
         Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
     }
@@ -70,7 +70,7 @@ impl Cell {
         }
     }
 
-    /// Words of the cell for the formats.
+    /// Text of the cell for the renderers.
     pub(super) fn words(&self) -> Words {
         match self {
             Cell::Text(words) => words.clone(),
@@ -81,7 +81,7 @@ impl Cell {
         }
     }
 
-    /// Second line in LaTeX, in small letters.
+    /// Second line of the cell in LaTeX, in small letters; `None` for cells of one line.
     pub(super) fn latex_below(&self) -> Option<String> {
         match self {
             Cell::Estimate(estimate) => Some(estimate.latex_below()),

@@ -23,11 +23,11 @@ pub enum Direction {
     /// The cells are not scores.
     #[default]
     None,
-    /// Same direction for the whole column: a sign in the head for readers. Programs know the column by its name.
+    /// Same direction for the whole column, shown to readers as a sign in the head. Output for programs omits the direction.
     Is(Better),
-    /// Direction by the metric or variant in this column: a sign after the name for readers, a word in an additional column `better` for programs.
+    /// Direction by the metric or variant in this column. Readers see a sign after the name; programs get an additional column `better`.
     OfMetrics,
-    /// Direction by [`Row::better`](super::Row::better), shown in the same way.
+    /// Direction by [`Row::better`](super::Row::better), shown like that of [`Direction::OfMetrics`].
     OfRows,
 }
 
@@ -61,7 +61,7 @@ impl Column {
         }
     }
 
-    /// Column for names of metrics or variants.
+    /// Column for names of metrics or variants, which determine the direction of each row.
     pub fn of_metrics() -> Column {
         Column::new("metric").direction(Direction::OfMetrics)
     }

@@ -6,9 +6,9 @@ use super::{Cell, Column, Direction, Row, Table};
 use crate::escape;
 use crate::markup::{metric_link, scroll};
 
-/// Length of a cell, in characters, above which a page wraps it.
+/// Cells longer than this are wrapped, in characters.
 const LONG: usize = 28;
-/// Length of a cell, in characters, above which it wraps into wide lines.
+/// Cells longer than this are wrapped into wide lines, in characters.
 const VERY_LONG: usize = 70;
 
 impl Table {
@@ -32,7 +32,7 @@ impl Table {
         })
     }
 
-    /// Table of a page whose glossary is linked from names of metrics.
+    /// Table of a page with a glossary. Names of metrics are links to glossary entries.
     pub(crate) fn html_with_links(&self) -> Markup {
         self.html_with(|column, _, cell| match (column.direction, cell) {
             (Direction::OfMetrics, cell) => metric_link(&cell.plain()),
@@ -42,7 +42,7 @@ impl Table {
         })
     }
 
-    /// Table with cells rendered by `written`.
+    /// Table whose cells are rendered by `written`.
     fn html_with(&self, written: impl Fn(&Column, &Row, &Cell) -> Markup) -> Markup {
         // Omits columns without words.
         let has_words = |at: &usize| {

@@ -4,7 +4,7 @@ use super::room::{COLUMN_PT, PAGE_PT, breakable};
 use super::{Row, Table, Words};
 use crate::escape::{LETTER, LETTER_DEFINITION, latex as escape};
 
-/// Greatest total number of letters in column names at the number size in a page column.
+/// Greatest total number of letters in column names with the font size of numbers, in a page column.
 const LETTERS: usize = 28;
 /// Number of columns above which numbers in a page column are smaller.
 const COLUMNS: usize = 5;
@@ -17,7 +17,7 @@ pub enum Layout {
     Float,
     /// Float of the width of a page column, in small letters.
     Column,
-    /// Float of the width of a page column, or of the page if the table is wider. A table wider than the page has blocks of columns.
+    /// Float of the width of a page column, or of the page if the table is wider. A table wider than the page is divided into blocks of columns.
     Paper,
     /// Rows only.
     Rows,
@@ -34,7 +34,7 @@ impl Table {
         format!("% needs \\usepackage{{booktabs}}\n{letters}{table}")
     }
 
-    /// The environment without definitions.
+    /// Environment of the table, without definitions of commands.
     fn latex_table(&self, layout: Layout) -> String {
         let mut out = String::new();
         if layout == Layout::Rows {
@@ -166,7 +166,7 @@ fn below(indent: &str, row: &Row) -> String {
     format!("{indent}{} {} \\\\\n", " &".repeat(words), rest.join(" & "))
 }
 
-/// Number in LaTeX maths, with a proper minus and `2.3e-7` as a power of ten. Other text is escaped.
+/// Number in LaTeX maths, with a typographic minus and with a power of ten for `2.3e-7`. Escapes other text.
 ///
 /// ```
 /// assert_eq!(taceva_report::latex_number("-0.5"), "$-0.5$");
@@ -184,7 +184,7 @@ pub fn number(text: &str) -> String {
     }
 }
 
-/// Symbol of a channel, `Fxy` as `$F_{xy}$`; other names are escaped.
+/// LaTeX symbol of a channel, such as `$F_{xy}$` for `Fxy`. Escapes other names.
 ///
 /// ```
 /// assert_eq!(taceva_report::latex_symbol("Fxy"), "$F_{xy}$");

@@ -1,4 +1,4 @@
-//! Text width in a paper column, and line breaks that fit it.
+//! Approximate width of text in a paper column, and line breaks by this width.
 
 use crate::escape::{LETTER, is_set_everywhere, latex as escape};
 
@@ -6,7 +6,7 @@ use crate::escape::{LETTER, is_set_everywhere, latex as escape};
 pub(crate) const COLUMN_PT: f64 = 249.0;
 /// Text width of such a page: 7.16 in, less a small margin.
 pub(super) const PAGE_PT: f64 = 510.0;
-/// Greatest number of letters in an unbroken word, and in the pieces of a longer one.
+/// Greatest number of letters in a word without breaks, and in the pieces of a longer word.
 const WHOLE: usize = 14;
 const PIECE: usize = 4;
 
@@ -18,7 +18,7 @@ pub(crate) fn letters_pt(words: &str, size_pt: f64) -> f64 {
     words.chars().map(em).sum::<f64>() * size_pt
 }
 
-/// Width of a letter, as a fraction of the font size.
+/// Approximate width of a letter, as a share of the font size.
 fn em(letter: char) -> f64 {
     match letter {
         'i' | 'j' | 'l' | 'f' | '.' | ',' | ':' | ';' | '\'' | '|' | '!' | '[' | ']' | '('
@@ -63,7 +63,7 @@ pub(super) fn breakable(text: &str) -> String {
     out
 }
 
-/// LaTeX text in lines of about `width_pt`, aligned to `side` (`l` or `r`). Breaks after a space or joint, else between letters.
+/// LaTeX text in lines of about `width_pt`, aligned to `side` (`l` or `r`). Breaks after a space or a joining character, otherwise between letters.
 pub(crate) fn stacked(words: &str, width_pt: f64, size_pt: f64, side: char) -> String {
     let mut lines: Vec<String> = vec![String::new()];
     for piece in pieces(words, width_pt, size_pt) {
@@ -84,7 +84,7 @@ pub(crate) fn stacked(words: &str, width_pt: f64, size_pt: f64, side: char) -> S
     }
 }
 
-/// Splits text into pieces that end with a space or a joint, each narrower than `width_pt`.
+/// Splits text into pieces narrower than `width_pt` that end with a space or a joining character.
 fn pieces(words: &str, width_pt: f64, size_pt: f64) -> Vec<String> {
     let mut pieces = vec![String::new()];
     let mut ends = false;

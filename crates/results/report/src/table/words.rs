@@ -1,10 +1,10 @@
-//! Words with optional spellings for each format.
+//! Text with optional spellings for each format.
 
 use taceva_metrics::Better;
 
 use crate::escape;
 
-/// Words of a table. Formats escape them, unless they have their own spelling.
+/// Text of a table. Each format escapes the text, or uses the spelling that is set for the format.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Words {
     plain: String,
@@ -13,7 +13,7 @@ pub struct Words {
 }
 
 impl Words {
-    /// Words that every format escapes.
+    /// Text that every format escapes.
     pub fn new(plain: impl Into<String>) -> Words {
         Words {
             plain: plain.into(),
@@ -51,12 +51,12 @@ impl Words {
         }
     }
 
-    /// Words without spelling for a format.
+    /// Text without the spellings of formats.
     pub fn plain(&self) -> &str {
         &self.plain
     }
 
-    /// Appends the sign of a direction, unless the words are empty.
+    /// Appends the sign of a direction, unless the text is empty.
     pub(super) fn directed(self, better: Option<Better>) -> Words {
         match better {
             Some(better) if !self.plain.is_empty() => Words {

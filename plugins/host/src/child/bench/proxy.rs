@@ -17,7 +17,7 @@ pub(crate) struct BenchProxy {
 
 struct Line {
     caller: Caller,
-    /// Last reading of the bench's clock, used after the bench is gone.
+    /// Last known time of the clock of the bench, returned after the bench is gone.
     now: Duration,
 }
 

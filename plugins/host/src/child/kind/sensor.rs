@@ -28,7 +28,7 @@ struct SensorProxy {
     scenes: Option<Vec<String>>,
 }
 
-/// A sensor in the child with the shared memory for its frames.
+/// Sensor in the child, with the shared memory for its frames.
 struct SensorServer {
     sensor: Box<dyn Sensor>,
     frame: FrameInfo,

@@ -31,7 +31,7 @@ const ENDS_WITHIN: Duration = Duration::from_secs(5);
 /// Time without progress after which a fit is reported as silent.
 const SILENCE: Duration = Duration::from_secs(10);
 
-/// Time since the last progress of a fit. A long one is reported once.
+/// Time since the last progress of a fit. A long pause is reported once.
 struct Silence {
     since: Instant,
     is_reported: bool,
@@ -48,7 +48,7 @@ impl Silence {
 /// Maximum size of a saved model, bytes.
 const SAVED_MAX: u64 = 1 << 30;
 
-/// A fitted model in a child.
+/// Fitted model in a child.
 pub(crate) struct ModelProxy {
     child: Arc<Child>,
     estimator: DriverKey,
@@ -58,7 +58,7 @@ pub(crate) struct ModelProxy {
 }
 
 impl ModelProxy {
-    /// Waits until the child has made the model. `talk` is the socket to the child's model thread.
+    /// Waits until the child has made the model. `talk` is the socket to the thread of the model in the child.
     pub(crate) fn when_made(
         child: Arc<Child>,
         estimator: DriverKey,
@@ -236,7 +236,7 @@ impl Drop for ModelProxy {
     }
 }
 
-/// Converts a failure into the estimator's error as it would read without a child process.
+/// Converts a failure into the error of the estimator, with the text that it would have without a child process.
 pub(crate) fn of_failure(estimator: &DriverKey, failure: &Failure) -> ModelError {
     let why = match &failure.cause {
         // The message already names the estimator.

@@ -7,8 +7,8 @@ use crate::child::wire::{Malformed, Reader, Wire, fields};
 
 /// Limits that a child imposes on itself before it loads anything.
 ///
-/// An untrusted child can always read the system libraries. It never gets unneeded files or sockets, and cannot start programs or see other
-/// processes. Its memory is never both writable and executable.
+/// An untrusted child can always read the system libraries. The child has no access to unneeded files or sockets, and cannot start programs or see other
+/// processes. No memory is both writable and executable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Confinement {
     /// Limit of address space, bytes.
@@ -19,11 +19,11 @@ pub struct Confinement {
     pub needs: Vec<Need>,
     /// Further readable files and folders: the environment of an interpreter.
     pub readable: Vec<PathBuf>,
-    /// True if the child may map no more code once its plugin is loaded.
+    /// True if the child can map no further code after its plugin is loaded.
     pub seals: bool,
     /// True if partial enforcement by the kernel is accepted. Otherwise the child refuses to start.
     pub accepts_less: bool,
-    /// True if nothing is restricted: the user trusts the plugin, and the process only contains crashes.
+    /// True if nothing is restricted, because the user trusts the plugin. The process then only protects the host from crashes.
     pub is_trusted: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Files behind needs: device files of the requested kinds, and the system files that describe them.
+//! Files that needs require: device files of the requested kinds, and system files that describe the devices.
 
 use std::fs::{self, Metadata};
 use std::os::unix::fs::{FileTypeExt, MetadataExt};
@@ -14,14 +14,14 @@ mod major {
     pub(super) const OWN_TERMINAL: u32 = 5;
     pub(super) const PSEUDO_TERMINALS: std::ops::RangeInclusive<u32> = 136..=143;
 }
-/// First minor number of a serial port; lower ones are consoles.
+/// First minor number of a serial port. Lower numbers are consoles.
 const FIRST_PORT: u32 = 64;
 
 /// Folders in which libraries find cameras.
 const CAMERAS: [&str; 2] = ["/sys/class/video4linux", "/sys/devices"];
 const HIDS: [&str; 3] = ["/sys/class/hidraw", "/sys/bus/hid", "/sys/devices"];
 
-/// Existing devices that `needs` name. Each is checked to be of the requested kind.
+/// Existing device files that match `needs` and are of the requested kind.
 pub(super) fn devices(needs: &[Need]) -> Vec<PathBuf> {
     let mut devices = Vec::new();
     for need in needs {

@@ -1,4 +1,4 @@
-//! Order in which a child gives up its rights.
+//! Applies the limits of a child in the required order.
 
 use super::isolation::LANDLOCK_WHOLE;
 use super::{Confinement, Isolation, files, identity, seccomp};
@@ -34,7 +34,7 @@ pub(crate) fn confine(confinement: &Confinement, parent: u32) -> Result<Isolatio
     }
 }
 
-/// Gives up the right to map code, which only loading needs, on every thread of the process.
+/// Gives up the right to map code on every thread of the process. Only loading needs this right.
 ///
 /// # Errors
 /// As [`confine`].

@@ -10,7 +10,7 @@ use landlock::{
 
 use super::{Confinement, Need, devices};
 
-/// Newest supported Landlock version. An older kernel enforces the rights it knows.
+/// Newest supported Landlock version. An older kernel enforces the rights that it supports.
 const NEWEST: ABI = ABI::V7;
 
 /// Files of the loader and the C library; no user files.
@@ -83,7 +83,7 @@ fn restrict(confinement: &Confinement) -> Result<Option<u32>, RulesetError> {
     })
 }
 
-/// Allows `access` to the existing `paths`, limited for files to rights that apply to files.
+/// Allows `access` to the existing `paths`. For a file, only rights that apply to files are allowed.
 fn allow<'a>(
     mut ruleset: RulesetCreated,
     paths: impl IntoIterator<Item = &'a Path>,

@@ -10,13 +10,13 @@ use rustix::thread::{set_no_new_privs, set_thread_groups, set_thread_res_gid, se
 
 use super::{Confinement, Need, devices};
 
-/// Conventional user and group that own nothing.
+/// Number of the conventional user and group without own files.
 pub(crate) const NOBODY: u32 = 65_534;
 
-/// Sets the resource limits of the process. They cannot be raised again.
+/// Sets the resource limits of the process. The process cannot raise these limits again.
 ///
-/// CPU time has no limit, because a run may last for days. The number of threads has none either, because that limit includes the user's other
-/// programs. The system-call filter denies new processes.
+/// CPU time has no limit, because a run may last for days. The number of threads has no limit, because such a limit would include other programs of the user.
+/// The system-call filter denies new processes.
 pub(super) fn limit(confinement: &Confinement) -> Result<(), String> {
     let limits = [
         (Resource::As, confinement.memory, "memory"),

@@ -5,7 +5,7 @@ use std::fmt;
 use super::Need;
 use crate::child::wire::fields;
 
-/// Restrictions of a child, reported before it loads code that could report them falsely.
+/// Restrictions in force for a child. The child reports them before it loads code that could report false values.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Isolation {
     /// Landlock version that restricts files, ports and other processes; `None` if the kernel has none.

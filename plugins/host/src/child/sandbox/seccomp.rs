@@ -1,7 +1,7 @@
 //! System-call filter of a child: a fixed list of allowed calls. Every other call fails with "not permitted".
 //!
-//! Filters accumulate. The first is set before the library is loaded, the second afterwards, because only loading maps code. No memory is ever both
-//! writable and executable.
+//! Filters accumulate. The first filter is set before the library is loaded. The second filter is set afterwards, because only loading maps code. No memory is
+//! ever both writable and executable.
 
 mod numbers;
 
@@ -123,8 +123,8 @@ fn rules(needs: &[Need]) -> Result<Rules, BackendError> {
     Ok(rules)
 }
 
-/// Allowed `ioctl` requests: queries and flags of open files. A process with a device may send all except those that inject input into a
-/// terminal or take one over.
+/// Allowed `ioctl` requests: queries and flags of open files. A process with a device may send all requests except those that inject input into a terminal or
+/// take over a terminal.
 fn device_controls(needs: &[Need]) -> Result<Vec<SeccompRule>, BackendError> {
     let has_device = needs.iter().any(|need| {
         matches!(

@@ -1,4 +1,4 @@
-//! Encoding of driver descriptions, which are checked again on arrival.
+//! Encoding of driver descriptions. The receiver checks the descriptions again.
 
 use taceva_core::{
     ArgKind, ArgSpec, ChangerFacts, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts,
@@ -12,8 +12,8 @@ listed! {
     DriverSource, [DriverSource::Real, DriverSource::Simulated, DriverSource::Recorded], "a source of readings";
 }
 
-/// Implements [`Wire`] for a struct that can get further fields, as [`fields`] does for a fixed one. The compiler does not report a missing field
-/// here, but the test `facts_that_can_grow_cross_with_every_field` does.
+/// Implements [`Wire`] for a struct that can get further fields, as [`fields`] does for a fixed one. The compiler cannot detect a missing field here; the test
+/// `facts_that_can_grow_cross_with_every_field` does.
 macro_rules! growing {
     ($type:ident { $($field:ident),* $(,)? }) => {
         impl Wire for $type {
@@ -258,7 +258,7 @@ mod tests {
         const FIELDS: &'static [&'static str];
     }
 
-    /// Fields of the struct, in declaration order. `Debug` writes one per line, indented by four spaces.
+    /// Fields of the struct, in declaration order. The names are from the output of `Debug`, which has one field per line, indented by four spaces.
     fn declared<T: Growing>() -> Vec<String> {
         let shown = format!("{:#?}", T::default());
         let fields = shown.lines().filter_map(|line| {

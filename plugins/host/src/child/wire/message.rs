@@ -10,12 +10,12 @@ use crate::child::sandbox::{Confinement, Isolation};
 use crate::offer::Offer;
 use crate::wire_version::WIRE;
 
-/// First message, with the limits that the child must impose on itself before it loads anything. The files to serve come with it.
+/// First message, with the limits that the child must impose on itself before it loads anything. The message also transfers the files to serve.
 #[derive(Debug, PartialEq)]
 pub(crate) struct Hello {
     /// The host's [`WIRE`]. This is the first field, so a child of any version can read it.
     pub(crate) wire: u32,
-    /// Process number of the host. If its parent is another process, the child knows that the host is gone.
+    /// Process number of the host. A child with another parent process concludes that the host is gone.
     pub(crate) parent: u32,
     /// Limits that the child imposes on itself.
     pub(crate) confinement: Confinement,
@@ -38,19 +38,19 @@ messages! {
     /// Order for the child as a whole.
     #[derive(Clone, Debug, PartialEq)]
     enum Order: "an order" {
-        /// Opens a device. Two sockets come with it: for calls, and for urgent messages.
+        /// Opens a device. The order transfers two sockets: for calls, and for urgent messages.
         0 => Open { kind: DriverKind, driver: DriverKey, args: Vec<(String, ArgValue)> },
         /// Describes a driver with these arguments.
         1 => Describe { driver: DriverKey, args: Vec<(String, ArgValue)> },
         /// Lists the devices that a driver finds.
         2 => Discover { driver: DriverKey },
-        /// Serves a simulated bench of the rig. A socket comes with it.
+        /// Serves a simulated bench of the rig. The order transfers a socket.
         3 => Bench { name: String },
         /// Ends the child.
         4 => Shutdown {},
-        /// Makes a model. A socket and shared memory come with it.
+        /// Makes a model. The order transfers a socket and shared memory.
         5 => Model { order: ModelOrder },
-        /// Lists the library's offers and needs.
+        /// Lists the drivers, estimators and needs of the library.
         6 => Offer {},
     }
 
@@ -68,7 +68,7 @@ messages! {
     }
 }
 
-/// Failed operation, described as without a child process.
+/// Failed operation, with the text that the error would have without a child process.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Failure {
     pub(crate) kind: ErrorKind,

@@ -6,10 +6,10 @@ use super::value::listed;
 use super::{Failure, Malformed, Reader, Wire, fields, messages};
 
 messages! {
-    /// Order to make a model. A socket for its messages and shared memory come with it.
+    /// Order to make a model. The order transfers a socket for messages about the model, and shared memory.
     #[derive(Clone, Debug, PartialEq)]
     enum ModelOrder: "an order for a model" {
-        /// Fits a model. The shared memory of `training`, and of `validation` if present, comes with it.
+        /// Fits a model. The order transfers the shared memory of `training`, and of `validation` if present.
         0 => Fit {
             estimator: DriverKey,
             settings: Vec<(String, ArgValue)>,
@@ -52,7 +52,7 @@ messages! {
     /// A call to a model.
     #[derive(Clone, Debug, PartialEq)]
     enum ModelCall: "a call to a model" {
-        /// Predicts. The shared memory holds the features, and afterwards the predictions.
+        /// Predicts. The shared memory contains the features, and after the call the predictions.
         0 => Predict { samples: u64 },
         /// Saves the model in the child and returns the length, bytes.
         1 => Save {},

@@ -1,4 +1,4 @@
-//! Encoding of core's values. Numbers are written bit by bit, so the transfer changes no value.
+//! Encoding of core's values. The bits of numbers are encoded, so that the transfer changes no value.
 
 use taceva_core::{
     ArgValue, Axes, Axis, Deadline, Degree, DriverKind, ErrorKind, Fault, FrameInfo, GratingKind,

@@ -24,7 +24,7 @@ use super::{Need, NeedError};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct DeclaredNeed {
-    /// Checked text: with examples in place of its arguments, it is a valid need.
+    /// Text of the need. With example values for its arguments, the text is a valid need.
     text: String,
 }
 
@@ -72,7 +72,7 @@ impl DeclaredNeed {
         Ok(Some(need))
     }
 
-    /// True if `need` is within this declaration or includes it. Allowing `need` then has an effect.
+    /// True if `need` is part of this declaration or includes it, so that a permission for `need` has an effect.
     pub fn asks_for(&self, need: &Need) -> bool {
         if let Some(fixed) = self.fixed() {
             return fixed.covers(need) || need.covers(&fixed);

@@ -6,7 +6,7 @@ use taceva_core::{DriverError, ErrorKind, SimulatedBench, Specimen};
 
 use super::error;
 
-/// A bench with a constant clock.
+/// Bench whose clock does not advance.
 pub(super) struct Table;
 
 impl SimulatedBench for Table {

@@ -1,4 +1,4 @@
-//! A changer that finishes at once or never.
+//! A changer that either returns at once or never.
 
 use std::sync::Arc;
 

@@ -1,4 +1,4 @@
-//! A lamp without permission to open.
+//! A lamp that fails to open because of missing permission.
 
 use taceva_core::{
     ArgSpec, Args, Descriptor, DescriptorError, DriverError, ErrorKind, Factory, Facts, Lighting,
@@ -19,7 +19,7 @@ impl LightingMaker {
         )?))
     }
 
-    /// A lamp that requires the argument of its port.
+    /// Driver of a lamp with the required argument `port`.
     pub(super) fn on_a_port() -> Result<LightingMaker, DescriptorError> {
         let facts = LightingFacts::default().with_scenes(vec!["dark".to_owned()]);
         let port = ArgSpec::text("port");

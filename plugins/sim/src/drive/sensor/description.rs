@@ -90,7 +90,7 @@ const REDUCTIONS: i64 = 64;
 /// Approximate default length of the longer side of a frame, pixels.
 const LONGER_SIDE: u32 = 160;
 
-/// Reduction by `args`.
+/// Reduction of the frame size that `args` request.
 pub(super) fn reduction(args: &Args, parameters: &Parameters) -> u32 {
     match args.get("reduction") {
         Some(&ArgValue::Whole(reduction)) => u32::try_from(reduction).unwrap_or(1),
@@ -109,13 +109,13 @@ pub(super) fn reduced(native: [u32; 2], reduction: u32) -> [u32; 2] {
     native.map(|side| (side / reduction).max(1))
 }
 
-/// Bits of a sample by `args`; `None` for the default.
+/// Bits of a sample that `args` request; `None` for the default.
 pub(super) fn bits(args: &Args) -> Option<Bits> {
     let name = args.get("bits").and_then(ArgValue::as_text)?;
     Bits::ALL.into_iter().find(|bits| bits.name() == name)
 }
 
-/// Frame of a sensor with these parameters; `None` if they are invalid. Opening reports the details.
+/// Frame of a sensor with these parameters; `None` if they are invalid. The call to open the sensor reports the details.
 pub(super) fn frame(
     parameters: &Parameters,
     reduction: u32,

@@ -1,4 +1,4 @@
-//! A motion in progress, for benches on wall-clock time.
+//! Motion in progress, for benches on wall-clock time.
 
 use std::time::Duration;
 
@@ -11,7 +11,7 @@ use crate::drive::ticks::Ticks;
 /// A straight motion of the tip.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Course {
-    /// Ends of the motion of the tip, in mm.
+    /// Start of the motion of the tip, in mm; the next field is the end.
     from_mm: [f64; 3],
     to_mm: [f64; 3],
     /// Reported position at the start, in mm.
@@ -103,7 +103,7 @@ impl State {
         }
     }
 
-    /// Updates the reported pose along the motion.
+    /// Updates the reported pose by the progress of the motion.
     fn believe(&mut self, course: &Course) {
         let target_mm = coordinates(&course.target);
         let [x, y, z] = mix(course.sent_mm, target_mm, course.share()).map(Millimetre);

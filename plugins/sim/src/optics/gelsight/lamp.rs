@@ -10,7 +10,7 @@ pub struct LampSpec {
     pub middle_mm: [f64; 3],
     /// Half of its length along x and y.
     pub half_length_mm: [f64; 2],
-    /// Red, green and blue light that it adds to a gel facing it at the reach of the lamps.
+    /// Red, green and blue light of the bar on a gel that faces the bar at the reach of the lamps, DN.
     pub colour_dn: [f64; 3],
 }
 
@@ -75,10 +75,10 @@ impl Lamp {
         1.0 + spread * stream.normal(number)
     }
 
-    /// Adds its light to red, green and blue of the pixels at `x`, `y`.
+    /// Adds the light of the lamp to red, green and blue of the pixels at `x`, `y`.
     ///
-    /// I = ρ (d₀/d) max(0, n·l). Here d is the distance to the nearest point of the bar, l the unit vector to it, and n ∝ (−Hx, −Hy, 1). With the
-    /// vector L = d l, this is ρ d₀ max(0, n·L) / d², so only the length of n needs a root.
+    /// I = ρ (d₀/d) max(0, n·l). Here d is the distance to the nearest point of the bar, l the unit vector to it, and n ∝ (−Hx, −Hy, 1). With the vector L = d
+    /// l, this is ρ d₀ max(0, n·L) / d². Only the length of n then needs a root.
     #[inline(always)]
     pub(super) fn light(
         &self,

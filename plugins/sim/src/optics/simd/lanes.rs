@@ -4,8 +4,8 @@
 )]
 //! Four numbers in one register.
 //!
-//! The compiler alone would keep the four numbers of a texel in separate registers. Every operation follows IEEE 754 on each lane, so vector and
-//! array implementations give the same bits. Every x86-64 has SSE2.
+//! The compiler alone would keep the four numbers of a texel in separate registers. Every operation follows IEEE 754 on each lane, so that vector and array
+//! implementations give the same bits. Every x86-64 has SSE2.
 
 #[cfg(target_arch = "x86_64")]
 use std::arch::x86_64 as isa;

@@ -2,9 +2,9 @@
     unsafe_code,
     reason = "a function compiled for AVX2 is called only after AVX2 was detected"
 )]
-//! The same code compiled twice: for every processor, and for processors with AVX2.
+//! Compiles rendering code twice: for every processor, and for processors with AVX2.
 //!
-//! Vectors of eight and of four give the same result in each lane. No multiplication is fused with an addition, so both give the same bytes.
+//! Vectors of eight and of four give the same result in each lane. No multiplication is fused with an addition, so that both give the same bytes.
 
 use crate::optics::camera::Camera;
 use crate::optics::luma::Luma;

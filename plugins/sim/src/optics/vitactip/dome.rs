@@ -6,13 +6,13 @@ use crate::elastic::{hertz, shell};
 use crate::number::{count, narrow};
 use taceva_core::whole_size;
 
-/// Dimple of a shell as a table. Evaluating Kelvin's function for 127 markers would take longer than the picture.
+/// Dimple of a shell as a table, because Kelvin's function for 127 markers would take longer than the picture.
 #[derive(Clone, Debug)]
 pub(super) struct Dimple {
     depths: Vec<f32>,
 }
 
-/// Nodes per decay length, and decay lengths after which the dimple ends.
+/// Number of nodes per decay length. The next constant is the end of the dimple in decay lengths.
 const NODES_A_LENGTH: f64 = 32.0;
 const LENGTHS: usize = 12;
 

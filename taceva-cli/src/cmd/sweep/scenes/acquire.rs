@@ -1,4 +1,4 @@
-//! Acquisition of scenes as by `taceva run`, by one process at a time.
+//! Acquires scenes like `taceva run`, in one process at a time.
 
 use std::path::Path;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -17,20 +17,20 @@ use crate::args::CacheArgs;
 use crate::cmd::{Context, cache, run::bench, scene};
 use crate::progress;
 
-/// Interval at which a waiting process checks whether another has finished a scene.
+/// Interval of checks for the end of an acquisition by another process.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
 /// Message after an interruption.
 const STOPPED: &str = "stopped while a scene was acquired; the same command continues from here";
 
-/// Resources of an acquisition.
+/// Objects that an acquisition uses.
 pub(crate) struct Acquisition<'a> {
     pub(crate) folder: &'a SweepFolder,
     pub(crate) models: &'a Models,
-    /// The cache of simulated recordings, shared with `taceva run`.
+    /// Cache of simulated recordings, shared with `taceva run`.
     pub(crate) cache: &'a CacheArgs,
 }
 
-/// Acquires in turn those of `scenes` that are not complete; true if there was one.
+/// Acquires the incomplete ones of `scenes` in turn. True if at least one was incomplete.
 pub(crate) fn acquire(
     scenes: &[SweepScene],
     acquisition: &Acquisition<'_>,
@@ -101,7 +101,7 @@ impl SweepScene {
     }
 }
 
-/// The claim at `path`, once no other process holds it.
+/// Acquires the claim file at `path`. Waits while another process holds the claim.
 fn claim(path: &Path, context: &Context) -> anyhow::Result<Claim> {
     let of_path = || format!("cannot claim {}", shown(path));
     let mut watch: Option<Watch> = None;
@@ -128,7 +128,7 @@ fn claim(path: &Path, context: &Context) -> anyhow::Result<Claim> {
     }
 }
 
-/// A progress that counts steps.
+/// Progress that counts steps.
 struct Counted<'a> {
     whole: &'a dyn Progress,
     steps: AtomicU64,

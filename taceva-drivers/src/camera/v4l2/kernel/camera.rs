@@ -1,4 +1,4 @@
-//! Opening and format of a camera.
+//! Opening of a camera, and its image format.
 
 use std::os::fd::{AsFd, BorrowedFd, OwnedFd};
 use std::path::Path;
@@ -10,7 +10,7 @@ use super::error::V4l2Error;
 use super::ioctls::{self, Capability, Format, FormatName, Rate, Size};
 use super::picture::{Coding, FourCc, GivenFormat, PictureFormat};
 
-/// An open camera that does not stream yet.
+/// Open camera that is not streaming.
 #[derive(Debug)]
 pub struct Camera {
     file: OwnedFd,
@@ -20,7 +20,7 @@ pub struct Camera {
 
 const RATE_CAN_BE_SET: u32 = 0x1000;
 const FIELD_NONE: u32 = 1;
-/// Maximum number of formats or sizes read from a camera, in case of a faulty one.
+/// Maximum number of formats or sizes read from a camera. A faulty camera could list formats without end.
 const OFFERS_MAX: u32 = 256;
 
 impl Camera {
@@ -77,7 +77,7 @@ impl Camera {
     /// Sets size and pixel format of the images.
     ///
     /// # Errors
-    /// [`V4l2Error::Format`] with the supported formats if it would give another; [`V4l2Error::Busy`] if another program uses it.
+    /// [`V4l2Error::Format`] with the supported formats if the camera sets another format; [`V4l2Error::Busy`] if another program uses the camera.
     pub fn set_format(&mut self, wanted: &PictureFormat) -> Result<GivenFormat, V4l2Error> {
         let mut format = Format {
             width: wanted.width,
@@ -106,7 +106,7 @@ impl Camera {
         })
     }
 
-    /// Sets the frame rate, Hz, if the camera allows it.
+    /// Sets the frame rate, Hz. A camera with a fixed rate keeps its rate.
     ///
     /// # Errors
     /// [`V4l2Error::Rate`] if the resulting rate differs by more than 1 %.

@@ -29,7 +29,7 @@ impl ControlId {
     pub const FOCUS: ControlId = ControlId(0x009a_090a);
     /// Automatic focus: 0 off, 1 on.
     pub const FOCUS_AUTOMATIC: ControlId = ControlId(0x009a_090c);
-    /// Zoom, in steps of the camera. A DIGIT sets its LEDs by it.
+    /// Zoom, in steps of the camera. In a DIGIT, this control sets the LEDs.
     pub const ZOOM: ControlId = ControlId(0x009a_090d);
 }
 
@@ -54,7 +54,7 @@ pub enum ControlKind {
     Other,
 }
 
-/// A control of a camera. A plain value, which gets no further fields.
+/// Control of a camera. A plain value, which gets no further fields.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Control {
     /// Control number.
@@ -69,13 +69,13 @@ pub struct Control {
     pub greatest: i32,
     /// Default value.
     pub usual: i32,
-    /// True if another control overrides it, so that setting it has no effect.
+    /// True if another control overrides this control, so that a new value has no effect.
     pub is_inactive: bool,
 }
 
 const DISABLED: u32 = 0x1;
 const INACTIVE: u32 = 0x10;
-/// Maximum number of controls read from a camera, in case of a faulty one.
+/// Maximum number of controls read from a camera. A faulty camera could list controls without end.
 const CONTROLS_MAX: usize = 1024;
 
 impl Control {

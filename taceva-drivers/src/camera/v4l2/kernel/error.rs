@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::picture::PictureFormat;
 
-/// Failure of a camera call.
+/// Failure of a call to a camera.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum V4l2Error {
@@ -24,7 +24,7 @@ pub enum V4l2Error {
     NoCamera {
         /// Path of the device file.
         path: PathBuf,
-        /// The missing capability.
+        /// Missing capability, as text.
         why: String,
     },
     /// The camera does not support the requested format.

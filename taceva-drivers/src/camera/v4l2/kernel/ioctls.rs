@@ -11,7 +11,7 @@ use rustix::ioctl::{Updater, ioctl, opcode};
 
 /// Buffer type used here: single-plane video capture.
 pub(crate) const CAPTURE: u32 = 1;
-/// Memory type used here: kernel buffers mapped by the program.
+/// Memory type used here: kernel buffers that the program maps.
 pub(crate) const SHARED: u32 = 1;
 
 /// Capability bits of a device.
@@ -146,7 +146,7 @@ pub(crate) struct Request {
 pub(crate) struct Buffer {
     pub(crate) index: u32,
     pub(crate) kind: u32,
-    /// Size of the image in it, bytes.
+    /// Size of the image in the buffer, bytes.
     pub(crate) used: u32,
     pub(crate) flags: u32,
     pub(crate) field: u32,
@@ -157,7 +157,7 @@ pub(crate) struct Buffer {
     /// Sequence number, increased by one per captured image.
     pub(crate) number: u32,
     pub(crate) memory: u32,
-    /// Offset for mapping. Not a pointer as long as `memory` is [`SHARED`].
+    /// Offset for mapping the buffer, if `memory` is [`SHARED`]. Otherwise the kernel stores a pointer here.
     pub(crate) offset: u64,
     pub(crate) length: u32,
     pub(crate) reserved: u32,
@@ -167,7 +167,7 @@ pub(crate) struct Buffer {
 
 /// Flag of a damaged image.
 pub(crate) const DAMAGED: u32 = 0x40;
-/// Mask of the time-stamp clock, and the value of the monotonic clock.
+/// Mask of the bits of `flags` for the time-stamp clock. [`MONOTONIC`] is the value for the monotonic clock.
 pub(crate) const CLOCKS: u32 = 0xe000;
 pub(crate) const MONOTONIC: u32 = 0x2000;
 
@@ -186,7 +186,7 @@ pub(crate) struct ControlInfo {
     pub(crate) reserved: [u32; 2],
 }
 
-/// Flag that requests the control after the given one.
+/// Flag that requests the next control after the given number.
 pub(crate) const NEXT_CONTROL: u32 = 0x8000_0000;
 
 /// Value of a control.

@@ -36,7 +36,7 @@ impl fmt::Display for FourCc {
     }
 }
 
-/// Requested image format. A plain value, which gets no further fields.
+/// Requested image format: a plain value that gets no further fields.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PictureFormat {
     /// Width, pixels.

@@ -10,14 +10,14 @@ use super::error::V4l2Error;
 use super::frame_memory::Mapped;
 use super::ioctls::{self, Buffer, Request};
 
-/// A camera that streams until it is stopped or dropped.
+/// Camera that streams until it is stopped or dropped.
 #[derive(Debug)]
 pub struct Stream {
     camera: Camera,
     buffers: Vec<Mapped>,
 }
 
-/// Number of buffers. A slower reader misses images, which shows as gaps in their numbers.
+/// Number of buffers. If the reader is slower, images are lost, and image numbers have gaps.
 const BUFFERS: u32 = 4;
 const MICROSECOND_NS: u64 = 1000;
 
@@ -127,7 +127,7 @@ fn buffer(index: u32) -> Buffer {
     }
 }
 
-/// An image whose buffer is queued again on drop.
+/// Image in a buffer. Dropping it queues the buffer again.
 #[derive(Debug)]
 pub struct Filled<'a> {
     stream: &'a mut Stream,

@@ -27,7 +27,7 @@ pub(super) const SOFT: Gel = Gel {
     pose_noise_mm: 0.0,
 };
 
-/// A gel so hard that every press ends at the force limit.
+/// Gel that is so hard that every press ends at the force limit.
 pub(super) const HARD: Gel = Gel {
     stiffness_n_mm: 5.0,
     ..SOFT

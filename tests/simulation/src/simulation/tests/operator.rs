@@ -1,4 +1,4 @@
-//! Manual steps: nothing moves during them, and the answers yes, no and stop have their effects.
+//! Tests of manual steps: nothing moves during a step, and the answers yes, no and stop have their effects.
 
 use std::sync::{Arc, Mutex};
 

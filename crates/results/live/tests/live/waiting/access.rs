@@ -1,4 +1,4 @@
-//! Accepted clients, and clients rejected before their request is read.
+//! Tests of accepted clients, and of clients that are rejected before their request is read.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -177,7 +177,7 @@ fn a_fifth_stream_is_503_and_the_button_is_answered_beside_it() {
 #[expect(clippy::print_stderr, reason = "the times are the result")]
 fn sixty_four_slow_connections_never_keep_the_stop_button_from_answering() {
     const PRESSES: u32 = 100;
-    /// Longest wait of a person who presses the button.
+    /// Longest acceptable response time of the stop button.
     const IN_TIME: Duration = Duration::from_millis(100);
     let opened = Opened::new();
     let slow = |number: usize| {

@@ -1,4 +1,4 @@
-//! Display and questions, without waiting for clients.
+//! Tests of the display and of questions, without waiting for clients.
 
 use std::time::{Duration, Instant};
 

@@ -1,4 +1,4 @@
-//! An open page, and requests to it.
+//! Helper functions that open a page and send requests.
 
 use std::io::{Read, Write};
 use std::net::{SocketAddr, TcpStream};
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 use taceva_live::{Live, Page};
 
-/// A page, and the number of stop presses.
+/// Open page, with a count of presses of its stop button.
 pub(crate) struct Opened {
     pub(crate) live: Live,
     pub(crate) page: Page,
@@ -49,7 +49,7 @@ impl Opened {
         stream
     }
 
-    /// Response to a request with these header lines, which include the token if needed.
+    /// Response to a request with the first line `first` and the header `lines`. The token is part of `lines` if needed.
     pub(crate) fn asked(&self, first: &str, lines: &str, body: &str) -> String {
         let mut stream = self.connected();
         let request = format!(
@@ -68,7 +68,7 @@ impl Opened {
         format!("Host: {address}\r\nOrigin: http://{address}\r\nX-Taceva-Token: {token}\r\n")
     }
 
-    /// A stream, read up to the end of its header.
+    /// Opens a stream and reads the header of the response.
     pub(crate) fn stream(&self, path: &str) -> TcpStream {
         let mut stream = self.connected();
         let request = format!("GET {path} HTTP/1.1\r\n{}\r\n", self.own());
@@ -90,7 +90,7 @@ pub(crate) fn status(answer: &str) -> &str {
     answer.get(9..12).unwrap_or_default()
 }
 
-/// A square frame of one shade.
+/// Square frame with all pixels at `level`.
 pub(crate) fn frame(level: u8, width: u32) -> Frame {
     let info = FrameInfo {
         width,
@@ -101,7 +101,7 @@ pub(crate) fn frame(level: u8, width: u32) -> Frame {
     Frame::new(info, pixels).expect("whole")
 }
 
-/// Reads until `words` arrive.
+/// Reads from `stream` until `words` arrive, and returns the text.
 pub(crate) fn until(stream: &mut TcpStream, words: &str) -> String {
     let began = Instant::now();
     let mut read = Vec::new();

@@ -152,7 +152,7 @@ fn name_of(check: &LimitCheck) -> String {
     format!("{} {}", check.limit.metric, check.limit.channel)
 }
 
-/// Scale and effect of the guards of limits with the same rule; empty without any on a logarithmic scale.
+/// Scale and effect of the guards of limits with one rule; empty if no guard has a logarithmic scale.
 fn guards_of(checks: &[&LimitCheck]) -> String {
     let guards = checks.iter().filter_map(|check| {
         let guard = check.guard.as_ref()?;

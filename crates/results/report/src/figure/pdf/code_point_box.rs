@@ -31,7 +31,7 @@ pub(super) fn advance(letter: char) -> f64 {
     f64::from(digits) * DIGITS * 0.722 + 4.0 * SPACE
 }
 
-/// Draws the box after `pen`, on the baseline of a label of `size`. Copy and search still find the letter.
+/// Draws the box at `pen`, on the baseline of a label of `size`. Copying and searching text still give the letter.
 pub(super) fn draw(
     letter: char,
     pen: f64,

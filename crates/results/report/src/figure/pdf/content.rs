@@ -25,14 +25,14 @@ pub(super) struct Painter {
 /// Drawn content and its resources.
 pub(super) struct Drawn {
     pub(super) operators: Vec<u8>,
-    /// Opacities in percent, each with its graphics state on the page.
+    /// Used opacities in percent; the page needs a graphics state for each.
     pub(super) opacities: BTreeSet<u8>,
     /// Fonts with at least one used glyph.
     pub(super) fonts: Vec<Used>,
 }
 
 impl Painter {
-    /// An empty page of `height`, with units of `scale` points.
+    /// Creates an empty page of `height` canvas units, each `scale` points long.
     pub(super) fn new(height: f64, scale: f64) -> Painter {
         let mut content = Content::new();
         if (scale - 1.0).abs() > 1e-9 {
@@ -134,7 +134,7 @@ impl Painter {
         }
     }
 
-    /// Sets the fill colour and opacity.
+    /// Sets the fill colour and the opacity of the following marks.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -160,7 +160,7 @@ impl Painter {
         }
     }
 
-    /// Position on the page, whose y axis points upwards.
+    /// Position on the page. Its y axis points upwards, the y axis of a canvas downwards.
     fn at(&self, [x, y]: [f64; 2]) -> [f32; 2] {
         [number(x), number(self.height - y)]
     }
@@ -171,17 +171,17 @@ pub(super) fn state_name(hundredths: u8) -> String {
     format!("G{hundredths}")
 }
 
-/// A factor rounded to a millionth, as in the file.
+/// Factor, rounded to a millionth for the file.
 fn factor(value: f64) -> f32 {
     single((value * 1e6).round() / 1e6)
 }
 
-/// A number rounded to a hundredth, as in the file.
+/// Number, rounded to a hundredth for the file.
 pub(super) fn number(value: f64) -> f32 {
     single((value * 100.0).round() / 100.0)
 }
 
-/// Colour on white paper.
+/// RGB colour of an ink on white paper, each component 0 to 1.
 fn colour(ink: Ink) -> [f32; 3] {
     let hex = match ink {
         Ink::Text => "#1b1f24",
@@ -195,7 +195,7 @@ fn colour(ink: Ink) -> [f32; 3] {
     [part(1), part(3), part(5)].map(share)
 }
 
-/// Share of a colour component, rounded to a thousandth.
+/// Component of a colour as a share of 255, rounded to a thousandth.
 fn share(part: u8) -> f32 {
     (f32::from(part) / 255.0 * 1000.0).round() / 1000.0
 }

@@ -1,4 +1,4 @@
-//! Embeds a font: used glyphs, their widths, and their letters for search and copy.
+//! Embeds a font: its used glyphs, their widths, and their letters for search and copy.
 
 use pdf_writer::types::{CidFontType, FontFlags, SystemInfo, UnicodeCmap};
 use pdf_writer::{Filter, Finish, Name, Pdf, Rect, Ref, Str};
@@ -10,19 +10,19 @@ use super::text::Used;
 
 /// Number of PDF objects per font.
 const OBJECTS: i32 = 5;
-/// Identity character collection: glyphs are addressed by their numbers in the file.
+/// Identity character collection: a text contains the glyph numbers of the embedded file.
 const ORDER: SystemInfo = SystemInfo {
     registry: Str(b"Adobe"),
     ordering: Str(b"Identity"),
     supplement: 0,
 };
 
-/// Object of the font at position `at`; `first` is that of the first font.
+/// Object number of the font at position `at`; `first` is the object number of the first font.
 pub(super) fn font(first: Ref, at: i32) -> Ref {
     Ref::new(first.get() + at * OBJECTS)
 }
 
-/// Writes the font at position `at`.
+/// Writes the font at position `at` among all fonts.
 pub(super) fn write(pdf: &mut Pdf, first: Ref, at: i32, used: &Used) {
     let font = font(first, at);
     let [glyphs, about, file, letters] = [1, 2, 3, 4].map(|next| Ref::new(font.get() + next));
@@ -86,7 +86,7 @@ pub(super) fn write(pdf: &mut Pdf, first: Ref, at: i32, used: &Used) {
     written.name(Name(b"Letters")).system_info(ORDER);
 }
 
-/// Tag of this font subset: six capitals from a digest (FNV-1a) of its glyphs.
+/// Tag of a font subset: six capitals from a digest (FNV-1a) of its glyphs.
 fn tag(used: &Used) -> String {
     let glyphs = used.glyphs.remapped_gids();
     let mut digest = glyphs.fold(FNV_OFFSET, |digest, glyph| {

@@ -19,9 +19,9 @@ pub(super) enum Face {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Found {
     Glyph(Face, GlyphId),
-    /// Invisible letter.
+    /// The letter is invisible and needs no glyph.
     Nothing,
-    /// No font has a glyph.
+    /// No built-in font has a glyph for the letter.
     Nowhere,
 }
 

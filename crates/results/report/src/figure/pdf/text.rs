@@ -13,7 +13,7 @@ use crate::figure::canvas::{Anchor, Label};
 /// Glyphs of a font that a figure uses.
 pub(super) struct Used {
     pub(super) face: Face,
-    /// Glyph numbers in the file, in order of first use.
+    /// Used glyphs, numbered in order of first use.
     pub(super) glyphs: GlyphRemapper,
     /// Letter of each glyph.
     pub(super) letters: BTreeMap<u16, char>,
@@ -36,7 +36,7 @@ enum Piece {
     Missing(char),
 }
 
-/// Draws `label` at `at` in the current colour state, and records its glyphs.
+/// Draws `label` at `at` in the current colour, and adds its glyphs to `fonts`.
 pub(super) fn draw(label: &Label, at: [f64; 2], fonts: &mut [Used; 3], content: &mut Content) {
     let (pieces, length) = pieces(label, fonts);
     let back = match label.anchor {
@@ -100,7 +100,7 @@ fn pieces(label: &Label, fonts: &mut [Used; 3]) -> (Vec<(Piece, f64)>, f64) {
     (pieces, pen)
 }
 
-/// Number of a glyph in the file.
+/// Adds a glyph to `fonts`, and returns its number in the embedded file.
 pub(super) fn code(letter: char, face: Face, glyph: u16, fonts: &mut [Used; 3]) -> u16 {
     let Some(used) = fonts.iter_mut().find(|used| used.face == face) else {
         return 0;

@@ -67,7 +67,7 @@ pub(super) fn draw(studies: &[Study], over: &str, room: Option<f64>) -> Option<F
     overlay(&sheets, studies, 2, words, room)
 }
 
-/// Curve of a plane: that of its channel, or the mean of the curves of both channels.
+/// Curve of the channel of a plane, or the mean of the curves of both channels.
 fn curve(study: &Study, plane: &str, over: &str) -> Option<(Curve, Unit)> {
     let of = |channel: &str| {
         let score = study.score("r_spatial", channel)?;

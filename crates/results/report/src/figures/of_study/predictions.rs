@@ -1,4 +1,5 @@
-//! Figure 7a: predictions of repeated presses, with one panel for each plane. A lateral plane shows both axes, a normal axis is drawn over the depth.
+//! Figure 7a: predictions of repeated presses, with one panel for each plane. A panel of a lateral plane shows one axis against the other. A panel of a normal
+//! axis shows predictions over the depth.
 
 use taceva_core::Unit;
 
@@ -18,7 +19,7 @@ const MOST: usize = 400;
 struct Plane {
     name: &'static str,
     across: Across,
-    /// Channel whose prediction is the vertical axis.
+    /// Channel on the vertical axis.
     up: &'static str,
 }
 
@@ -66,7 +67,7 @@ struct Dot {
     at: [f64; 2],
     /// Truth minus prediction of the vertical axis; 0 if the truth is unknown.
     error: f64,
-    /// Contact point and depth step.
+    /// Contact point and depth step of the press, as text.
     press: String,
 }
 
@@ -116,7 +117,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
 }
 
 impl Plane {
-    /// Predictions of each sensor that has any in this plane.
+    /// Predictions of each sensor that has predictions in this plane.
     fn clouds(&self, studies: &[Study]) -> Vec<Cloud> {
         let clouds = studies.iter().enumerate().filter_map(|(at, study)| {
             let dots = self.dots(study.samples.as_ref()?)?;
@@ -125,7 +126,7 @@ impl Plane {
         clouds.collect()
     }
 
-    /// Drawn predictions of repeated presses.
+    /// Predictions of repeated presses, thinned for the drawing.
     fn dots(&self, samples: &Samples) -> Option<Vec<Dot>> {
         if !samples.has("protocol") {
             return None;

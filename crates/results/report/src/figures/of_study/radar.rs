@@ -1,4 +1,4 @@
-//! Radars of given values, including those that support no claim.
+//! Radars of given values, including values that verdicts exclude.
 
 use taceva_metrics::Better;
 
@@ -6,15 +6,15 @@ use super::super::radar::{Rim, WIDTH, outline, shares, web};
 use crate::figure::{Canvas, Figure};
 use crate::results::Study;
 
-/// Axis with one given value for each study.
+/// Axis of a radar, with one given value for each study.
 pub(super) struct Spoke {
-    /// Name; its first word has a line of its own.
+    /// Name of the axis. The first word has its own line.
     pub(super) name: String,
     pub(super) better: Better,
     pub(super) values: Vec<Option<f64>>,
 }
 
-/// Radar of spokes; `None` without any value.
+/// Draws a radar of `spokes`; `None` without any value.
 pub(super) fn draw_spokes(
     studies: &[Study],
     spokes: &[Spoke],

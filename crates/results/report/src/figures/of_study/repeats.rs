@@ -1,4 +1,4 @@
-//! Figure 7b: repeatability over the depth in mm, with one panel for each sensor. Positions use the left axis, forces the right one.
+//! Figure 7b: repeatability over the depth in mm, with one panel for each sensor. Positions use the left axis, forces the right axis.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::results::Study;
 use crate::variables::VARIABLES;
 use taceva_results::{Samples, Value};
 
-/// Curve of a plane: depth in mm, and spread.
+/// Curve of a plane: index of the plane, then pairs of depth in mm and spread.
 type Curve = (usize, Vec<(f64, Option<f64>)>);
 
 pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {

@@ -1,5 +1,5 @@
-//! Figures 8a to 8c: radars of the quantities that the study prints, averaged over positions and forces. A mark shows values that are not above their
-//! noise floor.
+//! Figures 8a to 8c: radars of the quantities that the study prints, averaged over positions and forces. A mark identifies values at or below their noise
+//! floor.
 
 use taceva_metrics::{Better, Standing};
 
@@ -104,7 +104,7 @@ fn draw(studies: &[Study], quantities: &[Quantity], title: &str) -> Option<Figur
 }
 
 impl Quantity {
-    /// Mean over the channels, if each has a value.
+    /// Mean over the channels; `None` unless each channel has a value.
     fn value(&self, study: &Study) -> Option<f64> {
         let values = self.channels.iter().map(|channel| {
             let score = study.score(self.metric, channel)?;
@@ -116,7 +116,7 @@ impl Quantity {
         Some(values.iter().sum::<f64>() / count)
     }
 
-    /// True if the score of a channel is not above its noise floor.
+    /// True if the score of a channel is at or below its noise floor.
     fn is_at_floor(&self, study: &Study) -> bool {
         let mut channels = self.channels.iter();
         channels.any(|channel| {

@@ -43,7 +43,7 @@ pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
     out + &seeds(studies)
 }
 
-/// Interval method without its seed and its numbers of clusters and replicates: `jackknife by point_id, logarithmic`.
+/// Method of an interval without the seed and the numbers of clusters and replicates: `jackknife by point_id, logarithmic`.
 fn without_count(method: &str) -> String {
     let is_kept = |part: &&str| {
         let is_count = ["G=", "B=", "seed="]
@@ -55,7 +55,7 @@ fn without_count(method: &str) -> String {
     parts.join(", ")
 }
 
-/// Sentence on the compared scores, and on the marks of the others.
+/// Sentence on compared scores, and on the marks of scores that are not compared.
 fn skill(studies: &[Study]) -> String {
     let is_predicted = |score: &Score| {
         catalogue::find(&score.metric).is_some_and(|metric| metric.reads_predictions())
@@ -83,13 +83,13 @@ fn skill(studies: &[Study]) -> String {
     )
 }
 
-/// Mark with its meaning: `“not better than predicting the mean” (its skill is not shown to be above zero)`.
+/// Standing with its meaning: `“not better than predicting the mean” (its skill is not shown to be above zero)`.
 fn explained(standing: Standing) -> Option<String> {
     let (mark, reason) = standing.reason()?.split_once(": ")?;
     Some(format!("“{mark}” ({reason})"))
 }
 
-/// Sentence on the seeds of models that were fitted with several.
+/// Sentence on the training seeds of models that were fitted with several seeds.
 fn seeds(studies: &[Study]) -> String {
     let over = studies.iter().filter_map(|study| study.over_seeds.as_ref());
     let mut all: Vec<Vec<String>> = over

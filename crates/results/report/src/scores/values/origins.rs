@@ -2,12 +2,12 @@
 
 use crate::results::{Statement, Study, UNSTATED};
 
-/// Legend below a table, with the meaning of each word.
+/// Explanation of the words on origins, for a note below a table.
 pub(super) const LEGEND: &str = "Origins of the published numbers of a row. `one source`: the same source, conditions and definition. \
                                  `other conditions`: one source and definition. `other sources`: one definition. \
                                  `definitions differ`: not comparable, or a source states no definition.";
 
-/// Word for the origins of the published numbers called `quantity`; empty for fewer than two sensors with such a number.
+/// Word on the origins of the published numbers called `quantity`; empty if fewer than two sensors have the number.
 pub(super) fn of(studies: &[Study], quantity: &str) -> &'static str {
     let named = |study: &&Study| study.statements.iter().any(|of| of.name == quantity);
     if studies.iter().filter(named).count() < 2 {

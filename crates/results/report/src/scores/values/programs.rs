@@ -1,4 +1,4 @@
-//! Values side by side for programs: in the JSON and in the rows of a comparison.
+//! Values side by side for programs, as JSON and as rows of a comparison.
 
 use serde_json::{Value, json};
 use taceva_metrics::Better;
@@ -35,7 +35,8 @@ impl ScoreTable {
         format!("{whole:#}\n")
     }
 
-    /// Rows of `comparison`, then one row for each value of [`side_by_side`](ScoreTable::side_by_side), whose columns for a second result are empty.
+    /// Rows of `comparison`, then one row for each value of [`side_by_side`](ScoreTable::side_by_side). Rows of values have empty columns for the second
+    /// result.
     pub fn comparison_table(
         &self,
         comparison: &Comparison,
@@ -66,7 +67,7 @@ impl ScoreTable {
         table
     }
 
-    /// One quantity with the value of each study.
+    /// JSON of one quantity, with the value of each study.
     fn line_json(&self, line: &Line<'_>) -> Value {
         let scores = line.row.map(|row| row.cells.as_slice()).unwrap_or_default();
         let value = |(at, name): (usize, &String)| {
