@@ -12,11 +12,13 @@ use crate::amount::bytes;
 use crate::disk_space;
 use crate::progress::spoken;
 
-/// Minimum duration of work whose cost is printed; the next constant is the minimum number of written bytes.
+/// Minimum duration of work whose cost is printed.
 const LONG: Duration = Duration::from_secs(5);
+/// Minimum number of written bytes of such work.
 const MUCH: u64 = 50_000_000;
-/// Number of pictures above which time is estimated. The next constant is the number of pictures read for an estimate.
+/// Number of pictures above which time is estimated.
 const MANY: usize = 200;
+/// Number of pictures that are read for an estimate.
 const TRIED: usize = 4;
 
 /// Prints the cost of `effort` on `dataset`, if it is large.

@@ -73,11 +73,7 @@ fn agreement(errors: &Errors<'_>, unit: Unit) -> Numbers {
         .with(SLOPE_P, Unit::One, Range::Any, chance)
 }
 
-<<<<<<< HEAD
-/// Replaces the intervals of independent errors by exact ones, and finds the chance of a slope of clusters.
-=======
-/// Replaces the intervals of one channel by intervals from variance components, and computes the p value of a slope of clusters.
->>>>>>> c1
+/// Replaces the intervals of independent errors by exact ones, and computes the p value of a slope of clusters.
 fn settle(found: &mut Intervals, whole: &Whole<'_>) {
     let none = Interval::Undefined(UndefinedReason::NoInterval);
     if !whole.are_independent {

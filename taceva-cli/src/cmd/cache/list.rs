@@ -15,8 +15,9 @@ use crate::args::CacheList;
 use crate::cmd::results;
 use crate::{exit, output};
 
-/// Default folder of numbered runs. The next constant names the file of a run that lists its stages.
+/// Default folder of numbered runs.
 const RUNS: &str = "runs";
+/// File of a run that lists its stages.
 const STAGES: &str = "stages.json";
 /// Number of digits of a key that are shown.
 const SHORT: usize = 12;

@@ -11,9 +11,10 @@ use taceva_protocol::{Cancel, SharedSupervisor};
 /// Interval between readings, and between looks at the robot, s.
 const READING_S: f64 = 0.005;
 const LOOK_S: f64 = 0.01;
-/// Longest usual wait of a thread for the processor, s. The next constants are for longer waits in some turns.
+/// Longest usual wait of a thread for the processor, and longest wait in some turns, s.
 const SHORT_WAIT_S: f64 = 0.000_5;
 const LONG_WAIT_S: f64 = 0.02;
+/// Share of turns with a longer wait.
 const LONG_OF: f64 = 1.0 / 64.0;
 
 /// Kind of thread.

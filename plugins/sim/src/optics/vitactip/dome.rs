@@ -12,8 +12,9 @@ pub(super) struct Dimple {
     depths: Vec<f32>,
 }
 
-/// Number of nodes per decay length. The next constant is the end of the dimple in decay lengths.
+/// Number of nodes per decay length.
 const NODES_A_LENGTH: f64 = 32.0;
+/// End of the dimple, in decay lengths.
 const LENGTHS: usize = 12;
 
 impl Dimple {
