@@ -26,7 +26,8 @@ const RISE: f64 = 3.0;
 const FORCE_PART: f64 = 0.5;
 /// Greatest depth of the touch, as a part of the depth limit.
 const DEPTH_PART: f64 = 0.5;
-/// Depth for the comparison with other sessions, in mm. A shallower touch varies with the height of the contact.
+/// Depth for the comparison with other sessions, in mm, and its greatest part of the limits of depth and force.
+/// A shallower touch varies with the height of the contact. Taps use a greater part.
 const REFERENCE_MM: f64 = 0.3;
 const REFERENCE_PART: f64 = 0.3;
 /// Greatest slope of a force over its depth, relative to their ratio: of a ball, by Hertz.
