@@ -8,7 +8,7 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Spaced, Vector};
 
-/// Side of a kernel, in positions.
+/// Side of a kernel, and its number of positions.
 const KERNEL: usize = 3;
 const TAPS: usize = KERNEL * KERNEL;
 

@@ -176,7 +176,7 @@ mod tests {
         (count, None)
     }
 
-    /// Eleven delays for readings, more than ten periods of 200 Hz in total. They are longer on a busy machine.
+    /// Delays of `count` readings, each eleven periods of 200 Hz. Readings take even longer on a busy machine.
     fn eleven_periods(count: usize) -> Vec<Duration> {
         vec![Duration::from_millis(55); count]
     }
