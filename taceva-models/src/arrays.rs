@@ -47,15 +47,14 @@ pub fn features_of<'a>(matrix: impl Into<CowArray<'a, f32, Ix2>>) -> Result<Feat
 
 /// Fitting on arrays, for every estimator.
 pub trait EstimatorArrays {
-    /// Fits a model that predicts `targets` from `features`, one sample per row. Open settings are chosen on the training samples.
+    /// Fits a model that predicts `targets` from `features`, one sample per row. Settings without a value from the user are chosen on the training samples.
     ///
     /// # Shapes
-    /// `features`: samples × features, copied once; `targets`: samples × channels, in the order of `channels`, copied only if not in
-    /// standard layout.
+    /// `features`: samples × features, copied once. `targets`: samples × channels, in the order of `channels`, copied only if not in standard layout.
     /// # Units
     /// Targets have the unit of their channel: mm for positions, N for forces.
     /// # Errors
-    /// [`ModelError`] if shapes do not match, the data cannot be learnt from, or `progress` was cancelled.
+    /// [`ModelError`] if shapes do not match, the data is unsuitable for a fit, or `progress` was cancelled.
     ///
     /// ```
     /// use ndarray::Array2;

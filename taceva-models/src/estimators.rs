@@ -1,4 +1,4 @@
-//! Fitted models, one file or folder each.
+//! Estimators and fitted models, one file or folder each.
 
 pub(crate) mod auto;
 pub(crate) mod baseline;

@@ -1,4 +1,4 @@
-//! Model files: writing, reading and atomic replacement.
+//! Writes, reads and atomically replaces model files.
 
 mod bytes;
 mod disk;

@@ -1,7 +1,7 @@
-//! Matrices of centred features, their Gram matrix and its spectrum, with equal bits for any number of threads.
+//! Matrices of centred features, their Gram matrix and its spectrum. Results have the same bits for any number of threads.
 //!
-//! Work is divided into blocks of fixed size. One thread computes each block in a fixed order, and blocks are added in a fixed
-//! order. Threads only affect when a block is computed.
+//! Work is divided into blocks of fixed size. One thread computes each block in a fixed order, and blocks are added in a fixed order. The number of threads
+//! only affects the time at which a block is computed.
 
 mod design;
 pub(crate) mod distance;
@@ -20,7 +20,7 @@ pub(crate) use gram::{feature_gram, multiply};
 pub(crate) use least_squares::{Wide, least_squares};
 pub(crate) use spectrum::{Spectrum, symmetric_eigen};
 
-/// Error for an invalid argument.
+/// Creates an error for an invalid argument.
 pub(crate) fn invalid(message: impl Into<String>) -> ModelError {
     ModelError::new(ErrorKind::InvalidArgument, message)
 }

@@ -1,4 +1,4 @@
-//! Fitted models with their provenance.
+//! Fitted models, with the provenance of their training data.
 
 mod angles;
 mod bounds;
@@ -22,26 +22,26 @@ use crate::linalg::invalid;
 use crate::training::card::{AngleCard, ChannelCard, DistanceCard, ModelCard, ValidationCard};
 use crate::training::regressor::ModelRegressor;
 
-/// Fitted model from pixels or signals to channels, in their units.
+/// Fitted model that predicts channels, in their units, from pixels or signals.
 ///
-/// If every step after the extraction is linear, scaling, principal components and weights are stored as one set of weights.
-/// A network stores its preprocessing with its weights.
+/// If every step after the extraction is linear, then scaling, principal components and weights are stored as one set of weights. A network's preprocessing is
+/// stored with its weights.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     pub(crate) card: ModelCard,
     pub(crate) regressor: ModelRegressor,
     pub(crate) channels: LearntChannels,
-    /// Distance of features from the training part.
+    /// Distance of features from the training part; `None` if it is not available.
     pub(crate) distance: Option<FeatureDistance>,
 }
 
 impl Model {
-    /// Fits `input.estimator`, after principal components if requested.
+    /// Fits `input.estimator`, after the computation of principal components if they are requested.
     ///
-    /// For an angle with a period, the estimator learns sine and cosine. Predictions are angles again.
+    /// The estimator learns sine and cosine of an angle with a period. Predictions are converted back to angles.
     ///
     /// # Errors
-    /// [`ModelError`] if the parts do not match, the data cannot be learnt from, or `progress` was cancelled.
+    /// [`ModelError`] if the parts do not match, the data is unsuitable for a fit, or `progress` was cancelled.
     pub fn fit(input: FitInput<'_>, progress: &dyn Progress) -> Result<Model, ModelError> {
         let targets = input.training.targets;
         let asked = targets.channels;
@@ -70,7 +70,7 @@ impl Model {
         Model::fit_learnt(input, angles, asked, progress)
     }
 
-    /// Fits the learnt channels of `input`; `asked` are the predicted channels.
+    /// Fits the learnt channels of `input`. `asked` contains the predicted channels.
     fn fit_learnt(
         input: FitInput<'_>,
         angles: Vec<AngleCard>,
@@ -146,19 +146,19 @@ impl Model {
         })
     }
 
-    /// Description and provenance.
+    /// Description and provenance of the model.
     pub fn card(&self) -> &ModelCard {
         &self.card
     }
 
-    /// Records the choice of features in the card.
+    /// Records in the card the choice of features.
     #[must_use]
     pub fn with_features_chosen(mut self, how: FeatureChoice) -> Model {
         self.card.feature_choice = Some(how);
         self
     }
 
-    /// Records the validation of equally fitted models in the card.
+    /// Records in the card the validation of models fitted in the same way.
     #[must_use]
     pub fn with_validation(mut self, validation: ValidationCard) -> Model {
         self.card.provenance.validation = Some(validation);
@@ -179,12 +179,12 @@ impl Model {
         means.chain(angles.map(|angle| (angle.name.as_str(), angle.mean)))
     }
 
-    /// Regressor from features of pixels, or from signals divided by their spread, to the learnt channels.
+    /// Regressor that predicts the learnt channels, from features of pixels or from signals divided by their spread.
     pub fn regressor(&self) -> &ModelRegressor {
         &self.regressor
     }
 
-    /// True if predictions depend on features. Otherwise no frame must be decoded and no signals read.
+    /// True if predictions depend on features. Otherwise the caller need not decode frames or read signals.
     pub fn reads_features(&self) -> bool {
         self.regressor.reads_features()
     }
@@ -197,7 +197,7 @@ impl Model {
     /// Builds the extractor of this model's features for frames or signals of `info`.
     ///
     /// # Errors
-    /// [`FeatureError`] for frames of another kind or signals of another grid than the model's, or without a needed `reference`.
+    /// [`FeatureError`] for frames of another kind or signals of another grid than those of the model, or without a needed `reference`.
     pub fn extractor(
         &self,
         info: impl Into<InputInfo>,
@@ -212,12 +212,12 @@ impl Model {
         }
     }
 
-    /// Predicts every sample of `features`, within the [bounds](Model::label_bounds) of each channel.
+    /// Predicts every sample of `features`, clipped to the [bounds](Model::label_bounds) of each channel.
     ///
     /// # Shapes
-    /// `[samples, channels]`.
+    /// Returns `[samples, channels]`.
     /// # Units
-    /// Units of the channels.
+    /// Predictions have the units of the channels.
     /// # Errors
     /// [`ModelError`] if the shape of the features differs, or a prediction is not finite.
     pub fn predict(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
@@ -226,12 +226,12 @@ impl Model {
         Ok(predictions)
     }
 
-    /// Predicts every sample of `features` without bounds.
+    /// Predicts every sample of `features` without clipping to bounds.
     ///
     /// # Shapes
-    /// `[samples, channels]`.
+    /// Returns `[samples, channels]`.
     /// # Units
-    /// Units of the channels.
+    /// Predictions have the units of the channels.
     /// # Errors
     /// Errors of [`predict`](Model::predict).
     pub fn predict_unbounded(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
@@ -243,21 +243,21 @@ impl Model {
         })
     }
 
-    /// Predicts the learnt channels.
+    /// Predicts the learnt channels for every sample of `features`.
     fn learnt(&self, features: &Features) -> Result<Vec<f64>, ModelError> {
         let mut predictions = vec![0.0; features.samples() * self.channels.learnt.len()];
         self.regressor.predict(features, &mut predictions)?;
         Ok(predictions)
     }
 
-    /// Distance of samples from the training part, with its limit.
+    /// Distance of samples from the training part, with the limit of this distance.
     ///
-    /// `None` for a model that uses no features, was fitted on fewer than 20 samples, or comes from an older file.
+    /// `None` for a model that uses no features, was fitted to fewer than 20 samples, or comes from an older file.
     pub fn feature_distance(&self) -> Option<&FeatureDistance> {
         self.distance.as_ref()
     }
 
-    /// [Distance](FeatureDistance) of every sample of `features`, 1 at the limit. `None` if the model has no distance.
+    /// [Distance](FeatureDistance) of every sample of `features`, with 1 at the limit; `None` if the model has no distance.
     ///
     /// # Errors
     /// [`ModelError`] if the shape of the features differs.
@@ -269,12 +269,12 @@ impl Model {
         distance.of_all(even.as_ref().unwrap_or(features)).map(Some)
     }
 
-    /// Standard deviation of every prediction, before bounds. `None` if the model does not estimate it.
+    /// Standard deviation of every prediction before clipping to bounds; `None` if the model does not estimate deviations.
     ///
     /// # Shapes
-    /// `[samples, channels]`.
+    /// Returns `[samples, channels]`.
     /// # Units
-    /// Units of the channels.
+    /// Deviations have the units of the channels.
     /// # Errors
     /// [`ModelError`] if the shape of the features differs.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
@@ -289,7 +289,7 @@ impl Model {
         }))
     }
 
-    /// Divides signals by their spread over the training part. `None` for frames.
+    /// Divides signals by their spread over the training part; `None` for frames, which are not divided.
     fn even(&self, features: &Features) -> Result<Option<Features>, ModelError> {
         let Some(spread) = &self.card.spread else {
             return Ok(None);
@@ -304,13 +304,13 @@ impl Model {
     }
 }
 
-/// Replaces the features of a training set, if there are others.
+/// Returns the training set with `features` instead of its own, if given.
 fn with_features<'s>(mut set: TrainingSet<'s>, features: Option<&'s Features>) -> TrainingSet<'s> {
     set.features = features.unwrap_or(set.features);
     set
 }
 
-/// Learnt channels of a card, with the predicted channels derived from its angles.
+/// Learnt channels of a card. The card's angles give the predicted channels.
 pub(crate) fn learnt_channels_of(
     card: &ModelCard,
     learnt: &Channels,

@@ -1,4 +1,4 @@
-//! Models of a program: built-in models, library models and plugin models.
+//! Models available to a program: built-in models, library models and plugin models.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -15,7 +15,7 @@ use crate::settings::{ModelSettings, SettingError};
 use crate::training::fit::ModelEstimator;
 use crate::training::info::ModelInfo;
 
-/// Models by name. A program creates this value and passes it on, like its drivers. There is no global state.
+/// Available models, found by name. A program creates this value and passes it on, like its drivers. There is no global state.
 ///
 /// ```
 /// use taceva_models::{Models, ModelSettings};
@@ -31,12 +31,12 @@ pub struct Models {
 }
 
 impl Models {
-    /// Built-in models.
+    /// Creates a collection of the built-in models.
     pub fn builtin() -> Models {
         Models::default()
     }
 
-    /// Adds the plugin models of `offered` under their keys. Keys contain a `/`, built-in names do not.
+    /// Adds the plugin models `offered` under their keys. Keys contain a `/`; names of built-in models do not.
     #[must_use]
     pub fn with(mut self, offered: impl IntoIterator<Item = Arc<dyn EstimatorFactory>>) -> Models {
         let named = offered.into_iter();
@@ -45,7 +45,7 @@ impl Models {
         self
     }
 
-    /// Adds library models. `auto` tries them too, and their files can be read.
+    /// Adds library models. `auto` then also tries these models, and their files can be read.
     #[must_use]
     pub fn with_libraries(
         mut self,
@@ -55,7 +55,7 @@ impl Models {
         self
     }
 
-    /// All compiled models, the simplest first, library models last.
+    /// All compiled models. The simplest model comes first, and library models come last.
     pub fn compiled(&self) -> impl Iterator<Item = &'static ModelInfo> + '_ {
         let of_libraries = self.libraries.iter().map(|model| &model.info);
         ALL.iter().chain(of_libraries)
@@ -84,7 +84,7 @@ impl Models {
         })
     }
 
-    /// Resolves `name`, a model or a [`Preset`], and its settings. `given` settings override those of the preset.
+    /// Resolves `name`, which is a model or a [`Preset`], and its settings. Settings in `given` override those of the preset.
     ///
     /// ```
     /// use taceva_models::{Models, ModelSettings};
@@ -128,7 +128,7 @@ impl fmt::Debug for Models {
     }
 }
 
-/// A model chosen by name, not fitted yet.
+/// A model chosen by name, before its fit.
 #[derive(Clone)]
 pub enum ChosenModel {
     /// Built-in model.
@@ -142,7 +142,7 @@ pub enum ChosenModel {
 }
 
 impl ChosenModel {
-    /// Registry entry. `None` for a plugin model.
+    /// Registry entry; `None` for a plugin model.
     fn info(&self) -> Option<&'static ModelInfo> {
         match self {
             ChosenModel::BuiltIn(info) => Some(info),
@@ -152,7 +152,7 @@ impl ChosenModel {
         }
     }
 
-    /// Name on the command line.
+    /// Name of the model on the command line.
     pub fn name(&self) -> &str {
         match self {
             ChosenModel::BuiltIn(info) => info.name,
@@ -162,18 +162,18 @@ impl ChosenModel {
         }
     }
 
-    /// True if predictions depend on features. Otherwise no frame must be decoded.
+    /// True if predictions depend on features. Otherwise the caller need not decode frames.
     pub fn reads_features(&self) -> bool {
         self.info().is_none_or(|info| info.features.is_some())
     }
 
-    /// Default features.
+    /// Default features of the model.
     pub fn features(&self) -> FeatureSpec {
         let own = self.info().and_then(|info| info.features);
         own.unwrap_or_default()
     }
 
-    /// Default finer features: those of networks for an automatic choice, otherwise `None`.
+    /// Default finer features: those of networks for an automatic choice; `None` for any other model.
     pub fn closer_features(&self) -> Option<FeatureSpec> {
         match self {
             ChosenModel::Auto(_) => Auto::CLOSER,
@@ -181,7 +181,7 @@ impl ChosenModel {
         }
     }
 
-    /// Keys of all settings.
+    /// Keys of all settings of the model.
     pub fn setting_keys(&self) -> Vec<&str> {
         if let ChosenModel::Offered(factory) = self {
             let settings = factory.settings().iter();
@@ -220,7 +220,7 @@ impl From<&'static ModelInfo> for ChosenModel {
     }
 }
 
-/// Formats the name, with build or release if it is not that of the program: everything that identifies the model.
+/// Formats everything that identifies the model: its name, and its build or release if that is not the program's.
 impl fmt::Debug for ChosenModel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

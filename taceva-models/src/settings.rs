@@ -1,4 +1,4 @@
-//! Settings as `key=value` words, checked against known keys.
+//! Settings as `key=value` words, with checks against known keys.
 
 mod error;
 mod suggestion;
@@ -12,18 +12,18 @@ use std::str::FromStr;
 /// Description of one setting, for help texts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SettingInfo {
-    /// Key: the word before `=`.
+    /// Key of the setting: the word before `=`.
     pub key: &'static str,
     /// Accepted values.
     pub accepts: &'static str,
-    /// Default value, as typed.
+    /// Default value, as a user would type it.
     pub default: &'static str,
     /// Meaning of the setting.
     pub about: &'static str,
 }
 
 impl SettingInfo {
-    /// Refit on training and validation parts, for models that choose settings on the validation part.
+    /// Setting that refits on training and validation parts, for models that choose settings on the validation part.
     pub(crate) const REFIT: SettingInfo = SettingInfo {
         key: "refit",
         accepts: "true or false",
@@ -32,7 +32,7 @@ impl SettingInfo {
     };
 }
 
-/// Settings as typed, with unique keys.
+/// Settings as the user typed them, with unique keys.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ModelSettings {
     values: BTreeMap<String, String>,
@@ -65,7 +65,7 @@ impl ModelSettings {
         Ok(ModelSettings { values })
     }
 
-    /// Value of `key` as typed. `None` if it is not set.
+    /// Value of `key` as the user typed it; `None` if the key is not set.
     pub fn get(&self, key: &str) -> Option<&str> {
         self.values.get(key).map(String::as_str)
     }
@@ -77,7 +77,7 @@ impl ModelSettings {
             .map(|(key, value)| format!("{key}={value}"))
     }
 
-    /// Adds settings of `others` whose keys are not set.
+    /// Adds those settings of `others` whose keys are not set.
     pub(crate) fn or(mut self, others: &[(&str, &str)]) -> ModelSettings {
         for (key, value) in others {
             let entry = self.values.entry((*key).to_owned());
@@ -91,7 +91,7 @@ impl ModelSettings {
         self.values.iter()
     }
 
-    /// Splits the settings into those with a key of `known` and the others.
+    /// Splits the settings into settings with a key of `known`, and the others.
     pub fn partition(self, known: &[SettingInfo]) -> (ModelSettings, ModelSettings) {
         let is_known = |key: &String| known.iter().any(|info| info.key == key);
         let (inside, outside) = self.values.into_iter().partition(|(key, _)| is_known(key));
@@ -124,7 +124,7 @@ impl ModelSettings {
         }
     }
 
-    /// Parses the value of `key` with `read`, or returns `default` if it is not set.
+    /// Parses the value of `key` with `read`, or returns `default` if the key is not set.
     ///
     /// # Errors
     /// [`SettingError::Value`] with the accepted values if `read` returns `None`.

@@ -1,4 +1,4 @@
-//! Threads for models, also on systems that allow few or none.
+//! Threads for models, also on systems that allow only a few threads.
 
 use std::num::NonZeroUsize;
 use std::sync::mpsc::channel;
@@ -6,8 +6,8 @@ use std::thread;
 
 /// Prepares the thread pool of models: at most one thread per core, limited by the system.
 ///
-/// Returns how many of `wanted` threads the system can start in addition to the calling one. Containers may allow few or none. With fewer than
-/// cores, models share these threads; with none, the calling thread computes alone. Without this call, a model panics in that case.
+/// Returns the number of `wanted` threads that the system can start in addition to the calling thread. Containers may allow few or none. With fewer threads
+/// than cores, models share these threads. Without any, the calling thread computes alone. If this function is not called, a model panics in that case.
 ///
 /// ```
 /// use std::num::NonZeroUsize;
@@ -29,7 +29,7 @@ pub fn prepare_threads(wanted: NonZeroUsize) -> usize {
     there.min(wanted.get())
 }
 
-/// Number of threads that the system can start in addition to this one, at most `most`.
+/// Number of threads that the system can start in addition to the calling thread, at most `most`.
 fn startable(most: usize) -> usize {
     thread::scope(|scope| {
         let started = (0..most).map_while(|_| {

@@ -1,4 +1,4 @@
-//! Parts shared by all fits: checked samples, scaled labels, trials of settings, and results.
+//! Code shared by all fits: checked samples, scaled labels, trials of settings, and results.
 
 pub(crate) mod card;
 pub(crate) mod checkpoint;

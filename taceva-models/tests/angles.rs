@@ -1,4 +1,4 @@
-//! Periodic angles are learnt as directions.
+//! Tests of periodic angles, which models learn as directions.
 
 use taceva_core::{
     Channel, Channels, Features, FrameInfo, PixelFormat, SilentProgress, Targets, TrainingSet, Unit,
@@ -61,7 +61,7 @@ fn fitted(name: &str, channels: &Channels, features: &Features, labels: &[f64]) 
     Model::fit(input, &SilentProgress).expect("fitted")
 }
 
-/// Greatest errors of the force and of the yaw; the yaw error is the shortest way round.
+/// Greatest errors of the force and of the yaw. The yaw error is measured along the shorter way around the circle.
 fn errors(channels: &Channels, found: &[f64], labels: &[f64]) -> [f64; 2] {
     let mut greatest = [0.0_f64; 2];
     for (found, labels) in found.chunks(2).zip(labels.chunks(2)) {

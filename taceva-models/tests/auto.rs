@@ -1,4 +1,4 @@
-//! Choice by `auto`: it follows evidence worth its work, and reads no clock.
+//! Tests of `auto`: the choice depends on errors and work, and reads no clock.
 
 use taceva_core::{Features, SilentProgress};
 use taceva_models::{

@@ -12,7 +12,7 @@ pub(crate) const SHAPE: FeatureShape = FeatureShape {
     depth: 1,
 };
 
-/// Frames with these features.
+/// Size and format of the frames of these pictures.
 pub(crate) const FRAME: FrameInfo = FrameInfo {
     width: 48,
     height: 40,

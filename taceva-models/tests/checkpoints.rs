@@ -18,7 +18,7 @@ const SHAPE: FeatureShape = FeatureShape {
     depth: 1,
 };
 
-/// Pictures of noise; the label is the mean.
+/// Pictures of noise. The label of a picture is its mean.
 struct Recording {
     features: Features,
     channels: Channels,
@@ -49,10 +49,10 @@ impl Recording {
     }
 }
 
-/// Cancels the work after a number of steps.
+/// Progress receiver that cancels the work after a number of steps.
 struct Patience {
     left: AtomicUsize,
-    /// True for a stage that began but has not advanced. Its first advance covers the steps made before.
+    /// True for a stage that began but has not advanced. Its first advance includes the steps made before.
     is_new: AtomicBool,
 }
 
@@ -121,7 +121,7 @@ fn after_each_step(path: &Path) -> Checkpoints {
     }
 }
 
-/// Leaves the checkpoint of a `cnn` training that was stopped after `steps`.
+/// Writes the checkpoint of a `cnn` training that is stopped after `steps` steps.
 fn leave(path: &Path, steps: usize) {
     let patience = Patience::of(steps);
     let stopped = fit(

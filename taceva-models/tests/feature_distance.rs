@@ -1,4 +1,4 @@
-//! Distance from the training samples: held-out samples are within the limit, and different samples are beyond it.
+//! Tests of the distance from the training samples: held-out samples are within the limit, and different samples are beyond it.
 
 use taceva_core::random::SplitMix64;
 use taceva_core::{FeatureShape, Features, SilentProgress};

@@ -244,7 +244,7 @@ fn the_order_of_training_samples_does_not_matter() {
     }
 }
 
-/// Cancels after a number of progress queries.
+/// Progress receiver that cancels after a number of progress queries.
 struct Cancel {
     after: usize,
     asked: AtomicUsize,

@@ -9,7 +9,7 @@ use taceva_models::{Baseline, LinearEstimator, LinearFit, ModelSettings, Pls, Ri
 struct Numbers(u64);
 
 impl Numbers {
-    /// Uniformly distributed in -0.5..0.5.
+    /// Number that is uniformly distributed in -0.5..0.5.
     fn next(&mut self) -> f64 {
         self.0 = self
             .0
@@ -29,7 +29,7 @@ pub(crate) struct Recording {
     pub(crate) groups: Vec<u32>,
 }
 
-/// Samples × features. The map is always the same; the seed determines features and noise.
+/// Draws samples × features. The map is always the same; the seed determines features and noise.
 #[expect(
     clippy::cast_possible_truncation,
     reason = "features are kept in single precision"
@@ -82,7 +82,7 @@ impl Recording {
     }
 }
 
-/// The linear model called `name`, with settings.
+/// Linear model with the name `name` and the settings `words`.
 pub(crate) fn model(name: &str, words: &[&str]) -> Box<dyn LinearEstimator> {
     let settings = ModelSettings::parse(words.iter().copied()).expect("well formed");
     let valid = "valid settings";
@@ -101,14 +101,14 @@ pub(crate) fn fit(estimator: &dyn LinearEstimator, set: &TrainingSet<'_>) -> Lin
         .unwrap_or_else(|error| panic!("{}: {error}", estimator.name()))
 }
 
-/// The predictions of every sample.
+/// Predictions of every sample.
 pub(crate) fn predict(regressor: &dyn Regressor, features: &Features) -> Vec<f64> {
     let mut into = vec![0.0; features.samples() * regressor.channels().len()];
     regressor.predict(features, &mut into).expect("finite");
     into
 }
 
-/// Largest difference, relative to the largest expected number.
+/// Largest difference between two lists, relative to the largest expected number.
 pub(crate) fn distance(found: &[f64], expected: &[f64]) -> f64 {
     let largest = expected
         .iter()

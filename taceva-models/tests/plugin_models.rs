@@ -14,7 +14,7 @@ use taceva_models::{
 
 static KEY: DriverKey = DriverKey::fixed("org.example.first/first");
 
-/// Fault of the plugin.
+/// Kinds of faults of the test plugin.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Way {
     Right,
@@ -25,7 +25,7 @@ enum Way {
     Refuses,
 }
 
-/// Always predicts the first training label plus the value of its setting.
+/// Test estimator that always predicts the first training label plus the value of its setting.
 struct First {
     way: Way,
     settings: Vec<ArgSpec>,

@@ -11,7 +11,7 @@ const SHAPE: FeatureShape = FeatureShape {
     depth: 1,
 };
 
-/// Spacings, mm; a picture has eight pixels per millimetre.
+/// Spacings of the boards, in mm. A picture has eight pixels per millimetre.
 const BOARDS: [f64; 4] = [0.5, 0.75, 1.0, 1.5];
 
 fn nanometres(mm: f64) -> Nanometre {

@@ -1,4 +1,4 @@
-//! The layers of a network, as data.
+//! Layers of a network, described as data.
 
 mod pooling;
 mod stage_plan;
@@ -13,7 +13,7 @@ use crate::error::NetworkError;
 use crate::panel::PANEL;
 use crate::picture::Picture;
 
-/// The layers of a network and the shapes of its input and output.
+/// Layers of a network, and the shapes of its input and output.
 ///
 /// ```
 /// use taceva_network::{Architecture, Depth, Picture};
@@ -27,32 +27,31 @@ use crate::picture::Picture;
 pub struct Architecture {
     /// Shape of an input picture.
     pub input: Picture,
-    /// Layers from picture to features.
+    /// Layers that convert a picture to features.
     pub body: Body,
-    /// Numbers predicted for each picture.
+    /// Number of outputs predicted for each picture.
     pub outputs: usize,
 }
 
-/// Layers from picture to features.
+/// Layers that convert a picture to features.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Body {
     /// A stem of 7 × 7 with pooling, four stages of residual blocks, then the mean over pixels.
     ///
     /// # Reference
-    /// K. He, X. Zhang, S. Ren, J. Sun, "Deep residual learning for image recognition", CVPR 2016; layers and names are those
-    /// of torchvision's `resnet`.
+    /// K. He, X. Zhang, S. Ren, J. Sun, "Deep residual learning for image recognition", CVPR 2016. Layers and names are those of torchvision's `resnet`.
     Residual(Depth),
-    /// Convolutions one after the other, each followed by batch normalisation and ReLU.
+    /// A sequence of convolutions, each followed by batch normalisation and ReLU.
     Plain {
-        /// The convolutions in order; the first one reads the picture.
+        /// Convolutions in order. The first convolution reads the picture.
         layers: Vec<PlainLayer>,
-        /// Reduction of the last pictures to features.
+        /// Reduction of the last convolution's pictures to features.
         pooling: Pooling,
     },
 }
 
-/// Layers of a residual network.
+/// Number of layers of a residual network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Depth {
@@ -60,18 +59,18 @@ pub enum Depth {
     Ten,
     /// Two blocks per stage.
     Eighteen,
-    /// Three, four, six and three blocks.
+    /// Three, four, six and three blocks in the four stages.
     ThirtyFour,
 }
 
 /// One convolution of a plain network.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PlainLayer {
-    /// Output channels: a multiple of 16.
+    /// Number of output channels, a multiple of 16.
     pub channels: usize,
-    /// Side of the square kernel, pixels: odd.
+    /// Side of the square kernel, in pixels. It must be odd.
     pub kernel: usize,
-    /// Stride, pixels.
+    /// Stride, in pixels.
     pub stride: usize,
 }
 
@@ -85,11 +84,11 @@ impl Depth {
     }
 }
 
-/// Maximum number of values of any picture in a network, so offsets fit into 32 bits.
+/// Maximum number of values of any picture in a network. It ensures that offsets fit into 32 bits.
 const PICTURE_MAX: usize = 1 << 28;
 
 impl Architecture {
-    /// A residual network.
+    /// Creates a residual network.
     pub const fn residual(depth: Depth, input: Picture, outputs: usize) -> Architecture {
         let body = Body::Residual(depth);
         Architecture {
@@ -99,8 +98,8 @@ impl Architecture {
         }
     }
 
-    /// The small network of five convolutions of stride 2. Every value of every pixel of the last picture is a feature, so
-    /// outputs can depend on a position in the picture.
+    /// Creates the small network of five convolutions of stride 2. Every value of every pixel of the last picture is a feature, so outputs can depend on
+    /// positions in the picture.
     pub fn five_layers(input: Picture, outputs: usize) -> Architecture {
         let layer = |channels, kernel| PlainLayer {
             channels,
@@ -141,7 +140,7 @@ impl Architecture {
         })
     }
 
-    /// Checks layer settings and picture sizes.
+    /// Checks the settings of the layers, and the sizes of their pictures.
     ///
     /// # Errors
     /// [`NetworkError::Architecture`] with the first fault found.
@@ -202,7 +201,7 @@ impl Architecture {
         Ok(())
     }
 
-    /// Stages in order.
+    /// Plans of the stages, in order.
     pub fn stages(&self) -> Vec<StagePlan> {
         match &self.body {
             Body::Plain { layers, .. } => layers.iter().copied().map(StagePlan::Plain).collect(),
@@ -219,7 +218,7 @@ impl Architecture {
         }
     }
 
-    /// Prefixes of the tensor names of each stage.
+    /// Prefixes of the tensor names for each stage.
     pub fn stage_names(&self) -> Vec<String> {
         match &self.body {
             Body::Plain { layers, .. } => (0..layers.len())
@@ -238,7 +237,7 @@ impl Architecture {
         }
     }
 
-    /// Reduction of the last pictures to features.
+    /// Reduction of the last convolution's pictures to features.
     pub fn pooling(&self) -> Pooling {
         match self.body {
             Body::Residual(_) => Pooling::Average,

@@ -14,7 +14,7 @@ use taceva_core::single;
 /// Epsilon added to a variance before its square root, as in PyTorch.
 pub(crate) const EPSILON: f64 = 1e-5;
 
-/// Weight of the newest batch in running moments, as in PyTorch.
+/// Weight of the newest batch in the running moments, as in PyTorch.
 pub(crate) const MOMENTUM: f64 = 0.1;
 
 /// Gain, bias and running moments of each channel.
@@ -26,11 +26,11 @@ pub(crate) struct BatchNorm {
     pub(crate) running_variance: Aligned,
 }
 
-/// Moments of one batch, and the factor and addend per channel that normalise by them.
+/// Moments of one batch, and the factor and addend of each channel for normalisation by these moments.
 #[derive(Clone, Debug)]
 pub(crate) struct Moments {
     pub(crate) mean: Aligned,
-    /// 1 / √(variance + ε) of each channel.
+    /// Reciprocal standard deviation of each channel: 1 / √(variance + ε).
     pub(crate) inverse: Aligned,
     /// Factor of each channel: gain · inverse.
     pub(crate) scale: Aligned,
@@ -52,7 +52,7 @@ impl Moments {
 }
 
 impl BatchNorm {
-    /// Normalisation with gain one, bias zero, running mean zero and variance one.
+    /// Normalisation with gains of one, biases of zero, running means of zero and running variances of one.
     pub(crate) fn new(channels: usize) -> BatchNorm {
         let ones = Aligned::of(&vec![1.0; channels]);
         BatchNorm {
@@ -63,7 +63,7 @@ impl BatchNorm {
         }
     }
 
-    /// Writes the moments of a batch, from sums over `samples` values per channel, to `into`. Updates the running moments.
+    /// Writes the moments of a batch to `into`, computed from sums over `samples` values per channel. Updates the running moments.
     pub(crate) fn update(&mut self, sums: &[ChannelSums], samples: usize, into: &mut Moments) {
         let samples = samples as f64;
         for channel in 0..self.gain.len() {

@@ -1,4 +1,4 @@
-//! Convolution: its shape, its weights, and its three passes.
+//! Convolution: its shape, its weights, and its three passes (forward, input gradient, weight gradient).
 
 mod direct;
 mod division;
@@ -27,21 +27,21 @@ pub(crate) use workspace::{Rooms, TileRooms};
 use crate::picture::Picture;
 use crate::planes::Layout;
 
-/// Shape of a convolution without bias. The square kernel is padded by half its side.
+/// Shape of a convolution without bias. The padding is half the side of the square kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Convolution {
-    /// Input channels.
+    /// Number of input channels.
     pub(crate) inputs: usize,
-    /// Output channels: a multiple of `PANEL`.
+    /// Number of output channels, a multiple of `PANEL`.
     pub(crate) outputs: usize,
-    /// Side of the kernel, pixels: odd.
+    /// Side of the kernel, in pixels. It must be odd.
     pub(crate) kernel: usize,
-    /// Stride, pixels.
+    /// Stride, in pixels.
     pub(crate) stride: usize,
 }
 
 impl Convolution {
-    /// Rows and columns of zeros around the input.
+    /// Number of rows and columns of zeros on each side of the input.
     pub(crate) const fn padding(&self) -> usize {
         self.kernel / 2
     }
@@ -61,7 +61,7 @@ impl Convolution {
         }
     }
 
-    /// Offset of the kernel's first value for output pixel (y, x) in an input of `layout`.
+    /// Offset of the first value that the kernel reads for output pixel (y, x), in an input of `layout`.
     fn corner(&self, layout: Layout, y: usize, x: usize) -> usize {
         let shift = layout.border - self.padding();
         (y * self.stride + shift) * layout.row()
@@ -69,7 +69,7 @@ impl Convolution {
     }
 }
 
-/// Offset in 32 bits, as stored in tables of pixels.
+/// Converts an offset to 32 bits, for tables of pixels.
 fn offset(value: usize) -> u32 {
     u32::try_from(value).expect("Architecture::check limits a picture to 2^28 values")
 }

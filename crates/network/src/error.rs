@@ -24,7 +24,7 @@ pub enum NetworkError {
         /// Name of the tensor.
         name: String,
     },
-    /// A tensor's shape or length differs from the architecture.
+    /// The shape or length of a tensor differs from the architecture.
     #[error("tensor `{name}` has the shape {found:?} and {values} numbers, expected {expected:?}", name = taceva_core::shown(name))]
     TensorShape {
         /// Name of the tensor.
@@ -55,7 +55,7 @@ pub enum NetworkError {
     /// A picture has a value that is not finite.
     #[error("{part} picture {picture}: number {position} is not finite")]
     PictureNotFinite {
-        /// Use of the samples.
+        /// Part that contains the picture.
         part: SampleSet,
         /// Index of the picture.
         picture: usize,
@@ -65,51 +65,51 @@ pub enum NetworkError {
     /// The number of labels does not match the number of pictures.
     #[error("{part}: {labels} labels for {pictures} pictures of {outputs} outputs")]
     Labels {
-        /// Use of the samples.
+        /// Part that contains the labels.
         part: SampleSet,
         /// Number of labels.
         labels: usize,
         /// Number of pictures.
         pictures: usize,
-        /// Outputs of the network.
+        /// Number of outputs of the network.
         outputs: usize,
     },
     /// A label is not finite.
     #[error("{part} sample {sample}: label {output} is not finite")]
     LabelNotFinite {
-        /// Use of the samples.
+        /// Part that contains the label.
         part: SampleSet,
         /// Index of the sample.
         sample: usize,
         /// Index of the label in the sample.
         output: usize,
     },
-    /// A class is not below the number of outputs.
+    /// A class number is not below the number of outputs.
     #[error("{part} sample {sample}: class {class}, expected 0 to {}", classes - 1)]
     Class {
-        /// Use of the samples.
+        /// Part that contains the sample.
         part: SampleSet,
         /// Index of the sample.
         sample: usize,
-        /// Class found.
+        /// Class number found.
         class: u32,
         /// Number of classes.
         classes: usize,
     },
-    /// All labels of an output are equal, so scaling and training are impossible.
+    /// All labels of an output are equal, which makes scaling and training impossible.
     #[error("output {output}: every training label is {value}, so there is nothing to learn")]
     ConstantLabels {
         /// Index of the output.
         output: usize,
-        /// The label.
+        /// Value of the labels.
         value: f64,
     },
-    /// There are fewer samples than a batch.
+    /// There are fewer samples than a batch needs.
     #[error("{samples} training samples, fewer than a batch of {batch}")]
     FewSamples {
         /// Number of training samples.
         samples: usize,
-        /// Samples per batch.
+        /// Number of samples per batch.
         batch: usize,
     },
     /// The loss does not support the labels, or a setting is out of range.
@@ -122,22 +122,22 @@ pub enum NetworkError {
         /// Accepted values.
         expected: &'static str,
     },
-    /// The loss is not finite. Training stopped before this step changed a weight.
+    /// The loss is not finite. The training stopped before this step changed a weight.
     #[error("step {step}: the loss is not finite")]
     LossNotFinite {
-        /// The step, counted from 0.
+        /// Index of the step, counted from 0.
         step: u64,
     },
-    /// A step made a weight or a running moment of a normalisation infinite or NaN.
+    /// A step made a weight, or a running moment of a normalisation, infinite or NaN.
     #[error("step {step}: a weight or a running moment is not finite")]
     WeightNotFinite {
-        /// The step, counted from 0.
+        /// Index of the step, counted from 0.
         step: u64,
     },
     /// The checkpoint belongs to another training run.
     #[error("the checkpoint belongs to another training run: {what}")]
     Checkpoint {
-        /// Setting or number that differs.
+        /// Setting or number that differs between the two runs.
         what: String,
     },
     /// A device failed.
@@ -145,18 +145,18 @@ pub enum NetworkError {
     Device {
         /// Name of the device.
         device: String,
-        /// Problem reported by the device.
+        /// Problem that the device reported.
         problem: String,
     },
-    /// Too little memory for transformed weights.
+    /// There is too little memory for the transformed weights.
     #[error(
         "cannot allocate {bytes} bytes for transformed weights: free memory, or use a network with fewer channels"
     )]
     Memory {
-        /// Bytes of the transformed weights.
+        /// Size of the transformed weights, in bytes.
         bytes: usize,
     },
-    /// The buffer for results has the wrong length.
+    /// The result buffer has the wrong length.
     #[error("a buffer of {found} numbers, expected {expected}")]
     Room {
         /// Length of the buffer.
@@ -166,14 +166,14 @@ pub enum NetworkError {
     },
 }
 
-/// Use of samples.
+/// Purpose of samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleSet {
-    /// Training part.
+    /// Samples for training.
     Training,
-    /// Choice of the best epoch.
+    /// Samples for the choice of the best epoch.
     Validation,
-    /// Pictures to predict.
+    /// Samples to predict.
     Prediction,
 }
 

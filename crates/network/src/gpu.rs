@@ -1,4 +1,4 @@
-//! Training on a GPU with burn, for the same architectures, weights and recipes as on the CPU.
+//! Training on a GPU with burn. Architectures, weights and recipes are the same as on the CPU.
 
 #[cfg(any(feature = "cuda", feature = "wgpu"))]
 mod autodiff;
@@ -49,7 +49,7 @@ impl Gpu {
     /// Finds the first GPU of `kind`.
     ///
     /// # Errors
-    /// [`GpuError::NotBuilt`] if this program was built without the feature, [`GpuError::NotFound`] if there is no device.
+    /// [`GpuError::NotBuilt`] if this program was built without the feature for `kind`, [`GpuError::NotFound`] if there is no device.
     pub fn find(kind: GpuKind) -> Result<Gpu, GpuError> {
         let device = Device::find(kind)?;
         Ok(Gpu { kind, device })
@@ -60,12 +60,12 @@ impl Gpu {
         self.kind
     }
 
-    /// Name of the GPU, as reported by its driver.
+    /// Name of the GPU as its driver reports it.
     pub fn name(&self) -> &str {
         &self.device.name
     }
 
-    /// Starts an engine on this GPU that continues from `snapshot`. [`Trainer::on`](crate::Trainer::on) takes it.
+    /// Starts an engine on this GPU that continues from `snapshot`. Pass it to [`Trainer::on`](crate::Trainer::on).
     ///
     /// # Errors
     /// [`NetworkError::Device`] if the device fails.

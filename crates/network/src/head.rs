@@ -1,4 +1,4 @@
-//! Output layer of a network: pooling to features, and linear outputs.
+//! Output layer of a network: pooling to features, and linear outputs of these.
 
 use crate::architecture::Pooling;
 use crate::panel::Aligned;
@@ -7,20 +7,20 @@ use crate::planes::{Layout, Planes};
 use crate::update::Update;
 use taceva_core::single;
 
-/// Linear outputs of pooled features.
+/// Linear outputs of the pooled features.
 #[derive(Clone, Debug)]
 pub(crate) struct Head {
     pub(crate) pooling: Pooling,
-    /// `[outputs, features]`.
+    /// Weights, shape `[outputs, features]`.
     pub(crate) weights: Aligned,
     /// Bias of each output.
     pub(crate) bias: Aligned,
-    /// Slot of the weights. The bias has the next slot.
+    /// Slot of the weights. The bias has the following slot.
     pub(crate) slot: usize,
 }
 
 impl Head {
-    /// Number of slots: weights and bias.
+    /// Number of slots: one for weights and one for bias.
     pub(crate) const SLOTS: usize = 2;
 
     pub(crate) fn new(pooling: Pooling, picture: Picture, outputs: usize, slot: usize) -> Head {
@@ -37,7 +37,7 @@ impl Head {
         self.bias.len()
     }
 
-    /// Features per sample.
+    /// Number of features per sample.
     pub(crate) fn features(&self) -> usize {
         self.weights.len() / self.bias.len()
     }
@@ -67,10 +67,10 @@ impl Head {
         }
     }
 
-    /// outputs = bias + weights · features.
+    /// Computes outputs = bias + weights · features.
     ///
     /// # Shapes
-    /// `features`: `[samples, features]`; `into`: `[samples, outputs]`.
+    /// `features`: `[samples, features]`. `into`: `[samples, outputs]`.
     pub(crate) fn forward(&self, features: &[f32], into: &mut Vec<f64>) {
         into.clear();
         for features in features.chunks_exact(self.features()) {
@@ -92,10 +92,10 @@ impl Head {
         }
     }
 
-    /// Writes the gradient of the pictures. Passes the gradients of weights and bias to `update`.
+    /// Writes the gradient of the pictures. Calls `update` with the gradients of weights and bias.
     ///
     /// # Shapes
-    /// `gradient`: `[samples, outputs]`, the output gradient; `into`: without a border.
+    /// `gradient`: `[samples, outputs]`, the output gradient. `into`: pictures without a border.
     pub(crate) fn backward(
         &mut self,
         features: &[f32],

@@ -1,10 +1,10 @@
 //! Labels of pictures: numbers or classes.
 
-/// The labels of pictures.
+/// Labels of pictures.
 #[derive(Clone, Copy, Debug)]
 pub enum Labels<'a> {
-    /// Numbers, `[samples, outputs]`, in any unit.
+    /// Numbers in any unit, shape `[samples, outputs]`.
     Values(&'a [f64]),
-    /// Class of each sample, below the number of outputs.
+    /// Class of each sample. It must be below the number of outputs.
     Classes(&'a [u32]),
 }

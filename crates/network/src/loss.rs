@@ -8,27 +8,27 @@ use crate::labels::Labels;
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Loss {
-    /// Squared error, (output − label)².
+    /// Squared error: (output − label)².
     SquaredError,
-    /// Half the squared distance up to `delta`; beyond it, delta · (|distance| − delta / 2).
+    /// Huber's loss: half the squared distance up to `delta`; beyond `delta`, delta · (|distance| − delta / 2).
     ///
     /// # Reference
     /// P. J. Huber, "Robust estimation of a location parameter", Ann. Math. Statist. 35, 1964.
     Huber {
-        /// Limit of the quadratic part, in the unit of the scaled labels.
+        /// Upper limit of the quadratic part, in the unit of the scaled labels.
         delta: f64,
     },
-    /// −ln of the softmax of the outputs at the class; the mean over samples.
+    /// Cross entropy: −ln of the softmax of the outputs at the class, averaged over samples.
     CrossEntropy,
 }
 
 impl Loss {
-    /// Returns the loss of some samples and writes its gradient.
+    /// Computes the loss of some samples, and writes the gradient of the loss.
     ///
     /// # Shapes
     /// `outputs`, `gradient`: `[samples, width]`.
     /// # Panics
-    /// If a distance loss is applied to classes, or cross entropy to numbers. [`Trainer`](crate::Trainer) rejects both.
+    /// If a distance loss is applied to classes, or cross entropy is applied to numbers. [`Trainer`](crate::Trainer) rejects both cases.
     pub fn measure(
         self,
         outputs: &[f64],

@@ -1,6 +1,6 @@
-//! Instruction sets. All sets with fused multiply-add give the same bits. The portable set rounds each product too, so its last digits differ.
+//! Instruction sets. All sets with fused multiply-add give the same bits. The portable set also rounds each product, so the last digits differ.
 //!
-//! `taceva-metrics` selects in the same way. Each crate has its own `simd/`, which proves that the CPU has the instructions.
+//! `taceva-metrics` selects instruction sets in the same way. The `simd/` folder of each crate proves that the CPU has the instructions.
 
 use taceva_core::Isa;
 
@@ -23,7 +23,7 @@ pub(crate) enum Machine {
 }
 
 impl Machine {
-    /// The machine with `isa`, or `None` if the CPU lacks it.
+    /// Returns the machine with `isa`; `None` if the CPU lacks this instruction set.
     pub(crate) fn with(isa: Isa) -> Option<Machine> {
         match isa {
             #[cfg(target_arch = "x86_64")]
@@ -37,7 +37,7 @@ impl Machine {
         }
     }
 
-    /// Runs `job` with this instruction set.
+    /// Runs `job` with the vectors of this instruction set.
     #[inline]
     pub(crate) fn run<J: Job>(self, job: J) -> J::Output {
         match self {

@@ -1,4 +1,4 @@
-//! Max pooling over 3 × 3 pixels with stride 2, fused with normalisation and ReLU. The normalised pictures and their gradients are never stored.
+//! Max pooling over 3 × 3 pixels with stride 2, fused with normalisation and ReLU. Normalised pictures and their gradients are never stored.
 
 mod backward;
 mod forward;
@@ -10,11 +10,11 @@ pub(crate) use greatest::pool;
 
 use crate::picture::Picture;
 
-/// Side of a window, pixels.
+/// Side of a window, in pixels.
 const KERNEL: usize = 3;
-/// Stride, pixels.
+/// Stride, in pixels.
 const STRIDE: usize = 2;
-/// Rows and columns of the first window outside the picture.
+/// Number of rows and columns of the first window that are outside the picture.
 const PADDING: usize = 1;
 
 /// Shape of the output for an input of shape `input`.
@@ -26,8 +26,8 @@ pub(crate) const fn output(input: Picture) -> Picture {
     }
 }
 
-/// Rows (or columns) of window `position` in a picture of `length` rows. The nearest row of the window replaces a row outside the picture, because
-/// loops of fixed length stay in registers.
+/// Rows (or columns) of window `position` in a picture of `length` rows. A row outside the picture is replaced by the nearest row of the window, because loops
+/// of fixed length remain in registers.
 #[inline(always)]
 fn window(position: usize, length: usize) -> [usize; KERNEL] {
     let middle = position * STRIDE;
@@ -38,7 +38,7 @@ fn window(position: usize, length: usize) -> [usize; KERNEL] {
     ]
 }
 
-/// Window that contains a row (or column), with the position of the row in it.
+/// A window that contains a given row (or column), and the position of the row in the window.
 #[derive(Clone, Copy)]
 struct CoveringWindow {
     place: u32,
@@ -53,8 +53,8 @@ impl CoveringWindow {
     }
 }
 
-/// Windows that contain row (or column) `at`, each with the position of `at` in it, in a picture with `windows` windows. A missing second window has
-/// position [`NOWHERE`] and an arbitrary valid index.
+/// Windows that contain row (or column) `at` in a picture with `windows` windows, each with the position of `at`. A missing second window has position
+/// [`NOWHERE`] and an arbitrary valid index.
 #[inline(always)]
 fn windows(at: usize, windows: usize) -> [CoveringWindow; 2] {
     let covering = |place, window| CoveringWindow { place, window };
@@ -68,15 +68,15 @@ fn windows(at: usize, windows: usize) -> [CoveringWindow; 2] {
     }
 }
 
-/// Window position of a missing window; no output has it.
+/// Position of a row in a missing window. No output has this position.
 const NOWHERE: u32 = 1 << 8;
 
-/// Index of a position in a window.
+/// Index of a pixel of a window, from its row and column.
 #[inline(always)]
 fn place(row: u32, column: u32) -> u32 {
     const ROW: u32 = 3;
     row * ROW + column
 }
 
-/// Rows (or columns) of a window, in order.
+/// Positions of rows (or columns) in a window, in order.
 const PLACES: [u32; KERNEL] = [0, 1, 2];

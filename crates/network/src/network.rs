@@ -21,7 +21,7 @@ use crate::stage::{Stage, StageSpace, Standing};
 use crate::update::Update;
 use taceva_core::random::Draws;
 
-/// Weights of an architecture, with the running moments of its normalisations.
+/// Weights of an architecture, and the running moments of its normalisations.
 #[derive(Clone, Debug)]
 pub struct Network {
     pub(crate) architecture: Architecture,
@@ -30,7 +30,7 @@ pub struct Network {
     pub(crate) head: Head,
 }
 
-/// Activations and buffers that training keeps between the passes.
+/// Activations and buffers of a training, which the backward pass needs after the forward pass.
 #[derive(Debug)]
 pub(crate) struct TrainingSpace {
     pub(crate) input: Planes,
@@ -44,11 +44,11 @@ impl Network {
     /// Epsilon added to a batch variance before its square root, as in PyTorch.
     pub const NORM_EPSILON: f64 = batch_norm::EPSILON;
 
-    /// Weight of the newest batch in running moments, as in PyTorch.
+    /// Weight of the newest batch in the running moments, as in PyTorch.
     pub const NORM_MOMENTUM: f64 = batch_norm::MOMENTUM;
 
-    /// A network with random weights, distributed as in torchvision. Convolution weights are normal with variance
-    /// 2 / (kernel² · outputs). The last layer is uniform within ±1/√features.
+    /// Creates a network with random weights, distributed as in torchvision. Convolution weights are normal with variance 2 / (kernel² · outputs). The weights
+    /// of the last layer are uniform within ±1/√features.
     ///
     /// # Errors
     /// [`NetworkError::Architecture`] if the architecture is invalid.
@@ -81,7 +81,7 @@ impl Network {
         Ok(network)
     }
 
-    /// A network with weights of zero.
+    /// Creates a network with weights of zero.
     fn zeros(architecture: &Architecture) -> Result<Network, NetworkError> {
         architecture.check()?;
         let (mut stages, mut slot) = (Vec::new(), 0);
@@ -101,7 +101,7 @@ impl Network {
         })
     }
 
-    /// Selects the instruction set `isa`.
+    /// Selects the instruction set `isa` for computations.
     ///
     /// # Errors
     /// [`NetworkError::Architecture`] if the CPU lacks `isa`.
@@ -138,7 +138,7 @@ impl Network {
         self.head.slot + Head::SLOTS
     }
 
-    /// Length of the parameter in each slot.
+    /// Length of the parameter vector in each slot.
     pub(crate) fn slot_lengths(&self) -> Vec<usize> {
         let normed = self.stages.iter().flat_map(Stage::normed);
         let parts = normed.flat_map(|(part, _)| {
@@ -150,7 +150,7 @@ impl Network {
             .collect()
     }
 
-    /// Allocates buffers for training, with batches of `batch` pictures and convolutions in `form`.
+    /// Allocates buffers for training, with batches of `batch` pictures and the convolution algorithm `form`.
     ///
     /// # Errors
     /// [`NetworkError::Memory`] if the transformed weights of one convolution do not fit into memory.
@@ -189,7 +189,7 @@ impl Network {
         })
     }
 
-    /// Runs the forward pass on the first `count` pictures of `space`, with batch moments.
+    /// Runs the forward pass on the first `count` pictures of `space`. Normalises by batch moments.
     ///
     /// # Shapes
     /// Returns `[count, outputs]`.
@@ -210,7 +210,7 @@ impl Network {
         &space.outputs
     }
 
-    /// Runs the backward pass from the output gradient. Passes the gradient of each parameter to `update`.
+    /// Runs the backward pass from the output gradient. Calls `update` with the gradient of each parameter.
     ///
     /// # Shapes
     /// `gradient`: `[count, outputs]`, for the pictures of the last [`forward`](Network::forward).
@@ -248,7 +248,7 @@ impl Network {
         }
     }
 
-    /// Each stage with its plan.
+    /// All stages, each with its plan.
     pub(crate) fn planned(&self) -> impl Iterator<Item = (StagePlan, &Stage)> {
         self.architecture.stages().into_iter().zip(&self.stages)
     }

@@ -1,4 +1,4 @@
-//! Convolution with batch normalisation, the building block of every stage.
+//! Convolution with batch normalisation, which every stage is built from.
 
 use crate::batch_norm::{
     BatchNorm, ChannelSums, Gate, GradientSums, Moments, gradient_sums, input_gradient,
@@ -19,7 +19,7 @@ use taceva_core::single;
 pub(crate) struct Normed {
     pub(crate) weights: ConvolutionWeights,
     pub(crate) norm: BatchNorm,
-    /// Slot of the weights. Gain and bias have the next two.
+    /// Slot of the weights. Gain and bias have the following two slots.
     pub(crate) slot: usize,
 }
 
@@ -35,20 +35,20 @@ pub(crate) struct Back<'a> {
 /// Activations and prepared passes of a convolution in training.
 #[derive(Debug)]
 pub(crate) struct NormedSpace {
-    /// Output of the convolution.
+    /// Output of the convolution, before normalisation.
     pub(crate) raw: Planes,
     pub(crate) moments: Moments,
     pub(crate) sums: Vec<ChannelSums>,
-    /// Memory layout of the output gradient, with a border if the input-gradient pass reads it.
+    /// Memory layout of the output gradient. It has a border if the input-gradient pass reads it.
     gradient: Layout,
     forward: Forward,
     weight_gradient: WeightGradient,
-    /// `None` if the input gradient is not needed.
+    /// Input-gradient pass; `None` if the input gradient is not needed.
     input_gradient: Option<InputGradient>,
 }
 
 impl Normed {
-    /// Number of slots: weights, gain and bias.
+    /// Number of slots: one each for weights, gain and bias.
     pub(crate) const SLOTS: usize = 3;
 
     pub(crate) fn new(convolution: Convolution, slot: usize) -> Normed {
@@ -63,7 +63,7 @@ impl Normed {
         self.weights.convolution()
     }
 
-    /// Convolves the first `count` pictures and computes the moments of the result.
+    /// Convolves the first `count` pictures, and computes the moments of the result.
     pub(crate) fn forward(
         &mut self,
         machine: Machine,
@@ -93,14 +93,14 @@ impl Normed {
             .update(&space.sums[..count], samples, &mut space.moments);
     }
 
-    /// Passes the gradients of gain and bias to `update`.
+    /// Calls `update` with the gradients of gain and bias.
     pub(crate) fn update_norm(&mut self, sums: &GradientSums, update: &mut dyn Update) {
         update.update(self.slot + 1, &mut self.norm.gain, &sums.gain);
         update.update(self.slot + 2, &mut self.norm.bias, &sums.bias);
     }
 
-    /// Computes the gradient of the convolution's output from the gradient of the normalisation's output. `Gate::Output` zeroes the masked values of
-    /// the second gradient. Passes the gradients of gain and bias to `back.update`.
+    /// Computes the gradient of the convolution's output from the gradient of the normalisation's output. With `Gate::Output`, sets masked values of the
+    /// normalisation's gradient to zero. Calls `back.update` with the gradients of gain and bias.
     pub(crate) fn norm_backward(
         &mut self,
         space: &mut NormedSpace,
@@ -135,7 +135,7 @@ impl Normed {
         into
     }
 
-    /// Writes the input gradient if `into` is given. Passes the weight gradient to `back.update`.
+    /// Writes the input gradient if `into` is given. Calls `back.update` with the weight gradient.
     pub(crate) fn backward(
         &mut self,
         space: &NormedSpace,
@@ -171,7 +171,7 @@ impl Normed {
         update.update(self.slot, self.weights.values_mut(), room);
     }
 
-    /// Weights with the running moments folded in, and the remaining bias.
+    /// Weights multiplied by the running moments' factors, and the resulting bias.
     pub(crate) fn fold(&self) -> (ConvolutionWeights, Aligned) {
         let mut weights = self.weights.clone();
         let channels = self.convolution().outputs;
@@ -218,7 +218,7 @@ impl NormedSpace {
         }
     }
 
-    /// Longest transformed weights of any pass.
+    /// Length of the longest transformed weights of any pass.
     pub(crate) fn transformed_len(&self) -> usize {
         let back = self.input_gradient.as_ref();
         self.forward

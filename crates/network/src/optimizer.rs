@@ -1,4 +1,4 @@
-//! Optimisers: update rules of the weights.
+//! Optimisers, which update the weights.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
@@ -9,15 +9,15 @@ use crate::panel::{Aligned, PANEL};
 use crate::simd::{Job, Vector};
 use crate::update::Update;
 
-/// Update rule of the weights. Decay applies to every parameter, as by default in PyTorch.
+/// Update rule for the weights. Weight decay applies to every parameter, as by default in PyTorch.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Optimizer {
     /// Stochastic gradient descent: v ← momentum · v + g + decay · w, w ← w − rate · v.
     Sgd {
-        /// Factor of the previous velocity, from 0 to below 1.
+        /// Factor of the previous velocity, at least 0 and below 1.
         momentum: f64,
-        /// Factor of the weight decay, 0 for none.
+        /// Factor of the weight decay; 0 for no decay.
         weight_decay: f64,
     },
     /// Adam with decoupled weight decay.
@@ -25,11 +25,11 @@ pub enum Optimizer {
     /// # Reference
     /// I. Loshchilov, F. Hutter, "Decoupled weight decay regularization", ICLR 2019.
     AdamW {
-        /// Factors β₁ and β₂ of the previous means of gradient and squared gradient, each from 0 to below 1.
+        /// Factors β₁ and β₂ of the previous means of gradient and squared gradient, each at least 0 and below 1.
         betas: (f64, f64),
-        /// Addend to the root of the mean square.
+        /// Addend to the root of the mean squared gradient.
         epsilon: f64,
-        /// Factor of the weight decay, 0 for none.
+        /// Factor of the weight decay; 0 for no decay.
         weight_decay: f64,
     },
 }
@@ -42,7 +42,7 @@ impl Optimizer {
         weight_decay: 1e-2,
     };
 
-    /// State vectors per parameter.
+    /// Number of state vectors per parameter.
     pub(crate) const fn moments(self) -> usize {
         match self {
             Optimizer::Sgd { .. } => 1,
@@ -51,7 +51,7 @@ impl Optimizer {
     }
 }
 
-/// State of an optimiser for each parameter, by slot.
+/// State of an optimiser, for each parameter by slot.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
     /// Velocity, or means of gradient and squared gradient. Empty before the first update of a parameter.
@@ -65,19 +65,19 @@ impl Memory {
     }
 }
 
-/// One update of all parameters.
+/// One optimiser step for all parameters.
 pub(crate) struct Descent<'a> {
     pub(crate) machine: Machine,
     pub(crate) optimizer: Optimizer,
     pub(crate) rate: f64,
-    /// Number of steps, including this one.
+    /// Number of steps, including the present step.
     pub(crate) steps: u64,
     pub(crate) memory: &'a mut Memory,
-    /// True once a parameter is infinite or NaN.
+    /// True if a parameter has become infinite or NaN.
     pub(crate) is_broken: bool,
 }
 
-/// Values per task of a thread.
+/// Number of values per task of a thread.
 const CHUNK: usize = 1 << 14;
 
 impl Update for Descent<'_> {
@@ -121,7 +121,7 @@ impl Update for Descent<'_> {
     }
 }
 
-/// Coefficients of one step.
+/// Coefficients of one optimiser step.
 #[derive(Clone, Copy, Debug)]
 pub enum Rule {
     /// Coefficients of [`Optimizer::Sgd`].
@@ -135,7 +135,7 @@ pub enum Rule {
 pub struct Momentum {
     /// Factor of the previous velocity.
     pub momentum: f32,
-    /// Weight decay.
+    /// Factor of the weight decay.
     pub decay: f32,
     /// Learning rate.
     pub rate: f32,
@@ -144,22 +144,22 @@ pub struct Momentum {
 /// m ← β₁ · m + `news.0` · g, s ← β₂ · s + `news.1` · g², w ← `keep` · w − `step` · m / (√s · `correction` + `epsilon`).
 #[derive(Clone, Copy, Debug)]
 pub struct Adam {
-    /// Factor of the weights.
+    /// Factor of the present weights.
     pub keep: f32,
     /// Factors of the previous means, β₁ and β₂.
     pub betas: (f32, f32),
-    /// Factors of the newest gradient and its square.
+    /// Factors of the newest gradient and of its square.
     pub news: (f32, f32),
-    /// 1 / √(1 − β₂ⁿ).
+    /// Bias correction 1 / √(1 − β₂ⁿ) at step n.
     pub correction: f32,
-    /// Addend to the root of the mean square.
+    /// Addend to the root of the mean squared gradient.
     pub epsilon: f32,
-    /// rate / (1 − β₁ⁿ).
+    /// Step size rate / (1 − β₁ⁿ) at step n.
     pub step: f32,
 }
 
 impl Rule {
-    /// Coefficients of step `steps`, counted from 1, at learning rate `rate`.
+    /// Coefficients of step `steps`, counted from 1, for the learning rate `rate`.
     pub fn new(optimizer: Optimizer, rate: f64, steps: u64) -> Rule {
         match optimizer {
             Optimizer::Sgd {

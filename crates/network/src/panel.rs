@@ -1,27 +1,27 @@
-//! Memory alignment: channels in panels of sixteen, tensors at the start of a cache line.
+//! Memory alignment. Channels are stored in panels of sixteen, and tensors start at a cache line.
 
 use std::ops::{Deref, DerefMut};
 
 use crate::error::NetworkError;
 
-/// Channels per panel: one cache line of f32 values, and a multiple of every vector width.
+/// Number of channels per panel: one cache line of f32 values, and a multiple of every vector width.
 pub(crate) const PANEL: usize = 16;
 
-/// Values aligned to a cache line, so that no vector of a panel crosses two.
+/// Values aligned to a cache line. No vector of a panel therefore crosses a cache line.
 #[derive(Debug)]
 pub(crate) struct Aligned {
-    /// Values, after `skipped` unused values.
+    /// Aligned values, preceded by `skipped` unused values.
     values: Vec<f32>,
     skipped: usize,
 }
 
 impl Aligned {
-    /// `length` zeros.
+    /// Allocates `length` zeros.
     pub(crate) fn zeros(length: usize) -> Aligned {
         Aligned::within(vec![0.0; length + PANEL], length)
     }
 
-    /// `length` zeros, with a fallible allocation.
+    /// Allocates `length` zeros. Returns an error if the allocation fails.
     ///
     /// # Errors
     /// [`NetworkError::Memory`] if there is too little memory.
@@ -36,7 +36,7 @@ impl Aligned {
         Ok(Aligned::within(values, length))
     }
 
-    /// Uses `length` values of `values`, starting at the first cache line. `values` must be a panel longer.
+    /// Uses `length` values of `values`, starting at the first cache line. `values` must be longer than `length` by a panel.
     fn within(values: Vec<f32>, length: usize) -> Aligned {
         const LINE: usize = 64;
         let skipped = values.as_ptr().align_offset(LINE).min(PANEL);

@@ -1,6 +1,6 @@
 //! Shape of a picture.
 
-/// Shape of a picture.
+/// Shape of a picture in memory.
 ///
 /// # Shapes
 /// Pictures are stored as `[height, width, channels]`.
@@ -10,12 +10,12 @@ pub struct Picture {
     pub height: usize,
     /// Number of columns.
     pub width: usize,
-    /// Values per pixel.
+    /// Number of values per pixel.
     pub channels: usize,
 }
 
 impl Picture {
-    /// Values per picture.
+    /// Number of values per picture.
     pub const fn len(&self) -> usize {
         self.height * self.width * self.channels
     }
@@ -25,7 +25,7 @@ impl Picture {
         self.len() == 0
     }
 
-    /// Pixels per picture.
+    /// Number of pixels per picture.
     pub(crate) const fn pixels(&self) -> usize {
         self.height * self.width
     }

@@ -1,11 +1,11 @@
-//! Batches of pictures in memory, and their layout.
+//! Batches of pictures in memory, and the layout of these pictures.
 
 use crate::error::{NetworkError, SampleSet};
 use crate::panel::Aligned;
 use crate::picture::Picture;
 
 impl Picture {
-    /// Checks that `pictures` are finite whole pictures and `into` has length pictures × `outputs`.
+    /// Checks that `pictures` contains whole pictures of finite values, and that the length of `into` is pictures × `outputs`.
     ///
     /// # Errors
     /// [`NetworkError`] for the first violation.
@@ -48,7 +48,7 @@ impl Picture {
     }
 }
 
-/// Memory layout of a picture, with a border of zeros, so loops need no bounds checks.
+/// Memory layout of a picture with a border of zeros. The border makes bounds checks in loops unnecessary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) picture: Picture,
@@ -61,17 +61,17 @@ impl Layout {
         Layout { border: 0, ..self }
     }
 
-    /// Values per row, border included.
+    /// Number of values per row, including the border.
     pub(crate) const fn row(&self) -> usize {
         (self.picture.width + 2 * self.border) * self.picture.channels
     }
 
-    /// Values per picture, border included.
+    /// Number of values per picture, including the border.
     pub(crate) const fn len(&self) -> usize {
         (self.picture.height + 2 * self.border) * self.row()
     }
 
-    /// Offset of row `y`, without its border.
+    /// Offset of the first pixel of row `y` that is not in the border.
     pub(crate) const fn start_of_row(&self, y: usize) -> usize {
         (y + self.border) * self.row() + self.border * self.picture.channels
     }
@@ -99,14 +99,14 @@ pub(crate) struct Pictures<'a> {
 }
 
 impl Planes {
-    /// `batch` pictures of zeros.
+    /// Allocates a batch of `batch` pictures of zeros.
     pub(crate) fn zeros(picture: Picture, border: usize, batch: usize) -> Planes {
         let layout = Layout { picture, border };
         let values = Aligned::zeros(layout.len() * batch);
         Planes { layout, values }
     }
 
-    /// Pictures in an existing buffer, which may be longer. Zeroes the borders; the pixels are unspecified.
+    /// Stores pictures in an existing buffer, which may be longer. Sets the borders to zero; the pixels are unspecified.
     pub(crate) fn within(room: Aligned, layout: Layout, count: usize) -> Planes {
         let mut planes = Planes {
             layout,
@@ -126,7 +126,7 @@ impl Planes {
         planes
     }
 
-    /// Returns the buffer.
+    /// Returns the underlying buffer.
     pub(crate) fn into_room(self) -> Aligned {
         self.values
     }
@@ -135,28 +135,28 @@ impl Planes {
         self.layout
     }
 
-    /// Capacity, pictures.
+    /// Capacity, in pictures.
     #[cfg(test)]
     pub(crate) fn batch(&self) -> usize {
         self.values.len() / self.layout.len()
     }
 
-    /// The first `count` pictures, borders included.
+    /// Values of the first `count` pictures, including borders.
     pub(crate) fn first(&self, count: usize) -> &[f32] {
         self.from(0, count)
     }
 
-    /// `count` pictures from picture `first` on, borders included.
+    /// Values of `count` pictures, beginning with picture `first`, including borders.
     pub(crate) fn from(&self, first: usize, count: usize) -> &[f32] {
         &self.values[first * self.layout.len()..][..count * self.layout.len()]
     }
 
-    /// The first `count` pictures, borders included. Writers must keep the borders zero.
+    /// Mutable values of the first `count` pictures, including borders. Callers must leave the borders zero.
     pub(crate) fn first_mut(&mut self, count: usize) -> &mut [f32] {
         &mut self.values[..count * self.layout.len()]
     }
 
-    /// Writes picture `position`.
+    /// Writes the pixels of picture `position`.
     pub(crate) fn set(&mut self, position: usize, values: &[f32]) {
         let layout = self.layout;
         let image = &mut self.values[position * layout.len()..][..layout.len()];
@@ -166,7 +166,7 @@ impl Planes {
         }
     }
 
-    /// Picture `position`, without its border.
+    /// Pixels of picture `position`, without the border.
     #[cfg(test)]
     pub(crate) fn get(&self, position: usize) -> Vec<f32> {
         let image = &self.values[position * self.layout.len()..][..self.layout.len()];

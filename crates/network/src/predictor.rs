@@ -17,13 +17,13 @@ use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 use crate::team::{self, Awake};
 
-/// A network prepared for prediction, with its buffers.
+/// A network prepared for prediction, and the buffers that it needs.
 #[derive(Debug)]
 pub struct Predictor {
     machine: Machine,
     input: Planes,
     stages: Vec<Folded>,
-    /// Number of leading stages that process a few pictures at a time.
+    /// Number of leading stages that process only a few pictures at a time.
     light: usize,
     scratch: Scratch,
     head: Head,
@@ -32,22 +32,22 @@ pub struct Predictor {
     form: ConvolutionForm,
 }
 
-/// Pictures per batch.
+/// Number of pictures per batch.
 const BATCH: usize = 32;
 
-/// Minimum number of products of a picture for which threads are woken: several hundred microseconds of work.
+/// Minimum number of products of a picture for which idle threads are woken. This is several hundred microseconds of work.
 const PRODUCTS_WORTH_WAKING: usize = 1 << 24;
 
-/// Bytes of pictures between two stages that fit into a thread's second-level cache beside their inputs.
+/// Size of pictures between two stages that fit into a thread's second-level cache together with their inputs, in bytes.
 const PICTURES_IN_CACHE: usize = 256 << 10;
 
 impl Network {
-    /// Prepares prediction in the form that is fastest for many pictures at once.
+    /// Prepares prediction with the algorithm that is fastest for many pictures at once.
     pub fn predictor(&self) -> Predictor {
         self.predictor_in(ConvolutionForm::Winograd)
     }
 
-    /// Prepares prediction in `form` for any number of pictures. A prediction therefore does not depend on the other pictures of a call.
+    /// Prepares prediction with the algorithm `form` for any number of pictures. A prediction therefore does not depend on the other pictures of a call.
     /// [`ConvolutionForm::Mixed`] is fastest for single pictures, as from a live sensor.
     pub fn predictor_in(&self, form: ConvolutionForm) -> Predictor {
         let mut layout = self.architecture.stages()[0].input_layout(self.architecture.input);
@@ -85,12 +85,12 @@ impl Predictor {
         self.input.layout().picture
     }
 
-    /// Numbers predicted for each picture.
+    /// Number of outputs predicted for each picture.
     pub fn outputs(&self) -> usize {
         self.head.outputs()
     }
 
-    /// Form of the convolutions.
+    /// Algorithm of the convolutions.
     pub fn form(&self) -> ConvolutionForm {
         self.form
     }
@@ -98,9 +98,9 @@ impl Predictor {
     /// Predicts the outputs of each picture.
     ///
     /// # Shapes
-    /// `pictures`: `[samples, height, width, channels]`; `into`: `[samples, outputs]`, allocated by the caller.
+    /// `pictures`: `[samples, height, width, channels]`. `into`: `[samples, outputs]`, allocated by the caller.
     /// # Errors
-    /// [`NetworkError`] if a length differs, a value is not finite, or memory is too small for the transformed weights. The first call computes these
+    /// [`NetworkError`] if a length differs, a value is not finite, or memory is insufficient for the transformed weights. The first call computes these
     /// weights.
     pub fn predict(&mut self, pictures: &[f32], into: &mut [f64]) -> Result<(), NetworkError> {
         let (picture, outputs) = (self.input(), self.outputs());
@@ -118,7 +118,7 @@ impl Predictor {
         Ok(())
     }
 
-    /// True if pictures are fewer than threads and one picture is enough work to wake them.
+    /// True if there are fewer pictures than threads, and one picture is enough work to wake threads.
     fn is_divided(&self, pictures: usize) -> bool {
         let products: usize = self.stages.iter().map(Folded::products).sum();
         team::parts(pictures) > 1 && products >= PRODUCTS_WORTH_WAKING
@@ -135,7 +135,7 @@ impl Predictor {
         }
     }
 
-    /// Transforms all weights that are not transformed yet.
+    /// Transforms all weights that have not been transformed yet.
     fn prepare(&mut self) -> Result<(), NetworkError> {
         let layers = self.stages.iter_mut().flat_map(Folded::layers_mut);
         let layers: Vec<&mut Layer> = layers.collect();
@@ -150,7 +150,7 @@ impl Predictor {
         Ok(())
     }
 
-    /// Computes the outputs of the first `count` pictures of the input.
+    /// Computes the outputs for the first `count` pictures of the input.
     fn pass(&mut self, count: usize) -> &[f64] {
         let (light, heavy) = self.stages.split_at(self.light);
         let pass = Pass {
@@ -173,7 +173,7 @@ impl Predictor {
     }
 }
 
-/// Passes all pictures through one stage after the other. Returns `None` if `stages` is empty.
+/// Passes all pictures through one stage after another; `None` if `stages` is empty.
 fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<Planes> {
     let mut seen: Option<Planes> = None;
     for stage in stages {
@@ -193,7 +193,7 @@ fn pass_all(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Option<
     seen
 }
 
-/// Passes a few pictures at a time through all `stages`. Early stages have large pictures and few weights; their activations then stay in cache.
+/// Passes a few pictures at a time through all `stages`. Early stages have large pictures and few weights, and their activations then remain in cache.
 fn pass_few_at_a_time(stages: &[Folded], pass: Pass<'_>, scratch: &mut Scratch) -> Planes {
     let layout = stages.last().map_or(pass.input.layout(), Folded::output);
     let few = (PICTURES_IN_CACHE / (layout.len() * size_of::<f32>())).max(1);

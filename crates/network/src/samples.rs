@@ -1,4 +1,4 @@
-//! Pictures and their labels.
+//! Samples: pictures and their labels.
 
 use crate::architecture::Architecture;
 use crate::error::{NetworkError, SampleSet};
@@ -8,7 +8,7 @@ use crate::loss::Loss;
 /// Pictures and their labels.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples<'a> {
-    /// Pictures, `[samples, height, width, channels]`.
+    /// Pictures, shape `[samples, height, width, channels]`.
     pub pictures: &'a [f32],
     /// Labels of each picture.
     pub labels: Labels<'a>,
@@ -20,7 +20,7 @@ impl Samples<'_> {
         self.pictures.len() / architecture.input.len()
     }
 
-    /// Checks that samples are finite and match the architecture and the loss.
+    /// Checks that the samples are finite, and match the architecture and the loss.
     pub(crate) fn check(
         &self,
         part: SampleSet,

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Learning rate over a training.
+/// Learning rate over the course of a training.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Schedule {
@@ -12,16 +12,16 @@ pub enum Schedule {
     Cosine,
     /// Rate multiplied by `factor` after every `every` steps.
     Step {
-        /// Steps between changes.
+        /// Number of steps between changes.
         every: u64,
         /// Factor of each change.
         factor: f64,
     },
-    /// Rises from 1/25 of the full rate along half a cosine for the share `rise` of all steps. Falls to 1/10,000 of the start rate over the other
+    /// Rises from 1/25 of the full rate along half a cosine for the share `rise` of all steps. Then falls to 1/10,000 of the start rate over the remaining
     /// steps.
     ///
     /// # Reference
-    /// L. N. Smith, N. Topin, "Super-convergence", 2019; limits and shape as in PyTorch's `OneCycleLR`.
+    /// L. N. Smith, N. Topin, "Super-convergence", 2019. Limits and shape are those of PyTorch's `OneCycleLR`.
     OneCycle {
         /// Share of steps with a rising rate, above 0 and below 1.
         rise: f64,
@@ -29,7 +29,7 @@ pub enum Schedule {
 }
 
 impl Schedule {
-    /// Ratio of the rate at step `step` of `steps`, counted from 0, to the full rate.
+    /// Ratio of the learning rate to the full rate at step `step` of `steps`, counted from 0.
     ///
     /// ```
     /// use taceva_network::Schedule;

@@ -1,4 +1,4 @@
-//! Buffers shared by passes.
+//! Buffers that passes share.
 
 use crate::convolution::TileRooms;
 use crate::error::NetworkError;
@@ -9,7 +9,7 @@ use crate::planes::{Layout, Planes};
 #[derive(Debug)]
 pub(crate) struct Scratch {
     spare: Vec<Aligned>,
-    /// Buffer for the weights of one convolution: exchanged weights, then the weight gradient.
+    /// Buffer for the weights of one convolution: first the exchanged weights, then the weight gradient.
     pub(crate) weights: Aligned,
     /// Buffer for transformed weights.
     pub(crate) transformed: Aligned,
@@ -17,7 +17,7 @@ pub(crate) struct Scratch {
 }
 
 impl Scratch {
-    /// Pool for pictures only, allocated on demand.
+    /// Pool of buffers for pictures only, which are allocated on demand.
     pub(crate) fn of_pictures() -> Scratch {
         Scratch {
             spare: Vec::new(),
@@ -39,7 +39,7 @@ impl Scratch {
         })
     }
 
-    /// Takes or allocates a buffer for `count` pictures. The border is zero; the pixels are unspecified.
+    /// Takes or allocates a buffer for `count` pictures. The border is zero, and the pixels are unspecified.
     pub(crate) fn take(&mut self, layout: Layout, count: usize) -> Planes {
         let length = layout.len() * count;
         // The last returned buffer is most likely in a cache.
@@ -53,7 +53,7 @@ impl Scratch {
         }
     }
 
-    /// Returns the buffer of pictures.
+    /// Returns the buffer of `planes` to the pool.
     pub(crate) fn put(&mut self, planes: Planes) {
         self.spare.push(planes.into_room());
     }

@@ -1,4 +1,4 @@
-//! Vectors of each instruction set, and inner loops. Only these files contain `unsafe` code.
+//! Vectors of each instruction set, and inner loops. `unsafe` code is only in these files.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

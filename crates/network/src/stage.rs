@@ -1,4 +1,4 @@
-//! Stages of a network in training.
+//! Stages of a network that is being trained.
 
 mod block;
 mod plain;
@@ -31,22 +31,22 @@ pub(crate) enum StageSpace {
     Block(Box<BlockSpace>),
 }
 
-/// Context of a stage in its network.
+/// Position of a stage in its network.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Standing {
     /// Layout of the input pictures.
     pub(crate) input: Layout,
-    /// Border of the output pictures, pixels.
+    /// Border of the output pictures, in pixels.
     pub(crate) border: usize,
     pub(crate) batch: usize,
     /// True if no earlier stage needs a gradient.
     pub(crate) is_first: bool,
-    /// Form of the convolutions.
+    /// Algorithm of the convolutions.
     pub(crate) form: ConvolutionForm,
 }
 
 impl Stage {
-    /// Stage of `plan` for `inputs` input channels. Its slots begin at `slot`.
+    /// Stage for `plan` with `inputs` input channels. The first slot of the stage is `slot`.
     pub(crate) fn new(plan: StagePlan, inputs: usize, slot: usize) -> Stage {
         let first = plan.first(inputs);
         match plan {
@@ -56,7 +56,7 @@ impl Stage {
         }
     }
 
-    /// Convolutions in slot order, with the suffixes of their tensor names: convolution and normalisation.
+    /// Convolutions in slot order, each with the suffixes of its tensor names: for convolution and normalisation.
     pub(crate) fn normed(&self) -> Vec<(&Normed, [&'static str; 2])> {
         match self {
             Stage::Stem(normed) => vec![(normed, ["conv1", "bn1"])],
@@ -82,7 +82,7 @@ impl Stage {
         }
     }
 
-    /// Runs the stage on the first `count` pictures, with temporary buffers of `scratch`.
+    /// Runs the stage on the first `count` pictures. Temporary buffers are taken from `scratch`.
     pub(crate) fn forward(
         &mut self,
         machine: Machine,
@@ -104,7 +104,7 @@ impl Stage {
         }
     }
 
-    /// Runs the backward pass. Returns the input gradient, or `None` for a first stage that is a stem or plain.
+    /// Runs the backward pass. Returns the input gradient; `None` for a first stage that is a stem or plain.
     pub(crate) fn backward(
         &mut self,
         space: &mut StageSpace,
@@ -138,7 +138,7 @@ impl StageSpace {
         }
     }
 
-    /// Longest transformed weights of any convolution.
+    /// Length of the longest transformed weights of any convolution.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             StageSpace::Stem(space) => space.normed.transformed_len(),

@@ -1,24 +1,24 @@
-//! Division of one picture among threads of the pool, for parts too short to wake a thread for each.
+//! Division of one picture among threads of the pool. Parts are too short to wake a thread for each part.
 //!
-//! An idle thread of the pool sleeps after about ten microseconds and takes twenty or more to wake (`examples/waking.rs` measures it). A layer takes
-//! about a hundred microseconds. Helper threads therefore spin while pictures are predicted, for a limited time. A thread that waits for a part also
-//! spins, and runs other parts meanwhile.
+//! An idle thread of the pool sleeps after about ten microseconds and takes twenty or more to wake (see `examples/waking.rs`). A layer takes about a hundred
+//! microseconds. Helper threads therefore spin while pictures are predicted, for a limited time. A thread that waits for a part also spins, and meanwhile runs
+//! other parts.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 
 use rayon::Yield;
 
-/// Maximum number of threads for one picture. A layer has too little work for more.
+/// Maximum number of threads for one picture. A layer has too little work for more threads.
 const MOST: usize = 8;
 
-/// Failed searches for work after which a thread may sleep: several times the duration of a layer.
+/// Number of failed searches for work after which a thread may sleep. This takes several times the duration of a layer.
 const PATIENCE: u32 = 3000;
 
-/// Failed searches after which a thread yields the processor to other programs.
+/// Number of failed searches after which a thread yields the processor to other programs.
 const LOOKS: u32 = 64;
 
-/// Number of parts per picture that gives work to every thread.
+/// Number of parts per picture with which every thread has work.
 pub(crate) fn parts(images: usize) -> usize {
     let threads = rayon::current_num_threads().min(MOST);
     if (1..threads).contains(&images) {
@@ -28,7 +28,7 @@ pub(crate) fn parts(images: usize) -> usize {
     }
 }
 
-/// Calls `work` on each of `parts`: the first on this thread, the others on any free thread.
+/// Calls `work` on each of `parts`. The first part runs on this thread, the others on any free thread.
 pub(crate) fn divide<P: Send>(parts: Vec<P>, work: impl Fn(P) + Sync) {
     let mut parts = parts.into_iter();
     let Some(own) = parts.next() else { return };
@@ -47,14 +47,14 @@ pub(crate) fn divide<P: Send>(parts: Vec<P>, work: impl Fn(P) + Sync) {
     });
 }
 
-/// Guard that keeps helper threads spinning until dropped, or until they are idle for too long.
+/// Guard that keeps helper threads spinning until it is dropped, or until the threads are idle for too long.
 #[must_use]
 pub(crate) struct Awake {
     is_over: Arc<AtomicBool>,
 }
 
 impl Awake {
-    /// Wakes the helper threads.
+    /// Wakes the helper threads, and returns their guard.
     pub(crate) fn keep() -> Awake {
         let is_over = Arc::new(AtomicBool::new(false));
         let begun = Arc::new(AtomicUsize::new(0));
@@ -88,8 +88,8 @@ impl Drop for Awake {
     }
 }
 
-/// Runs available work until `is_over`, or until none was found for a while. Without this limit, threads that wait for each other's work would wait
-/// forever.
+/// Runs available work until `is_over` returns true, or until the limit of failed searches. Without this limit, threads that wait for each other's work would
+/// wait forever.
 fn look_for_work(is_over: impl Fn() -> bool) {
     let mut in_vain = 0;
     while in_vain < PATIENCE && !is_over() {

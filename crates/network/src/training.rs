@@ -1,4 +1,4 @@
-//! Training in single steps. A caller can inspect, save or stop between any two.
+//! Training in single steps. Between any two steps, a caller can inspect, save or stop the training.
 
 mod augmentation;
 mod breakage;
@@ -30,9 +30,8 @@ use taceva_core::random::Draws;
 
 /// A training in progress.
 ///
-/// Random numbers depend only on the recipe's seed, the epoch and the sample. An interrupted and resumed training therefore ends
-/// with the same bits as an uninterrupted one, on any number of threads. On a GPU the random numbers are the same, but sums may
-/// differ.
+/// Random numbers depend only on the recipe's seed, the epoch and the sample. An interrupted and resumed training therefore ends with the same bits as an
+/// uninterrupted training, for any number of threads. On a GPU, the random numbers are the same, but sums may differ.
 #[derive(Debug)]
 pub struct Trainer<'a> {
     architecture: Architecture,
@@ -42,24 +41,23 @@ pub struct Trainer<'a> {
     validation: Option<Samples<'a>>,
     scale: LabelScale,
     state: TrainingState,
-    /// Network after the epoch with the lowest validation loss.
+    /// Network after the epoch with the lowest validation loss; `None` before such an epoch.
     best: Option<Network>,
     /// Order of the samples in the current epoch. Empty before the first step.
     order: Vec<usize>,
-    /// Form of convolutions on the CPU.
+    /// Algorithm of convolutions on the CPU.
     form: ConvolutionForm,
 }
 
-/// Purposes of random draws.
+/// Purposes of random numbers.
 const ORDER: u64 = 1;
 const AUGMENTATION: u64 = 2;
 
 impl<'a> Trainer<'a> {
-    /// Training of a network of `architecture` from random weights.
+    /// Starts the training of a network of `architecture` from random weights.
     ///
     /// # Errors
-    /// [`NetworkError`] if the architecture, the recipe or the samples are invalid or do not match, or memory is
-    /// short.
+    /// [`NetworkError`] if the architecture, the recipe or the samples are invalid or do not match, or if memory is insufficient.
     pub fn new(
         architecture: &Architecture,
         recipe: &Recipe,
@@ -70,7 +68,7 @@ impl<'a> Trainer<'a> {
         Trainer::of(network, recipe, training, validation)
     }
 
-    /// Training from the weights of `network`.
+    /// Starts a training from the weights of `network`.
     ///
     /// # Errors
     /// As [`new`](Trainer::new).
@@ -125,8 +123,7 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// Continues this training on the CPU with convolutions in `form`. The last digits of results depend on the form. A checkpoint
-    /// keeps it.
+    /// Continues this training on the CPU, with the convolution algorithm `form`. The last digits of results depend on the algorithm. A checkpoint stores it.
     ///
     /// # Errors
     /// Errors of the previous engine; [`NetworkError::Memory`].
@@ -136,8 +133,7 @@ impl<'a> Trainer<'a> {
         Ok(Trainer { form, ..trainer })
     }
 
-    /// Continues this training on the engine made by `begin`. The previous engine and its memory are released
-    /// before.
+    /// Continues this training on the engine that `begin` creates. The previous engine is dropped first, to free its memory.
     ///
     /// # Errors
     /// Errors of `begin` and of the previous engine.
@@ -153,8 +149,8 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// Present network and optimiser state. After a number that was not finite, returns the best network without optimiser state, because later
-    /// values may not be finite.
+    /// Present network and optimiser state. After a number that was not finite, returns the best network without optimiser state, because later values may not
+    /// be finite.
     fn snapshot(&self) -> Result<Snapshot, NetworkError> {
         match (&self.best, self.state.broken) {
             (Some(best), Some(_)) => Ok(Snapshot {
@@ -173,26 +169,26 @@ impl<'a> Trainer<'a> {
         &self.state
     }
 
-    /// Steps per epoch: the number of whole batches. Each epoch skips different samples.
+    /// Number of steps per epoch, which is the number of whole batches. Each epoch skips different samples.
     pub fn steps_per_epoch(&self) -> u64 {
         (self.training.count(&self.architecture) / self.recipe.batch) as u64
     }
 
-    /// Steps of the whole training, unless it stops early.
+    /// Number of steps of the whole training, unless it stops early.
     pub fn steps(&self) -> u64 {
         self.steps_per_epoch() * self.recipe.epochs
     }
 
-    /// True if all steps are done or training stopped early.
+    /// True if all steps are done, or if the training stopped early.
     pub fn is_finished(&self) -> bool {
         self.state.is_stopped || self.state.step >= self.steps()
     }
 
-    /// Runs the next step. Returns `None` if the training is finished.
+    /// Runs the next step; `None` if the training is finished.
     ///
     /// # Errors
-    /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`] with the step, repeated at every further call.
-    /// [`finish`](Trainer::finish) and checkpoints then still keep the network of the best epoch.
+    /// [`NetworkError::LossNotFinite`] or [`NetworkError::WeightNotFinite`] with the step. Every further call returns the same error.
+    /// [`finish`](Trainer::finish) and checkpoints still contain the network of the best epoch.
     pub fn step(&mut self) -> Result<Option<Step>, NetworkError> {
         if let Some(breakage) = self.state.broken {
             return Err(breakage.into());
@@ -261,13 +257,13 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// Random draws for one purpose.
+    /// Random generator for the purpose `purpose`.
     fn draws(&self, purpose: u64) -> Draws {
         // Weights use draws of the seed by slot. Purposes use numbers above all slots.
         Draws::new(self.recipe.seed).of(u64::MAX - purpose)
     }
 
-    /// Augmented pictures of a batch, with their scaled labels or their classes.
+    /// Augmented pictures of a batch, with scaled labels or classes.
     fn batch_of(&self, epoch: u64, chosen: &[usize]) -> (Vec<Vec<f32>>, Vec<f64>, Vec<u32>) {
         let (picture, outputs) = (self.architecture.input, self.architecture.outputs);
         let draws = self.draws(AUGMENTATION).of(epoch);
@@ -296,7 +292,7 @@ impl<'a> Trainer<'a> {
         (changed, labels, classes)
     }
 
-    /// Ends an epoch: measures losses, stores the best network, and stops when patience is exhausted.
+    /// Ends an epoch: computes losses, stores the best network, and stops the training if the patience is exhausted.
     fn end_epoch(&mut self) -> Result<Epoch, NetworkError> {
         let epoch = Epoch {
             training_loss: self.state.loss_sum / self.steps_per_epoch() as f64,
@@ -320,7 +316,7 @@ impl<'a> Trainer<'a> {
         Ok(epoch)
     }
 
-    /// Loss of the validation part, computed with running moments. `None` without a validation part.
+    /// Loss of the validation part, computed with running moments; `None` without a validation part.
     fn validation_loss(&mut self) -> Result<Option<f64>, NetworkError> {
         let Some(validation) = &self.validation else {
             return Ok(None);

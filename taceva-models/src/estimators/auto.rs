@@ -29,24 +29,24 @@ use crate::training::problem::Problem;
 
 /// Tries models, the cheapest first, and chooses one.
 ///
-/// The training part is divided into five folds of whole groups, or runs of neighbouring samples. A trial learns from three folds,
-/// chooses settings on a fourth and scores the fifth. All models are tried on the first fold. The small network trains a quarter of
-/// its epochs, and all of them if the result is open. If it is clearly ahead, it is chosen, and costlier models are not tried.
+/// The training part is divided into five folds of whole groups, or of runs of neighbouring samples. A trial learns from three folds, chooses settings on the
+/// fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains a quarter of its epochs, and all epochs
+/// if the comparison is still open. If the network is clearly ahead, it is chosen, and costlier models are not tried.
 ///
-/// Otherwise the other models continue to the next fold. Models drop out if the best is ahead by three standard errors of the
-/// difference, by group. They also drop out if another model is as good with a tenth of their work. The remaining model of least
-/// error is chosen, or the baseline unless that model is better by more than two standard errors. The network replaces it if it is
-/// better on the first fold, by more than two standard errors and a twentieth of the squared error.
+/// Otherwise the other models continue to the next fold. A model drops out if the best model is ahead by three standard errors of the difference, computed by
+/// group. It also drops out if another model is as good with a tenth of the work. Of the remaining models, the one with the least error is chosen. The baseline
+/// is chosen unless this model is better by more than two standard errors. The network replaces this choice if it is better on the first fold, by more than two
+/// standard errors and a twentieth of the squared error.
 ///
-/// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and final
-/// fit fit into the remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore
-/// leads to the same choice on every machine, under any load and with any number of threads. Baseline and ridge are always tried.
+/// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and its final fit do not exceed the
+/// remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore leads to the same choice on every machine,
+/// under any load and with any number of threads. Baseline and ridge are always tried.
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
     /// Library models to try in addition to the models of this crate.
     libraries: Vec<&'static LibraryModel>,
-    /// Signals to learn from. `None` for pictures.
+    /// Signals that serve as features; `None` for pictures.
     of_signals: Option<SignalInfo>,
     /// Checkpoints for the training of a network, if one is chosen.
     checkpoints: Option<Checkpoints>,
@@ -95,7 +95,7 @@ impl Auto {
 }
 
 impl Auto {
-    /// Estimator of `info` with default settings, adapted to signals if there are any. The network uses the preset of its name.
+    /// Builds the estimator of `info` with default settings, adapted to signals if the features are signals. The network uses the default preset.
     fn candidate(&self, info: &ModelInfo) -> Made {
         let settings = match info.name == NETWORK {
             true => DEFAULT.of_model(),
@@ -111,7 +111,7 @@ impl Auto {
         })
     }
 
-    /// Features of networks, for frames that are large enough and without a requested grid.
+    /// Finer network features, for frames that are large enough and without a requested grid.
     pub(crate) const CLOSER: Option<FeatureSpec> = NetworkEstimator::CNN.features;
 }
 

@@ -23,10 +23,11 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 
-/// Linear discriminants: predict each channel as one of its training values. Features are whitened by the scatter within values, and
-/// the value with the nearest mean is taken ([`Discriminant`]).
+/// Linear discriminants: predict each channel as one of its training values. Features are whitened by the scatter of samples with equal value. The prediction
+/// is the value with the nearest mean ([`Discriminant`]).
 ///
-/// For boards, kinds and levels. A channel with more than 256 values is rejected. No setting is chosen, so the validation part only gives an error.
+/// Suitable for boards, kinds and levels. A channel with more than 256 values is rejected. No setting is chosen, so the validation part is only used to compute
+/// an error.
 ///
 /// # Reference
 /// R. A. Fisher, Ann. Eugen. 7 (1936) 179; O. Ledoit, M. Wolf, J. Multivar. Anal. 88 (2004) 365, eqs. 9-14.
@@ -38,7 +39,7 @@ pub struct LinearDiscriminant {
 /// Maximum number of classes of a channel.
 pub(crate) const VALUES_MAX: usize = 256;
 
-/// Maximum number of features of a covariance matrix: 134 MB.
+/// Maximum number of features of a covariance matrix, which then takes 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl LinearDiscriminant {
@@ -64,7 +65,7 @@ impl LinearDiscriminant {
     }
 }
 
-/// Distinct labels of one channel, and the label index of each sample.
+/// Distinct labels of one channel, and for each sample the index of its label.
 struct Levels {
     /// Distinct labels, ascending.
     values: Vec<f64>,

@@ -19,10 +19,10 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, centred};
 use crate::training::trials::{Trials, rows_of};
 
-/// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel, with an unpenalised intercept b.
+/// Elastic net: minimises ½n⁻¹ Σ (y − b − wᵀx)² + λ (α‖w‖₁ + ½(1 − α)‖w‖²) for each channel. The intercept b is not penalised.
 ///
-/// λ is the strength × the least λ at which every weight is 0. Each channel gets one of the 25 strengths 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The chosen strength has
-/// the least squared error on the validation part, or on folds of the training part if there is none.
+/// λ is the strength × the least λ at which every weight is 0. The strength of each channel is one of the 25 values 1, 10⁻¹ᐟ⁶ … 10⁻⁴. The chosen strength has
+/// the least squared error on the validation part, or on folds of the training part if there is no validation part.
 ///
 /// # Reference
 /// H. Zou, T. Hastie, J. R. Stat. Soc. B 67 (2005) 301; J. Friedman, T. Hastie, R. Tibshirani, J. Stat. Softw. 33 (2010) 1, sec. 2.2.
@@ -75,7 +75,7 @@ impl ElasticNet {
         })
     }
 
-    /// Strengths, ascending: of equal errors the last, strongest one is taken.
+    /// Candidate strengths, ascending. Of strengths with equal errors, the last and strongest one is chosen.
     fn strengths(&self) -> Vec<f64> {
         let grid = || {
             (0..=24)
@@ -85,7 +85,7 @@ impl ElasticNet {
         self.strength.map_or_else(grid, |strength| vec![strength])
     }
 
-    /// Returns the label means, and the weights of every channel at every strength.
+    /// Returns the mean label of each channel, and the weights of every channel at every strength.
     fn solve(
         &self,
         design: &Design<'_>,

@@ -1,8 +1,8 @@
-//! Kernel models: compare a sample with landmarks among the training samples by exp(−‖x − x'‖² / 2ℓ²D).
+//! Kernel models: compare a sample with landmarks, which are chosen training samples, by exp(−‖x − x'‖² / 2ℓ²D).
 //!
-//! D is the summed variance of the features over the training part. A length ℓ therefore means the same for bright and dark pictures,
-//! many features and few. Nyström's form on landmarks replaces a kernel of all training samples. Every linear method here can learn
-//! from its features: ridge regression on them is kernel ridge regression.
+//! D is the summed variance of the features over the training part. A length ℓ therefore has the same meaning for bright and dark pictures, and for many and
+//! few features. Nyström's form on landmarks replaces a kernel of all training samples. Every linear method of this crate can be fitted to Nyström features.
+//! Ridge regression on Nyström features is kernel ridge regression.
 
 mod gaussian_process;
 mod landmarks;
@@ -38,7 +38,7 @@ const LANDMARKS: SettingInfo = SettingInfo {
     about: "greatest number of landmarks: training samples with which all samples are compared",
 };
 
-/// Kernel lengths to try, in typical distances of a sample from the mean, the simplest last.
+/// Candidate kernel lengths, in typical distances of a sample from the mean, the simplest last.
 const LENGTHS: [f64; 6] = [0.25, 0.5, 1.0, 2.0, 4.0, 8.0];
 
 /// Settings shared by all kernel methods.
@@ -76,7 +76,7 @@ impl Kernel {
     }
 }
 
-/// Samples of both parts, mapped by a kernel of one length.
+/// Samples of training and validation part, mapped by a kernel of one length.
 struct Mapped {
     map: Nystrom,
     training: Features,

@@ -1,7 +1,7 @@
 //! Models of other libraries: interface, training data and storage of fitted parameters.
 //!
-//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`] and registers a [`LibraryModel`]. Checks, scaling of features and
-//! labels, choice of settings and model file are the same as for every other model.
+//! An adapter implements [`LibraryLearner`] and [`LibraryPredictor`], and registers a [`LibraryModel`]. Checks, scaling of features and labels, choice of
+//! settings, and the model file are the same as for models of this crate.
 
 #[cfg(any(feature = "linfa", feature = "smartcore"))]
 mod adapter;
@@ -39,16 +39,16 @@ use crate::training::card::LibraryCard;
 use crate::training::fit::ModelEstimator;
 use crate::training::info::ModelInfo;
 
-/// Supported libraries. Each is a Cargo feature of the same name.
+/// Names of supported libraries. Each library is a Cargo feature of the same name.
 pub(crate) const LIBRARIES: [&str; 2] = ["linfa", "smartcore"];
 
-/// Library of the model `name`: the part before `/`, if it is a supported library.
+/// Library of the model `name`: the part before `/`. `None` if this part is not a supported library.
 pub(crate) fn library_of(name: &str) -> Option<&'static str> {
     let (library, _) = name.split_once('/')?;
     LIBRARIES.into_iter().find(|known| *known == library)
 }
 
-/// All models of linfa and smartcore in this build, the simplest of each first. Empty without the features `linfa` and `smartcore`.
+/// All models of linfa and smartcore in this build, for each library the simplest first. Empty without the features `linfa` and `smartcore`.
 ///
 /// ```
 /// use taceva_models::{Models, library_models};
@@ -74,23 +74,23 @@ pub struct LibraryModel {
     pub info: ModelInfo,
     /// Release of the library, such as `linfa 0.8.1`.
     pub release: &'static str,
-    /// Multiplications of one fit with default settings, for `auto`. `None` if these sizes are not supported.
+    /// Number of multiplications of one fit with default settings, for `auto`; `None` if these sizes are not supported.
     pub(crate) work: fn(LibrarySizes) -> Option<f64>,
     /// Loads the fitted parameters of a model of these sizes from a file.
     ///
-    /// Errors: [`ModelError`] if a tensor is missing or a number is out of range, as in damaged files.
+    /// Returns [`ModelError`] if a tensor is missing or a number is out of range, as in damaged files.
     pub(crate) load: fn(&LibraryTensors<'_>, LibrarySizes) -> LoadedPredictor,
 }
 
 /// Unfitted estimator of a library with its settings.
 pub(crate) trait LibraryLearner: Send + Sync {
-    /// Registry entry.
+    /// Registry entry of the model.
     fn model(&self) -> &'static LibraryModel;
 
-    /// Settings shared by all library models.
+    /// Values of the settings shared by all library models.
     fn settings(&self) -> LibrarySettings;
 
-    /// Setting chosen by held-out error, with its candidate values, simplest last; one value if the user set it. `None` without such a setting.
+    /// Name and candidate values of the setting chosen by held-out error, simplest last. One value if the user set it; `None` if the model has no such setting.
     fn candidates(&self) -> Option<(&'static str, Vec<f64>)> {
         None
     }
@@ -100,10 +100,10 @@ pub(crate) trait LibraryLearner: Send + Sync {
         false
     }
 
-    /// Rejects training sets that the library does not support. `training` has at least two samples, complete and finite.
+    /// Rejects training sets that the library does not support. `training` has at least two samples. All their values are present and finite.
     ///
     /// # Errors
-    /// [`ModelError`] of kind `InvalidArgument` with the values accepted.
+    /// [`ModelError`] of kind `InvalidArgument` with the accepted values.
     fn check(&self, training: &TrainingSet<'_>) -> Result<(), ModelError> {
         let _ = training;
         Ok(())
@@ -117,7 +117,7 @@ pub(crate) trait LibraryLearner: Send + Sync {
 }
 
 impl LibraryModel {
-    /// Entry for the cards of its models.
+    /// Card entry of the library, for models fitted by it.
     pub(crate) fn card(&self) -> LibraryCard {
         let (library, _) = self.info.name.split_once('/').unwrap_or_default();
         LibraryCard {
@@ -128,7 +128,7 @@ impl LibraryModel {
 }
 
 impl ModelInfo {
-    /// Registry entry of a library model, with gray pictures of 32 × 32 by default.
+    /// Registry entry of a library model. Default features are gray pictures of 32 × 32.
     pub(crate) const fn of_library(
         name: &'static str,
         about: &'static str,

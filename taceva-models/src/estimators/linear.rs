@@ -1,4 +1,4 @@
-//! Linear regressors, the fits of baseline, ridge, partial least squares and elastic net.
+//! Linear regressors, the fitted models of baseline, ridge, partial least squares and elastic net.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ use crate::training::output::{check_call, check_finite};
 use crate::training::problem::Problem;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// An estimator with a linear regressor, which reports its choice of settings.
+/// An estimator that fits a linear regressor and reports the choice of its settings.
 pub trait LinearEstimator: Estimator {
     /// Fits like [`Estimator::fit`].
     ///
@@ -33,14 +33,14 @@ pub trait LinearEstimator: Estimator {
     ) -> Result<LinearFit, ModelError>;
 }
 
-/// Result of a fit.
+/// Result of fitting a linear estimator.
 #[derive(Clone, Debug)]
 pub struct LinearFit {
     /// Fitted model, in the units of the channels.
     pub regressor: LinearRegressor,
     /// Chosen setting and error of each channel.
     pub choice: Choice,
-    /// Label ranges of the fit.
+    /// Label ranges of the training part.
     pub scaling: LabelScaling,
     /// True if the model was refitted on training and validation parts with the chosen settings.
     pub refitted: bool,
@@ -55,17 +55,17 @@ pub struct LinearRegressor {
     bias: Vec<f64>,
 }
 
-/// Names of the tensors, sorted.
+/// Tensor names, in sorted order.
 const BIAS: &str = "bias";
 const WEIGHTS: &str = "weights";
 
-/// Samples per task of a thread.
+/// Number of samples per task of a thread.
 const CHUNK: usize = 64;
 
 impl LinearRegressor {
     /// Builds a regressor from weights and biases.
     ///
-    /// # Shapes
+    /// `weights`: `[channels, features]`. `bias`: `[channels]`.
     /// `weights`: `[channels, features]`; `bias`: `[channels]`.
     /// # Units
     /// Units of the channels.
@@ -101,7 +101,7 @@ impl LinearRegressor {
         })
     }
 
-    /// Converts `weights` of the centred features of `design` and the `mean` of scaled labels to a regressor in label units.
+    /// Builds a regressor in label units from `weights` of the centred features of `design` and the `mean` of scaled labels.
     pub(crate) fn from_scaled(
         problem: &Problem<'_>,
         design: &Design<'_>,
@@ -112,7 +112,7 @@ impl LinearRegressor {
         LinearRegressor::of_design(problem, shape, design, weights, mean)
     }
 
-    /// Like [`from_scaled`](Self::from_scaled), for mapped features such as those of a kernel.
+    /// Like [`from_scaled`](Self::from_scaled), but for mapped features such as Nyström features.
     pub(crate) fn from_mapped(
         problem: &Problem<'_>,
         design: &Design<'_>,
@@ -177,7 +177,7 @@ impl LinearRegressor {
         &self.weights
     }
 
-    /// Prediction of each channel for features of 0, in its unit.
+    /// Prediction of each channel if all features are 0, in the unit of the channel.
     pub fn bias(&self) -> &[f64] {
         &self.bias
     }

@@ -21,11 +21,11 @@ use crate::training::problem::Problem;
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// k nearest neighbours: mean of the labels of the k nearest training samples, weighted by 1 / distance.
+/// k nearest neighbours: predicts the mean label of the k nearest training samples, weighted by 1 / distance.
 ///
-/// Samples at the same distance as the k-th are included. If a sample equals training samples, only these count. Each channel gets one of the
-/// numbers 1, 2, 3, 5, 8, 13, 21, 34. The chosen number has the least squared error on the validation part, or on folds of the training part if
-/// there is none.
+/// Samples at the same distance as the k-th sample are included. If a sample equals training samples, only these training samples count. The k of each channel
+/// is one of 1, 2, 3, 5, 8, 13, 21, 34. The chosen k has the least squared error on the validation part, or on folds of the training part if there is no
+/// validation part.
 ///
 /// # Reference
 /// T. M. Cover, P. E. Hart, IEEE Trans. Inf. Theory 13 (1967) 21; D. Shepard, ACM Nat. Conf. 23 (1968) 517 (weights).
@@ -43,7 +43,7 @@ const COUNT: SettingInfo = SettingInfo {
     about: "number of training samples whose mean is the prediction",
 };
 
-/// Numbers of neighbours to try; more neighbours are plainer.
+/// Candidate numbers of neighbours, ascending. A greater number gives a simpler model.
 const COUNTS: [usize; 8] = [1, 2, 3, 5, 8, 13, 21, 34];
 
 impl Neighbours {
@@ -71,7 +71,7 @@ impl Neighbours {
     }
 }
 
-/// Summed squared errors of each channel (inner) for each number of neighbours (outer) on held-out samples.
+/// Summed squared errors on held-out samples, for each number of neighbours (outer) and each channel (inner).
 fn squares(
     learnt: &[f32],
     labels: &Mat<f64>,

@@ -1,4 +1,4 @@
-//! Networks that read features as pictures: a small one of five convolutions, and residual networks.
+//! Networks that read features as pictures: a small network of five convolutions, and residual networks.
 
 mod appearance;
 mod ensemble;
@@ -14,5 +14,5 @@ pub use estimator::NetworkEstimator;
 pub use regressor::NetworkRegressor;
 pub use spacing::{SpacingNetwork, SpacingOutput};
 
-/// Error for features without picture shape.
+/// Error message for features without picture shape.
 const NO_PICTURE: &str = "a network reads pictures, not principal components: remove `pca`";

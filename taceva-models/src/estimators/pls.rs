@@ -1,4 +1,4 @@
-//! Partial least squares: few directions, each with the greatest covariance with the labels.
+//! Partial least squares: few directions, chosen for the greatest covariance with the labels.
 
 mod simpls;
 
@@ -16,11 +16,11 @@ use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 use crate::training::trials::{FOLDS, folds, folds_of};
 
-/// Partial least squares of all channels at once.
+/// Partial least squares, fitted to all channels at once.
 ///
-/// Each channel gets its own number of directions; with none it predicts the mean. The number has the least squared error on the validation part,
-/// or on left-out samples of the training part. Up to ten groups are left out in turn, and more groups are combined in ten folds. Without groups,
-/// ten runs of neighbouring samples are left out. Single samples are not left out, because neighbours in time are similar.
+/// Each channel has its own number of directions; with 0 directions, the model predicts the mean. The chosen number has the least squared error on the
+/// validation part, or on left-out samples of the training part. Up to ten groups are left out in turn, and more groups are combined in ten folds. Without
+/// groups, ten runs of neighbouring samples are left out. Single samples are not left out, because neighbours in time are similar.
 ///
 /// # Reference
 /// S. de Jong, Chemometr. Intell. Lab. Syst. 18 (1993) 251 (SIMPLS).
@@ -84,7 +84,7 @@ impl Pls {
         })
     }
 
-    /// Errors for each number of directions, descending to none: of equal errors the last, simplest one is taken.
+    /// Errors for each number of directions, descending to 0. Of numbers with equal errors, the last and simplest one is chosen.
     fn choose(
         &self,
         problem: &Problem<'_>,
@@ -113,7 +113,7 @@ impl Pls {
     }
 }
 
-/// Summed squared errors of each channel for every number of directions. Each group is predicted by a fit without it.
+/// Summed squared errors of each channel for every number of directions. Each group is predicted by a fit without this group.
 fn left_out(
     problem: &Problem<'_>,
     whole: &Design<'_>,
@@ -151,7 +151,7 @@ fn left_out(
     Ok(total)
 }
 
-/// Summed squared errors of each channel for every number of directions, descending to none.
+/// Summed squared errors of each channel for every number of directions, descending to 0.
 fn squares_on(directions: &Directions, design: &Design<'_>, labels: &Mat<f64>) -> Errors {
     let scores = design.times(directions.weights());
     let mut residuals = labels.clone();

@@ -1,4 +1,4 @@
-//! Models of plugins, stored as opaque bytes of the plugin.
+//! Models of plugins, stored as bytes that only the plugin can read.
 
 mod estimator;
 mod regressor;

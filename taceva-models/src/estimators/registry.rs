@@ -1,4 +1,4 @@
-//! Registry of models by name.
+//! Registry that finds models by name.
 
 mod preset;
 
@@ -65,7 +65,7 @@ pub fn find(name: &str) -> Result<&'static ModelInfo, UnknownModel> {
 pub struct UnknownModel {
     name: String,
     suggestion: Suggestion,
-    /// Missing Cargo feature, if that is the reason.
+    /// Cargo feature that the build lacks, if this is the reason.
     feature: Option<&'static str>,
 }
 

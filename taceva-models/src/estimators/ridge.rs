@@ -1,4 +1,4 @@
-//! Ridge regression: all strengths from one spectrum.
+//! Ridge regression. All strengths are solved from one spectrum.
 
 mod leave_out;
 mod strength;
@@ -18,12 +18,12 @@ use crate::training::fit::estimator;
 use crate::training::info::ModelInfo;
 use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
-/// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel, with an unpenalised intercept b.
+/// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel. The intercept b is not penalised.
 ///
-/// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore means the same for bright and dark pictures,
-/// many and few. Each channel gets one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation
-/// part. Without one, groups of the training part are left out in turn, or single samples. Leaving out is exact, by blocks of the
-/// hat matrix, and needs no refit. A strength of 0 is least squares, refined to the last digits; it needs more samples than features.
+/// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore has the same meaning for bright and dark pictures, and for many and
+/// few. Each channel has one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation part. Without a validation part,
+/// groups of the training part are left out in turn, or single samples. Leave-out errors are exact, computed by blocks of the hat matrix without a refit. A
+/// strength of 0 is least squares, refined to the last digits; it needs more samples than features.
 ///
 /// # Reference
 /// A. E. Hoerl, R. W. Kennard, Technometrics 12 (1970) 55; D. M. Allen, Technometrics 16 (1974) 125 (leaving out).
@@ -88,7 +88,7 @@ impl Ridge {
         }
     }
 
-    /// Strength for every channel, if set by the user.
+    /// Strength for every channel; `None` if the user set none.
     pub fn strength(&self) -> Option<f64> {
         self.strength
     }
@@ -128,7 +128,7 @@ impl Ridge {
     }
 }
 
-/// Solutions for every penalty.
+/// Ridge solutions for every penalty, from one spectrum.
 struct Path<'s, 'd, 'a> {
     spectrum: &'s Spectrum<'d, 'a>,
     design: &'d Design<'a>,
@@ -137,7 +137,7 @@ struct Path<'s, 'd, 'a> {
 }
 
 impl Path<'_, '_, '_> {
-    /// Weights for pairs of target channel and penalty, one column per pair.
+    /// Weights for pairs of target channel and penalty. The result has one column per pair.
     fn weights(&self, columns: &[(usize, f64)]) -> Mat<f64> {
         let eigenvalues = self.spectrum.eigenvalues();
         let coefficients = Mat::from_fn(eigenvalues.len(), columns.len(), |row, column| {
@@ -250,7 +250,7 @@ impl LinearEstimator for Ridge {
     }
 }
 
-/// Fits training and validation parts together with the chosen penalties.
+/// Fits the model to training and validation parts together with the chosen penalties.
 fn refit(
     problem: &Problem<'_>,
     design: &Design<'_>,

@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, FrameInfo};
 
-/// Coverage of `target` cells by `source` pixels, in whole units: a cell is `cell` units long, a pixel `pixel` units.
+/// Overlap of `target` cells with `source` pixels along one axis, in integer units. A cell is `cell` units long, a pixel `pixel` units.
 #[derive(Clone, Debug)]
 struct Axis {
     spans: Vec<Span>,
@@ -10,7 +10,7 @@ struct Axis {
     cell: u32,
 }
 
-/// Pixels under one cell: whole pixels, and partial pixels at both ends.
+/// Pixels under one cell: whole pixels, and a partial pixel at each end.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Span {
     whole: std::ops::Range<usize>,
@@ -26,7 +26,7 @@ struct PartialPixel {
 }
 
 impl Axis {
-    /// `source` must be at least `target`, and neither may be 0.
+    /// Computes the overlap. `source` must be at least `target`, and neither may be 0.
     fn new(source: u32, target: u32) -> Axis {
         let divisor = greatest_common_divisor(source, target);
         let (cell, pixel) = (source / divisor, target / divisor);
@@ -60,7 +60,7 @@ fn greatest_common_divisor(a: u32, b: u32) -> u32 {
     }
 }
 
-/// Sums a frame over the cells of a coarser grid, in integers and therefore exactly.
+/// Sums a frame over the cells of a coarser grid, exactly, in integers.
 #[derive(Clone, Debug)]
 pub(super) struct AreaSums {
     rows: Axis,
@@ -69,10 +69,10 @@ pub(super) struct AreaSums {
 }
 
 impl AreaSums {
-    /// Most rows of a frame: 65,535 × 65,535 is the largest column sum that fits into 32 bits.
+    /// Maximum number of rows of a frame: 65,535 × 65,535 is the largest column sum that fits into 32 bits.
     pub(super) const ROWS_MAX: u32 = 65_535;
 
-    /// Prepares sums for frames of `info` and a grid of `width` × `height` cells, no larger than the frame.
+    /// Prepares sums for frames of `info` and a grid of `width` × `height` cells. The grid must not exceed the frame.
     pub(super) fn new(info: FrameInfo, width: u32, height: u32) -> AreaSums {
         AreaSums {
             rows: Axis::new(info.height, height),
@@ -81,14 +81,14 @@ impl AreaSums {
         }
     }
 
-    /// Sum of a cell of full-scale pixels.
+    /// Sum of a cell in which every pixel has the greatest value.
     pub(super) fn full_scale(&self) -> u64 {
         u64::from(self.rows.cell)
             * u64::from(self.columns.cell)
             * u64::from(self.info.format.full_scale())
     }
 
-    /// Calls `take` with the sums of each cell, row by row: one value for gray, three for RGB.
+    /// Calls `take` with the sums of each cell, row by row: one sum for gray frames, three for RGB frames.
     pub(super) fn for_each(&self, frame: &Frame, mut take: impl FnMut(&[u64])) {
         let samples = self.info.format.samples();
         let row_samples = self.info.width as usize * samples;

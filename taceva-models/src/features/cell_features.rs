@@ -1,15 +1,15 @@
-//! Interface of feature kinds: some values per cell.
+//! Interface of feature kinds, which compute a fixed number of values per cell.
 
 use std::fmt;
 
 use taceva_core::Frame;
 
-/// One kind of features, for frames of one size and format.
+/// One kind of features, prepared for frames of one size and format.
 pub(super) trait CellFeatures: fmt::Debug + Send + Sync {
-    /// Values per cell.
+    /// Number of values per cell.
     fn depth(&self) -> usize;
 
-    /// Writes the values of every cell of `frame`. The caller has checked its size and format.
+    /// Writes the values of every cell of `frame`. The caller must check the size and format of the frame.
     ///
     /// # Shapes
     /// `into`: `[height, width, depth]`, completely overwritten.

@@ -1,4 +1,4 @@
-//! Choice of open feature settings: the simplest features that cost no accuracy.
+//! Choice of feature settings left open: the simplest features that do not lose accuracy.
 
 use std::collections::BTreeMap;
 use std::fmt;
@@ -9,10 +9,10 @@ use taceva_core::InputInfo;
 use crate::features::{DIFFERENCE, FeatureSpec, SIZE};
 use crate::settings::ModelSettings;
 
-/// Word for a setting that TacEva chooses.
+/// Word with which a user leaves a setting to TacEva.
 const CHOSEN: &str = "auto";
 
-/// Feature settings to be chosen.
+/// Feature settings that TacEva chooses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct OpenFeatures {
     size: bool,
@@ -20,7 +20,7 @@ pub struct OpenFeatures {
 }
 
 impl OpenFeatures {
-    /// Splits `settings` into open settings and the rest. `None` if all are set.
+    /// Splits `settings` into open settings and the rest; `None` if no setting is open.
     pub fn of(settings: &ModelSettings) -> Option<(OpenFeatures, ModelSettings)> {
         let is_open = |key: &str| settings.get(key) == Some(CHOSEN);
         let open = OpenFeatures {
@@ -36,8 +36,8 @@ impl OpenFeatures {
         (open.size || open.difference).then_some((open, rest))
     }
 
-    /// Features to try around `spec`, the simplest first: grids a quarter, half, as fine and twice as fine, as far as frames of `info`
-    /// allow. Signals have one grid. Each is tried without and, if there is a reference, with the difference from it.
+    /// Candidate features around `spec`, the simplest first. Grids are a quarter, half, as fine and twice as fine, as far as frames of `info` allow. Signals
+    /// have one grid. Each grid is tried without a reference and, if there is one, with the difference from it.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -94,23 +94,23 @@ impl OpenFeatures {
 /// Record of a choice of features.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FeatureChoice {
-    /// Held-out samples of the training part that were scored.
+    /// Number of held-out samples of the training part that were scored.
     pub samples: usize,
-    /// Number of independent groups among them.
+    /// Number of independent groups among the scored samples.
     pub groups: usize,
     /// Features tried, the simplest first.
     pub tried: Vec<FeatureTrial>,
-    /// Features to which no model could be fitted.
+    /// Features for which no model could be fitted.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub failed: Vec<FailedFeatures>,
 }
 
-/// Features to which no model could be fitted.
+/// Features for which no model could be fitted, with the reason.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct FailedFeatures {
     /// Specification of the features.
     pub features: FeatureSpec,
-    /// Reason of the failure.
+    /// Reason for the failure.
     pub reason: String,
 }
 
@@ -119,11 +119,11 @@ pub struct FailedFeatures {
 pub struct FeatureTrial {
     /// Specification of the features.
     pub features: FeatureSpec,
-    /// Root mean square error relative to the standard deviation of labels, over the channels that vary.
+    /// Root mean square error relative to the standard deviation of labels, over the varying channels.
     pub error: f64,
-    /// Excess of the unexplained share of label variance over the features of least error; 0 for these.
+    /// Unexplained share of the label variance, minus that of the features with the least error. 0 for the features with the least error.
     pub excess: f64,
-    /// Standard error of the excess, by group.
+    /// Standard error of the excess, computed by group.
     pub standard_error: f64,
 }
 
@@ -142,7 +142,7 @@ impl FeatureChoice {
     /// Compares features by the loss of each scored sample: squared error relative to label variance, averaged over channels.
     ///
     /// # Shapes
-    /// `tried`, the simplest first: `[samples]` each; `groups`: `[samples]`, the number of each sample's independent group.
+    /// `tried`, the simplest first: `[samples]` each. `groups`: `[samples]`, the number of each sample's independent group.
     pub fn new(tried: &[(FeatureSpec, Vec<f64>)], groups: &[usize]) -> FeatureChoice {
         let losses = tried.iter().map(|(_, losses)| of_groups(losses, groups));
         let losses: Vec<Vec<f64>> = losses.collect();
@@ -172,7 +172,7 @@ impl FeatureChoice {
         }
     }
 
-    /// Adds features to which no model could be fitted, with the reasons.
+    /// Adds features for which no model could be fitted, with the reasons.
     #[must_use]
     pub fn with_failed(
         mut self,
@@ -190,7 +190,7 @@ impl FeatureChoice {
         self.tried.iter().find(|trial| trial.is_enough())
     }
 
-    /// True if only the finest grid is good enough, so that a finer one may be better.
+    /// True if only the finest grid is accurate enough. A finer grid may then be better still.
     pub fn may_gain(&self) -> bool {
         let finest = self.tried.iter().map(FeatureTrial::cells).max();
         let enough = self.tried.iter().filter(|trial| trial.is_enough());
@@ -200,7 +200,7 @@ impl FeatureChoice {
     }
 }
 
-/// Mean loss of each group, so that groups count equally.
+/// Mean loss of each group. Groups thereby have equal weight.
 fn of_groups(losses: &[f64], groups: &[usize]) -> Vec<f64> {
     let mut sums = BTreeMap::<usize, (f64, f64)>::new();
     for (loss, group) in losses.iter().zip(groups) {

@@ -9,7 +9,7 @@ use super::spec::FeatureSpec;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FeatureError {
-    /// The frame has fewer pixels than the features have cells.
+    /// The frame has fewer pixels than the requested features have cells.
     #[error(
         "frames of {info} are smaller than the requested features, {spec}; set `size={}x{}`",
         info.width.min(spec.width),
@@ -61,7 +61,7 @@ pub enum FeatureError {
          `reference = {{ frame = 0 }}` for a frame of its clip or array, in [frame] of the map"
     )]
     NoReference {
-        /// Setting that needs it.
+        /// Setting that needs the reference frame.
         asked: &'static str,
     },
     /// Markers were requested, but the reference frame shows none.
@@ -70,10 +70,10 @@ pub enum FeatureError {
         match found { 0 => "no distinct spot".to_owned(), count => format!("{count} spots at uneven distances") }
     )]
     NoMarkers {
-        /// Number of significant spots outside any grid.
+        /// Number of significant spots that belong to no grid.
         found: usize,
     },
-    /// The frame has another size or format than earlier frames or the model's.
+    /// The size or format of the frame differs from earlier frames, or from the frames of the model.
     #[error("a frame of {found}, expected {expected}")]
     Kind {
         /// Expected size and format.
@@ -81,7 +81,7 @@ pub enum FeatureError {
         /// Found size and format.
         found: FrameInfo,
     },
-    /// A frame instead of signals, signals instead of a frame, or signals of another grid.
+    /// The input is a frame instead of signals, signals instead of a frame, or signals of another grid.
     #[error("{found}, expected {expected}")]
     Input {
         /// Expected input.
@@ -97,12 +97,12 @@ pub enum FeatureError {
         /// Requested features.
         spec: FeatureSpec,
     },
-    /// Differences of signals were requested, but no contact-free signals are named.
+    /// Differences of signals were requested, but the recording names no contact-free signals.
     #[error(
         "`difference=true` needs rows without contact, but the recording names none; name them with `rest` of `[signals]`"
     )]
     NoRest,
-    /// Frames are needed, but not available.
+    /// Frames are needed, but the recording contains none.
     #[error("`{asked}` applies to frames, but the recording has {has}")]
     NoFrames {
         /// Setting that needs frames.
@@ -110,7 +110,7 @@ pub enum FeatureError {
         /// Content of the recording.
         has: &'static str,
     },
-    /// Signals are needed, but not available.
+    /// Signals are needed, but the recording contains none.
     #[error("the recording has no signals; set `input=frame`")]
     NoSignals,
     /// The recording has frames and signals, and no setting selects one of them.
@@ -123,7 +123,7 @@ pub enum FeatureError {
     NarrowGrid {
         /// Grid of the signals.
         info: SignalInfo,
-        /// Fewest cells along a side for a network.
+        /// Minimum number of cells along a side for a network.
         least: u32,
     },
     /// The caller's buffer has the wrong length.

@@ -1,4 +1,4 @@
-//! Extraction of one sample's features from a frame, or from the signals of one instant.
+//! Extracts the features of one sample from a frame, or from the signals of one instant.
 
 use std::sync::Arc;
 
@@ -15,9 +15,9 @@ use super::signals::Taxels;
 use super::spec::{Color, FeatureSpec};
 use super::statistics::Statistics;
 
-/// Extracts features from frames of one kind, or from signals of one grid. Can be shared between threads.
+/// Extracts features from frames of one kind, or from signals of one grid. Threads can share an extractor.
 ///
-/// Features depend only on their frame or signals and on the reference.
+/// The features of a sample depend only on its frame or signals, and on the reference.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -46,7 +46,7 @@ pub struct Extractor {
 /// Input of features.
 #[derive(Clone, Debug)]
 enum Of {
-    /// Frames of one kind, with one part per requested kind of features, in order.
+    /// Frames of one kind, with one extractor part per requested kind of features, in order.
     Frames(FrameInfo, Vec<Arc<dyn CellFeatures>>),
     /// Signals of one grid.
     Signals(Taxels),
@@ -57,9 +57,8 @@ impl Extractor {
     /// signals as `reference`.
     ///
     /// # Errors
-    /// [`FeatureError`] if the frame is smaller than the features, gray although colour is requested, or has too many
-    /// rows. Also if a needed reference is missing, of another kind, or without requested markers; or if the signals have another grid
-    /// than `spec`.
+    /// [`FeatureError`] if the frame is smaller than the features, gray although colour is requested, or has too many rows. Also if a needed reference is
+    /// missing, of another kind, or lacks requested markers. Also if the grid of the signals differs from that of `spec`.
     pub fn new(
         spec: FeatureSpec,
         info: impl Into<InputInfo>,
@@ -90,7 +89,7 @@ impl Extractor {
         self.spec.shape()
     }
 
-    /// Features extracted.
+    /// Specification of the extracted features.
     pub fn spec(&self) -> &FeatureSpec {
         &self.spec
     }
@@ -108,11 +107,11 @@ impl Extractor {
     /// # Shapes
     /// `into`: `[height, width, depth]` of [`shape`](Extractor::shape), allocated by the caller.
     /// # Units
-    /// Signals: their own unit. Pixels, statistics and their differences: full scale is 1. Displacements of markers: marker spacings.
-    /// Slopes: a unit that depends on the elevation of the lamps.
+    /// Signals: the unit of the signals. Pixels, statistics and their differences: full scale is 1. Displacements of markers: marker spacings. Slopes: a unit
+    /// that depends on the elevation of the lamps.
     /// # Errors
-    /// [`FeatureError::Kind`] for a frame of another size or format, [`FeatureError::Input`] for the wrong kind of input or signals of
-    /// another grid; [`FeatureError::Buffer`] if the length of `into` is wrong.
+    /// [`FeatureError::Kind`] for a frame of another size or format. [`FeatureError::Input`] for the wrong kind of input, or signals of another grid.
+    /// [`FeatureError::Buffer`] if the length of `into` is wrong.
     pub fn extract<'a>(
         &self,
         input: impl Into<Input<'a>>,
@@ -145,7 +144,7 @@ impl Extractor {
         Ok(())
     }
 
-    /// Writes the values of all `parts`, adjacent in each cell.
+    /// Writes the values of all `parts`. The values of one cell are adjacent.
     fn write(&self, parts: &[Arc<dyn CellFeatures>], frame: &Frame, into: &mut [f32]) {
         let shape = self.shape();
         if let [only] = parts {
@@ -186,7 +185,7 @@ impl Extractor {
     }
 }
 
-/// One part per requested kind, for frames of `info`.
+/// Prepares one extractor part per requested kind of features, for frames of `info`.
 fn parts(
     spec: &FeatureSpec,
     info: FrameInfo,

@@ -1,32 +1,32 @@
-//! Distance of a sample from the training part.
+//! Distance of a sample from the training part in feature space.
 
 use taceva_core::{FeatureShape, Features, ModelError, Progress, single, whole_size};
 
 use super::pca::Pca;
 use crate::linalg::invalid;
 
-/// Maximum number of training samples used, evenly spaced over the part.
+/// Maximum number of training samples used for the distance, evenly spaced over the part.
 const SAMPLES_MOST: usize = 256;
 /// Minimum number of training samples for a distance, because fewer give no useful limit.
 const SAMPLES_LEAST: usize = 20;
-/// Blocks of neighbouring samples that are held out in turn if there are no groups.
+/// Number of blocks of neighbouring samples, which are held out in turn if there are no groups.
 const BLOCKS: usize = 8;
-/// Maximum number of directions.
+/// Maximum number of principal directions.
 const DIRECTIONS_MOST: usize = 16;
-/// Minimum number of samples per direction.
+/// Minimum number of samples per principal direction.
 const SAMPLES_PER_DIRECTION: usize = 4;
-/// Maximum number of cells along a side. Finer pictures are averaged first.
+/// Maximum number of cells along a side. Pictures with more cells are averaged first.
 const SIDE_MOST: usize = 32;
-/// Share of held-out training samples within the limit.
+/// Share of held-out training samples with a distance within the limit.
 const WITHIN: f64 = 0.99;
-/// Minimum limit of the residual, relative to the spread of the features, so that rounding does not count as novelty.
+/// Minimum limit of the residual, relative to the spread of the features. Prevents rounding errors from counting as novelty.
 const ROUNDING: f64 = 1e-5;
 
-/// Distance of features from a training part, relative to the limit that holds for 99 of 100 held-out training samples.
+/// Distance of features from a training part, relative to a limit. 99 of 100 held-out training samples are within the limit.
 ///
-/// The part is described by its leading principal components. Two numbers describe a sample: its distance along these directions in
-/// standard deviations of the part (Hotelling's T), and its distance orthogonal to them (the root of Q, the residual). Each is divided by its
-/// limit, and the greater quotient is the distance. Limits are quantiles over samples, held out by contact point or block.
+/// The part is described by its leading principal components. A sample has two distances. The first is along the components, in standard deviations of the part
+/// (Hotelling's T). The second is orthogonal to the components (the root of Q, the residual). Each is divided by its limit, and the greater quotient is the
+/// reported distance. Limits are quantiles over samples that were held out by contact point or block.
 ///
 /// ```
 /// use taceva_core::{FeatureShape, Features, SilentProgress};
@@ -43,19 +43,19 @@ const ROUNDING: f64 = 1e-5;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct FeatureDistance {
-    /// Shape of a sample, before cells are averaged.
+    /// Shape of a sample, before its cells are averaged.
     pub(crate) shape: FeatureShape,
-    /// Mean of each averaged feature.
+    /// Mean of each feature after averaging of cells.
     pub(crate) mean: Vec<f64>,
-    /// Orthonormal directions, concatenated, in single precision to halve the file.
+    /// Orthonormal directions, concatenated. Single precision halves the size of the file.
     pub(crate) directions: Vec<f32>,
-    /// Standard deviation along each direction.
+    /// Standard deviation of the part along each direction.
     pub(crate) deviations: Vec<f64>,
-    /// Limits of both numbers.
+    /// Limits of both distances of a sample.
     pub(crate) limits: DistanceLimits,
 }
 
-/// Limits of the two numbers behind a distance.
+/// Limits of the two distances of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct DistanceLimits {
     /// Limit along the directions, in standard deviations of the part.
@@ -65,9 +65,10 @@ pub(crate) struct DistanceLimits {
 }
 
 impl FeatureDistance {
-    /// Fits the distance from `training`. `None` for fewer than 20 samples, or if all are equal.
+    /// Fits the distance to `training`; `None` for fewer than 20 samples, or if all samples are equal.
     ///
-    /// `groups` numbers the samples; samples of a group are held out together. Without groups, blocks of neighbouring samples are held out.
+    /// `groups` contains the group number of each sample. All samples of a group are held out together. Without groups, blocks of neighbouring samples are held
+    /// out.
     ///
     /// # Errors
     /// [`ModelError`] if a feature is not finite, the number of `groups` is wrong, or `progress` was cancelled.
@@ -111,7 +112,7 @@ impl FeatureDistance {
         }))
     }
 
-    /// Distance of one sample: 0 in the middle of the training part, 1 at its limit.
+    /// Distance of one sample: 0 at the mean of the training part, 1 at the limit.
     ///
     /// # Errors
     /// [`ModelError`] if the number of features is wrong.
@@ -140,24 +141,24 @@ impl FeatureDistance {
             .collect()
     }
 
-    /// Shape of a sample.
+    /// Shape of the samples that the distance accepts.
     pub fn shape(&self) -> FeatureShape {
         self.shape
     }
 
-    /// True if `distance` is above 1 or NaN: the sample is unlike the training part.
+    /// True if `distance` is above 1 or NaN, which means that the sample is unlike the training part.
     pub fn is_outside(distance: f64) -> bool {
         distance.is_nan() || distance > 1.0
     }
 
-    /// Length of the mean, and of each direction, for samples of `shape`.
+    /// Number of averaged features of a sample of `shape`: the length of the mean and of each direction.
     pub(crate) fn width_of(shape: FeatureShape) -> usize {
         let [rows, columns] = steps(shape);
         shape.height.div_ceil(rows) * shape.width.div_ceil(columns) * shape.depth
     }
 }
 
-/// Distances of a sample along the directions of a part and orthogonal to them.
+/// Distances of a sample from a part, along the directions and orthogonal to them.
 #[derive(Clone, Copy, Debug)]
 struct Apart {
     along: f64,
@@ -165,7 +166,7 @@ struct Apart {
 }
 
 impl DistanceLimits {
-    /// Limits that hold for 99 of 100 of `apart`. `spread` is the spread of the features.
+    /// Limits that include 99 of 100 of the distances `apart`. `spread` is the spread of the features.
     fn of(apart: &[Apart], spread: f64) -> DistanceLimits {
         let along = apart.iter().map(|apart| apart.along);
         let beside = apart.iter().map(|apart| apart.beside);
@@ -192,7 +193,7 @@ impl DistanceLimits {
     }
 }
 
-/// Directions in which samples vary.
+/// Principal directions, in which samples vary.
 struct Span {
     mean: Vec<f64>,
     directions: Vec<f32>,
@@ -202,7 +203,7 @@ struct Span {
 }
 
 impl Span {
-    /// Span of `seen`. `None` if nothing varies.
+    /// Principal directions of the samples `seen`; `None` if no feature varies.
     fn of(seen: &Features, progress: &dyn Progress) -> Result<Option<Span>, ModelError> {
         let most = (seen.samples() / SAMPLES_PER_DIRECTION).clamp(1, DIRECTIONS_MOST);
         let pca = Pca::up_to(most, seen, progress)?;
@@ -255,7 +256,7 @@ fn centred(mean: &[f64], cells: &[f32]) -> Vec<f64> {
     pairs.map(|(cell, mean)| f64::from(*cell) - mean).collect()
 }
 
-/// Subtracts the component of `centred` along a direction and returns it.
+/// Subtracts the component of `centred` along `direction`, and returns this component.
 fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
     let pairs = centred.iter().zip(direction);
     let along: f64 = pairs.map(|(value, of)| value * f64::from(*of)).sum();
@@ -264,7 +265,7 @@ fn take_along(centred: &mut [f64], direction: &[f32]) -> f64 {
     along
 }
 
-/// Splits samples into halves by the parity of their group. Alternates blocks instead if there are no groups or a half is too small.
+/// Splits samples into halves by the parity of their group number. Without groups, or if a half is too small, assigns blocks alternately.
 fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
     let second = |is_second: &dyn Fn(usize) -> bool| -> [Vec<usize>; 2] {
         let (second, first) = (0..chosen.len()).partition(|&place| is_second(place));
@@ -277,14 +278,14 @@ fn halves(chosen: &[usize], groups: Option<&[u32]>) -> [Vec<usize>; 2] {
         .unwrap_or_else(|| second(&|place| place * BLOCKS / chosen.len() % 2 == 1))
 }
 
-/// 99 % quantile.
+/// 99 % quantile of `values`.
 fn quantile(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     let rank = whole_size((values.len() as f64 * WITHIN).ceil());
     values[rank.clamp(1, values.len()) - 1]
 }
 
-/// Rows and columns of cells that are averaged to one. Flat lists are not averaged, because their values are not neighbours.
+/// Numbers of rows and columns of cells that are averaged to one cell. Flat lists are not averaged, because adjacent values are not neighbours.
 fn steps(shape: FeatureShape) -> [usize; 2] {
     match shape.height {
         1 => [1, 1],
@@ -292,7 +293,7 @@ fn steps(shape: FeatureShape) -> [usize; 2] {
     }
 }
 
-/// Samples with averaged cells, as flat lists.
+/// Samples with averaged cells, each as a flat list.
 fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelError> {
     let width = FeatureDistance::width_of(shape);
     let mut values = Vec::with_capacity(width * features.samples());
@@ -302,7 +303,7 @@ fn averaged(shape: FeatureShape, features: &Features) -> Result<Features, ModelE
     Features::new(FeatureShape::flat(width), values)
 }
 
-/// Appends the means over blocks of cells. Flat lists and small pictures stay unchanged.
+/// Appends the means over blocks of cells of one sample. Flat lists and small pictures are appended unchanged.
 fn average(shape: FeatureShape, sample: &[f32], into: &mut Vec<f32>) {
     let FeatureShape {
         height,

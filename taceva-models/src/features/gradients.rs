@@ -1,4 +1,4 @@
-//! Surface slopes of a gel without markers, from the light of three coloured lamps.
+//! Surface slopes of a gel without markers, computed from the light of three coloured lamps.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat};
 
@@ -8,40 +8,40 @@ use super::error::FeatureError;
 use super::pixels::{ratio, signed};
 use super::spec::FeatureSpec;
 
-/// Smallest brightness assumed for the reference, as a share of full scale. It keeps noise in dark areas from becoming slope.
+/// Smallest brightness assumed for the reference, as a share of full scale. Limits the amplification of noise in dark areas.
 const LIT: f32 = 1.0 / 16.0;
-/// Steps per unit: values of a pixel are integers until they are averaged.
+/// Number of integer steps per unit. Pixel values are integers until they are averaged.
 const STEPS: f32 = 16_384.0;
-/// Step of the value 0. Values are limited to −2 to 2.
+/// Integer step that represents the value 0. Values are limited to −2 to 2.
 const ZERO: u16 = 32_768;
-/// 1 / √3: factor from the difference of the lamps at 120° and 240° to the slope across the lamp at 0°.
+/// Factor 1 / √3 from the difference of the lamps at 120° and 240° to the slope across the lamp at 0°.
 const ACROSS: f32 = 0.577_350_27;
 
-/// Slopes of each cell towards 0° and 90°, and the change of light that slopes do not explain.
+/// Slopes of each cell towards 0° and 90°, and the change of light that these slopes do not explain.
 ///
 /// # The light
-/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the
-/// surface, (∂z/∂x, ∂z/∂y). Lamp `c` with direction `d_c` and elevation `e` changes the light by the factor `1 - cot(e) g·d_c`
-/// (Lambert's law to first order). Let `r_c = (frame - reference) / reference` for colour `c`, and `s` a change common to all three.
-/// Then `r_c = p·d_c + s` has one solution, which is computed for each pixel and averaged over the cell:
+/// Three lamps shine at a low angle on a matt surface: red at 0°, green at 120° and blue at 240°. Let `g` be the small slope of the surface, (∂z/∂x, ∂z/∂y).
+/// Lamp `c` with direction `d_c` and elevation `e` changes the light by the factor `1 - cot(e) g·d_c` (Lambert's law to first order). Let `r_c = (frame -
+/// reference) / reference` for colour `c`, and `s` a change common to all three. Then `r_c = p·d_c + s` has one solution. It is computed for each pixel and
+/// averaged over the cell:
 ///
 /// `p_x = 2/3 (r_red - (r_green + r_blue) / 2)`, `p_y = (r_green - r_blue) / √3`, `s = (r_red + r_green + r_blue) / 3`.
 ///
-/// `p = -cot(e) g`: positive where the surface faces the lamp. Dividing by the reference cancels uneven lamps, vignetting and the
-/// colour of the gel.
+/// `p = -cot(e) g` is positive where the surface faces the lamp. Division by the reference cancels uneven lamps, vignetting and the colour of the gel.
 ///
 /// # Calibration
-/// None. Lamps with other directions or colours give another fixed linear mix of slopes, which a model learns anyway. No calibration
-/// with a ball is needed.
+/// No calibration with a ball is needed. Lamps with other directions or colours give another fixed linear combination of slopes, which a model learns from its
+/// training labels.
 ///
 /// # Limits
-/// Cannot measure shear, because nothing on the surface is tracked, or the depth of a flat touch except at its edge. Fails in
-/// shadow, in saturated pixels and at slopes too steep for the linear law. A change of all lamps goes to `s`; one lamp's looks like slope.
+/// The features cannot measure shear, because no point of the surface is tracked. They cannot measure the depth of a flat touch except at its edge. They are
+/// wrong in shadow, in saturated pixels and at slopes too steep for the linear law. A common change of all lamps affects only `s`. A change of a single lamp
+/// cannot be distinguished from a slope.
 #[derive(Debug)]
 pub(super) struct Gradients {
     areas: AreaSums,
     reference: Vec<f32>,
-    /// 1 / brightness of the reference, which is at least `LIT` of full scale.
+    /// Reciprocal brightness of the reference. The brightness is at least `LIT` of full scale.
     inverse: Vec<f32>,
 }
 
@@ -65,7 +65,7 @@ impl Gradients {
         })
     }
 
-    /// Values of each pixel, in steps.
+    /// Slopes and common change of each pixel, in integer steps.
     fn slopes(&self, frame: &Frame) -> Frame {
         let mut bytes = Vec::with_capacity(2 * self.reference.len());
         let own = self.reference.iter().zip(&self.inverse);
@@ -113,7 +113,7 @@ fn slopes_info(info: FrameInfo) -> FrameInfo {
     }
 }
 
-/// Rounds to the nearest step, limited to the range.
+/// Rounds to the nearest integer step, limited to the range.
 #[expect(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -140,7 +140,7 @@ mod tests {
         }
     }
 
-    /// A surface with slopes `slope` of its place, in 16 bits, lit by lamps of brightness `lamps` and dimmed by `dimming`.
+    /// Test frame, 16 bits: a surface whose slope at each place is given by `slope`. It is lit by lamps of brightness `lamps` and dimmed by `dimming`.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,

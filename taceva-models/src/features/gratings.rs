@@ -1,4 +1,4 @@
-//! Features of gratings: power at each spatial frequency, independent of direction.
+//! Features of gratings: power at each spatial frequency, independent of the grating's direction.
 
 mod fourier;
 mod radial;

@@ -6,20 +6,19 @@ use serde::{Deserialize, Serialize};
 
 use super::spec::Color;
 
-/// Kind of features of a cell.
+/// Kind of features computed for each cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum FeatureKind {
-    /// Brightness: the area average of pixels. Affected by light as much as by touch.
+    /// Brightness: the area average of pixels. Lighting and touch affect it equally.
     Pixels,
-    /// Displacement of nearby markers from the untouched gel, and the share of unseen markers. Insensitive to light and to everything between
-    /// markers.
+    /// Displacement of nearby markers from the untouched gel, and the share of unseen markers. Insensitive to lighting, and to details between markers.
     Markers,
-    /// Surface slopes, by the colours of three lamps. Insensitive to shear and to flat areas, such as the middle of a flat touch.
+    /// Surface slopes, computed from the colours of three lamps. Insensitive to shear and to flat areas, such as the middle of a flat touch.
     Gradients,
-    /// Mean, spread and quantiles of pixels, without their positions in the cell.
+    /// Mean, standard deviation and quantiles of pixels, regardless of pixel positions in the cell.
     Statistics,
-    /// Values of taxels, for sensors without pictures. One cell per taxel, not combined with other kinds.
+    /// Values of taxels, for sensors without pictures. There is one cell per taxel, and no combination with other kinds.
     Signals,
 }
 
@@ -33,7 +32,7 @@ impl FeatureKind {
         FeatureKind::Signals,
     ];
 
-    /// Name in settings.
+    /// Name of the kind in settings.
     pub const fn name(self) -> &'static str {
         match self {
             FeatureKind::Pixels => "pixels",
@@ -44,7 +43,7 @@ impl FeatureKind {
         }
     }
 
-    /// Values per cell; 0 for signals, whose number depends on the recording.
+    /// Number of values per cell; 0 for signals, because their number depends on the recording.
     pub const fn depth(self, color: Color) -> usize {
         match self {
             FeatureKind::Signals => 0,
@@ -54,12 +53,12 @@ impl FeatureKind {
         }
     }
 
-    /// True if this kind always compares with the untouched frame.
+    /// True if this kind always compares a frame with the untouched frame.
     pub const fn needs_reference(self) -> bool {
         matches!(self, FeatureKind::Markers | FeatureKind::Gradients)
     }
 
-    /// Default columns and rows of features that begin with this kind.
+    /// Default number of columns and rows for features whose first kind is this one.
     pub(super) const fn side(self) -> u32 {
         match self {
             FeatureKind::Pixels | FeatureKind::Gradients | FeatureKind::Signals => 32,
@@ -73,7 +72,7 @@ impl FeatureKind {
     }
 }
 
-/// Set of kinds, written `markers` or `pixels+markers`.
+/// Set of kinds of features, written `markers` or `pixels+markers`.
 ///
 /// ```
 /// use taceva_models::{FeatureKind, FeatureKinds};
@@ -87,13 +86,13 @@ impl FeatureKind {
 pub struct FeatureKinds(u8);
 
 impl FeatureKinds {
-    /// Pixels alone.
+    /// Set of pixels only.
     pub const PIXELS: FeatureKinds = FeatureKinds(FeatureKind::Pixels.bit());
 
-    /// Signals, which cannot be combined.
+    /// Set of signals, which cannot be combined with other kinds.
     pub const SIGNALS: FeatureKinds = FeatureKinds(FeatureKind::Signals.bit());
 
-    /// Parses kinds joined by `+`. `None` if one is unknown or repeated, or if signals are combined.
+    /// Parses kinds joined by `+`; `None` if a kind is unknown or repeated, or if signals are combined.
     pub fn parse(text: &str) -> Option<FeatureKinds> {
         let mut kinds = FeatureKinds(0);
         for word in text.split('+') {
@@ -109,7 +108,7 @@ impl FeatureKinds {
         (!is_mixed).then_some(kinds)
     }
 
-    /// Kinds in the order of [`FeatureKind::ALL`].
+    /// Kinds of the set, in the order of [`FeatureKind::ALL`].
     pub fn iter(self) -> impl Iterator<Item = FeatureKind> {
         FeatureKind::ALL
             .into_iter()
@@ -121,7 +120,7 @@ impl FeatureKinds {
         self.0 & kind.bit() != 0
     }
 
-    /// True for pixels alone, the default of older model files.
+    /// True if the set contains only pixels, the default of older model files.
     pub fn are_pixels(&self) -> bool {
         *self == FeatureKinds::PIXELS
     }

@@ -1,4 +1,4 @@
-//! Markers of a gel: subpixel positions, displacements from the untouched gel, and features of these.
+//! Markers of a gel: subpixel positions, displacements from the untouched gel, and features computed from displacements.
 
 mod field;
 mod lattice;

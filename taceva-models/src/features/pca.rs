@@ -6,7 +6,7 @@ use taceva_core::{FeatureShape, Features, ModelError, Progress, by_count, counte
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale, Spectrum};
 
-/// Orthonormal directions of greatest variance of the training part, largest first.
+/// Orthonormal directions of greatest variance of the training part, in order of decreasing variance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pca {
     shape: FeatureShape,
@@ -16,7 +16,7 @@ pub struct Pca {
 }
 
 impl Pca {
-    /// Computes the first `count` components of `training`. The sign of each makes its largest entry positive.
+    /// Computes the first `count` components of `training`. The largest entry of each component is positive.
     ///
     /// # Errors
     /// [`ModelError`] if a feature is not finite, if `training` varies in fewer than `count` directions, or if
@@ -128,7 +128,7 @@ impl Pca {
     /// Projects `features` onto the components.
     ///
     /// # Shapes
-    /// In: samples of [`shape`](Pca::shape); out: flat samples, one value per component.
+    /// Input: samples of [`shape`](Pca::shape). Output: flat samples with one value per component.
     /// # Errors
     /// [`ModelError`] if the shape differs.
     pub fn transform(&self, features: &Features) -> Result<Features, ModelError> {
@@ -154,7 +154,7 @@ impl Pca {
     }
 }
 
-/// Gram–Schmidt, applied twice: products through the Gram matrix lose half the digits of the smallest components.
+/// Orthonormalises by the Gram–Schmidt method, applied twice. Products through the Gram matrix lose half the digits of the smallest components.
 fn orthonormalise(vectors: &mut Mat<f64>) {
     for column in 0..vectors.ncols() {
         let mut own = vectors.col_as_slice(column).to_vec();

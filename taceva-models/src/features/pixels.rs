@@ -1,4 +1,4 @@
-//! Area averages of pixels, exact up to one rounding, and their differences from a reference.
+//! Area averages of pixels, exact up to one rounding, and the averages' differences from a reference.
 
 use taceva_core::{Frame, FrameInfo, PixelFormat, single};
 
@@ -10,7 +10,7 @@ use super::spec::{Color, FeatureSpec};
 pub(super) const LUMA: [i64; 3] = [299, 587, 114];
 pub(super) const LUMA_SUM: i64 = 1000;
 
-/// True if frames of `format` must be converted to gray for `color`.
+/// True if frames of `format` must be converted to gray for features in `color`.
 pub(super) fn mixes(color: Color, format: PixelFormat) -> bool {
     color == Color::Gray && format.samples() == 3
 }
@@ -79,12 +79,12 @@ impl CellFeatures for Pixels {
     }
 }
 
-/// Converts the sum of a cell. The sum is below 2^48 for 65,535 rows and columns of 16 bits; frames in memory have fewer than 2^32 columns.
+/// Converts the sum of a cell to a signed number. The sum is below 2^48 for 65,535 rows and columns of 16 bits. Frames in memory have fewer than 2^32 columns.
 pub(super) fn signed(sum: u64) -> i64 {
     i64::try_from(sum).expect("a cell of a frame in memory sums to less than 2^63")
 }
 
-/// Divides to a feature.
+/// Divides `sum` by `full_scale` and rounds to a feature.
 pub(super) fn ratio(sum: i64, full_scale: i64) -> f32 {
     single(sum as f64 / full_scale as f64)
 }

@@ -1,28 +1,27 @@
-//! Preprocessing of pictures for networks: part of the model, and stored in its file.
+//! Preprocessing of pictures for networks. It is part of the model, and stored in the model's file.
 
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use taceva_core::{FeatureShape, single, whole_size};
 
-/// Preprocessing of each picture.
+/// Preprocessing applied to each picture.
 ///
-/// If markers are the signal, slow changes of light within a picture or between pictures say little about the touch, so they are
-/// removed. A sensor whose colour is its signal should keep them.
+/// If markers are the signal, slow changes of light within or between pictures contain little information on the touch. Preprocessing therefore removes them. A
+/// sensor whose colour is its signal needs these changes, and should be used without preprocessing.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Preprocessing {
-    /// Standard deviation, in pixels, of the Gaussian whose weighted mean is subtracted around each pixel. 0 subtracts
-    /// nothing.
+    /// Standard deviation, in pixels, of the Gaussian whose weighted mean is subtracted around each pixel. For 0, nothing is subtracted.
     pub local_mean_px: f64,
-    /// True to divide each picture by its standard deviation. A uniform picture becomes zero.
+    /// True to divide each picture by its standard deviation. All pixels of a uniform picture become 0.
     pub contrast: bool,
 }
 
-/// Radius of the Gaussian, in standard deviations.
+/// Radius at which the Gaussian is cut off, in standard deviations.
 const REACH: f64 = 3.0;
 
 impl Preprocessing {
-    /// Largest standard deviation of the Gaussian, pixels.
+    /// Largest standard deviation of the Gaussian, in pixels.
     pub const LOCAL_MEAN_MAX: f64 = 100.0;
 
     /// True if all settings are in range.
@@ -30,7 +29,7 @@ impl Preprocessing {
         (0.0..=Preprocessing::LOCAL_MEAN_MAX).contains(&self.local_mean_px)
     }
 
-    /// Preprocesses each picture of `values` separately, so that predictions are independent.
+    /// Preprocesses each picture of `values` separately, so that one picture does not affect the prediction of another.
     pub(crate) fn apply(&self, shape: FeatureShape, values: &[f32]) -> Vec<f32> {
         let kernel = self.kernel();
         let mut changed = values.to_vec();
@@ -47,7 +46,7 @@ impl Preprocessing {
         changed
     }
 
-    /// Weights of a pixel's neighbours at distance 0, 1, …
+    /// Weights of the neighbours of a pixel at distances 0, 1, …; `None` if no local mean is subtracted.
     fn kernel(&self) -> Option<Vec<f64>> {
         let sigma = self.local_mean_px;
         (sigma > 0.0).then(|| {
@@ -106,7 +105,7 @@ fn subtract_local_mean(kernel: &[f64], shape: FeatureShape, picture: &mut [f32])
     }
 }
 
-/// Subtracts the mean of a picture and divides by its standard deviation.
+/// Subtracts the mean of a picture, and divides by the picture's standard deviation.
 fn normalise_contrast(picture: &mut [f32]) {
     let count = picture.len() as f64;
     let values = || picture.iter().copied().map(f64::from);

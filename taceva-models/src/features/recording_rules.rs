@@ -1,26 +1,26 @@
-//! Feature settings that depend on the frames of a recording: at most one cell per pixel, colour if available, and the difference from a
-//! contact-free frame.
+//! Feature settings that depend on the frames of a recording. They give at most one cell per pixel, colour if available, and the difference from a contact-free
+//! frame.
 
 use taceva_core::FrameInfo;
 
 use super::spec::{COLOR, Color, DIFFERENCE, FeatureSpec, SIZE, size};
 use crate::settings::{ModelSettings, SettingError};
 
-/// Value of the colour setting that follows the frames.
+/// Value of the colour setting that selects the colour of the frames.
 const BY_FRAME: &str = "auto";
 
 /// Value of the difference setting that subtracts the reference frame from colour frames.
 const IN_COLOR: &str = "in-color";
 
-/// Prefix of a size that is limited by the pixels of a frame.
+/// Prefix of a size that the pixels of a frame limit.
 const UP_TO: &str = "up-to-";
 
 /// Feature settings that depend on the frames of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FeaturesByRecording {
-    /// Largest grid, limited by the frame.
+    /// Largest grid, further limited by the frame size; `None` if the grid does not depend on frames.
     most: Option<(u32, u32)>,
-    /// True to keep colour if frames have it.
+    /// True to use colour if frames have colour.
     color: bool,
     /// True to subtract the reference frame if frames have colour and there is a reference.
     difference: bool,
@@ -31,12 +31,12 @@ pub struct FeaturesByRecording {
 pub struct RecordedFrames {
     /// Size and format.
     pub info: FrameInfo,
-    /// True if there is a contact-free reference frame.
+    /// True if the recording has a contact-free reference frame.
     pub has_reference: bool,
 }
 
 impl FeaturesByRecording {
-    /// Splits `settings` into those that depend on frames and the rest.
+    /// Splits `settings` into settings that depend on frames, and the rest.
     ///
     /// ```
     /// use taceva_core::{FrameInfo, PixelFormat};
@@ -77,7 +77,7 @@ impl FeaturesByRecording {
         Ok((open, rest))
     }
 
-    /// Adapts the rules to the finer grid of `closer`. Settings that the user left open follow the frames too.
+    /// Adapts the rules to the finer grid of `closer`. Settings without a value from the user also depend on the frames.
     #[must_use]
     pub fn closer(self, closer: FeatureSpec, settings: &ModelSettings) -> FeaturesByRecording {
         let is_set = |key: &str| settings.get(key).is_some();
@@ -94,7 +94,7 @@ impl FeaturesByRecording {
         self.most.is_some()
     }
 
-    /// Resolves the features for `frames`. Returns `asked` without frames.
+    /// Resolves the features for `frames`. Returns `asked` if there are no frames.
     #[must_use]
     pub fn on(self, asked: FeatureSpec, frames: Option<RecordedFrames>) -> FeatureSpec {
         let Some(RecordedFrames {

@@ -1,13 +1,13 @@
-//! Reduction of frames to fewer pixels in 8 bits: exact area averages, rounded once.
+//! Reduction of frames to fewer pixels of 8 bits: exact area averages, rounded once.
 
 use taceva_core::{Frame, FrameInfo};
 
 use super::area::AreaSums;
 use super::error::FeatureError;
 
-/// Reduces frames of one kind to a coarser grid, in 8 bits.
+/// Reduces frames of one kind to a coarser grid of 8-bit pixels.
 ///
-/// A pixel is the mean of its area. Pixels at the rim count by their overlap, as in features of the same grid. The mean is rounded once,
+/// A reduced pixel is the mean of its area. Source pixels at the rim are weighted by their overlap, as in features of the same grid. The mean is rounded once,
 /// half up, to a step of full scale / 255, which is 257 levels of 16 bits. Features of a model therefore change by at most half a step.
 ///
 /// ```
@@ -33,7 +33,7 @@ impl FrameReduction {
     /// Prepares the reduction of frames of `from` to a width and a height.
     ///
     /// # Errors
-    /// [`FeatureError::Reduction`] if a side is 0 or longer than the frame's, [`FeatureError::Tall`] if the frame has too many rows.
+    /// [`FeatureError::Reduction`] if a side is 0 or longer than that side of the frame, [`FeatureError::Tall`] if the frame has too many rows.
     pub fn new(from: FrameInfo, [width, height]: [u32; 2]) -> Result<FrameReduction, FeatureError> {
         if !(1..=from.width).contains(&width) || !(1..=from.height).contains(&height) {
             return Err(FeatureError::Reduction {
@@ -86,7 +86,7 @@ impl FrameReduction {
     }
 }
 
-/// Rounds to the nearest of 255 steps. `sum` is below 2^48 and at most `full_scale`.
+/// Divides `sum` by `full_scale` and rounds to the nearest of 255 steps. `sum` is below 2^48 and at most `full_scale`.
 fn rounded(sum: u64, full_scale: u64) -> u8 {
     u8::try_from((sum * 255 + full_scale / 2) / full_scale).unwrap_or(u8::MAX)
 }

@@ -1,4 +1,4 @@
-//! Values of taxels as features: unchanged, or minus the mean without contact.
+//! Values of taxels as features, unchanged or minus their mean without contact.
 
 use taceva_core::{FeatureShape, Features, SignalInfo, Signals, single};
 
@@ -9,7 +9,7 @@ use super::spec::FeatureSpec;
 #[derive(Clone, Debug)]
 pub(super) struct Taxels {
     info: SignalInfo,
-    /// Mean signals without contact, if they are subtracted.
+    /// Mean signals without contact; `None` if they are not subtracted.
     rest: Option<Signals>,
 }
 
@@ -40,7 +40,7 @@ impl Taxels {
         self.info
     }
 
-    /// Writes the values of `signals` in their unit. The caller has checked the grid.
+    /// Writes the values of `signals` in the unit of the signals. The caller must check the grid.
     pub(super) fn write(&self, signals: &Signals, into: &mut [f32]) {
         into.copy_from_slice(signals.values());
         if let Some(rest) = &self.rest {
@@ -50,10 +50,10 @@ impl Taxels {
     }
 }
 
-/// Spread of each channel over `training`, rounded to a power of two. Values divided by it are about 1 and lose no bit, so a model that
-/// scales features itself is unaffected.
+/// Spread of each channel over `training`, rounded to a power of two. Values divided by the spread are about 1 and lose no bit. A model that scales features
+/// itself is therefore unaffected.
 ///
-/// The spread is the root mean square over taxels of the standard deviation of a channel; 1 if nothing varies.
+/// The spread is the root mean square over taxels of the standard deviation of a channel. It is 1 if no value varies.
 ///
 /// # Shapes
 /// `[depth]` of the features.
@@ -81,7 +81,7 @@ pub(crate) fn spread(training: &Features) -> Vec<f64> {
     spreads.map(power_of_two).collect()
 }
 
-/// Power of two nearest to `spread`, limited to the range of single precision; 1 for a spread of 0.
+/// Power of two nearest to `spread`, limited to the range of single precision. 1 for a spread of 0.
 fn power_of_two(spread: f64) -> f64 {
     match spread > 0.0 {
         true => spread.log2().round().clamp(-100.0, 100.0).exp2(),
@@ -89,7 +89,7 @@ fn power_of_two(spread: f64) -> f64 {
     }
 }
 
-/// Divides `features` by the spread of their channel.
+/// Divides each value of `features` by the spread of its channel.
 pub(crate) fn divided(features: &Features, spread: &[f64]) -> Features {
     let factors = spread.iter().cycle().map(|spread| 1.0 / spread);
     let values = features.values().iter().zip(factors);

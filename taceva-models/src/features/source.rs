@@ -1,4 +1,4 @@
-//! Source of features: the frames of a recording, or its signals.
+//! Source of features: frames or signals of a recording.
 
 use taceva_core::{FrameInfo, SignalInfo};
 
@@ -8,8 +8,8 @@ use super::spec::{COLOR, FeatureSpec, INPUT, KINDS, SIZE};
 use crate::settings::ModelSettings;
 
 impl FeatureSpec {
-    /// Adapts these features to a recording: uses its signals if they are requested or there are no frames. `settings` are
-    /// those of [`changed_by`](FeatureSpec::changed_by).
+    /// Adapts these features to a recording. Uses signals if they are requested or the recording has no frames. `settings` are the argument of
+    /// [`changed_by`](FeatureSpec::changed_by).
     ///
     /// ```
     /// use taceva_core::{SignalInfo, Unit};
@@ -24,8 +24,8 @@ impl FeatureSpec {
     /// ```
     ///
     /// # Errors
-    /// [`FeatureError::TwoInputs`] if a recording has both and no setting selects one; [`FeatureError::NoFrames`] and
-    /// [`FeatureError::NoSignals`] if the requested input is missing.
+    /// [`FeatureError::TwoInputs`] if a recording has both inputs and no setting selects one. [`FeatureError::NoFrames`] or [`FeatureError::NoSignals`] if the
+    /// requested input is missing.
     pub fn on(
         self,
         settings: &ModelSettings,

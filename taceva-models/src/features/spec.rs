@@ -8,7 +8,7 @@ use taceva_core::{FeatureShape, SignalInfo};
 use super::kinds::{FeatureKind, FeatureKinds};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// Colour or gray.
+/// Colour mode of features: gray or RGB.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Color {
@@ -19,7 +19,7 @@ pub enum Color {
 }
 
 impl Color {
-    /// Values per cell: 1 or 3.
+    /// Number of values per cell: 1 or 3.
     pub const fn depth(self) -> usize {
         match self {
             Color::Gray => 1,
@@ -27,7 +27,7 @@ impl Color {
         }
     }
 
-    /// Name in settings.
+    /// Name of the colour mode in settings.
     pub const fn name(self) -> &'static str {
         match self {
             Color::Gray => "gray",
@@ -36,24 +36,24 @@ impl Color {
     }
 }
 
-/// Features of a model.
+/// Specification of the features of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FeatureSpec {
-    /// Kinds of features of every cell. Pixels if a model file has no entry.
+    /// Kinds of features of every cell. A model file without this entry has pixels.
     #[serde(default, skip_serializing_if = "FeatureKinds::are_pixels")]
     pub kinds: FeatureKinds,
-    /// Columns of cells.
+    /// Number of columns of cells.
     pub width: u32,
-    /// Rows of cells.
+    /// Number of rows of cells.
     pub height: u32,
-    /// Colour or gray.
+    /// Colour mode: gray or RGB.
     pub color: Color,
     /// True to subtract the contact-free reference frame.
     pub difference: bool,
-    /// Number of principal components of the training part that replace the cells' values. `None` keeps all values.
+    /// Number of principal components of the training part, which replace the values of the cells. `None` uses the values themselves.
     pub pca: Option<u32>,
-    /// Values per taxel of signals. `None` for frames, and for signals before the recording is known.
+    /// Number of values per taxel of signals; `None` for frames, and for signals before the recording is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channels: Option<u32>,
 }
@@ -179,7 +179,7 @@ impl FeatureSpec {
         })
     }
 
-    /// Changes the kinds. For kinds other than pixels, uses the coarsest of their default grids.
+    /// Changes the kinds of features. If the kinds are not only pixels, uses the coarsest of their default grids.
     fn with_kinds(self, kinds: FeatureKinds) -> FeatureSpec {
         let others = kinds.iter().filter(|_| !kinds.are_pixels());
         let side = others.map(FeatureKind::side).min();
@@ -216,7 +216,7 @@ impl FeatureSpec {
         }
     }
 
-    /// Setting that needs the contact-free reference frame. `None` if it is not needed.
+    /// Setting that needs the contact-free reference frame; `None` if no setting needs a reference frame.
     pub fn asks_for_reference(&self) -> Option<&'static str> {
         let by_kind = self.kinds.iter().find(|kind| kind.needs_reference());
         match by_kind {
@@ -244,7 +244,7 @@ impl FeatureSpec {
     }
 }
 
-/// Parses columns and rows of cells, as `WIDTHxHEIGHT` or one number for both.
+/// Parses columns and rows of cells, as `WIDTHxHEIGHT` or as one number for both.
 pub(super) fn size(text: &str) -> Option<(u32, u32)> {
     let side = |text| number(text, 1..=FeatureSpec::SIDE_MAX);
     match text.split_once('x') {

@@ -9,17 +9,17 @@ use super::kinds::FeatureKind;
 use super::pixels::{LUMA, LUMA_SUM, mixes};
 use super::spec::{Color, FeatureSpec};
 
-/// Quantiles of the pixel values, %.
+/// Quantiles of the pixel values, in %.
 const QUANTILES: [usize; 5] = [5, 25, 50, 75, 95];
-/// Values per cell and colour: mean, standard deviation and quantiles.
+/// Number of values per cell and colour: mean, standard deviation and quantiles.
 const NUMBERS: usize = 2 + QUANTILES.len();
 
-/// Statistics of each colour of each cell: mean, standard deviation (divided by n), and the quantiles of 5, 25, 50, 75 and 95 %. A
-/// quantile of q % is the nearest rank: the least pixel value that at least q % of the pixels do not exceed.
+/// Statistics of each colour of each cell: mean, standard deviation (divided by n), and the quantiles of 5, 25, 50, 75 and 95 %. The quantile of q % is the
+/// nearest rank. It is the least pixel value that at least q % of the pixels do not exceed.
 ///
-/// A pixel belongs to one cell, which has columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows likewise. Sums are integers, so
-/// every statistic depends only on the values of the cell's pixels, not on their order. The statistics describe the distribution of light
-/// in a cell, but not positions: a press gives the same values anywhere in its cell.
+/// Each pixel belongs to one cell. Cell i has columns `floor(i W / width) .. floor((i + 1) W / width)`, and rows likewise. Sums are integers, so every
+/// statistic depends only on the values of the cell's pixels, and not on their order. The statistics describe the distribution of light in a cell, but not
+/// positions. A press gives the same values anywhere in its cell.
 #[derive(Debug)]
 pub(super) struct Statistics {
     color: Color,
@@ -30,7 +30,7 @@ pub(super) struct Statistics {
 }
 
 impl Statistics {
-    /// Prepares statistics for frames of `info`, no smaller than the grid of `spec`.
+    /// Prepares statistics for frames of `info`. A frame must not be smaller than the grid of `spec`.
     pub(super) fn new(
         spec: &FeatureSpec,
         info: FrameInfo,
@@ -71,7 +71,7 @@ impl Statistics {
         numbers
     }
 
-    /// Integer values of each plane of each pixel, and the value of white.
+    /// Integer values of each colour plane, pixel by pixel, and the value of white.
     fn values(&self, frame: &Frame) -> (Vec<u32>, f64) {
         let full_scale = f64::from(self.info.format.full_scale());
         let samples = frame.samples().map(u32::from);
@@ -113,7 +113,7 @@ fn cells(length: usize, count: usize) -> Vec<Range<usize>> {
         .collect()
 }
 
-/// Mean, standard deviation and quantiles of `sorted`, which is not empty. Full scale becomes 1.
+/// Mean, standard deviation and quantiles of `sorted`, scaled so that full scale is 1. `sorted` must not be empty.
 fn of_sorted(sorted: &[u32], full_scale: f64) -> [f64; NUMBERS] {
     let count = sorted.len() as u128;
     let sum: u128 = sorted.iter().map(|&value| u128::from(value)).sum();

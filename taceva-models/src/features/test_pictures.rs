@@ -19,7 +19,7 @@ pub(super) fn noise(width: u32, height: u32, format: PixelFormat, seed: u64) -> 
     Frame::new(info, bytes).expect("whole")
 }
 
-/// A gel of 160×120 pixels with soft round markers of a radius of 2.5 pixels.
+/// Test gel of 160×120 pixels with soft round markers of a radius of 2.5 pixels.
 #[derive(Clone, Copy)]
 pub(super) struct Gel {
     pub(super) polarity: Polarity,
@@ -31,12 +31,12 @@ pub(super) struct Gel {
 impl Gel {
     pub(super) const WIDTH: u32 = 160;
     pub(super) const HEIGHT: u32 = 120;
-    /// Contrast of markers at the left edge, levels. Greater further right.
+    /// Contrast of markers at the left edge, in 8-bit levels. It increases to the right.
     pub(super) const CONTRAST: f64 = 100.0;
-    /// Spacing of markers, pixels.
+    /// Spacing of markers, in pixels.
     pub(super) const SPACING: f64 = 12.0;
 
-    /// The gel with markers at `places`, brighter to the right.
+    /// Draws the gel with markers at `places`. Brightness increases to the right.
     #[expect(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -70,13 +70,13 @@ impl Gel {
     }
 }
 
-/// Sum of twelve uniform draws minus its mean: standard deviation 1, nearly normal.
+/// Sum of twelve uniform random numbers minus its mean. The distribution is nearly normal, with standard deviation 1.
 fn normal(random: &mut SplitMix64) -> f64 {
     let draws = (0..12).map(|_| (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64);
     draws.sum::<f64>() - 6.0
 }
 
-/// Markers of a [`Gel`], away from its rim.
+/// Marker positions of a [`Gel`], away from its rim.
 pub(super) fn grid(is_hexagonal: bool) -> Vec<[f64; 2]> {
     let rise = if is_hexagonal {
         Gel::SPACING * 0.75_f64.sqrt()

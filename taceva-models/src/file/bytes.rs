@@ -1,4 +1,4 @@
-//! Models as bytes: safetensors with the card in the metadata.
+//! Models as bytes: the safetensors format with the card in the metadata.
 
 use std::collections::HashMap;
 
@@ -38,7 +38,7 @@ impl Model {
         Ok(bytes)
     }
 
-    /// Reads a model from `bytes`, among the built-in models.
+    /// Reads a model from `bytes`. Only built-in models are accepted.
     ///
     /// # Errors
     /// Errors of [`Models::read`].

@@ -12,8 +12,8 @@ use crate::training::file::error::FormatError;
 use crate::training::file::limits::FILE_MAX;
 
 impl Model {
-    /// Writes the model to `path` and replaces an existing file. Writes a neighbouring file first and renames it, so a reader sees
-    /// either the old or the new model, even after a crash.
+    /// Writes the model to `path` and replaces an existing file. Writes a temporary file first and renames it. A reader therefore sees either the old or the
+    /// new model, even after a crash.
     ///
     /// # Errors
     /// [`ModelFileError`] with the path.
@@ -28,7 +28,7 @@ impl Model {
         })
     }
 
-    /// Reads the model at `path`, among the built-in models.
+    /// Reads the model at `path`. Only built-in models are accepted.
     ///
     /// # Errors
     /// Errors of [`Models::open`].
@@ -48,7 +48,7 @@ impl Model {
 }
 
 impl Models {
-    /// Reads and checks the model at `path`. A plugin loads its own models.
+    /// Reads and checks the model at `path`. Models of a plugin are loaded by the plugin.
     ///
     /// # Errors
     /// [`ModelFileError`] with the path and the fault.
@@ -64,7 +64,7 @@ impl Models {
     }
 }
 
-/// Reads at most one byte more than the size limit of a model, so that a larger file is rejected.
+/// Reads the file up to one byte beyond the size limit of a model, so that the caller can reject a larger file.
 fn read_capped(path: &Path) -> io::Result<Vec<u8>> {
     // Checks before opening: opening a pipe would block until it has a writer.
     if !fs::metadata(path)?.is_file() {
@@ -106,7 +106,7 @@ pub enum ModelFileError {
     Format {
         /// Path of the file.
         path: PathBuf,
-        /// Fault of the content.
+        /// Fault in the content.
         source: FormatError,
     },
 }

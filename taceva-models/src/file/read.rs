@@ -1,4 +1,4 @@
-//! Reading of model files, with checks of every size, version, shape and number.
+//! Reads model files, and checks every size, version, shape and number.
 
 use safetensors::tensor::SafeTensors;
 use serde::Deserialize;
@@ -17,10 +17,10 @@ use crate::training::file::limits::{CARD, FORMAT};
 use crate::training::file::tensors::Tensors;
 use crate::training::regressor::ModelRegressor;
 
-/// Release that introduced format 1.0.
+/// Release of TacEva that introduced format 1.0.
 const SINCE: [u32; 2] = [0, 2];
 
-/// Part of a card common to all versions.
+/// Part of a card that is common to all format versions.
 #[derive(Deserialize)]
 struct Version {
     format: String,
@@ -29,11 +29,11 @@ struct Version {
 }
 
 impl Models {
-    /// Reads a model from `bytes`. A plugin loads its own models.
+    /// Reads a model from `bytes`. Models of a plugin are loaded by the plugin.
     ///
     /// # Errors
-    /// [`FormatError`] if the bytes differ from the format of [`to_bytes`](Model::to_bytes), have another major version, or belong to a
-    /// plugin that is missing or rejects them.
+    /// [`FormatError`] if the bytes differ from the format of [`to_bytes`](Model::to_bytes), or have another major version. Also if they belong to a plugin
+    /// that is missing or rejects them.
     pub fn read(&self, bytes: &[u8]) -> Result<Model, FormatError> {
         check_sizes(bytes)?;
         let (_, header) = SafeTensors::read_metadata(bytes)?;
@@ -77,7 +77,7 @@ impl Models {
         })
     }
 
-    /// Loads the regressor by the plugin or registry entry named in the card.
+    /// Loads the regressor, by the plugin or registry entry that the card names.
     fn load(&self, stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let card = stored.card;
         if let Some(plugin) = &card.plugin {
@@ -116,7 +116,7 @@ fn is_of_its_input(card: &ModelCard) -> bool {
     }
 }
 
-/// Accepts every minor version of our major version, because minor versions only add entries.
+/// Accepts every minor version of the supported major version, because minor versions only add entries.
 fn check_version(found: &Version) -> Result<(), FormatError> {
     let parts = |version: &str| -> Option<[u32; 2]> {
         let mut parts = version.split('.').map(|part| part.parse().ok());

@@ -5,7 +5,7 @@ use sha2::{Digest as _, Sha256};
 
 use crate::training::file::error::FormatError;
 
-/// Name of a tensor, and digest of its type, shape and values.
+/// Name of a tensor, and the digest of its type, shape and values.
 pub(super) fn digested(
     name: &str,
     kind: Dtype,

@@ -1,4 +1,4 @@
-//! Centred, optionally scaled features of a training part as a matrix that is never stored as a whole.
+//! Centred, optionally scaled features of a training part, as a matrix that is computed in blocks.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo};
 
 use super::gram::{add_product, slabs};
 
-/// Samples or features per block: large enough for full speed, small enough for many threads and the cache.
+/// Number of samples or features per block: large enough for full speed, small enough for many threads and the cache.
 const BLOCK: usize = 256;
 
 /// Divisor of each centred feature.
@@ -18,7 +18,7 @@ const BLOCK: usize = 256;
 pub(crate) enum FeatureScale {
     /// No scaling: divisor 1.
     None,
-    /// Standard deviation over the training part; 1 if that is 0.
+    /// Standard deviation over the training part; 1 if the deviation is 0.
     #[default]
     Unit,
 }
@@ -46,12 +46,12 @@ impl FeatureScale {
     }
 }
 
-/// Matrix X with one row per sample: (feature − centre) · factor.
+/// Design matrix X with one row per sample. Its entries are (feature − centre) · factor.
 #[derive(Clone, Debug)]
 pub(crate) struct Design<'a> {
     features: &'a Features,
     centre: Vec<f64>,
-    /// Factor of each centred feature; `None` for 1.
+    /// Factor of each centred feature; `None` if all factors are 1.
     factor: Option<Vec<f64>>,
 }
 
@@ -90,7 +90,7 @@ impl<'a> Design<'a> {
         }
     }
 
-    /// Design of other samples with centre and factors of `self`.
+    /// Design of other samples, with the centre and factors of `self`.
     pub(crate) fn of<'b>(&self, features: &'b Features) -> Design<'b> {
         Design {
             features,
@@ -120,12 +120,12 @@ impl<'a> Design<'a> {
         &self.centre
     }
 
-    /// Factor of each centred feature; `None` for 1.
+    /// Factor of each centred feature; `None` if all factors are 1.
     pub(crate) fn factor(&self) -> Option<&[f64]> {
         self.factor.as_deref()
     }
 
-    /// Transposed block, with one column per sample.
+    /// Transposed block of X, with one column per sample.
     pub(crate) fn block(&self, samples: Range<usize>, features: Range<usize>) -> Mat<f64> {
         let mut block = Mat::zeros(features.len(), samples.len());
         let centre = &self.centre[features.clone()];
@@ -167,7 +167,7 @@ impl<'a> Design<'a> {
     }
 }
 
-/// Mean over samples of a function of each feature and its position.
+/// Mean over samples of a function of each feature value and its index.
 fn mean_of(features: &Features, of: impl Fn(f64, usize) -> f64) -> Vec<f64> {
     let mut sums = vec![0.0; features.shape().len()];
     for sample in 0..features.samples() {

@@ -1,17 +1,17 @@
-//! Distances between samples, with the same bits on every machine, for one sample at a time or many.
+//! Distances between samples, with the same bits on every machine, for one sample or for many.
 
 use rayon::prelude::*;
 use taceva_core::single;
 
-/// Features summed in single precision before their sum is added in double precision.
+/// Number of features summed in single precision before the sum is added in double precision.
 const RUN: usize = 256;
 
-/// Partial sums of a run, so that additions do not wait for each other.
+/// Number of partial sums of a run, so that additions do not wait for each other.
 const LANES: usize = 16;
 
-/// Σ (a − b)² over the features of two samples of equal length.
+/// Sum of (a − b)² over the features of two samples of equal length.
 ///
-/// Products and sums are never fused and have a fixed order, so that no instruction set changes a bit.
+/// Products and sums are never fused and have a fixed order. The result therefore has the same bits for every instruction set.
 pub(crate) fn squared_distance(a: &[f32], b: &[f32]) -> f32 {
     let runs = a.chunks(RUN).zip(b.chunks(RUN));
     single(runs.map(|(a, b)| f64::from(squares(a, b))).sum())
@@ -31,7 +31,7 @@ fn squares(a: &[f32], b: &[f32]) -> f32 {
     sums.iter().sum::<f32>() + last.sum::<f32>()
 }
 
-/// Samples per task of a thread.
+/// Number of samples per task of a thread.
 const CHUNK: usize = 256;
 
 /// Squared distances of `sample` from every row of `rows`, computed in parallel.

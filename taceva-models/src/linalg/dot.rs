@@ -1,6 +1,6 @@
 //! Dot product of two vectors.
 
-/// Dot product with eight partial sums, so that additions do not wait for each other. The order is fixed.
+/// Dot product, computed with eight partial sums, so that additions do not wait for each other. Their order is fixed.
 pub(crate) fn dot<T: Copy + Into<f64>>(left: &[f64], right: &[T]) -> f64 {
     let (left, last_left) = left.as_chunks::<8>();
     let (right, last_right) = right.as_chunks::<8>();

@@ -10,25 +10,25 @@ use taceva_core::{ModelError, Progress};
 use super::design::Design;
 use crate::linalg::progress::{ReportedStage, interrupted};
 
-/// Side of a tile, rows or columns.
+/// Side of a tile, in rows or columns.
 const TILE: usize = 256;
 
-/// Samples or features converted to 64 bits at a time.
+/// Number of samples or features converted to 64 bits at a time.
 const SLAB: usize = 1024;
 
-/// Product `left` `right`, computed by the calling thread.
+/// Product of `left` and `right`, computed by the calling thread.
 pub(crate) fn multiply(left: MatRef<'_, f64>, right: MatRef<'_, f64>) -> Mat<f64> {
     let mut product = Mat::zeros(left.nrows(), right.ncols());
     matmul(&mut product, Accum::Replace, left, right, 1.0, Par::Seq);
     product
 }
 
-/// Adds the product `left` `right` to `sums`, in the calling thread.
+/// Adds the product of `left` and `right` to `sums`, in the calling thread.
 pub(super) fn add_product(sums: &mut Mat<f64>, left: MatRef<'_, f64>, right: MatRef<'_, f64>) {
     matmul(sums, Accum::Add, left, right, 1.0, Par::Seq);
 }
 
-/// Ranges of samples or features that are summed at once.
+/// Ranges of samples or features that are summed in one step.
 pub(super) fn slabs(length: usize) -> impl Iterator<Item = Range<usize>> {
     (0..length)
         .step_by(SLAB)
@@ -38,9 +38,9 @@ pub(super) fn slabs(length: usize) -> impl Iterator<Item = Range<usize>> {
 /// Kind of Gram matrix of a design matrix X.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Side {
-    /// X Xᵀ, one row and column per sample.
+    /// X Xᵀ, with one row and column per sample.
     Samples,
-    /// Xᵀ X, one row and column per feature.
+    /// Xᵀ X, with one row and column per feature.
     Features,
 }
 
@@ -79,7 +79,7 @@ pub(super) fn gram(
     Ok(whole)
 }
 
-/// Xᵀ X of `design`, both triangles filled.
+/// Gram matrix Xᵀ X of `design`, with both triangles filled.
 pub(crate) fn feature_gram(
     design: &Design<'_>,
     progress: &dyn Progress,
@@ -115,7 +115,7 @@ fn lower_tiles(size: usize) -> Vec<Tile> {
         .collect()
 }
 
-/// Adds the product of `slab` with its transpose.
+/// Adds the product of `slab` and its transpose to `tiles`.
 fn add_outer(tiles: &mut [Tile], slab: MatRef<'_, f64>) {
     tiles.par_iter_mut().for_each(|tile| {
         let left = slab.subrows(tile.row, tile.sums.nrows());

@@ -13,16 +13,16 @@ use self::double::Double;
 use self::householder::Householder;
 use crate::linalg::invalid;
 
-/// A matrix of values that may have more than double precision.
+/// A matrix whose values may have more than double precision.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Wide<'a> {
     pub(crate) high: &'a Mat<f64>,
-    /// Rounding errors of `high`. `None` for 0.
+    /// Rounding errors of `high`; `None` if all are 0.
     pub(crate) low: Option<&'a Mat<f64>>,
 }
 
 impl Wide<'_> {
-    /// Value with its rounding error.
+    /// Value at a position, with its rounding error.
     fn at(&self, row: usize, column: usize) -> Double {
         let low = self.low.map_or(0.0, |low| low[(row, column)]);
         Double::new(self.high[(row, column)], low)
@@ -32,9 +32,9 @@ impl Wide<'_> {
 /// Least-squares solution for one column of targets.
 #[derive(Clone, Debug)]
 pub(crate) struct Solution {
-    /// Refined solution.
+    /// Solution after refinement.
     pub(crate) refined: Vec<f64>,
-    /// Solution of the decomposition in double precision, for comparison.
+    /// Solution of the decomposition in double precision, before refinement.
     #[cfg(test)]
     pub(crate) plain: Vec<f64>,
 }
@@ -44,8 +44,8 @@ const ROUNDS: usize = 40;
 
 /// Finds the x of least ‖y − A x‖ for each column y of `targets`.
 ///
-/// The Householder decomposition of A, with columns scaled by powers of two, gives x and the residual r. Both are corrected by the
-/// residuals of the system r + A x = y, Aᵀr = 0, computed in doubled precision, until corrections no longer shrink.
+/// The Householder decomposition of A, with columns scaled by powers of two, gives x and the residual r. Both are corrected by the residuals of the system r +
+/// A x = y, Aᵀr = 0. These residuals are computed in doubled precision, until corrections no longer shrink.
 ///
 /// # Reference
 /// Å. Björck, BIT 7 (1967) 257, 322.
@@ -124,7 +124,7 @@ fn solve(matrix: Wide<'_>, decomposition: &Householder, target: &[f64]) -> Solut
     }
 }
 
-/// Largest change relative to its weight.
+/// Largest of `changes`, each relative to its weight.
 fn relative(changes: &[f64], weights: &[Double]) -> f64 {
     let of = |(change, weight): (&f64, &Double)| match weight.value().abs() {
         size if size > 0.0 => change.abs() / size,

@@ -2,7 +2,7 @@
 
 use taceva_core::{ErrorKind, ModelError, Progress};
 
-/// Stage of a long computation. Ends when dropped, also on errors.
+/// Stage of a long computation, reported to a progress receiver. Dropping it ends the stage, also on errors.
 pub(crate) struct ReportedStage<'a> {
     progress: &'a dyn Progress,
 }

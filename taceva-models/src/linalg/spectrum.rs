@@ -1,4 +1,4 @@
-//! Spectrum of a design matrix, from the smaller of its two Gram matrices.
+//! Spectrum of a design matrix, computed from the smaller of its two Gram matrices.
 
 use faer::diag::Diag;
 use faer::dyn_stack::{MemBuffer, MemStack};
@@ -10,10 +10,10 @@ use super::design::Design;
 use super::gram::{Side, gram, multiply};
 use crate::linalg::progress::{ReportedStage, interrupted};
 
-/// Eigenvalues, ascending, and eigenvectors of the symmetric matrix with the lower triangle of `matrix`.
+/// Eigenvalues, ascending, and eigenvectors of a symmetric matrix. Only the lower triangle of `matrix` is read.
 ///
 /// # Errors
-/// [`ErrorKind::Internal`] if the iteration does not converge, which finite numbers never cause.
+/// [`ErrorKind::Internal`] if the iteration does not converge. Finite numbers never cause this error.
 pub(crate) fn symmetric_eigen(matrix: MatRef<'_, f64>) -> Result<(Vec<f64>, Mat<f64>), ModelError> {
     let size = matrix.nrows();
     let mut vectors = Mat::zeros(size, size);
@@ -47,7 +47,7 @@ pub(crate) struct Spectrum<'d, 'a> {
     side: Side,
     /// Eigenvalues Σ², ascending, at least 0.
     eigenvalues: Vec<f64>,
-    /// Eigenvectors U or V.
+    /// Eigenvectors: U for the Gram matrix of samples, V for that of features.
     vectors: Mat<f64>,
 }
 
@@ -81,12 +81,12 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         &self.eigenvalues
     }
 
-    /// Mean eigenvalue: the unit of strengths.
+    /// Mean eigenvalue, which is the unit of strengths.
     pub(crate) fn mean_eigenvalue(&self) -> f64 {
         self.eigenvalues.iter().sum::<f64>() / self.eigenvalues.len() as f64
     }
 
-    /// Rounding error of an eigenvalue of 0. Smaller eigenvalues are noise.
+    /// Rounding error of an eigenvalue of 0. Smaller eigenvalues contain only noise.
     pub(crate) fn noise(&self) -> f64 {
         let largest = self.eigenvalues.last().copied().unwrap_or(0.0);
         largest * self.eigenvalues.len() as f64 * f64::EPSILON
@@ -97,7 +97,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         self.side == Side::Samples
     }
 
-    /// Projects `targets`, one row per sample, onto the vectors, for [`weights`](Spectrum::weights).
+    /// Projects `targets`, one row per sample, onto the eigenvectors, for [`weights`](Spectrum::weights).
     pub(crate) fn rotate(&self, targets: MatRef<'_, f64>) -> Mat<f64> {
         match self.side {
             Side::Samples => multiply(self.vectors.transpose(), targets),
@@ -108,8 +108,8 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// Weights of features for each column of `coefficients`. They are those of ridge regression with λ if a coefficient is
-    /// the rotated target / (eigenvalue + λ).
+    /// Weights of features for each column of `coefficients`. With the coefficients rotated target / (eigenvalue + λ), the result is ridge regression with
+    /// penalty λ.
     pub(crate) fn weights(&self, coefficients: MatRef<'_, f64>) -> Mat<f64> {
         let combined = multiply(self.vectors.as_ref(), coefficients);
         match self.side {
@@ -118,7 +118,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// U: one row per sample, one column per eigenvalue; zero for eigenvalues of [`noise`](Spectrum::noise).
+    /// Matrix U with one row per sample and one column per eigenvalue. Columns are zero for eigenvalues of [`noise`](Spectrum::noise).
     pub(crate) fn sample_vectors(&self) -> Mat<f64> {
         match self.side {
             Side::Samples => self.vectors.clone(),
@@ -136,7 +136,7 @@ impl<'d, 'a> Spectrum<'d, 'a> {
         }
     }
 
-    /// Last `count` columns of V, largest eigenvalue first.
+    /// Columns of V for the `count` largest eigenvalues, the largest first.
     pub(crate) fn leading_feature_vectors(&self, count: usize) -> Mat<f64> {
         let size = self.eigenvalues.len();
         let leading = Mat::from_fn(size, count, |row, column| {

@@ -1,11 +1,11 @@
-//! Standardisation of features by the training part, for models that compare samples.
+//! Standardisation of features by the training part, for models that compare samples with each other.
 
 use taceva_core::{Features, ModelError, single};
 
 use crate::linalg::invalid;
 use crate::linalg::{Design, FeatureScale};
 
-/// (feature − centre) · factor, rounded to single precision.
+/// Standardisation (feature − centre) · factor, rounded to single precision.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Standard {
     centre: Vec<f64>,
@@ -45,7 +45,7 @@ impl Standard {
         &self.factor
     }
 
-    /// Standardises one sample.
+    /// Writes the standardised features of one sample.
     pub(crate) fn write(&self, sample: &[f32], into: &mut [f32]) {
         let own = self.centre.iter().zip(&self.factor);
         for ((place, &value), (centre, factor)) in into.iter_mut().zip(sample).zip(own) {
@@ -53,7 +53,7 @@ impl Standard {
         }
     }
 
-    /// Standardises all samples, concatenated.
+    /// Standardised features of all samples, concatenated.
     pub(crate) fn rows(&self, features: &Features) -> Vec<f32> {
         let mut rows = vec![0.0; features.values().len()];
         let width = self.centre.len();

@@ -1,4 +1,4 @@
-//! Angles with a period, learnt as sine and cosine.
+//! Angles with a period, which estimators learn as sine and cosine.
 
 use taceva_core::{Channel, ChannelError, Channels, Unit};
 
@@ -7,17 +7,17 @@ use crate::training::card::AngleCard;
 /// Predicted channels of a model, and the learnt channels of its estimator.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct LearntChannels {
-    /// Channels of predictions.
+    /// Channels that the model predicts.
     pub(crate) asked: Channels,
-    /// Channels of the estimator.
+    /// Channels that the estimator learns.
     pub(crate) learnt: Channels,
-    /// Position of each predicted channel among the learnt channels.
+    /// Source of each predicted channel among the learnt channels.
     sources: Vec<LearntAs>,
 }
 
 #[derive(Clone, Debug, PartialEq)]
 enum LearntAs {
-    /// Channel learnt unchanged, at this position.
+    /// Channel learnt unchanged, with its index among the learnt channels.
     Itself(usize),
     /// Angle learnt as sine and cosine.
     Angle {
@@ -25,16 +25,16 @@ enum LearntAs {
         cosine: usize,
         /// Period, in the unit of the angle.
         period: f64,
-        /// True for labels from 0 to the period, false for labels around 0.
+        /// True for labels between 0 and the period, false for labels centred at 0.
         from_zero: bool,
     },
 }
 
 impl LearntChannels {
-    /// Learnt channels for `asked`, with `angles` as sine and cosine.
+    /// Learnt channels for the predicted channels `asked`. Each of `angles` is learnt as sine and cosine.
     ///
     /// # Errors
-    /// [`ChannelError`] if the name of a sine or cosine is too long or taken.
+    /// [`ChannelError`] if the name of a sine or cosine channel is too long or already taken.
     pub(crate) fn new(
         asked: &Channels,
         angles: &[AngleCard],
@@ -71,7 +71,7 @@ impl LearntChannels {
         })
     }
 
-    /// Labels of the learnt channels, from rows of labels of the predicted channels.
+    /// Labels of the learnt channels, computed from rows of labels of the predicted channels.
     pub(crate) fn labels(&self, values: &[f64]) -> Vec<f64> {
         let mut labels = Vec::new();
         for row in values.chunks_exact(self.asked.len()) {
@@ -96,7 +96,7 @@ impl LearntChannels {
         labels
     }
 
-    /// Predictions of the predicted channels, from rows of the learnt channels.
+    /// Predictions of the predicted channels, computed from rows of the learnt channels.
     pub(crate) fn answers(&self, learnt: &[f64]) -> Vec<f64> {
         let rows = learnt.chunks_exact(self.learnt.len());
         let answers = rows.flat_map(|row| {
@@ -113,7 +113,8 @@ impl LearntChannels {
         answers.collect()
     }
 
-    /// Standard deviations of the predicted channels, from deviations and predictions of the learnt channels. First-order for angles.
+    /// Standard deviations of the predicted channels, computed from deviations and predictions of the learnt channels. For angles, the deviation is a
+    /// first-order approximation.
     pub(crate) fn deviations(&self, deviations: &[f64], learnt: &[f64]) -> Vec<f64> {
         let width = self.learnt.len();
         let rows = deviations
@@ -138,7 +139,7 @@ impl LearntChannels {
         found.collect()
     }
 
-    /// Position of each predicted channel among the learnt channels. `None` for angles.
+    /// Index of each predicted channel among the learnt channels; `None` for angles.
     pub(crate) fn as_they_are(&self) -> impl Iterator<Item = Option<usize>> {
         self.sources.iter().map(|source| match source {
             LearntAs::Itself(at) => Some(*at),
@@ -148,7 +149,7 @@ impl LearntChannels {
 }
 
 impl AngleCard {
-    /// Cards of the `channels` with a period, from their labels `values`, one row per sample.
+    /// Cards of the angles with a period among `channels`. `values` contains labels, one row per sample.
     pub(crate) fn of_labels(channels: &Channels, values: &[f64]) -> Vec<AngleCard> {
         let width = channels.len();
         let all = channels.iter().enumerate();
@@ -170,12 +171,12 @@ impl AngleCard {
         cards.collect()
     }
 
-    /// Channel name of the sine.
+    /// Name of the learnt sine channel.
     pub(crate) fn sine(&self) -> String {
         format!("{}_sin", self.name)
     }
 
-    /// Channel name of the cosine.
+    /// Name of the learnt cosine channel.
     pub(crate) fn cosine(&self) -> String {
         format!("{}_cos", self.name)
     }

@@ -1,4 +1,4 @@
-//! Bounds of predictions: the range of the training labels plus a quarter of it on either side.
+//! Bounds of predictions: the range of the training labels, extended by a quarter of it on either side.
 
 use taceva_core::Targets;
 
@@ -6,10 +6,10 @@ use super::Model;
 use super::card::MARGIN;
 use crate::training::label_scaling::LabelScaling;
 
-/// Bounds of predictions for each channel, from the training labels.
+/// Bounds of predictions for each channel, computed from the training labels.
 ///
-/// A quarter of the label range is allowed on either side. For lighting or depths outside the training part, a model may be wrong, but
-/// not by many times its range. A constant label is its own bound.
+/// The bounds limit errors of a model for lighting or depths outside the training part. They include a quarter of the label range on either side. A constant
+/// label is its own lower and upper bound.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels, Targets};
@@ -47,12 +47,12 @@ impl ChannelBounds {
 }
 
 impl LabelBounds {
-    /// Unknown bounds of `channels` channels.
+    /// Unknown bounds for `channels` channels.
     pub fn unknown(channels: usize) -> LabelBounds {
         LabelBounds(vec![None; channels])
     }
 
-    /// Bounds from the training `labels`, at least one per channel.
+    /// Bounds from the training `labels`. There must be at least one label per channel.
     pub fn of_labels(labels: Targets<'_>) -> LabelBounds {
         let scaling = LabelScaling::of(labels);
         let ranges = scaling.minimum().iter().zip(scaling.span()).enumerate();
@@ -63,12 +63,12 @@ impl LabelBounds {
         LabelBounds(bounds.collect())
     }
 
-    /// Least and greatest prediction of the channel at `position`, in its unit. `None` if unknown.
+    /// Least and greatest prediction of the channel with index `position`, in the unit of the channel; `None` if unknown.
     pub fn of(&self, position: usize) -> Option<[f64; 2]> {
         self.0[position].map(|bounds| [bounds.least, bounds.greatest])
     }
 
-    /// True if the unbounded `prediction` exceeds the bounds of the channel at `position`. `None` if bounds are unknown.
+    /// True if the unclipped `prediction` exceeds the bounds of the channel with index `position`; `None` if the bounds are unknown.
     ///
     /// Always false for a constant label.
     pub fn is_beyond(&self, position: usize, prediction: f64) -> Option<bool> {
@@ -76,10 +76,10 @@ impl LabelBounds {
         Some(bounds.varies && !(bounds.least..=bounds.greatest).contains(&prediction))
     }
 
-    /// Clamps `predictions`, one row per sample, to their bounds.
+    /// Clips `predictions`, one row per sample, to their bounds.
     ///
     /// # Shapes
-    /// `[samples, channels]`.
+    /// `predictions`: `[samples, channels]`.
     pub fn bound(&self, predictions: &mut [f64]) {
         let channels = self.0.len();
         for (position, bounds) in self.0.iter().enumerate() {
@@ -92,7 +92,7 @@ impl LabelBounds {
 }
 
 impl Model {
-    /// Bounds of predictions. Unknown for angles with a period.
+    /// Bounds of predictions. The bounds of angles with a period are unknown.
     pub fn label_bounds(&self) -> LabelBounds {
         let bounds = self.channels.as_they_are().map(|position| {
             let channel = &self.card.channels[position?];

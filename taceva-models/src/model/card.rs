@@ -1,11 +1,11 @@
-//! Cards of newly fitted models.
+//! Creates the cards of newly fitted models.
 
 use super::input::FitInput;
 use crate::training::card::{AutoCard, ChannelCard, ModelCard, SampleCounts};
 use crate::training::fit::ModelFit;
 use crate::training::label_scaling::label_means;
 
-/// Allowed excess of predictions over the training labels, as a share of their range.
+/// Maximum distance of predictions beyond the training labels, as a share of the label range.
 pub(super) const MARGIN: f64 = 0.25;
 
 impl ModelCard {

@@ -1,4 +1,4 @@
-//! Fits that choose among models, some with finer features.
+//! Fits that choose among models, some of which use finer features.
 
 use taceva_core::{Features, ModelError, Progress};
 
@@ -18,11 +18,11 @@ pub struct CloserFeatures<'a> {
 }
 
 impl Model {
-    /// Like [`fit`](Model::fit), with finer features for estimators that [look closer](crate::ModelEstimator::looks_closer). Chooses an
-    /// estimator and fits it on its features.
+    /// Like [`fit`](Model::fit), with finer features for estimators that [look closer](crate::ModelEstimator::looks_closer). Chooses an estimator, and fits it
+    /// to its own features.
     ///
     /// # Errors
-    /// Errors of [`fit`](Model::fit), and if finer features are given for only one of two parts.
+    /// Errors of [`fit`](Model::fit). Also if finer features are given for only one of two parts.
     pub fn fit_closer(
         input: FitInput<'_>,
         closer: CloserFeatures<'_>,

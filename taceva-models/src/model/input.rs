@@ -1,4 +1,4 @@
-//! Input of a fit.
+//! Input of a model fit.
 
 use taceva_core::{InputInfo, TrainingSet};
 
@@ -7,11 +7,11 @@ use crate::settings::ModelSettings;
 use crate::training::card::Provenance;
 use crate::training::fit::ModelEstimator;
 
-/// Input of a fit.
+/// Estimator, samples and provenance for a fit.
 pub struct FitInput<'a> {
     /// Unfitted model.
     pub estimator: &'a dyn ModelEstimator,
-    /// Settings of the model, as typed.
+    /// Settings of the model, as the user typed them.
     pub settings: &'a ModelSettings,
     /// Features of the model.
     pub features: FeatureSpec,
@@ -19,7 +19,7 @@ pub struct FitInput<'a> {
     pub input: InputInfo,
     /// Training part, with features of an [`Extractor`](crate::Extractor). Principal components are computed later.
     pub training: TrainingSet<'a>,
-    /// Validation part, which chooses settings.
+    /// Validation part, on which settings are chosen.
     pub validation: Option<TrainingSet<'a>>,
     /// Provenance of the samples.
     pub provenance: Provenance,

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The most similar known word if one is similar; otherwise all known words.
+/// The most similar known word, or all known words if none is similar.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Suggestion {
     nearest: Option<String>,
@@ -18,7 +18,7 @@ impl Suggestion {
         Suggestion { nearest, known }
     }
 
-    /// Suggests `word` alone.
+    /// Suggests only `word`.
     pub(crate) fn meaning(word: &str) -> Suggestion {
         Suggestion {
             nearest: Some(word.to_owned()),
@@ -26,7 +26,7 @@ impl Suggestion {
         }
     }
 
-    /// Most similar word. `None` if no word is similar.
+    /// Most similar word; `None` if no word is similar.
     pub fn nearest(&self) -> Option<&str> {
         self.nearest.as_deref()
     }

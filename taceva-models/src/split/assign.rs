@@ -12,16 +12,16 @@ use crate::settings::Suggestion;
 use taceva_core::random::SplitMix64;
 use taceva_core::{by_count, counted};
 
-/// Rows of each part, ascending.
+/// Rows of each part, each ascending.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Split {
-    /// Training rows.
+    /// Rows for training.
     pub train: Vec<usize>,
-    /// Rows that choose settings.
+    /// Rows for choosing settings.
     pub validation: Vec<usize>,
-    /// Test rows.
+    /// Rows for testing.
     pub test: Vec<usize>,
-    /// Rows outside all parts.
+    /// Rows that belong to no part.
     pub left_out: Vec<usize>,
     /// Note for readers of results.
     pub note: Option<String>,
@@ -37,7 +37,7 @@ impl Split {
         }
     }
 
-    /// Maps this split of the rows `rows`, ascending, to a recording of `all` rows. Leaves out all other rows.
+    /// Converts this split of `rows`, ascending, to a split of a recording of `all` rows. All other rows are left out.
     ///
     /// # Panics
     /// If the split refers to a row beyond `rows`.
@@ -85,8 +85,7 @@ impl SplitSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks the required columns, or the training or test part is empty. The validation part may be empty if
-    /// parts are named.
+    /// [`SplitError`] if `input` lacks the required columns, or if the training or test part is empty. The validation part may be empty if parts are named.
     pub fn assign(&self, input: &SplitInput<'_>, seed: u64) -> Result<Split, SplitError> {
         input.check()?;
         let split = match &self.kind {
@@ -134,7 +133,7 @@ impl SplitSpec {
         }
     }
 
-    /// Requested share of a part; 1 for every part if parts are named.
+    /// Requested share of a part; 1 for every part if the parts are named.
     fn share_of(&self, part: Part) -> f64 {
         if self.kind == SplitKind::All {
             return if part == Part::Train { 1.0 } else { 0.0 };
@@ -153,7 +152,7 @@ impl SplitSpec {
     }
 }
 
-/// Sections of rows in order, each with a flag that is true if a recording begins there.
+/// Sections of rows in order. The flag of a section is true if a recording begins there.
 fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>, bool)> + 'a {
     let starts = std::iter::once(0).chain(input.sections.iter().copied());
     let ends = input.sections.iter().copied().chain([input.rows]);
@@ -163,10 +162,10 @@ fn sections<'a>(input: &'a SplitInput<'a>) -> impl Iterator<Item = (Range<usize>
     })
 }
 
-/// Assigns whole clusters at random. All clusters have equal weight, regardless of their rows. With one row per cluster, this is
-/// the random split. Clusters are numbered by their first row, so a seed assigns rows, not names.
+/// Assigns whole clusters to parts at random. All clusters have equal weight, regardless of their number of rows. With one row per cluster, this is the random
+/// split. Clusters are numbered by their first row, so the result does not depend on names.
 ///
-/// A cluster keeps the part of its first section. Random draws restart with each recording, which is therefore split as if alone.
+/// A cluster remains in the part of its first section. Random draws restart with each recording. Each recording is therefore divided as if it were alone.
 fn by_cluster<N: Ord>(
     names: &[N],
     input: &SplitInput<'_>,
@@ -197,7 +196,7 @@ fn by_cluster<N: Ord>(
     ))
 }
 
-/// Parts of `total` clusters of a section. A part may be empty if there are several sections.
+/// Parts of the `total` clusters of a section. A part may be empty if there are several sections.
 fn parts_of_section(
     total: usize,
     input: &SplitInput<'_>,
@@ -252,7 +251,7 @@ fn by_recording(
     Ok(assigned)
 }
 
-/// `total` parts: training first, then validation, then test. Each part with a share gets at least one cluster.
+/// List of `total` parts: training first, then validation, then test. Each part with a share has at least one cluster.
 fn parts_in_order(
     total: usize,
     fractions: Fractions,
@@ -273,7 +272,7 @@ fn parts_in_order(
     Ok(in_order(counts))
 }
 
-/// Repeats each part `counts` times, training first.
+/// Repeats each part as often as `counts` requires, training first.
 fn in_order(counts: [usize; 3]) -> Vec<Part> {
     let counted = Part::ALL.into_iter().zip(counts);
     counted

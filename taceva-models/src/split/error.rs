@@ -16,7 +16,7 @@ pub enum SplitError {
         /// Suggested splits.
         suggestion: Suggestion,
     },
-    /// Values of a column are assigned in the wrong format.
+    /// The text that assigns values of a column to parts has the wrong format.
     #[error(
         "`{found}`: expected by-column:NAME, by-column:NAME=train:1,2;val:3;test:4 or by-recording=train:a,b;test:c, with train and test", found = taceva_core::shown(found)
     )]
@@ -46,7 +46,7 @@ pub enum SplitError {
         groups: usize,
         /// Number of folds.
         folds: usize,
-        /// Kind of groups.
+        /// Kind of the groups.
         by: FoldGroups,
     },
     /// The shares do not add up to 100 or 1.
@@ -57,7 +57,7 @@ pub enum SplitError {
         /// Sum of the shares.
         sum: f64,
     },
-    /// Blocks of time are missing: the recording has too few consecutive samples.
+    /// The recording has too few consecutive samples for blocks of time.
     #[error(
         "split by-block: the recording has too few consecutive samples for blocks of time; use random, or name a column with \
             by-column:NAME"
@@ -69,7 +69,7 @@ pub enum SplitError {
         /// Shares as given.
         given: [f64; 3],
     },
-    /// A list and the recording have different lengths.
+    /// A list is longer or shorter than the recording.
     #[error("{what}: {found} values for {rows} samples")]
     Length {
         /// Name of the list.
@@ -79,13 +79,13 @@ pub enum SplitError {
         /// Number of samples.
         rows: usize,
     },
-    /// There are too few samples or clusters for one in each part.
+    /// The number of samples or clusters is too small for one in each part.
     #[error(
         "{found} {what} are too few for one in each part{}",
         if *found == 0 { "; in a run this means that no press touched the gel" } else { "" }
     )]
     Few {
-        /// Kind of clusters.
+        /// Kind of the clusters.
         what: &'static str,
         /// Number of clusters.
         found: usize,
@@ -110,10 +110,10 @@ pub enum SplitError {
         /// Row, counted from 0.
         row: usize,
     },
-    /// The recording has no such column.
+    /// The recording has no column of this name.
     #[error("split by-column: no column `{name}`, {suggestion}", name = taceva_core::shown(name))]
     NoColumn {
-        /// Name as given.
+        /// Name that was given.
         name: String,
         /// Suggested columns.
         suggestion: Suggestion,
@@ -123,26 +123,26 @@ pub enum SplitError {
     NoValue {
         /// Name of the column.
         column: String,
-        /// Value as given.
+        /// Value that was given.
         value: String,
         /// Suggested values.
         suggestion: Suggestion,
     },
-    /// The split needs several recordings.
+    /// The split needs several recordings, but there is one.
     #[error("split {split}: there is one recording; name two or more")]
     NoRecordings {
         /// Name of the split.
         split: &'static str,
     },
-    /// There is no such recording.
+    /// No recording has this name.
     #[error("split by-recording: no recording is called `{name}`, {suggestion}", name = taceva_core::shown(name))]
     NoRecording {
-        /// Name as given.
+        /// Name that was given.
         name: String,
         /// Suggested recordings.
         suggestion: Suggestion,
     },
-    /// The split has several folds, but a single one is needed.
+    /// The split has several folds, but a single fitted model is needed.
     #[error(
         "split {split} fits a model for each fold, but one model is needed: use `all` or a split with a test part, or score all folds with \
             `evaluate`"
@@ -161,7 +161,7 @@ pub enum SplitError {
     Part {
         /// Row, counted from 0.
         row: usize,
-        /// Part found.
+        /// Text found.
         found: String,
     },
 }

@@ -6,26 +6,26 @@ use std::str::FromStr;
 use super::error::SplitError;
 use crate::settings::Suggestion;
 
-/// Specification of cross-validation: number of folds, and groups that stay together.
+/// Specification of cross-validation: number of folds, and groups of samples that are never divided.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FoldSpec {
-    /// Number of folds. `None` for one per group.
+    /// Number of folds; `None` for one fold per group.
     pub count: Option<usize>,
-    /// Groups of samples that stay together.
+    /// Kind of the groups that are never divided.
     pub by: FoldGroups,
 }
 
-/// Groups of samples that stay together in one fold.
+/// Kind of groups whose samples are always in one fold.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum FoldGroups {
-    /// Groups found in the recording: repeated points, otherwise blocks of similar neighbouring samples, otherwise single samples.
+    /// Groups detected in the recording: repeated points, otherwise blocks of similar neighbouring samples, otherwise single samples.
     #[default]
     Detected,
     /// Single samples.
     Samples,
     /// Samples of the same contact point.
     Points,
-    /// Samples of the same block of time.
+    /// Samples in the same block of time.
     Blocks,
     /// Samples of the same recording.
     Recordings,
@@ -33,7 +33,7 @@ pub enum FoldGroups {
     Column(String),
 }
 
-/// Words for groups, in the order of suggestions.
+/// Words for kinds of groups, in the order of suggestions.
 const GROUPS: [&str; 5] = [
     "random",
     "by-point",
@@ -43,7 +43,7 @@ const GROUPS: [&str; 5] = [
 ];
 
 impl FoldSpec {
-    /// Parses cross-validations such as `cv:5`, `cv:10 by-point` or `loo by-column:object`. `None` for other splits.
+    /// Parses cross-validations such as `cv:5`, `cv:10 by-point` or `loo by-column:object`; `None` for other splits.
     pub(super) fn parse(text: &str) -> Option<Result<FoldSpec, SplitError>> {
         let (word, by) = text.split_once(' ').unwrap_or((text, ""));
         let count = match (word, word.strip_prefix("cv:")) {

@@ -1,4 +1,4 @@
-//! Folds of a cross-validation: each group of samples is tested once, by a model fitted on other groups.
+//! Folds of a cross-validation: each group of samples is tested once, by a model fitted to other groups.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,8 +22,8 @@ pub struct Folds {
 }
 
 impl FoldSpec {
-    /// Computes the folds of `input`. The same seed gives the same folds on every machine. Untested groups of a fold are divided into
-    /// training and validation, in the shares of `fractions`.
+    /// Computes the folds of `input`. The same seed gives the same folds on every machine. The untested groups of a fold are divided into training and
+    /// validation, in the shares of `fractions`.
     ///
     /// ```
     /// use taceva_models::{Fractions, FoldGroups, FoldSpec, SplitInput};
@@ -36,7 +36,7 @@ impl FoldSpec {
     /// ```
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks the names of groups, or has fewer groups than folds.
+    /// [`SplitError`] if `input` lacks the names of the groups, or has fewer groups than folds.
     pub fn folds(
         &self,
         input: &SplitInput<'_>,
@@ -75,7 +75,7 @@ impl FoldSpec {
     /// Group name of every row of `input`; empty for rows without a group.
     ///
     /// # Errors
-    /// [`SplitError`] if `input` lacks the names of groups.
+    /// [`SplitError`] if `input` lacks the names of the groups.
     pub fn groups(&self, input: &SplitInput<'_>) -> Result<Vec<String>, SplitError> {
         let samples = || (0..input.rows).map(|row| format!("{row}")).collect();
         Ok(match &self.by {
@@ -105,7 +105,7 @@ impl FoldSpec {
     }
 }
 
-/// Part of each group in fold `fold` of `count`. Groups are tested in turn; the groups after the tested ones choose settings.
+/// Part of each group in fold `fold` of `count`. Groups are tested in turn. The groups after the tested groups are the validation part.
 fn parts<'a>(
     order: &[&'a str],
     fold: usize,

@@ -12,7 +12,7 @@ pub struct Fractions {
 }
 
 impl Default for Fractions {
-    /// 70 % training, 20 % validation, 10 % test.
+    /// Shares of 70 % training, 20 % validation and 10 % test.
     fn default() -> Fractions {
         Fractions {
             shares: [0.7, 0.2, 0.1],
@@ -21,10 +21,10 @@ impl Default for Fractions {
 }
 
 impl Fractions {
-    /// Shares of `train`, `validation` and `test` in any unit. They are divided by their sum.
+    /// Shares of `train`, `validation` and `test`, in any unit. Each is divided by the sum of all.
     ///
     /// # Errors
-    /// [`SplitError::Fractions`] unless all are finite and nonnegative, and training has a share.
+    /// [`SplitError::Fractions`] unless all shares are finite and nonnegative, and training has a share.
     pub fn new(train: f64, validation: f64, test: f64) -> Result<Fractions, SplitError> {
         let given = [train, validation, test];
         let sum: f64 = given.iter().sum();
@@ -37,7 +37,7 @@ impl Fractions {
         }
     }
 
-    /// Number of validation groups among `total` training and validation groups: 0 without a validation share, and never all.
+    /// Number of validation groups among `total` training and validation groups. It is 0 without a validation share, and always below `total`.
     pub(super) fn validation_of_rest(&self, total: usize) -> usize {
         let [train, validation, _] = self.shares;
         let rest = Fractions {
@@ -48,12 +48,12 @@ impl Fractions {
         wanted.max(least).min(total.saturating_sub(1))
     }
 
-    /// Shares in the order of [`Part::ALL`](crate::Part::ALL), with the sum 1.
+    /// Shares in the order of [`Part::ALL`](crate::Part::ALL). Their sum is 1.
     pub fn shares(&self) -> [f64; 3] {
         self.shares
     }
 
-    /// Divides `total` by the largest-remainder method. Ties go to the earlier part.
+    /// Divides `total` by the largest-remainder method. Of equal remainders, the earlier part has precedence.
     pub(super) fn counts(&self, total: usize) -> [usize; 3] {
         let exact = self.shares.map(|share| share * total as f64);
         // 0.7 × 10 is 7.000…: a number that is an integer to within rounding counts as one.

@@ -6,7 +6,7 @@ use super::assign::Split;
 use super::error::SplitError;
 use super::part::Part;
 
-/// Columns on which a split may depend.
+/// Columns of a recording on which a split may depend.
 ///
 /// # Shapes
 /// Every list except `sections` has one value per row.
@@ -16,32 +16,32 @@ pub struct SplitInput<'a> {
     pub rows: usize,
     /// Contact point of each sample.
     pub points: Option<&'a [String]>,
-    /// Time of each sample, s.
+    /// Time of each sample, in s.
     pub times_s: Option<&'a [f64]>,
-    /// Part of each sample declared by the recording.
+    /// Part of each sample, as the recording declares it.
     pub parts: Option<&'a [String]>,
     /// Columns by name.
     pub columns: BTreeMap<&'a str, &'a [String]>,
-    /// Recording of each sample, if there are several.
+    /// Name of the recording of each sample, if there are several recordings.
     pub recordings: Option<&'a [String]>,
     /// Blocks of time, if there are any.
     pub blocks: Option<SplitBlocks<'a>>,
-    /// First row of every section except the first, ascending. Later sections were recorded or added later. Random and chronological splits
-    /// divide each section separately, so that later samples change no earlier part. Empty for a single section.
+    /// First row of every section except the first, ascending. Later sections were recorded or added later. Random and chronological splits divide each section
+    /// separately, so that later samples do not change earlier parts. Empty for a single section.
     pub sections: &'a [usize],
 }
 
-/// Blocks of time: consecutive samples that stay together.
+/// Blocks of time: consecutive samples that are assigned to one part.
 ///
 /// # Shapes
 /// Both lists have one value per row.
 #[derive(Clone, Copy, Debug)]
 pub struct SplitBlocks<'a> {
-    /// Block of each sample; empty for samples without a block.
+    /// Name of each sample's block; empty for samples without a block.
     pub names: &'a [String],
-    /// Position of each sample in time, in samples. Positions of unrelated samples differ by more than the gap.
+    /// Position of each sample in time, counted in samples. The positions of unrelated samples differ by more than the gap.
     pub places: &'a [usize],
-    /// Samples left out between blocks of different parts.
+    /// Number of samples left out between blocks of different parts.
     pub gap: usize,
 }
 
@@ -73,8 +73,7 @@ impl SplitInput<'_> {
         }
     }
 
-    /// Removes samples within the gap of a part that evaluates them: training samples near validation or test samples, and
-    /// validation samples near test samples.
+    /// Leaves out samples within the gap of a later part: training samples near validation or test samples, and validation samples near test samples.
     pub(super) fn apart(&self, split: Split) -> Split {
         let Some(SplitBlocks { places, gap, .. }) = self.blocks.filter(|blocks| blocks.gap > 0)
         else {

@@ -1,4 +1,4 @@
-//! Record of a split, so that others can reuse its parts.
+//! Record of a split, with which others can reproduce its parts.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,26 +7,26 @@ use super::error::SplitError;
 use super::part::Part;
 use super::spec::SplitSpec;
 
-/// Record of the parts of samples, by their ids.
+/// Record of the parts of a split, with the ids of their samples.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitManifest {
-    /// Split as written, with its fractions.
+    /// Split as the user wrote it, with its fractions.
     pub split: String,
     /// Random seed.
     pub seed: u64,
     /// Number of samples in each part.
     pub counts: SplitCounts,
-    /// Note for readers.
+    /// Note for readers of the record.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub note: Option<String>,
     /// Ids of the training samples.
     pub train: Vec<String>,
-    /// Ids of the validation samples, which choose settings.
+    /// Ids of the validation samples, on which settings are chosen.
     pub validation: Vec<String>,
     /// Ids of the test samples.
     pub test: Vec<String>,
-    /// Ids of the test samples of each fold; empty for one division.
+    /// Ids of the test samples of each fold; empty for a single division.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub folds: Vec<Vec<String>>,
 }
@@ -35,13 +35,13 @@ pub struct SplitManifest {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitCounts {
-    /// Training samples.
+    /// Number of training samples.
     pub train: usize,
-    /// Validation samples, which choose settings.
+    /// Number of validation samples, on which settings are chosen.
     pub validation: usize,
-    /// Test samples.
+    /// Number of test samples.
     pub test: usize,
-    /// Samples outside all parts.
+    /// Number of samples that belong to no part.
     pub left_out: usize,
 }
 
@@ -58,10 +58,10 @@ impl SplitCounts {
 }
 
 impl SplitManifest {
-    /// Records `split`, whose rows have `ids`.
+    /// Records `split`. `ids` contains the id of each row.
     ///
     /// # Errors
-    /// [`SplitError::Length`] if the number of `ids` differs from the rows of the split.
+    /// [`SplitError::Length`] if the number of `ids` differs from the number of rows of the split.
     pub fn new(
         spec: &SplitSpec,
         seed: u64,
@@ -96,7 +96,7 @@ impl SplitManifest {
         })
     }
 
-    /// The same record with the ids of the test samples of each fold.
+    /// Returns the record with the ids of the test samples of each fold.
     #[must_use]
     pub fn with_folds(self, folds: Vec<Vec<String>>) -> SplitManifest {
         SplitManifest { folds, ..self }

@@ -10,9 +10,9 @@ use serde::{Deserialize, Serialize};
 pub enum Part {
     /// Training samples.
     Train,
-    /// Validation samples, which choose settings.
+    /// Validation samples, on which settings are chosen.
     Validation,
-    /// Test samples, which are unseen during the fit.
+    /// Test samples, which the fit does not read.
     Test,
 }
 
@@ -20,7 +20,7 @@ impl Part {
     /// All parts, in order.
     pub const ALL: [Part; 3] = [Part::Train, Part::Validation, Part::Test];
 
-    /// Parses `train`, `val`, `validation` or `test`. `None` for other names.
+    /// Parses `train`, `val`, `validation` or `test`; `None` for other names.
     pub fn from_name(name: &str) -> Option<Part> {
         match name {
             "train" => Some(Part::Train),

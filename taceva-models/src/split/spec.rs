@@ -15,42 +15,42 @@ use crate::settings::Suggestion;
 pub struct SplitSpec {
     /// Method of assignment.
     pub kind: SplitKind,
-    /// Sizes of the parts. Not used if parts are named.
+    /// Sizes of the parts. Ignored if parts are named.
     pub fractions: Fractions,
 }
 
 /// Method of assigning samples to parts.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SplitKind {
-    /// Random by sample.
+    /// Random, by sample.
     Random,
-    /// By time: the first samples train, the last samples test.
+    /// By time: the first samples are for training, the last samples for test.
     Chronological,
-    /// Random by contact point. All presses at a point are in one part.
+    /// Random, by contact point. All presses at a point are in one part.
     #[default]
     ByPoint,
-    /// By the values of a column.
+    /// By the values in a column.
     ByColumn(ColumnSplit),
-    /// By recording: named parts, or random if empty.
+    /// By recording, with named parts. Random if no part is named.
     ByRecording(BTreeMap<String, Part>),
-    /// Random by block of time, with a gap between blocks of different parts.
+    /// Random, by block of time, with a gap between blocks of different parts.
     ByBlock,
-    /// Each of several recordings is tested by a model fitted on all others.
+    /// Cross-validation over several recordings: a model fitted to all others tests each recording.
     LeaveOneRecordingOut,
-    /// Cross-validation: each group is tested by a model fitted on others.
+    /// Cross-validation: a model fitted to other groups tests each group.
     Folds(FoldSpec),
-    /// Parts declared by the recording.
+    /// Parts that the recording declares.
     Declared,
-    /// No split: every sample is trained on, for a final model that is tested on other recordings.
+    /// No split: all samples are for training, for a final model that is tested on other recordings.
     All,
 }
 
-/// A column whose values determine the part.
+/// A column whose values determine the part of a sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ColumnSplit {
     /// Name of the column.
     pub column: String,
-    /// Part of each value. Random by value if empty.
+    /// Part of each value. If empty, values are assigned at random.
     pub parts: BTreeMap<String, Part>,
 }
 
@@ -124,19 +124,19 @@ impl FromStr for SplitSpec {
     }
 }
 
-/// Parses three numbers such as `70/20/10`.
+/// Parses three numbers such as `70/20/10`; `None` for any other text.
 fn three_numbers(text: &str) -> Option<[f64; 3]> {
     let numbers: Option<Vec<f64>> = text.split('/').map(|number| number.parse().ok()).collect();
     numbers?.try_into().ok()
 }
 
-/// `chronological 80/0/20` for `chronological:80/0/20`; `None` for a text without shares after a colon.
+/// Converts `chronological:80/0/20` to `chronological 80/0/20`; `None` for a text without shares after a colon.
 fn with_shares(text: &str) -> Option<String> {
     let (word, shares) = text.rsplit_once(':')?;
     three_numbers(shares).map(|_| format!("{word} {shares}"))
 }
 
-/// Rejects shares at the end of `text` with a sum other than 100 or 1. [`Fractions::new`] rejects infinite and negative shares.
+/// Rejects `shares` at the end of `text` if their sum is not 100 or 1. [`Fractions::new`] rejects infinite and negative shares.
 fn check_sum(text: &str, shares: [f64; 3]) -> Result<(), SplitError> {
     let sum: f64 = shares.iter().sum();
     let is_whole = [100.0, 1.0]
@@ -171,7 +171,7 @@ fn column_split(text: &str) -> Result<ColumnSplit, SplitError> {
     })
 }
 
-/// Parses `train:1,2;val:3;test:4`, the end of `text`.
+/// Parses `assignment`, such as `train:1,2;val:3;test:4`, at the end of `text`.
 fn named_parts(text: &str, assignment: &str) -> Result<BTreeMap<String, Part>, SplitError> {
     let malformed = |found: &str| SplitError::Assignment {
         found: found.to_owned(),

@@ -1,4 +1,4 @@
-//! Model cards: kind of model, training data, and errors of the fit.
+//! Model cards: kind of the model, training data, and errors of the fit.
 
 mod auto;
 mod distance;
@@ -20,46 +20,46 @@ use crate::features::choice::FeatureChoice;
 use crate::training::choice::Choice;
 use crate::training::file::limits::FORMAT;
 
-/// Description stored in a model file.
+/// Description of a model, stored in its file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ModelCard {
     /// Version of the file format, `major.minor`.
     pub format: String,
-    /// Version of TacEva that fitted the model.
+    /// Version of TacEva with which the model was fitted.
     pub taceva: String,
     /// Name of the model.
     pub model: String,
-    /// Settings given by the user, as `key=value`.
+    /// Settings that the user gave, as `key=value`.
     pub settings: Vec<String>,
     /// Chosen setting and error of each channel.
     pub choice: Choice,
     /// True if the model was refitted on training and validation parts with the chosen settings.
     pub refitted: bool,
-    /// Features of frames or signals.
+    /// Specification of the features of frames or signals.
     pub features: FeatureSpec,
-    /// Share of the training variance kept by principal components, if there are any.
+    /// Share of the training variance that the principal components explain; `None` without principal components.
     pub pca_variance: Option<f64>,
-    /// Only accepted input: size and format of frames (`frame` in the file), or grid of signals (`signals`).
+    /// The only accepted input: size and format of frames (`frame` in the file), or grid of signals (`signals`).
     #[serde(flatten)]
     pub input: InputInfo,
-    /// Divisors of each channel of a taxel: spread over the training part, rounded to a power of two. `None` for frames.
+    /// Divisor of each channel of a taxel: the spread over the training part, rounded to a power of two. `None` for frames.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub spread: Option<Vec<f64>>,
-    /// Allowed excess of predictions over the training labels, as a share of their range.
+    /// Maximum distance of predictions beyond the training labels, as a share of the label range.
     pub margin: f64,
-    /// Learnt channels: each predicted channel, or sine and cosine of an angle with a period.
+    /// Learnt channels: each predicted channel, or the sine and cosine of an angle with a period.
     pub channels: Vec<ChannelCard>,
     /// Predicted angles with a period.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub angles: Vec<AngleCard>,
-    /// Limits of the distance from the training samples. `None` for a model that uses no features, or in older files.
+    /// Limits of the distance from the training samples; `None` for a model without features, or in older files.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distance: Option<DistanceCard>,
-    /// Number of samples of each part.
+    /// Number of samples in each part.
     pub samples: SampleCounts,
     /// Provenance of the samples.
     pub provenance: Provenance,
-    /// Form of a model that is neither linear nor a network.
+    /// Form of the model; `None` for a linear model or a network.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub form: Option<Form>,
     /// Record of an automatic choice of model.
@@ -68,10 +68,10 @@ pub struct ModelCard {
     /// Record of an automatic choice of features.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub feature_choice: Option<FeatureChoice>,
-    /// Network settings, for a network.
+    /// Network settings; `None` for other models.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub network: Option<NetworkCard>,
-    /// Network settings of each member, for an ensemble.
+    /// Network settings of each member of an ensemble; empty for other models.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub ensemble: Vec<NetworkCard>,
     /// Library that fitted the model and is needed to read it.
@@ -82,11 +82,11 @@ pub struct ModelCard {
     pub plugin: Option<PluginCard>,
 }
 
-/// Form of a model that is neither linear nor a network.
+/// Form of a model other than a linear model or a network.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Form {
-    /// Kernel on landmarks.
+    /// Kernel evaluated at landmarks.
     Kernel {
         /// Number of landmarks: training samples with which every sample is compared.
         landmarks: usize,
@@ -97,12 +97,12 @@ pub enum Form {
     },
     /// Nearest training samples.
     Neighbours {
-        /// Number of stored samples.
+        /// Number of stored training samples.
         samples: usize,
     },
     /// Model that predicts one of the training labels.
     Classes {
-        /// Number of classes, summed over channels.
+        /// Total number of classes over all channels.
         classes: usize,
     },
     /// Sum of trees.
@@ -119,15 +119,15 @@ pub enum Form {
 pub struct ChannelCard {
     /// Name of the channel.
     pub name: String,
-    /// Unit of predictions.
+    /// Unit of the predictions.
     pub unit: Unit,
     /// Least training label.
     pub minimum: f64,
-    /// Range of the training labels; 1 if they are constant.
+    /// Range of the training labels; 1 if all labels are equal.
     pub span: f64,
-    /// Mean training label: the best constant prediction, the reference of skill.
+    /// Mean training label: the best constant prediction, and the reference of the skill.
     pub mean: f64,
-    /// True if all training labels are equal. The channel is then predicted as this label.
+    /// True if all training labels are equal. The model then predicts this label.
     pub constant_label: bool,
 }
 
@@ -143,12 +143,12 @@ pub struct ChannelCard {
 pub struct AngleCard {
     /// Name of the angle.
     pub name: String,
-    /// Unit of predictions, degrees or radians.
+    /// Unit of predictions: degrees or radians.
     #[serde(default = "degree", skip_serializing_if = "is_degree")]
     pub unit: Unit,
-    /// Period, degrees.
+    /// Period, in degrees.
     pub period: u16,
-    /// True for predictions from 0 to the period, like the labels; false for predictions around 0.
+    /// True for predictions between 0 and the period, like the labels; false for predictions centred at 0.
     pub from_zero: bool,
     /// Mean direction of the training part, in `unit`.
     pub mean: f64,
@@ -165,35 +165,35 @@ fn is_degree(unit: &Unit) -> bool {
 /// Number of samples of each part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SampleCounts {
-    /// Training samples.
+    /// Number of training samples.
     pub train: usize,
-    /// Validation samples, which chose settings.
+    /// Number of validation samples, on which settings were chosen.
     pub validation: usize,
 }
 
-/// Provenance of samples.
+/// Provenance of the samples of a fit.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Provenance {
-    /// Digest of the recording, `sha256:…`. For several recordings: digest of all, in order.
+    /// Digest of the recording, `sha256:…`. For several recordings, the digest of all recordings in order.
     pub data: Option<String>,
     /// Digest of each recording, in order, if there are several.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub recordings: Vec<String>,
-    /// View of the frames, if samples have several pictures: `left`, or `left+right` side by side.
+    /// View of the frames, if samples have several pictures: `left`, or `left+right` for both side by side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub view: Option<String>,
     /// Origin of the recording.
     pub source: Source,
-    /// Split of the recording.
+    /// Split of the recording; `None` if there was no split.
     pub split: Option<SplitCard>,
     /// Further notes for readers.
     pub notes: Vec<String>,
-    /// Cross-validation scores, for a model fitted on every sample.
+    /// Cross-validation scores, for a model fitted to all samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validation: Option<ValidationCard>,
 }
 
-/// Cross-validation of a model that was fitted on every sample.
+/// Cross-validation of a model that was fitted to all samples.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct ValidationCard {
     /// Split, such as `cv:5 by-point`.
@@ -216,9 +216,9 @@ pub struct ValidationScore {
     pub metric: String,
     /// Channel of the score.
     pub channel: String,
-    /// Value, in the unit of metric and channel.
+    /// Value of the score, in the unit of metric and channel.
     pub value: f64,
-    /// 95 % interval, if there is one.
+    /// 95 % interval of the score; `None` if it has no interval.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub interval: Option<[f64; 2]>,
 }
@@ -241,13 +241,13 @@ pub enum Source {
 /// A split and its seed.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SplitCard {
-    /// Split as written, with its fractions.
+    /// Split as the user wrote it, with its fractions.
     pub split: String,
     /// Seed of the split.
     pub seed: u64,
 }
 
-/// Entries of a card that describe the kind of model.
+/// Entries of a card that depend on the kind of model.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct KindCard {
     pub(crate) form: Option<Form>,
@@ -270,7 +270,7 @@ impl ModelCard {
     /// Version of the format that this crate writes.
     pub const FORMAT: &'static str = FORMAT;
 
-    /// Entries that describe the kind of model.
+    /// Entries that depend on the kind of model.
     pub(crate) fn kind(&self) -> KindCard {
         KindCard {
             form: self.form,

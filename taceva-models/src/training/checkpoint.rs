@@ -16,12 +16,12 @@ pub(crate) use identity::Identity;
 
 /// Location and interval of the checkpoints of a training run.
 ///
-/// Checkpoints do not affect the result: a resumed training ends with the same bits as an uninterrupted one.
+/// Checkpoints do not affect the result. A resumed training gives the same bits as an uninterrupted one.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoints {
-    /// Checkpoint file. Written first as `.<name>.partial` in the same folder, synchronised to disk and renamed.
+    /// Path of the checkpoint file. Checkpoints are written as `.<name>.partial` in the same folder, synchronised to disk and renamed.
     pub path: PathBuf,
-    /// Interval between checkpoints, applied after a step. A cancelled training run writes one too.
+    /// Minimum interval between checkpoints, checked after each step. A cancelled training run also writes a checkpoint.
     pub every: Duration,
     /// Action if the checkpoint is damaged or belongs to another training run.
     pub foreign: Foreign,
@@ -30,17 +30,17 @@ pub struct Checkpoints {
 /// Action for a checkpoint that is damaged or belongs to another training run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Foreign {
-    /// Keeps the file and fails.
+    /// Keeps the file and returns an error.
     Refuse,
     /// Overwrites the file at the next checkpoint.
     Replace,
 }
 
 impl Checkpoints {
-    /// Default interval of 30 s: little work is lost, and writing takes a small part of the time.
+    /// Default interval of 30 s. Little work is lost, and writing takes a small part of the training time.
     pub const EVERY: Duration = Duration::from_secs(30);
 
-    /// Checkpoints at `path`, every [`EVERY`](Checkpoints::EVERY), without overwriting those of another training run.
+    /// Checkpoints at `path`, every [`EVERY`](Checkpoints::EVERY). A checkpoint of another training run is not overwritten.
     pub fn at(path: PathBuf) -> Checkpoints {
         Checkpoints {
             path,
@@ -49,10 +49,10 @@ impl Checkpoints {
         }
     }
 
-    /// Removes the checkpoint, once the model is saved.
+    /// Removes the checkpoint. Call this after the model has been saved.
     ///
     /// # Errors
-    /// Errors of the system, except for a missing file.
+    /// Errors of the operating system, except for a missing file.
     pub fn remove(&self) -> io::Result<()> {
         match fs::remove_file(&self.path) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
@@ -60,7 +60,7 @@ impl Checkpoints {
         }
     }
 
-    /// Reads the checkpoint of the training run `identity`. `None` if there is none.
+    /// Reads the checkpoint of the training run `identity`; `None` if there is no file.
     pub(crate) fn take(&self, identity: &Identity) -> Result<Option<Checkpoint>, CheckpointError> {
         let refuse = |problem: String| CheckpointError::Damaged {
             path: self.path.clone(),
@@ -88,7 +88,7 @@ impl Checkpoints {
         }
     }
 
-    /// Writes a checkpoint of `trainer`, whose training run is `identity`.
+    /// Writes a checkpoint of `trainer`, which executes the training run `identity`.
     fn put(&self, identity: &Identity, trainer: &Trainer<'_>) -> Result<(), CheckpointError> {
         let checkpoint = trainer.checkpoint().map_err(CheckpointError::Unread)?;
         taceva_files::replace(&self.path, |staged| {
@@ -101,7 +101,7 @@ impl Checkpoints {
     }
 }
 
-/// Checkpoint of a training run in progress.
+/// Checkpoint location of a training run in progress, with the time of the last checkpoint.
 pub(crate) struct Shelf<'a> {
     checkpoints: &'a Checkpoints,
     identity: Identity,
@@ -121,7 +121,7 @@ impl<'a> Shelf<'a> {
         &self.checkpoints.path
     }
 
-    /// Reads the checkpoint of this training run. `None` if there is none.
+    /// Reads the checkpoint of this training run; `None` if there is no file.
     pub(crate) fn take(&self) -> Result<Option<Checkpoint>, CheckpointError> {
         self.checkpoints.take(&self.identity)
     }
@@ -141,7 +141,7 @@ impl<'a> Shelf<'a> {
     }
 }
 
-/// Reads at most one byte more than the limit of a checkpoint. `None` if there is no file.
+/// Reads the file up to one byte beyond the limit of a checkpoint; `None` if there is no file.
 fn read_capped(path: &Path) -> io::Result<Option<Vec<u8>>> {
     // Checks before opening: opening a pipe would block until it has a writer.
     match fs::metadata(path) {

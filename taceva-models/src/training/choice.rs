@@ -1,4 +1,4 @@
-//! Chosen settings and their criterion.
+//! Chosen settings, and the criterion of the choice.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{ModelError, Regressor, TrainingSet};
@@ -7,7 +7,7 @@ use taceva_core::{ModelError, Regressor, TrainingSet};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum ChosenBy {
-    /// No choice: the model has no such setting, or the user set it.
+    /// No choice, because the model has no such setting, or the user set it.
     Nobody,
     /// Least squared error on the validation part.
     Validation,
@@ -21,7 +21,7 @@ pub enum ChosenBy {
     TenFolds,
 }
 
-/// Choice for every channel.
+/// Record of the setting chosen for every channel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Choice {
     /// Criterion of the choice.
@@ -33,7 +33,7 @@ pub struct Choice {
 }
 
 impl Choice {
-    /// Record without a choice, with the validation error of each channel, if known.
+    /// Record without a choice. It contains the validation error of each channel, if known.
     pub(crate) fn nobodys(errors: impl IntoIterator<Item = Option<f64>>) -> Choice {
         let scored = |rmse| ChannelChoice {
             rmse,
@@ -50,19 +50,19 @@ impl Choice {
 /// Choice for one channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ChannelChoice {
-    /// Value of the setting.
+    /// Chosen value of the setting; `None` if no setting was chosen.
     pub value: Option<f64>,
-    /// Root mean square error in the unit of the channel, on the samples of the choice or on the validation part. `None` if there
-    /// are neither, or the error is not finite.
+    /// Root mean square error in the unit of the channel, on the samples of the choice or on the validation part. `None` if there are no such samples, or if
+    /// the error is not finite.
     pub rmse: Option<f64>,
-    /// True for the first or last candidate: a better value may be outside the range.
+    /// True if the first or last candidate was chosen. A better value may then be outside the range.
     pub at_edge: bool,
 }
 
 /// Mean squared error of each channel (inner) at each candidate (outer).
 pub(crate) type Errors = Vec<Vec<f64>>;
 
-/// Candidate of least error for a channel. Of equal errors the last, simplest candidate is taken.
+/// Index of the candidate with the least error for a channel. Of equal errors, the last and simplest candidate is chosen.
 pub(crate) fn least(errors: &Errors, channel: usize) -> usize {
     let mut best = errors.len().saturating_sub(1);
     for candidate in (0..best).rev() {
@@ -94,7 +94,7 @@ pub(crate) fn errors(
     Ok((0..channels).map(of).collect())
 }
 
-/// Root of a mean squared error, in the unit of a channel with the label range `span`. `None` if it is not finite.
+/// Converts a mean squared error to a root in the unit of a channel with the label range `span`; `None` if it is not finite.
 pub(crate) fn rmse(mean_squared: f64, span: f64) -> Option<f64> {
     let rmse = mean_squared.sqrt() * span;
     rmse.is_finite().then_some(rmse)

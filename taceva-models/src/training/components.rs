@@ -1,4 +1,4 @@
-//! Regressors of principal components. Unlike linear regressors, they cannot be folded into weights of pixels.
+//! Regressors of principal components, for models whose weights cannot be converted to weights of pixels.
 
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
 
@@ -9,7 +9,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::check_call;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Principal components and a regressor of them.
+/// Principal components, and a regressor that reads their values.
 #[derive(Debug)]
 pub(crate) struct ProjectedRegressor {
     pca: Pca,

@@ -1,4 +1,4 @@
-//! Interface of estimators, and the results of their fits: a regressor for a model file, and the choices made.
+//! Interface of estimators, and the result of a fit: a regressor for a model file, and the choices made.
 
 use taceva_core::{Estimator, Features, ModelError, Progress, SignalInfo, TrainingSet};
 
@@ -35,8 +35,8 @@ pub(crate) use estimator;
 
 /// An estimator whose regressor can be stored in a model file, and that reports its choices.
 pub trait ModelEstimator: Estimator {
-    /// Chooses another estimator for `training` and returns it with a record. `None` for estimators that do not choose. Some candidates
-    /// use finer features `closer` of the same samples, if given.
+    /// Chooses another estimator for `training`, and returns it with a record of the choice; `None` for estimators that do not choose. Some candidates use the
+    /// finer features `closer` of the same samples, if given.
     ///
     /// # Errors
     /// Errors of [`Estimator::fit`].
@@ -49,13 +49,13 @@ pub trait ModelEstimator: Estimator {
         Ok(None)
     }
 
-    /// True if [`choose`](ModelEstimator::choose) would use finer features, given `[samples, finer features, channels]`. False for
-    /// estimators that do not choose.
+    /// True if [`choose`](ModelEstimator::choose) would use finer features for the given `[samples, finer features, channels]`. False for estimators that do
+    /// not choose.
     fn looks_closer(&self, _: [usize; 3]) -> bool {
         false
     }
 
-    /// Copy with `share` of its training, for a first look. `None` for estimators that are not trained step by step.
+    /// Copy of the estimator with `share` of its training, for a first comparison; `None` for estimators that are not trained step by step.
     fn first_look(&self, _share: f64) -> Option<Box<dyn ModelEstimator>> {
         None
     }
@@ -71,8 +71,7 @@ pub trait ModelEstimator: Estimator {
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError>;
 
-    /// Estimator that replaces this one for signals of `info`. `None` for estimators that are not specific to
-    /// pictures.
+    /// Estimator that replaces this one for signals of `info`; `None` for estimators that are not specific to pictures.
     ///
     /// # Errors
     /// [`FeatureError::NarrowGrid`] if the grid is too small.
@@ -83,21 +82,21 @@ pub trait ModelEstimator: Estimator {
         Ok(None)
     }
 
-    /// Enables checkpoints: trainings write them and resume from them. Ignored by models that are fitted in one step.
+    /// Enables checkpoints. A training run then writes checkpoints and resumes from them. Ignored by models that are fitted in one step.
     fn keep_checkpoints(&mut self, _: Checkpoints) {}
 }
 
-/// Result of a choice among models.
+/// Result of an automatic choice among models.
 pub struct Chosen {
     /// Chosen estimator.
     pub estimator: Box<dyn ModelEstimator>,
     /// Record of the trials.
     pub card: AutoCard,
-    /// True if it uses the finer features.
+    /// True if the estimator uses the finer features.
     pub is_closer: bool,
 }
 
-/// Result of a fit.
+/// Result of a model fit.
 #[derive(Clone, Debug)]
 pub struct ModelFit {
     /// Fitted model, in the units of the channels.

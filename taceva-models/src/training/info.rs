@@ -10,15 +10,14 @@ use crate::training::fit::ModelEstimator;
 pub struct ModelInfo {
     /// Name on the command line.
     pub name: &'static str,
-    /// Description in one line.
+    /// Description of the model in one line.
     pub about: &'static str,
     /// Accepted settings.
     pub settings: &'static [SettingInfo],
-    /// Default features. `None` if predictions do not depend on features, so that no
-    /// frame must be decoded.
+    /// Default features; `None` if predictions do not depend on features. The caller need not decode frames in this case.
     pub features: Option<FeatureSpec>,
     pub(crate) make: fn(&ModelSettings) -> Result<Box<dyn ModelEstimator>, SettingError>,
-    /// Loads a fitted model.
+    /// Function that loads a fitted model.
     pub(crate) load: Load,
 }
 

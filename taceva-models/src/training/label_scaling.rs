@@ -1,12 +1,12 @@
-//! Scaling of labels to 0..1 by the range of the training part, and its inverse.
+//! Scales labels to 0..1 by the range of the training part, and converts predictions back.
 
 use faer::Mat;
 use taceva_core::Targets;
 
 /// Range of each channel over the training part.
 ///
-/// Models learn (label − minimum) / span. Predictions are always converted back to the unit of the channel. A constant label
-/// has the span 1, maps to 0, and is [marked as constant](LabelScaling::is_constant).
+/// Models learn (label − minimum) / span. Predictions are always converted back to the unit of the channel. A constant label has the span 1, is scaled to 0,
+/// and is [marked as constant](LabelScaling::is_constant).
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabelScaling {
     minimum: Vec<f64>,
@@ -15,7 +15,7 @@ pub struct LabelScaling {
 }
 
 impl LabelScaling {
-    /// Ranges of `targets`, which must not be empty.
+    /// Label ranges of `targets`, which must not be empty.
     pub(crate) fn of(targets: Targets<'_>) -> LabelScaling {
         let channels = targets.channels.len();
         let column = |channel: usize| {
@@ -49,7 +49,7 @@ impl LabelScaling {
         &self.span
     }
 
-    /// True if the label at `position` is constant.
+    /// True if the channel with index `position` has a constant label.
     pub fn is_constant(&self, position: usize) -> bool {
         self.constant[position]
     }
@@ -65,7 +65,7 @@ impl LabelScaling {
     }
 }
 
-/// Mean label of each channel, in its unit: the best constant prediction of `targets`, which must not be empty.
+/// Mean label of each channel, in the unit of the channel. It is the best constant prediction of `targets`, which must not be empty.
 pub fn label_means(targets: Targets<'_>) -> Vec<f64> {
     let channels = targets.channels.len();
     let mean = |channel: usize| {

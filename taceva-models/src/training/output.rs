@@ -44,7 +44,7 @@ pub(crate) fn check_finite(channels: &Channels, predictions: &[f64]) -> Result<(
     }
 }
 
-/// Conversion of centred, scaled labels to the units of the channels: offset + span · value.
+/// Converts centred, scaled labels to the units of the channels: offset + span · value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct OutputScale {
     pub(crate) offset: Vec<f64>,
@@ -52,7 +52,7 @@ pub(crate) struct OutputScale {
 }
 
 impl OutputScale {
-    /// Adjusts the offset for values centred at a mean that is `shift` higher.
+    /// Adjusts the offset for values that were centred at a mean higher by `shift`.
     pub(crate) fn moved(mut self, shift: &[f64]) -> OutputScale {
         let moved = self.span.iter().zip(shift);
         let places = self.offset.iter_mut().zip(moved);
@@ -74,7 +74,7 @@ impl OutputScale {
         }
     }
 
-    /// True if all numbers are finite and the lengths equal `channels`.
+    /// True if all numbers are finite and all lengths equal `channels`.
     pub(crate) fn is_valid(&self, channels: usize) -> bool {
         let mut numbers = self.offset.iter().chain(&self.span);
         [self.offset.len(), self.span.len()] == [channels; 2]

@@ -1,4 +1,4 @@
-//! Checked, scaled and centred training data, the start of every fit.
+//! Checked, scaled and centred training data, which every fit begins with.
 
 use faer::Mat;
 use taceva_core::{Features, ModelError, TrainingSet, counted};
@@ -6,19 +6,19 @@ use taceva_core::{Features, ModelError, TrainingSet, counted};
 use crate::linalg::invalid;
 use crate::training::label_scaling::LabelScaling;
 
-/// Checked training part.
+/// Checked, scaled and centred training part.
 #[derive(Debug)]
 pub(crate) struct Problem<'a> {
     pub(crate) training: TrainingSet<'a>,
     pub(crate) scaling: LabelScaling,
-    /// Mean of each scaled label.
+    /// Mean of each channel's scaled labels.
     pub(crate) mean: Vec<f64>,
-    /// Scaled labels minus their mean, one row per sample.
+    /// Scaled labels minus their channel mean, one row per sample.
     pub(crate) centred: Mat<f64>,
 }
 
 impl<'a> Problem<'a> {
-    /// Fewest samples for a fit.
+    /// Minimum number of samples for a fit.
     pub(crate) const SAMPLES_MIN: usize = 2;
 
     pub(crate) fn new(training: TrainingSet<'a>) -> Result<Problem<'a>, ModelError> {
@@ -41,7 +41,7 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// Checks and scales the validation part. `None` if it has no samples.
+    /// Checks and scales the validation part; `None` if it has no samples.
     pub(crate) fn validation<'v>(
         &self,
         validation: Option<&TrainingSet<'v>>,
@@ -68,7 +68,7 @@ impl<'a> Problem<'a> {
         }))
     }
 
-    /// Rows of each group of the training part. `None` for fewer than two groups.
+    /// Rows of each group of the training part; `None` for fewer than two groups.
     pub(crate) fn groups(&self) -> Option<Vec<Vec<usize>>> {
         let groups = self.training.groups?;
         let mut members = std::collections::BTreeMap::<u32, Vec<usize>>::new();
@@ -87,7 +87,7 @@ impl<'a> Problem<'a> {
 #[derive(Debug)]
 pub(crate) struct Validation<'v> {
     pub(crate) features: &'v Features,
-    /// Scaled labels minus the mean of the training part.
+    /// Scaled labels minus the channel means of the training part.
     pub(crate) labels: Mat<f64>,
 }
 
@@ -110,7 +110,7 @@ fn subtract(values: &mut Mat<f64>, mean: &[f64]) {
     }
 }
 
-/// Stacks one matrix above the other.
+/// Stacks `upper` above `lower`.
 pub(crate) fn stacked(upper: &Mat<f64>, lower: &Mat<f64>) -> Mat<f64> {
     let mut whole = Mat::zeros(upper.nrows() + lower.nrows(), upper.ncols());
     whole.subrows_mut(0, upper.nrows()).copy_from(upper);

@@ -13,12 +13,12 @@ use crate::training::file::tensors::Raw;
 
 /// A regressor that can be stored in a model file.
 pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
-    /// Card entries of this kind of model; empty for a linear one.
+    /// Card entries for this kind of model; empty for a linear model.
     fn kind(&self) -> KindCard {
         KindCard::default()
     }
 
-    /// Tensors for a file.
+    /// Tensors to store in a file.
     fn tensors(&self) -> Vec<Raw>;
 
     /// True if predictions depend on features.
@@ -29,18 +29,18 @@ pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
         false
     }
 
-    /// Standard deviation of every prediction, `[samples, channels]`. `None` if the model does not estimate it.
+    /// Standard deviation of every prediction, shape `[samples, channels]`; `None` if the model does not estimate deviations.
     fn deviations(&self, _: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         Ok(None)
     }
 
-    /// Folds the components of `pca` into a regressor of pixels. `None` if the components must be stored with the model.
+    /// Converts this regressor of the components of `pca` to a regressor of pixels; `None` if the components must be stored with the model.
     fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
         Ok(None)
     }
 }
 
-/// Fitted model that can be stored in a file. Copies share the data.
+/// Fitted model that can be stored in a file. Copies share their data.
 #[derive(Clone)]
 pub struct ModelRegressor(Arc<dyn FittedModel>);
 
@@ -49,7 +49,7 @@ impl ModelRegressor {
         ModelRegressor(Arc::new(model))
     }
 
-    /// Casts the regressor to `T`. `None` for another kind of model.
+    /// Casts the regressor to `T`; `None` for another kind of model.
     pub fn get<T: Regressor + 'static>(&self) -> Option<&T> {
         let own: &dyn Any = &*self.0;
         own.downcast_ref()
@@ -72,7 +72,7 @@ impl ModelRegressor {
         self.0.tensors()
     }
 
-    /// True if predictions depend on features. A linear model without weights needs no frame.
+    /// True if predictions depend on features. A linear model whose weights are all 0 needs no frame.
     pub(crate) fn reads_features(&self) -> bool {
         self.0.reads_features()
     }
@@ -82,12 +82,12 @@ impl ModelRegressor {
         self.0.knows_deviations()
     }
 
-    /// Standard deviation of every prediction. `None` if the model does not estimate it.
+    /// Standard deviation of every prediction; `None` if the model does not estimate deviations.
     ///
     /// # Shapes
-    /// `[samples, channels]`.
+    /// Returns `[samples, channels]`.
     /// # Units
-    /// Units of the channels.
+    /// Deviations have the units of the channels.
     /// # Errors
     /// [`ModelError`] if the shape of the features differs.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {

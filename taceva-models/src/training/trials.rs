@@ -1,4 +1,4 @@
-//! Trials of settings: training and held-out samples of each trial, and their errors.
+//! Trials of candidate settings: training and held-out samples of each trial, and the errors.
 
 use std::borrow::Cow;
 
@@ -9,13 +9,13 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::{ChannelChoice, Choice, ChosenBy, Errors, least, rmse};
 use crate::training::problem::{Problem, Validation, joined, stacked};
 
-/// Maximum number of fits for a choice without a validation part.
+/// Maximum number of fits per choice without a validation part.
 pub(crate) const FOLDS: usize = 10;
 
-/// All samples of a choice, and its rounds.
+/// All samples for a choice of settings, and the rounds of the choice.
 #[derive(Debug)]
 pub(crate) struct Trials<'a> {
-    /// Features of the training part, then of the validation part.
+    /// Features of the training part, followed by those of the validation part.
     pub(crate) features: Cow<'a, Features>,
     /// Labels of both parts, scaled and centred by the training part.
     pub(crate) labels: Mat<f64>,
@@ -24,7 +24,7 @@ pub(crate) struct Trials<'a> {
     training: usize,
 }
 
-/// Training rows and held-out rows.
+/// Training rows and held-out rows of one round.
 #[derive(Debug)]
 pub(crate) struct Round {
     pub(crate) learnt: Vec<usize>,
@@ -32,8 +32,8 @@ pub(crate) struct Round {
 }
 
 impl<'a> Trials<'a> {
-    /// Holds out the validation part if there is one. Otherwise the groups of the training part in turn, more than ten combined in
-    /// ten folds, or ten runs of neighbouring samples. Without a choice, only a validation part is held out.
+    /// Holds out the validation part if there is one. Otherwise holds out the groups of the training part in turn, and combines more than ten groups in ten
+    /// folds. Without groups, holds out ten runs of neighbouring samples. If no setting is to be chosen, only a validation part is held out.
     pub(crate) fn new(
         problem: &Problem<'a>,
         validation: Option<&Validation<'_>>,
@@ -82,7 +82,7 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// Rows for the final fit.
+    /// Rows to which the final model is fitted.
     pub(crate) fn learnt(&self, refit: bool) -> Vec<usize> {
         if refit {
             (0..self.labels.nrows()).collect()
@@ -91,12 +91,12 @@ impl<'a> Trials<'a> {
         }
     }
 
-    /// True if there is a validation part for the final fit.
+    /// True if there is a validation part.
     pub(crate) fn has_validation(&self) -> bool {
         self.labels.nrows() > self.training
     }
 
-    /// Mean squared error of each channel at each candidate. `squares` returns the summed squares of a round.
+    /// Mean squared error of each channel at each candidate. `squares` returns the summed squared errors of a round.
     pub(crate) fn errors(
         &self,
         progress: &dyn Progress,
@@ -126,7 +126,7 @@ impl<'a> Trials<'a> {
         Ok(total)
     }
 
-    /// Candidate of least error for each channel, and the record for a card. `values` are the values of the candidates.
+    /// Index of the candidate with the least error for each channel, and the record for a card. `values` contains the values of the candidates.
     pub(crate) fn choose(
         &self,
         problem: &Problem<'_>,
@@ -155,7 +155,7 @@ impl<'a> Trials<'a> {
     }
 }
 
-/// Combines groups in ten folds, each group whole, because every left-out fold costs a fit.
+/// Combines groups in ten folds, to limit the number of fits. No group is divided.
 pub(crate) fn folds_of(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     let mut folds = vec![Vec::new(); FOLDS];
     for (position, group) in groups.into_iter().enumerate() {
@@ -164,7 +164,7 @@ pub(crate) fn folds_of(groups: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     folds
 }
 
-/// Ten runs of neighbouring samples, or one per sample if there are fewer.
+/// Ten runs of neighbouring samples. With fewer than ten samples, one run per sample.
 pub(crate) fn folds(samples: usize) -> Vec<Vec<usize>> {
     let count = FOLDS.min(samples);
     (0..count)
@@ -172,7 +172,7 @@ pub(crate) fn folds(samples: usize) -> Vec<Vec<usize>> {
         .collect()
 }
 
-/// Selects `rows` of `labels`.
+/// Matrix of the rows `rows` of `labels`.
 pub(crate) fn rows_of(labels: &Mat<f64>, rows: &[usize]) -> Mat<f64> {
     Mat::from_fn(rows.len(), labels.ncols(), |row, channel| {
         labels[(rows[row], channel)]

@@ -24,21 +24,21 @@ pub(crate) fn numbers(seed: u64) -> impl FnMut() -> f64 {
 }
 
 #[derive(Clone, Copy)]
-/// Pictures to draw; lengths in pixels.
+/// Settings of the pictures to draw. Lengths are in pixels.
 pub(crate) struct Blob {
     pub(crate) shape: FeatureShape,
-    /// Least y and x of the centre.
+    /// Least y and x of the blob's centre.
     pub(crate) from: f64,
-    /// Range of y and x of the centre, above `from`.
+    /// Range of y and x of the blob's centre, above `from`.
     pub(crate) reach: [f64; 2],
-    /// Twice the square of the standard deviation.
+    /// Twice the square of the blob's standard deviation.
     pub(crate) spread: f64,
-    /// Label units per pixel.
+    /// Number of label units per pixel.
     pub(crate) scale: f64,
 }
 
 impl Blob {
-    /// Frames with these features.
+    /// Size and format of the frames of these pictures.
     pub(crate) fn frame(&self) -> FrameInfo {
         let twice = |side: usize| 2 * u32::try_from(side).expect("small");
         FrameInfo {

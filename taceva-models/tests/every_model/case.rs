@@ -1,4 +1,4 @@
-//! Models with the settings of this suite.
+//! Models to test, with the settings of this suite.
 
 use taceva_core::{Features, ModelError, Regressor, SilentProgress};
 use taceva_models::{
@@ -9,25 +9,25 @@ use taceva_models::{
 use super::cases::{BUILT_IN, LIBRARIES};
 use crate::blobs::{BLOB, Blob, Recording};
 
-/// A model with the settings of this suite, and its own guarantees beyond the common ones.
+/// A model with the settings of this suite, and the guarantees specific to this model.
 pub(crate) struct Case {
     pub(crate) name: &'static str,
     /// Settings that make the fit fast.
     pub(crate) words: &'static [&'static str],
-    /// Fewest samples for a fit.
+    /// Minimum number of samples for a fit.
     pub(crate) least: usize,
     /// Largest change of predictions, relative to the largest one, when training samples are reordered. `None` if the order is
     /// drawn at random.
     pub(crate) order: Option<f64>,
-    /// True for a deeper form of another model, which represents it where every model is fitted several times.
+    /// True for a deeper form of another model. The other model represents it in tests that fit every model several times.
     pub(crate) deeper: bool,
-    /// True if predictions do not depend on the features, so a fit is too short to be cancelled.
+    /// True if predictions do not depend on the features. A fit is then too short to be cancelled.
     pub(crate) is_constant: bool,
     /// True if principal components may replace pixels.
     pub(crate) components: bool,
-    /// Largest root mean square error on the blobs; the labels have a standard deviation of 4.
+    /// Largest root mean square error on the blobs. The labels have a standard deviation of 4.
     pub(crate) error: f64,
-    /// Pictures to learn from.
+    /// Pictures for the fit.
     pub(crate) blob: Blob,
 }
 

@@ -1,4 +1,4 @@
-//! Predictions are independent of threads, of other samples and of the order of training samples.
+//! Tests that predictions are independent of threads, of other samples and of the order of training samples.
 
 use super::case::{bits, cases, predict};
 

@@ -1,4 +1,4 @@
-//! Model files, whole and damaged.
+//! Tests of model files, whole and damaged.
 
 use taceva_core::ErrorKind;
 use taceva_models::Model;

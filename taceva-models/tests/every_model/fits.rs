@@ -1,4 +1,4 @@
-//! Fits of every model, from a blob to a constant label.
+//! Tests of fits of every model, from a blob to a constant label.
 
 use taceva_core::Features;
 

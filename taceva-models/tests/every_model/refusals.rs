@@ -1,4 +1,4 @@
-//! Invalid training data, and cancelled fits.
+//! Tests of invalid training data, and of cancelled fits.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -77,7 +77,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
     }
 }
 
-/// Cancels after a number of progress queries.
+/// Progress receiver that cancels after a number of progress queries.
 struct Cancel(usize, AtomicUsize);
 
 impl Progress for Cancel {

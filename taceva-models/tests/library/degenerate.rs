@@ -34,7 +34,7 @@ fn data(samples: usize, channels: usize) -> Data {
     }
 }
 
-/// Fits every model: a fitted one predicts finite numbers, and a rejecting one does not panic. Returns the names of the rejecting models.
+/// Fits every model. Fitted models must predict finite numbers, and other models must not panic. Returns the names of models that reject the data.
 fn fit_all(training: &Data, held: Option<&Data>) -> Vec<String> {
     let features = |data: &Data| {
         Features::new(FeatureShape::flat(WIDTH), data.features.clone()).expect("whole samples")

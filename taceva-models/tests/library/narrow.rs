@@ -1,4 +1,4 @@
-//! Fewer samples than features are rejected before the library is called.
+//! Tests that fewer samples than features are rejected before the library is called.
 
 use taceva_core::{ErrorKind, SilentProgress};
 

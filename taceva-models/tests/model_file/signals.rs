@@ -16,7 +16,7 @@ fn grid() -> SignalInfo {
     SignalInfo::new(3, 2, 2, Unit::Count).expect("twelve numbers")
 }
 
-/// Thirty samples of twelve counts, which rise and fall with the force.
+/// Thirty samples of twelve counts, which increase and decrease with the force.
 fn signals() -> Vec<Signals> {
     let sample = |force: u16| {
         let values = (0..12_u16).map(|place| {

@@ -1,16 +1,16 @@
-//! Reduction of the last pictures to features.
+//! Reduction of a network's last pictures to features.
 
 use serde::{Deserialize, Serialize};
 
 use crate::picture::Picture;
 
-/// Reduction of the last pictures to features.
+/// Reduction of a network's last pictures to features.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Pooling {
-    /// The mean of each channel over the pixels.
+    /// Mean of each channel over the pixels.
     Average,
-    /// Every value of every pixel, `[height, width, channels]`.
+    /// Every value of every pixel, shape `[height, width, channels]`.
     Flatten,
 }
 

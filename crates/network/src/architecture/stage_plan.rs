@@ -6,21 +6,21 @@ use crate::max_pool;
 use crate::picture::Picture;
 use crate::planes::Layout;
 
-/// Layers that are computed together as one stage.
+/// Layers that are computed together, as one stage.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StagePlan {
     /// A convolution of 7 × 7 with stride 2, then max pooling over 3 × 3 with stride 2.
     Stem {
-        /// Output channels.
+        /// Number of output channels.
         channels: usize,
     },
-    /// A convolution.
+    /// A single convolution.
     Plain(PlainLayer),
-    /// Two convolutions of 3 × 3 and a shortcut: the input itself, or a convolution of 1 × 1 where the picture shape changes.
+    /// Two convolutions of 3 × 3 and a shortcut. The shortcut is the input itself, or a convolution of 1 × 1 if the picture shape changes.
     Block {
-        /// Output channels.
+        /// Number of output channels.
         channels: usize,
-        /// Stride of the first convolution, pixels.
+        /// Stride of the first convolution, in pixels.
         stride: usize,
     },
 }
@@ -79,7 +79,7 @@ impl StagePlan {
         }
     }
 
-    /// Memory layout of the input pictures, with the border that the first convolution reads.
+    /// Memory layout of the input pictures, including the border that the first convolution reads.
     pub(crate) fn input_layout(&self, picture: Picture) -> Layout {
         let padding = self.first(picture.channels).padding();
         Layout {

@@ -8,17 +8,17 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Pictures added to the normalised pictures before ReLU.
+/// Pictures that are added to the normalised pictures before ReLU.
 #[derive(Clone, Copy)]
 pub(crate) enum Shortcut<'a> {
     Nothing,
     /// Pictures added unchanged.
     Identity(&'a Planes),
-    /// Pictures that are normalised first.
+    /// Pictures that are normalised before they are added.
     Normalised(&'a Planes, &'a Moments),
 }
 
-/// into = max(0, raw · scale + shift + shortcut), for the first `count` pictures.
+/// Computes into = max(0, raw · scale + shift + shortcut) for the first `count` pictures.
 pub(crate) fn apply(
     machine: Machine,
     raw: &Planes,
@@ -59,7 +59,7 @@ pub(crate) fn apply(
         });
 }
 
-/// [`Shortcut`] of one picture.
+/// Part of a [`Shortcut`] for one picture.
 #[derive(Clone, Copy)]
 enum RowShortcut<'a> {
     Nothing,
@@ -67,9 +67,9 @@ enum RowShortcut<'a> {
     Normalised(&'a [f32], &'a Moments),
 }
 
-/// Work for one picture.
+/// Task of [`apply`] for one picture.
 struct Apply<'a> {
-    /// Raw values without a border.
+    /// Convolution outputs of the picture, without a border.
     raw: &'a [f32],
     moments: &'a Moments,
     shortcut: RowShortcut<'a>,
@@ -108,7 +108,7 @@ impl Job for Apply<'_> {
     }
 }
 
-/// Normalises a row, adds the shortcut by `add`, and applies ReLU.
+/// Normalises a row, adds the shortcut by calling `add`, and applies ReLU.
 #[inline(always)]
 fn each_panel(
     raw: &[f32],
@@ -132,7 +132,7 @@ fn each_panel(
     }
 }
 
-/// ReLU. Keeps NaN, so that a diverged training is detected.
+/// ReLU of one value. NaN is preserved, so that a diverged training is detected.
 #[inline(always)]
 pub(crate) fn relu(value: f32) -> f32 {
     if value < 0.0 { 0.0 } else { value }

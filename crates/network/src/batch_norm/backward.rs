@@ -10,18 +10,18 @@ use crate::panel::{Aligned, PANEL};
 use crate::planes::{Layout, Pictures, Planes};
 use crate::simd::{Job, Vector};
 
-/// Mask of a gradient by ReLU. The gradient passes where the output was positive.
+/// Mask that ReLU applies to a gradient. The gradient is zero where the output was not positive.
 #[derive(Clone, Copy)]
 pub(crate) enum Gate<'a> {
-    /// No mask, because the gradient is masked already.
+    /// No mask, because the gradient is already masked.
     Open,
-    /// Passes where the normalised picture was positive.
+    /// Masks by the normalised picture.
     Normalised,
-    /// Passes where these pictures are positive. Other values of the gradient are overwritten with zero.
+    /// Masks by these output pictures. Masked values of the gradient are overwritten with zero.
     Output(&'a Planes),
 }
 
-/// Sums over a batch for the gradients, one value per channel.
+/// Sums over a batch that the gradients need, one value per channel.
 #[derive(Clone, Debug)]
 pub(crate) struct GradientSums {
     /// Σ g, the gradient of the bias.
@@ -34,7 +34,7 @@ pub(crate) struct GradientSums {
     pub(crate) slope: Aligned,
 }
 
-/// Sums over the gradients of the first `count` pictures. `sums` is a buffer for the sums of each picture.
+/// Computes the sums over the gradients of the first `count` pictures. `sums` is a buffer for the sums of each picture.
 pub(crate) fn gradient_sums(
     machine: Machine,
     raw: &Planes,
@@ -71,7 +71,7 @@ pub(crate) fn gradient_sums(
 }
 
 impl GradientSums {
-    /// Sums over a batch of `samples` values per channel, from the sums of its pictures: Σ g and Σ g · (x − mean).
+    /// Sums over a batch of `samples` values per channel. They are computed from the sums Σ g and Σ g · (x − mean) of its pictures.
     pub(crate) fn over(images: &[ChannelSums], moments: &Moments, samples: usize) -> GradientSums {
         let channels = moments.mean.len();
         let mut into = GradientSums {
@@ -97,8 +97,7 @@ impl GradientSums {
     }
 }
 
-/// Writes the gradient of the input of the normalisation,
-/// scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n), for the first `count` pictures.
+/// Writes the gradient of the normalisation's input for the first `count` pictures: scale · (g − Σg/n − (x − mean) · inverse² · Σ(g · (x − mean))/n).
 pub(crate) fn input_gradient(
     machine: Machine,
     raw: Pictures<'_>,
@@ -132,7 +131,7 @@ pub(crate) fn input_gradient(
         });
 }
 
-/// [`Gate`] of one picture.
+/// Part of a [`Gate`] for one picture.
 #[derive(Clone, Copy)]
 enum PictureGate<'a> {
     Open,
@@ -140,7 +139,7 @@ enum PictureGate<'a> {
     Output(&'a [f32], Layout),
 }
 
-/// Work of [`gradient_sums`] for one picture.
+/// Task of [`gradient_sums`] for one picture.
 struct Sums<'a> {
     raw: &'a [f32],
     moments: &'a Moments,
@@ -201,7 +200,7 @@ impl Job for Sums<'_> {
     }
 }
 
-/// Work of [`input_gradient`] for one picture.
+/// Task of [`input_gradient`] for one picture.
 struct Apply<'a> {
     raw: &'a [f32],
     moments: &'a Moments,

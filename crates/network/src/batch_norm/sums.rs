@@ -4,13 +4,13 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Vector};
 
-/// Pixels summed in single precision before their sum is added in double precision.
+/// Number of pixels summed in single precision before the sum is added in double precision.
 pub(super) const PIXELS_AT_ONCE: usize = 64;
 
-/// Two sums of each channel of one picture: values and squares, or gradients and their products with centred values.
+/// Two sums for each channel of one picture: of values and squares, or of gradients and their products with centred values.
 #[derive(Clone, Debug)]
 pub(crate) struct ChannelSums {
-    /// `[2, channels]`.
+    /// Both sums, shape `[2, channels]`.
     values: Vec<f64>,
 }
 

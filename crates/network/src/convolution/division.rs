@@ -1,42 +1,42 @@
-//! Division of the outputs of one picture among threads. Every output is the same sum in the same order, so a division affects
-//! only the time, not the result.
+//! Division of the outputs of one picture among threads. Every output is the same sum in the same order. A division therefore affects only the run time, not
+//! the result.
 
 use crate::panel::PANEL;
 
-/// Minimum number of products in a part: about ten microseconds of work.
+/// Minimum number of products in a part, which is about ten microseconds of work.
 const PRODUCTS_WORTH_A_PART: usize = 1 << 18;
 
-/// Cost of reading a row of weights from the second- or third-level cache, as the number of pixels multiplied in that time.
+/// Time to read a row of weights from the second- or third-level cache, as the number of pixels multiplied in the same time.
 const PIXELS_OF_A_READ: usize = 8;
 
 /// Division of the outputs of one picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Division {
-    /// Undivided.
+    /// No division.
     Whole,
-    /// Number of stretches of pixels. Each part reads all weights.
+    /// Number of ranges of pixels. Each part reads all weights.
     Pixels(usize),
     /// Number of groups of channel panels. Each part reads the whole picture.
     Panels(usize),
 }
 
-/// Size of the work to be divided.
+/// Size of the work to divide.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Outputs {
-    /// Pixels, or tiles in Winograd's form.
+    /// Number of pixels, or of tiles in Winograd's algorithm.
     pub(super) pixels: usize,
-    /// Pixels per indivisible group.
+    /// Number of pixels per indivisible group.
     pub(super) together: usize,
-    /// Output panels of channels.
+    /// Number of panels of output channels.
     pub(super) panels: usize,
-    /// Products per pixel and output channel.
+    /// Number of products per pixel and output channel.
     pub(super) products: usize,
-    /// Points per tile in Winograd's form, otherwise 1.
+    /// Number of points per tile in Winograd's algorithm, otherwise 1.
     pub(super) points: usize,
 }
 
 impl Outputs {
-    /// Fastest division into at most `parts` parts.
+    /// Division into at most `parts` parts with the least estimated time.
     pub(super) fn divided(self, parts: usize) -> Division {
         let all = self.pixels * self.points * self.products * self.panels * PANEL;
         let parts = parts.min(all / PRODUCTS_WORTH_A_PART);
@@ -56,8 +56,8 @@ impl Outputs {
     }
 }
 
-/// Estimated time of a part, in quarters of the time of one pixel and panel. A tile of sums holds at most four panels. With fewer,
-/// a loaded value serves fewer products.
+/// Estimated time of a part, in quarters of the time of one pixel and panel. A tile of sums contains at most four panels. With fewer panels, each loaded value
+/// is used for fewer products.
 fn time(pixels: usize, panels: usize) -> usize {
     let effort = 4 * panels + if panels.is_multiple_of(4) { 0 } else { 2 };
     pixels * effort + PIXELS_OF_A_READ * 4 * panels

@@ -2,20 +2,20 @@
 
 use std::ops::Range;
 
-/// Bias and operations for the sums of whole batches.
+/// Bias and operations applied to the sums of whole batches.
 #[derive(Clone, Copy)]
 pub(crate) enum Epilogue<'a> {
-    /// Bare sums, without bias.
+    /// Sums without bias or operation.
     Raw,
-    /// Bias, then ReLU.
+    /// Adds the bias, then applies ReLU.
     BiasRelu(&'a [f32]),
-    /// Bias, then pictures with the layout of the output, then ReLU.
+    /// Adds the bias, adds pictures with the layout of the output, then applies ReLU.
     BiasAddRelu(&'a [f32], &'a [f32]),
-    /// Bias only.
+    /// Adds the bias only.
     Bias(&'a [f32]),
 }
 
-/// Write mode of a gradient.
+/// Mode of writing a gradient.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Onto {
     /// Overwrites the target.
@@ -28,13 +28,13 @@ pub(crate) enum Onto {
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Start<'a> {
     Zero,
-    /// Present values of the output.
+    /// The values already in the output.
     Output,
-    /// One value per channel.
+    /// One bias value per channel.
     Bias(&'a [f32]),
 }
 
-/// Start value and finish of sums.
+/// Start value of sums, and operation on finished sums.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SumRule<'a> {
     pub(super) start: Start<'a>,
@@ -44,16 +44,16 @@ pub(super) struct SumRule<'a> {
 /// Operation on finished sums.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Finish<'a> {
-    /// Keeps the sums.
+    /// Keeps the sums unchanged.
     Keep,
-    /// ReLU.
+    /// Applies ReLU.
     Relu,
-    /// Adds a tensor with the layout of the output, then ReLU.
+    /// Adds a tensor with the layout of the output, then applies ReLU.
     AddThenRelu(&'a [f32]),
 }
 
 impl SumRule<'_> {
-    /// Rule of a part that begins with `channel`: its start values, without the finish.
+    /// Rule of a part whose first channel is `channel`. It has the start values of the part, and no operation on finished sums.
     pub(super) fn of_part(self, channel: usize) -> Self {
         let start = match self.start {
             Start::Bias(bias) => Start::Bias(&bias[channel..]),
@@ -65,7 +65,7 @@ impl SumRule<'_> {
 }
 
 impl<'a> Epilogue<'a> {
-    /// Start and finish for the output values in `range`.
+    /// Rule for the output values in `range`.
     pub(super) fn within(self, range: Range<usize>) -> SumRule<'a> {
         let (start, finish) = match self {
             Epilogue::Raw => (Start::Zero, Finish::Keep),
@@ -80,7 +80,7 @@ impl<'a> Epilogue<'a> {
 }
 
 impl Onto {
-    /// Start value of the sums, which are kept.
+    /// Rule that begins with this start value, and does not change finished sums.
     pub(super) fn rule(self) -> SumRule<'static> {
         let start = match self {
             Onto::Nothing => Start::Zero,

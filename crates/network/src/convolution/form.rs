@@ -5,40 +5,40 @@ use serde::{Deserialize, Serialize};
 use super::{Convolution, winograd};
 use crate::picture::Picture;
 
-/// Maximum number of transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 at 13.
+/// Maximum number of transformed weights per tile of a picture in [`ConvolutionForm::Mixed`]: 128 channels at 4 tiles, 256 channels at 13 tiles.
 const WEIGHTS_A_TILE: usize = 3 << 16;
 
-/// Algorithm for convolutions with a 3 × 3 kernel and stride 1. The forms round differently, so results differ in the last digits.
+/// Algorithm for convolutions with a 3 × 3 kernel and stride 1. The algorithms round differently, so results differ in the last digits.
 ///
-/// Every form computes other convolutions directly. It does so too for pictures where Winograd's form saves no products: 2 × 2
-/// pixels, one row or one column. The choice depends only on shapes, never on machine, clock or number of threads.
+/// Every variant computes other convolutions directly. Direct computation is also used for pictures where Winograd's algorithm saves no products: 2 × 2 pixels,
+/// one row or one column. The choice depends only on shapes, never on machine, clock or number of threads.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum ConvolutionForm {
     /// Sums of products of pixels and weights.
     Direct,
-    /// Winograd's form where the weights are few compared to the tiles of a picture, otherwise direct. Transformed weights are four times
-    /// as many, and reading them would dominate. Fastest for single pictures.
+    /// Winograd's algorithm if the weights are few compared to the tiles of a picture, otherwise direct. Transformed weights are four times as many, and
+    /// reading them would take most of the time. Fastest for single pictures.
     Mixed,
-    /// Winograd's F(4 × 4, 3 × 3): tiles of 4 × 4 outputs with a quarter of the products. Fastest for batches; used in training.
+    /// Winograd's F(4 × 4, 3 × 3): tiles of 4 × 4 outputs with a quarter of the products. Fastest for batches, and used in training.
     ///
     /// # Reference
-    /// A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016. Here the points are 0, ±√½, ±√2 and ∞, whose errors are
-    /// smaller than those of the paper's points 0, ±1, ±2 and ∞.
+    /// A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016. The points used here are 0, ±√½, ±√2 and ∞. Their errors are smaller
+    /// than those of the paper's points 0, ±1, ±2 and ∞.
     #[serde(rename = "winograd-4x4")]
     Winograd,
 }
 
 impl ConvolutionForm {
-    /// Every form.
+    /// All algorithms.
     pub const ALL: [ConvolutionForm; 3] = [
         ConvolutionForm::Direct,
         ConvolutionForm::Mixed,
         ConvolutionForm::Winograd,
     ];
 
-    /// True if `convolution` into pictures of shape `output` uses Winograd's form.
+    /// True if `convolution` into pictures of shape `output` uses Winograd's algorithm.
     pub(super) fn is_winograd(self, convolution: Convolution, output: Picture) -> bool {
         winograd::is_for(convolution, output)
             && match self {
@@ -54,7 +54,7 @@ impl ConvolutionForm {
             }
     }
 
-    /// Name of the form in files.
+    /// Name of the algorithm in files.
     pub const fn name(self) -> &'static str {
         match self {
             ConvolutionForm::Direct => "direct",

@@ -1,4 +1,4 @@
-//! Forward pass in either form.
+//! Forward pass, by either algorithm.
 
 use super::form::ConvolutionForm;
 use super::source::Source;
@@ -10,7 +10,7 @@ use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::Layout;
 
-/// Forward pass, prepared for pictures of one layout.
+/// Forward pass, prepared for pictures of one memory layout.
 #[derive(Clone, Debug)]
 pub(crate) enum Forward {
     Direct(direct::Forward),
@@ -18,8 +18,8 @@ pub(crate) enum Forward {
 }
 
 impl Forward {
-    /// Pass of `convolution` from pictures of layout `input` to pictures of layout `output`.
-    /// Uses Winograd's form if `form` selects it for these shapes.
+    /// Prepares the pass of `convolution` from pictures of layout `input` to pictures of layout `output`. Uses Winograd's algorithm if `form` selects it for
+    /// these shapes.
     pub(crate) fn new(
         convolution: Convolution,
         input: Layout,
@@ -32,7 +32,7 @@ impl Forward {
         }
     }
 
-    /// Length of the transformed weights; 0 if weights are read untransformed.
+    /// Length of the transformed weights; 0 if the pass reads untransformed weights.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             Forward::Direct(_) => 0,
@@ -40,7 +40,7 @@ impl Forward {
         }
     }
 
-    /// Weights as this pass reads them: unchanged, or transformed into the start of `room`.
+    /// Weights in the format that this pass reads: unchanged, or transformed and written to the start of `room`.
     pub(crate) fn weights<'a>(
         &self,
         machine: Machine,
@@ -53,7 +53,8 @@ impl Forward {
         }
     }
 
-    /// Runs the pass into the first pictures of `output`. `see` receives each picture's item of `each`, and its output while still in cache.
+    /// Runs the pass and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. It receives the item of
+    /// `each` for this picture, and the output.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,

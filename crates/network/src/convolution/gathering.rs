@@ -1,15 +1,15 @@
-//! Gathers outputs of separately computed channel panels into one picture.
+//! Gathers outputs of channel panels that were computed separately into one picture.
 
 use super::ending::Finish;
 use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::simd::{Job, Tile, Vector};
 
-/// One picture whose panels are stored separately.
+/// One picture whose channel panels are stored separately.
 pub(super) struct Gathering<'a> {
-    /// `[part, pixel, channel of the part]`; the last part may have fewer channels.
+    /// Outputs, shape `[part, pixel, channel of the part]`. The last part may have fewer channels.
     pub(super) parts: &'a [f32],
-    /// Channels per part.
+    /// Number of channels per part.
     pub(super) channels: usize,
     pub(super) output: (&'a mut [f32], Layout),
     /// Operation on finished sums.

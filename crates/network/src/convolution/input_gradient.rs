@@ -1,4 +1,4 @@
-//! Input gradient in either form.
+//! Input gradient, by either algorithm.
 
 use super::form::ConvolutionForm;
 use super::target::GradientTarget;
@@ -9,7 +9,7 @@ use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Pictures};
 
-/// Input-gradient pass, prepared for pictures of one layout.
+/// Input-gradient pass, prepared for pictures of one memory layout.
 #[derive(Clone, Debug)]
 pub(crate) enum InputGradient {
     Direct(direct::InputGradient),
@@ -17,9 +17,9 @@ pub(crate) enum InputGradient {
 }
 
 impl InputGradient {
-    /// Pass from output gradients of layout `output` to input gradients of layout `input`.
+    /// Prepares the pass from output gradients of layout `output` to input gradients of layout `input`.
     ///
-    /// The border of `output` must be at least the padding.
+    /// The border of `output` must be at least as wide as the padding.
     pub(crate) fn new(
         convolution: Convolution,
         output: Layout,
@@ -33,7 +33,7 @@ impl InputGradient {
         }
     }
 
-    /// Length of the transformed weights; 0 if weights are read untransformed.
+    /// Length of the transformed weights; 0 if the pass reads untransformed weights.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             InputGradient::Direct(_) => 0,
@@ -41,7 +41,7 @@ impl InputGradient {
         }
     }
 
-    /// Runs the pass on the first `count` pictures. `exchanged` is a buffer as long as the weights.
+    /// Runs the pass on the first `count` pictures. `exchanged` is a buffer with the length of the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,

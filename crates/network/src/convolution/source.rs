@@ -5,7 +5,7 @@ use crate::planes::Planes;
 /// Input of a forward pass.
 #[derive(Clone, Copy)]
 pub(crate) struct Source<'a> {
-    /// Weights as returned by [`Forward::weights`](super::Forward::weights).
+    /// Weights returned by [`Forward::weights`](super::Forward::weights).
     pub(crate) weights: &'a [f32],
     pub(crate) input: &'a Planes,
     /// Index of the first picture.
@@ -15,7 +15,7 @@ pub(crate) struct Source<'a> {
 }
 
 impl<'a> Source<'a> {
-    /// The pictures, borders included.
+    /// Values of the pictures, including borders.
     pub(super) fn pictures(&self) -> &'a [f32] {
         self.input.from(self.first, self.count)
     }

@@ -1,4 +1,4 @@
-//! Outputs of the passes.
+//! Output buffers of the passes.
 
 use super::ending::{Epilogue, Onto};
 use crate::planes::Planes;
@@ -6,19 +6,19 @@ use crate::planes::Planes;
 /// Output of a forward pass.
 pub(crate) struct Target<'a> {
     pub(crate) pictures: &'a mut Planes,
-    /// Bias and operations on the sums.
+    /// Bias and operations applied to the sums.
     pub(crate) epilogue: Epilogue<'a>,
 }
 
 /// Output of an input-gradient pass.
 pub(crate) struct GradientTarget<'a> {
     pub(crate) gradient: &'a mut Planes,
-    /// Write mode.
+    /// Mode of writing the gradient.
     pub(crate) onto: Onto,
 }
 
 impl GradientTarget<'_> {
-    /// Writes to `gradient` in the mode `onto`.
+    /// Target that writes to `gradient` in the mode `onto`.
     pub(crate) fn new(gradient: &mut Planes, onto: Onto) -> GradientTarget<'_> {
         GradientTarget { gradient, onto }
     }

@@ -1,4 +1,4 @@
-//! Compares every pass with a plain implementation in double precision, on every instruction set of the machine.
+//! Tests that compare every pass with a simple implementation in double precision, on every instruction set of the machine.
 
 mod divided;
 
@@ -20,7 +20,7 @@ pub(crate) fn random(length: usize, seed: u64) -> Vec<f32> {
     values.collect()
 }
 
-/// Calls a function for every output pixel and channel with each input and weight it uses: the definition of a convolution.
+/// Calls a function for every output pixel and channel, with each input and weight that this output uses. This is the definition of a convolution.
 fn for_each_product(
     convolution: Convolution,
     input: Picture,
@@ -55,10 +55,10 @@ fn for_each_product(
     }
 }
 
-/// Form of the pass, if its shape supports it.
+/// Algorithm of the pass, if it supports the shape.
 const FORM: ConvolutionForm = ConvolutionForm::Winograd;
 
-/// A convolution of some pictures.
+/// Test case: a convolution of some pictures.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Case {
     pub(crate) convolution: Convolution,
@@ -66,8 +66,8 @@ pub(crate) struct Case {
     pub(crate) batch: usize,
 }
 
-/// Values for the passes of a case: pictures, weights and output gradients. Channels are last, except in weights, which are
-/// `[outputs, inputs, kernel row, kernel column]`.
+/// Input values of a test case: pictures, weights and output gradients. Channels are the last dimension, except in weights, which have the shape `[outputs,
+/// inputs, kernel row, kernel column]`.
 pub(crate) struct Numbers {
     pub(crate) pictures: Vec<f32>,
     pub(crate) weights: Vec<f32>,
@@ -79,7 +79,7 @@ impl Case {
         self.convolution.output(self.input)
     }
 
-    /// Numbers from -½ to ½.
+    /// Random numbers from -½ to ½.
     pub(crate) fn numbers(&self) -> Numbers {
         let Convolution {
             inputs, outputs, ..
@@ -91,7 +91,7 @@ impl Case {
         }
     }
 
-    /// Expected results in double precision: outputs, twice the input gradients, weight gradients.
+    /// Expected results in double precision: outputs, twice the input gradients, and weight gradients.
     pub(crate) fn definition(&self, numbers: &Numbers) -> [Vec<f64>; 3] {
         let (input, output) = (self.input, self.output());
         let mut outputs = vec![0.0; output.len() * self.batch];
@@ -149,7 +149,7 @@ fn cases() -> Vec<Case> {
     ]
 }
 
-/// Asserts that relative differences are within the rounding error of sums of `terms` products in single precision.
+/// Asserts that relative differences do not exceed the rounding error of sums of `terms` products in single precision.
 fn assert_close(found: &[f32], expected: &[f64], terms: usize, what: &str) {
     assert_eq!(found.len(), expected.len());
     for (place, (&found, &expected)) in found.iter().zip(expected).enumerate() {
@@ -182,8 +182,8 @@ pub(crate) fn values(planes: &Planes, batch: usize) -> Vec<f32> {
         .collect()
 }
 
-/// Outputs, input gradients (written, then added once more) and weight gradients. The input gradient is omitted for a first convolution whose input
-/// channels are not whole panels.
+/// Outputs, input gradients (written, then added once more) and weight gradients. The input gradient is omitted for a first convolution whose input channels do
+/// not fill whole panels.
 pub(crate) fn passes(case: &Case, machine: Machine, numbers: &Numbers) -> [Vec<f32>; 3] {
     let Case {
         convolution,
@@ -245,7 +245,7 @@ pub(crate) fn reads_panels(convolution: Convolution) -> bool {
     convolution.inputs.is_multiple_of(crate::panel::PANEL)
 }
 
-/// Outputs for pictures, without bias.
+/// Outputs for the pictures, without bias.
 pub(crate) fn forward(
     weights: &ConvolutionWeights,
     pictures: &Planes,

@@ -1,4 +1,4 @@
-//! Weight gradient in either form.
+//! Weight gradient, by either algorithm.
 
 use super::form::ConvolutionForm;
 use super::winograd;
@@ -7,7 +7,7 @@ use super::{Convolution, direct};
 use crate::machine::Machine;
 use crate::planes::{Layout, Planes};
 
-/// Weight-gradient pass, prepared for pictures of one layout.
+/// Weight-gradient pass, prepared for pictures of one memory layout.
 #[derive(Clone, Debug)]
 pub(crate) enum WeightGradient {
     Direct(direct::WeightGradient),
@@ -15,7 +15,7 @@ pub(crate) enum WeightGradient {
 }
 
 impl WeightGradient {
-    /// Weight-gradient pass for inputs of layout `input` and output gradients of layout `output`.
+    /// Prepares the pass for inputs of layout `input` and output gradients of layout `output`.
     pub(crate) fn new(
         convolution: Convolution,
         input: Layout,
@@ -30,7 +30,7 @@ impl WeightGradient {
         }
     }
 
-    /// Length of the gradient of transformed weights; 0 in the direct form.
+    /// Length of the gradient of transformed weights; 0 in the direct algorithm.
     pub(crate) fn transformed_len(&self) -> usize {
         match self {
             WeightGradient::Direct(_) => 0,
@@ -41,7 +41,7 @@ impl WeightGradient {
     /// Runs the pass on the first `count` pictures.
     ///
     /// # Shapes
-    /// `into`: shape of the weights.
+    /// `into`: same shape as the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,

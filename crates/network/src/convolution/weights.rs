@@ -1,4 +1,4 @@
-//! Weights of a convolution, in packed and in plain order.
+//! Weights of a convolution, in packed and in plain (PyTorch's) order.
 
 use rayon::prelude::*;
 
@@ -10,7 +10,7 @@ use crate::simd::{Job, Vector};
 /// The weights of a convolution.
 ///
 /// # Shapes
-/// `[outputs / PANEL, kernel row, kernel column, inputs, PANEL]`. The gradient has the same shape.
+/// `[outputs / PANEL, kernel row, kernel column, inputs, PANEL]`. The weight gradient has the same shape.
 #[derive(Clone, Debug)]
 pub(crate) struct ConvolutionWeights {
     convolution: Convolution,
@@ -18,7 +18,7 @@ pub(crate) struct ConvolutionWeights {
 }
 
 impl ConvolutionWeights {
-    /// Weights of zero.
+    /// Weights that are all zero.
     pub(crate) fn zeros(convolution: Convolution) -> ConvolutionWeights {
         let length = convolution.outputs * convolution.inputs * convolution.taps();
         let values = Aligned::zeros(length);
@@ -40,19 +40,19 @@ impl ConvolutionWeights {
         &mut self.values
     }
 
-    /// Copies the weights in the order `[outputs, inputs, kernel row, kernel column]`.
+    /// Copies the weights to the order `[outputs, inputs, kernel row, kernel column]`.
     pub(crate) fn to_plain(&self) -> Vec<f32> {
         plain(self.convolution, &self.values)
     }
 
-    /// Sets the weights from the order `[outputs, inputs, kernel row, kernel column]`.
+    /// Sets the weights from values in the order `[outputs, inputs, kernel row, kernel column]`.
     pub(crate) fn set_plain(&mut self, plain: &[f32]) {
         for (place, at) in places(self.convolution).enumerate() {
             self.values[at] = plain[place];
         }
     }
 
-    /// Writes the weights with inputs and outputs exchanged, `[inputs / PANEL, taps, outputs, PANEL]`, for the input gradient.
+    /// Writes the weights with inputs and outputs exchanged, for the input gradient. Their shape is `[inputs / PANEL, taps, outputs, PANEL]`.
     pub(crate) fn exchange(&self, machine: Machine, into: &mut [f32]) {
         let Convolution {
             inputs, outputs, ..
@@ -77,7 +77,7 @@ pub(crate) fn plain(convolution: Convolution, values: &[f32]) -> Vec<f32> {
     places(convolution).map(|at| values[at]).collect()
 }
 
-/// Offsets of the weights, in the order `[outputs, inputs, kernel row, kernel column]`.
+/// Offsets of the packed weights, in the order `[outputs, inputs, kernel row, kernel column]`.
 fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
     let (inputs, taps) = (convolution.inputs, convolution.taps());
     (0..convolution.outputs).flat_map(move |output| {
@@ -89,17 +89,17 @@ fn places(convolution: Convolution) -> impl Iterator<Item = usize> {
     })
 }
 
-/// Input panels written at once. Their sources are adjacent in memory.
+/// Number of input panels written at once. Their source values are adjacent in memory.
 const PANELS_AT_ONCE: usize = 2;
 
-/// Exchange of some input panels.
+/// Task that exchanges inputs and outputs for some input panels.
 struct Exchange<'a> {
     weights: &'a [f32],
     taps: usize,
     inputs: usize,
     outputs: usize,
     first_input: usize,
-    /// `[panel of inputs, taps, outputs, PANEL]`.
+    /// Exchanged weights, shape `[panel of inputs, taps, outputs, PANEL]`.
     into: &'a mut [f32],
 }
 

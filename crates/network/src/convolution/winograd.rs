@@ -1,7 +1,7 @@
-//! Winograd's minimal filtering F(4 × 4, 3 × 3) of convolutions with stride 1. Tiles of 6 × 6 inputs and 3 × 3 kernels are transformed
-//! to 36 points. At each point the convolution is a product. The sums are transformed back to tiles of 4 × 4 outputs.
+//! Winograd's minimal filtering F(4 × 4, 3 × 3) of convolutions with stride 1. Tiles of 6 × 6 inputs and 3 × 3 kernels are transformed to 36 points. At each
+//! point, the convolution becomes a product. The sums of products are transformed back to tiles of 4 × 4 outputs.
 //!
-//! Every tile and channel has the same operations in the same order, so threads and vectors change no bit of the result.
+//! Every tile and channel has the same operations in the same order. The result therefore has the same bits for any number of threads and any vector width.
 //!
 //! # Reference
 //! A. Lavin, S. Gray, "Fast algorithms for convolutional neural networks", CVPR 2016.
@@ -24,17 +24,17 @@ use super::Convolution;
 use crate::panel::PANEL;
 use crate::picture::Picture;
 
-/// Side of a tile of outputs, pixels.
+/// Side of a tile of outputs, in pixels.
 const TILE: usize = 4;
 
-/// Points along one dimension, and the side of a tile of inputs.
+/// Number of points along one dimension, which is also the side of a tile of inputs.
 const SIDE: usize = TILE + 2;
 
-/// Points of a tile.
+/// Number of points of a tile.
 const POINTS: usize = SIDE * SIDE;
 
-/// True if this form supports the convolution into pictures of shape `output` and saves products. At 2 × 2 pixels it saves none,
-/// because a tile computes twelve outputs more.
+/// True if this algorithm supports the convolution into pictures of shape `output`, and saves products. For 2 × 2 pixels it saves none, because a tile then
+/// computes twelve unused outputs.
 pub(super) fn is_for(convolution: Convolution, output: Picture) -> bool {
     let Convolution {
         inputs,
@@ -53,18 +53,17 @@ pub(super) fn tiles(output: Picture) -> usize {
     Tiles::of(output).per_picture
 }
 
-/// Stride between points, values. One panel longer than needed: strides of powers of two would map all points to the same cache
-/// lines.
+/// Stride between points, in values. It is one panel longer than needed, because strides of powers of two would map all points to the same cache lines.
 const fn slab(rows: usize, width: usize) -> usize {
     rows * width + PANEL
 }
 
-/// Length of the transformed weights or their gradient.
+/// Length of the transformed weights, and of their gradient.
 pub(super) const fn transformed_len(inputs: usize, outputs: usize) -> usize {
     outputs / PANEL * POINTS * slab(inputs, PANEL)
 }
 
-/// Tiles of outputs, counted row by row and picture by picture.
+/// Tiles of outputs, counted row by row, and picture by picture.
 #[derive(Clone, Copy, Debug)]
 struct Tiles {
     height: usize,
@@ -77,10 +76,10 @@ struct Tiles {
 #[derive(Clone, Copy, Debug)]
 struct TilePlace {
     image: usize,
-    /// First row and column.
+    /// First row and first column of the tile in the picture.
     y: usize,
     x: usize,
-    /// Rows and columns from there to the end of the picture.
+    /// Number of rows and columns from the tile's start to the end of the picture.
     below: usize,
     beside: usize,
 }

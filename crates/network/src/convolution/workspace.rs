@@ -1,24 +1,24 @@
-//! Buffers of the passes.
+//! Buffers for temporary use by the passes.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::panel::Aligned;
 
-/// Buffers for one pass.
+/// Buffers for one pass of a convolution.
 pub(crate) struct Rooms<'a> {
     /// Buffer for transformed weights or their gradient.
     pub(crate) transformed: &'a mut [f32],
     pub(crate) tiles: &'a TileRooms,
 }
 
-/// Pool of buffers for transformed tiles and for outputs of separate parts. A thread takes or allocates one and returns it.
+/// Pool of buffers for transformed tiles and for outputs of separate parts. A thread takes or allocates a buffer, and returns it after use.
 #[derive(Debug, Default)]
 pub(crate) struct TileRooms {
     spare: Mutex<Vec<Aligned>>,
 }
 
 impl TileRooms {
-    /// Calls `work` with a buffer of `length` values, which are unspecified.
+    /// Calls `work` with a buffer of `length` values. The initial values are unspecified.
     pub(super) fn with<R>(&self, length: usize, work: impl FnOnce(&mut [f32]) -> R) -> R {
         let mut room = self.taken(length).unwrap_or_else(|| Aligned::zeros(length));
         let result = work(&mut room[..length]);
@@ -26,7 +26,7 @@ impl TileRooms {
         result
     }
 
-    /// Takes the most recently returned buffer that is long enough. If none is, drops one and returns `None`.
+    /// Takes the most recently returned buffer that is long enough. If no buffer is long enough, frees one and returns `None`.
     fn taken(&self, length: usize) -> Option<Aligned> {
         let mut spare = self.spare();
         let position = spare.iter().rposition(|room| length <= room.len());

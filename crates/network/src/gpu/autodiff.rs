@@ -1,4 +1,4 @@
-//! A convolution in burn's automatic differentiation, with the gradients of [`Convolution`].
+//! A convolution in burn's automatic differentiation. Gradients are computed by [`Convolution`].
 
 use burn_autodiff::Autodiff;
 use burn_autodiff::checkpoint::base::Checkpointer;
@@ -11,7 +11,7 @@ use burn_tensor::{Tensor, TensorPrimitive};
 use crate::gpu::convolution::Convolution;
 use crate::gpu::products::Products;
 
-/// State kept for the backward pass.
+/// State that the backward pass needs.
 #[derive(Clone, Debug)]
 struct Kept<B: Backend> {
     convolution: Convolution<B>,

@@ -1,7 +1,7 @@
-//! Convolutions as matrix products: windows of pixels are gathered and multiplied by the kernels.
+//! Convolutions as matrix products. Windows of pixels are gathered and multiplied by the kernels.
 //!
-//! burn's own convolutions are not used. With tensor cores they compute in TF32, and without them they go pixel by pixel. In burn 0.21 they also
-//! drop the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
+//! burn's own convolutions are not used. With tensor cores they compute in TF32; without tensor cores they process pixel by pixel. In burn 0.21 they also lose
+//! the gradient of pixels where a kernel is narrower than its stride (`conv_transpose2d_direct`).
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
@@ -10,8 +10,8 @@ use crate::gpu::parts::{LINE, added, split, stack, together};
 use crate::gpu::products::Products;
 use crate::gpu::windows::{Way, Windows, given};
 
-/// A convolution of pictures of one size, `[samples, height, width, channels]`. The weights are one vector in PyTorch's order,
-/// `[outputs, inputs, kernel rows, kernel columns]`.
+/// A convolution of pictures of one size, shape `[samples, height, width, channels]`. The weights are one vector in PyTorch's order, `[outputs, inputs, kernel
+/// rows, kernel columns]`.
 #[derive(Clone, Debug)]
 pub(crate) struct Convolution<B: Backend> {
     windows: Windows<B>,
@@ -22,11 +22,11 @@ pub(crate) struct Convolution<B: Backend> {
     most: usize,
 }
 
-/// Maximum number of values of a tensor of windows: 128 MiB, the least size of a storage buffer that WebGPU guarantees.
+/// Maximum number of values of a tensor of windows. It corresponds to 128 MiB, the storage buffer size that WebGPU guarantees.
 const MOST: usize = 1 << 25;
 
 impl<B: Backend> Convolution<B> {
-    /// Convolution with weights of `shape` for input pictures of height and width `seen`.
+    /// Convolution with weights of `shape`, for input pictures whose height and width are `seen`.
     pub(crate) fn new(
         shape: [usize; 4],
         stride: usize,
@@ -105,7 +105,7 @@ impl<B: Products> Convolution<B> {
         sum.permute([3, 2, 0, 1]).reshape([count])
     }
 
-    /// Multiplies the windows of `pictures` by `kernels`, `[1, taps · channels, output channels]`.
+    /// Multiplies the windows of `pictures` by `kernels` of shape `[1, taps · channels, output channels]`.
     fn gathered(&self, pictures: Tensor<B, 4>, way: Way, kernels: &Tensor<B, 3>) -> Tensor<B, 4> {
         let [samples, ..] = pictures.dims();
         let [_, inner, channels] = kernels.dims();
@@ -136,7 +136,7 @@ impl<B: Products> Convolution<B> {
         })
     }
 
-    /// Pictures whose windows are gathered at once.
+    /// Number of pictures whose windows are gathered at once.
     fn at_once(&self, way: Way) -> usize {
         let Windows {
             seen, given, taps, ..
@@ -163,7 +163,7 @@ mod tests {
         Tensor::from_data(data, &B::Device::default())
     }
 
-    /// Outputs and gradients of a convolution for five pictures, with windows of at most `most` values.
+    /// Outputs and gradients of a test convolution of five pictures, with windows of at most `most` values.
     fn all<B: Products>(most: usize) -> [Vec<f32>; 3] {
         let device = B::Device::default();
         let mut convolution = Convolution::<B>::new([8, 4, 3, 3], 2, [9, 7], &device);

@@ -12,19 +12,19 @@ use crate::training::{Engine, Recipe, Snapshot};
 /// A device of this machine.
 #[derive(Clone, Debug)]
 pub(crate) struct Device {
-    /// Name of the device, as reported by its driver.
+    /// Name of the device as its driver reports it.
     pub(crate) name: String,
     pub(crate) begin: Begin,
 }
 
-/// Starts a training on a device, named in errors by the first argument, with the burn backend of its kind.
+/// Function that starts a training on a device, with the burn backend for its kind. The first argument names the device in errors.
 type Begin = fn(&str, &Snapshot, &Recipe) -> Result<Box<dyn Engine>, NetworkError>;
 
 impl Device {
     /// Finds the first device of `kind`.
     ///
     /// # Errors
-    /// [`GpuError::NotBuilt`] without the feature for that kind, [`GpuError::NotFound`] without a device.
+    /// [`GpuError::NotBuilt`] without the feature for `kind`, [`GpuError::NotFound`] without a device.
     pub(crate) fn find(kind: GpuKind) -> Result<Device, GpuError> {
         match kind {
             #[cfg(feature = "cuda")]

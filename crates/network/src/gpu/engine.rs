@@ -11,7 +11,7 @@ use crate::gpu::training::{Course, descend};
 use crate::gpu::weights::{Layout, Weights, named, upload};
 use crate::{Architecture, Batch, Engine, Moments, Network, NetworkError, Recipe, Rule, Snapshot};
 
-/// Training of a network on a device of `B`.
+/// Engine that trains a network on a device of the backend `B`.
 #[derive(Debug)]
 struct DeviceEngine<B: Backend> {
     device: B::Device,
@@ -22,16 +22,16 @@ struct DeviceEngine<B: Backend> {
     layout: Layout,
     passes: Passes<B>,
     weights: Weights<B>,
-    /// Folded weights for prediction, built at the first prediction after a step.
+    /// Folded weights for prediction, computed at the first prediction after a step.
     prediction: Option<Prediction<B>>,
     moments: Vec<Tensor<B, 1>>,
-    /// Last step, for the error about infinite or NaN weights.
+    /// Index of the last step, for the error about infinite or NaN weights.
     last: u64,
-    /// Error of a failed step. The weights may be half updated, so every further step returns this error.
+    /// Error of a failed step. Every further step returns this error, because the weights may be only partly updated.
     failed: Option<NetworkError>,
 }
 
-/// Starts an engine on the first device of `B`, called `name` in errors, that continues from `snapshot`.
+/// Starts an engine on the first device of `B` that continues from `snapshot`. Errors call the device `name`.
 pub(crate) fn begin<B: Products>(
     name: &str,
     snapshot: &Snapshot,

@@ -11,7 +11,7 @@ pub enum GpuError {
         "this program was built without the feature `{kind}`: build it with `--features {kind}`, or train with `device=cpu`"
     )]
     NotBuilt {
-        /// Requested kind, also the name of the feature.
+        /// Requested kind, which is also the name of the feature.
         kind: GpuKind,
     },
     /// No device of this kind was found.
@@ -19,9 +19,9 @@ pub enum GpuError {
     NotFound {
         /// Requested kind.
         kind: GpuKind,
-        /// Requirements of this kind.
+        /// Requirements for a device of this kind.
         looked_for: &'static str,
-        /// Devices found in the search, or the reason for finding none.
+        /// Devices that the search found, or the reason why it found none.
         found: String,
     },
 }

@@ -1,10 +1,10 @@
-//! Catches panics of burn and its libraries. They report a failed device only by a panic.
+//! Catches panics of burn and its libraries, because they report a failed device only by a panic.
 
 use taceva_core::contained;
 
 use crate::error::NetworkError;
 
-/// Runs `work` and turns a panic into [`NetworkError::Device`].
+/// Runs `work`, and converts a panic to [`NetworkError::Device`].
 pub(crate) fn guard<T>(
     gpu: &str,
     work: impl FnOnce() -> Result<T, NetworkError>,

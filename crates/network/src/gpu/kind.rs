@@ -7,17 +7,17 @@ use crate::gpu::GpuError;
 /// Programming interface of a GPU.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum GpuKind {
-    /// NVIDIA's driver, with kernels compiled by NVRTC at first use.
+    /// CUDA: NVIDIA's driver, with kernels compiled by NVRTC at first use.
     Cuda,
-    /// Vulkan, Metal or DirectX 12, depending on the system.
+    /// wgpu: Vulkan, Metal or DirectX 12, depending on the system.
     Wgpu,
 }
 
 impl GpuKind {
-    /// Every kind.
+    /// All kinds.
     pub const ALL: [GpuKind; 2] = [GpuKind::Cuda, GpuKind::Wgpu];
 
-    /// Name of the kind and of its feature.
+    /// Name of the kind and of its Cargo feature.
     pub const fn name(self) -> &'static str {
         match self {
             GpuKind::Cuda => "cuda",
@@ -28,7 +28,7 @@ impl GpuKind {
     /// Checks that this program was built with the feature for this kind.
     ///
     /// # Errors
-    /// [`GpuError::NotBuilt`], naming the feature.
+    /// [`GpuError::NotBuilt`] with the name of the feature.
     pub const fn check_built(self) -> Result<(), GpuError> {
         let is_built = match self {
             GpuKind::Cuda => cfg!(feature = "cuda"),

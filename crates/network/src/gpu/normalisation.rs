@@ -1,4 +1,4 @@
-//! Batch normalisation and its gradient, in few kernels.
+//! Batch normalisation and its gradient, with few GPU kernels.
 
 use crate::Network;
 use burn_autodiff::Autodiff;
@@ -9,12 +9,12 @@ use burn_autodiff::ops::{Backward, Ops, OpsKind};
 use burn_tensor::backend::Backend;
 use burn_tensor::{Tensor, TensorPrimitive};
 
-/// State kept for the backward pass.
+/// State that the backward pass needs.
 #[derive(Clone, Debug)]
 struct Kept<B: Backend> {
     /// Normalised pictures: mean 0 and variance 1 in each channel.
     normalised: Tensor<B, 4>,
-    /// Derivative of output by input at constant moments: gain / √(variance + ε), `[1, 1, 1, channels]`.
+    /// Derivative of the output by the input at constant moments: gain / √(variance + ε), shape `[1, 1, 1, channels]`.
     scale: Tensor<B, 4>,
 }
 
@@ -52,7 +52,7 @@ impl<B: Backend> Backward<B, 3> for Normalised {
     }
 }
 
-/// Pictures normalised by their own moments.
+/// Pictures that were normalised by their own moments.
 pub(crate) struct Batch<B: Backend> {
     pub(crate) given: Tensor<Autodiff<B>, 4>,
     /// Mean of each channel.
@@ -99,13 +99,13 @@ pub(crate) fn normalised<B: Backend>(
     }
 }
 
-/// Maximum number of pixels summed by one GPU thread.
+/// Maximum number of pixels that one GPU thread sums.
 const ALONE: usize = 128;
 
-/// Sums of each channel: along rows, then columns, then pictures. This order keeps many GPU threads busy and rounding errors small.
+/// Sums of each channel: along rows, then columns, then pictures. This order occupies many GPU threads and limits rounding errors.
 ///
 /// # Shapes
-/// `pictures`: `[samples, height, width, channels]`; returns `[1, 1, 1, channels]`.
+/// `pictures`: `[samples, height, width, channels]`. Returns `[1, 1, 1, channels]`.
 fn sums<B: Backend>(pictures: Tensor<B, 4>) -> Tensor<B, 4> {
     let [samples, height, width, channels] = pictures.dims();
     let lines = if height * width <= ALONE {

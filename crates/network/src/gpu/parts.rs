@@ -1,18 +1,18 @@
-//! Splits work that exceeds the memory limit, and sums with too few outputs to fill a GPU.
+//! Divides work that exceeds the memory limit, and sums with too few outputs to occupy a GPU.
 
 use burn_tensor::Tensor;
 use burn_tensor::backend::Backend;
 
-/// Tiles of 64 × 64 that fill a GPU. Products with fewer tiles are computed in parts, then added.
+/// Number of tiles of 64 × 64 that occupy a GPU. Products with fewer tiles are computed in parts, which are then added.
 const BUSY: usize = 512;
 
-/// Values of a window that stay in one part.
+/// Number of values of a window that are never divided between parts.
 pub(crate) const LINE: usize = 32;
 
 /// Minimum number of products in a part of a sum.
 const LEAST: usize = 128;
 
-/// Number of equal parts for sums of `length` products in a matrix of `size`, to fill the GPU. Parts are multiples of `line`.
+/// Number of equal parts into which sums of `length` products in a matrix of `size` are divided, to occupy the GPU. Parts are multiples of `line`.
 pub(crate) fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> usize {
     let tiles = rows.div_ceil(64) * columns.div_ceil(64);
     let wanted = (BUSY / tiles).min(length / LEAST).max(1);
@@ -22,7 +22,7 @@ pub(crate) fn stack(length: usize, line: usize, [rows, columns]: [usize; 2]) -> 
         .unwrap_or(1)
 }
 
-/// Splits `pictures` into batches of at most `most`.
+/// Divides `pictures` into batches of at most `most` pictures.
 pub(crate) fn split<B: Backend>(
     pictures: Tensor<B, 4>,
     most: usize,

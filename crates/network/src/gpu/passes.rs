@@ -1,4 +1,4 @@
-//! Layers of a network and their order, independent of the implementation of convolution and normalisation.
+//! Layers of a network and their order. Implementations of convolution and normalisation are supplied by a [`Pass`].
 
 use burn_tensor::Tensor;
 use burn_tensor::activation::relu;
@@ -9,7 +9,7 @@ use crate::gpu::convolution::Convolution;
 use crate::gpu::weights::Layout;
 use crate::{Architecture, PlainLayer, Pooling, StagePlan};
 
-/// Layers of a network on a device of `B`.
+/// Layers of a network on a device of the backend `B`.
 #[derive(Clone, Debug)]
 pub(crate) struct Passes<B: Backend> {
     parts: Vec<Layer<B>>,
@@ -42,11 +42,11 @@ pub(crate) struct Normed<B: Backend> {
     pub(crate) bias: usize,
     pub(crate) mean: usize,
     pub(crate) variance: usize,
-    /// `[outputs, inputs, kernel rows, kernel columns]`.
+    /// Shape of the weights, `[outputs, inputs, kernel rows, kernel columns]`.
     pub(crate) shape: [usize; 4],
 }
 
-/// Linear outputs, as a convolution of pictures of one pixel.
+/// Linear outputs, computed as a convolution of pictures of one pixel.
 #[derive(Clone, Debug)]
 pub(crate) struct Head<B: Backend> {
     pub(crate) convolution: Convolution<B>,
@@ -55,7 +55,7 @@ pub(crate) struct Head<B: Backend> {
     outputs: usize,
 }
 
-/// Implementation of convolutions on tensors of `T`. `B` is the backend of the device.
+/// Implementation of layers on tensors of the backend `T`. `B` is the backend of the device.
 pub(crate) trait Pass<B: Backend, T: Backend> {
     /// Convolves and normalises pictures.
     fn normed(&mut self, normed: &Normed<B>, pictures: Tensor<T, 4>) -> Tensor<T, 4>;
@@ -63,7 +63,7 @@ pub(crate) trait Pass<B: Backend, T: Backend> {
     /// Multiplies features by the weights, without the bias.
     fn weighted(&self, head: &Head<B>, features: Tensor<T, 4>) -> Tensor<T, 4>;
 
-    /// Trained tensor at `position`.
+    /// Trained tensor with index `position`.
     fn learnt(&self, position: usize) -> Tensor<T, 1>;
 }
 
@@ -134,7 +134,7 @@ impl<B: Backend> Passes<B> {
         }
     }
 
-    /// Every convolution with its normalisation, in the order of the forward pass.
+    /// All convolutions with their normalisations, in the order of the forward pass.
     pub(crate) fn normed(&self) -> impl Iterator<Item = &Normed<B>> {
         self.parts.iter().flat_map(|part| match part {
             Layer::Stem(normed) | Layer::Plain(normed) => vec![normed],
@@ -146,10 +146,10 @@ impl<B: Backend> Passes<B> {
         })
     }
 
-    /// Computes the outputs for `pictures`, with convolutions by `pass`.
+    /// Computes the outputs for `pictures`. Convolutions are computed by `pass`.
     ///
     /// # Shapes
-    /// `pictures`: `[samples, height, width, channels]`; returns `[samples, outputs]`.
+    /// `pictures`: `[samples, height, width, channels]`. Returns `[samples, outputs]`.
     pub(crate) fn run<T: Backend>(
         &self,
         pictures: Tensor<T, 4>,

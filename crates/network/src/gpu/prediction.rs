@@ -8,14 +8,14 @@ use crate::gpu::products::Products;
 use crate::gpu::weights::{Layout, Weights, numbers};
 use crate::{Network, Picture};
 
-/// Pictures per batch.
+/// Number of pictures per batch.
 const BATCH: usize = 256;
 
 /// Weights prepared for prediction.
 #[derive(Clone, Debug)]
 pub(crate) struct Prediction<B: Backend> {
     learnt: Vec<Tensor<B, 1>>,
-    /// Folded weights and bias of each convolution, at the index of its weights.
+    /// Folded weights and bias of each convolution, stored at the index of the convolution's weights.
     folded: Vec<Option<(Tensor<B, 1>, Tensor<B, 1>)>>,
 }
 
@@ -41,7 +41,7 @@ impl<B: Products> Prediction<B> {
         Prediction { learnt, folded }
     }
 
-    /// Writes the outputs for `pictures` of size `picture` to `into`.
+    /// Predicts the outputs for `pictures` of size `picture`, and writes them to `into`.
     pub(crate) fn run(
         &self,
         passes: &Passes<B>,
@@ -82,7 +82,7 @@ impl<B: Products> Pass<B, B> for &Prediction<B> {
     }
 }
 
-/// Uploads pictures to the device.
+/// Uploads `values` as pictures to the device.
 ///
 /// # Shapes
 /// `values` and the result: `[samples, height, width, channels]`.

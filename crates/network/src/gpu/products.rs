@@ -1,7 +1,7 @@
 //! Matrix products in single precision.
 //!
-//! All products are computed by ordinary units in f32. Left to itself, burn chooses the fastest algorithm. On NVIDIA GPUs, that is tensor cores,
-//! which round both factors to TF32 (eleven bits).
+//! All products are computed by ordinary units in f32. By default, burn chooses the fastest algorithm. On NVIDIA GPUs, this algorithm uses tensor cores, which
+//! round both factors to TF32 (eleven bits).
 
 use burn_cubecl::cubecl::server::ComputeServer;
 use burn_cubecl::ops::numeric::empty_device_contiguous_dtype;
@@ -16,14 +16,14 @@ use cubek::std::InputBinding;
 
 /// A backend that multiplies matrices in single precision.
 pub(crate) trait Products: Backend {
-    /// Multiplies `left` by `right`, for each matrix of a stack.
+    /// Multiplies `left` by `right`, matrix by matrix of the stack.
     ///
     /// # Shapes
-    /// `left`: `[stack, rows, inner]`; `right`: `[stack, inner, columns]`; returns `[stack, rows, columns]`.
+    /// `left`: `[stack, rows, inner]`. `right`: `[stack, inner, columns]`. Returns `[stack, rows, columns]`.
     fn product(left: Tensor<Self, 3>, right: Tensor<Self, 3>) -> Tensor<Self, 3>;
 }
 
-/// Minimum number of products per sum for double buffering, which is faster. cubek 0.2 computes shorter sums wrongly with it.
+/// Minimum number of products per sum for double buffering. It is faster, but cubek 0.2 computes shorter sums wrongly with it.
 const LONG: usize = 128;
 
 impl<R, I, B> Products for CubeBackend<R, f32, I, B>
@@ -74,7 +74,7 @@ mod tests {
     use crate::gpu::devices::on_each;
     use burn_tensor::{Tensor, TensorData};
 
-    /// `[stack, rows, inner, columns]`.
+    /// Sizes for tests, `[stack, rows, inner, columns]`.
     const SIZES: [[usize; 4]; 12] = [
         [1, 1, 512, 6],
         [1, 3, 1, 5],

@@ -1,5 +1,4 @@
-//! One training step: forward pass with batch moments, gradients by burn's automatic differentiation, and the update of the
-//! weights.
+//! One training step: forward pass with batch moments, gradients by burn's automatic differentiation, and the update of the weights.
 
 use burn_autodiff::Autodiff;
 use burn_tensor::Tensor;
@@ -17,7 +16,7 @@ use crate::{Network, Rule};
 pub(crate) struct Course<B: Backend> {
     /// Trained tensors, which track gradients.
     learnt: Vec<Tensor<Autodiff<B>, 1>>,
-    /// Mean and unbiased variance of the batch, in the order of the running moments.
+    /// Mean and unbiased variance of the batch for each normalisation, in the order of the running moments.
     moments: Vec<Option<Tensor<B, 1>>>,
     outputs: Tensor<Autodiff<B>, 2>,
 }
@@ -47,10 +46,10 @@ impl<B: Products> Course<B> {
         }
     }
 
-    /// Downloads the outputs, waiting for the device.
+    /// Downloads the outputs. Waits until the device has computed them.
     ///
     /// # Shapes
-    /// `[samples, outputs]`.
+    /// Returns `[samples, outputs]`.
     pub(crate) fn outputs(&self) -> Vec<f64> {
         let outputs = numbers(self.outputs.clone().inner());
         outputs.into_iter().map(f64::from).collect()
@@ -70,7 +69,7 @@ impl<B: Products> Course<B> {
         Tensor::cat(each.collect(), 0)
     }
 
-    /// Running moments updated by this batch.
+    /// Running moments after their update by this batch.
     pub(crate) fn followed(&self, running: &Tensor<B, 1>) -> Tensor<B, 1> {
         let moments = self.moments.iter().cloned();
         let moments = moments.map(|moment| moment.expect("each normalisation was passed"));
@@ -80,7 +79,7 @@ impl<B: Products> Course<B> {
     }
 }
 
-/// Training pass: normalises by the batch moments and stores them.
+/// Training pass, which normalises by the batch moments and stores these.
 struct Step<'a, B: Backend> {
     learnt: &'a [Tensor<Autodiff<B>, 1>],
     moments: &'a mut [Option<Tensor<B, 1>>],
@@ -108,7 +107,7 @@ impl<B: Products> Pass<B, Autodiff<B>> for Step<'_, B> {
     }
 }
 
-/// Weights after a step by `rule`. `moments` is the state of the optimiser, empty before the first step.
+/// Weights after a step by `rule`. `moments` contains the state of the optimiser, and is empty before the first step.
 pub(crate) fn descend<B: Backend>(
     rule: Rule,
     weights: &Tensor<B, 1>,

@@ -1,5 +1,5 @@
-//! Upload and download of weights. On a device, a network is two long vectors: trained values and running moments. An optimiser
-//! step therefore takes few kernels for any number of layers.
+//! Upload and download of weights. On a device, a network consists of two long vectors: trained values and running moments. The number of GPU kernels of an
+//! optimiser step therefore does not depend on the number of layers.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -8,7 +8,7 @@ use crate::{Architecture, NamedTensor, Network, NetworkError};
 use burn_tensor::backend::Backend;
 use burn_tensor::{Tensor, TensorData};
 
-/// Offsets of each tensor of a network in the two vectors.
+/// Offsets of each tensor of a network in the two weight vectors.
 #[derive(Clone, Debug)]
 pub(crate) struct Layout {
     pub(crate) learnt: Vec<Slice>,
@@ -31,7 +31,7 @@ pub(crate) struct Weights<B: Backend> {
 }
 
 impl Layout {
-    /// Layout of `tensors`, the complete list of a network.
+    /// Layout of `tensors`, which must be the complete list of a network's tensors.
     pub(crate) fn of(tensors: &[NamedTensor]) -> Layout {
         let (mut learnt, mut running) = (Vec::new(), Vec::new());
         for tensor in tensors {
@@ -50,7 +50,7 @@ impl Layout {
         Layout { learnt, running }
     }
 
-    /// Index of each tensor among its kind, by name.
+    /// Index of each tensor among the tensors of its vector, by name.
     pub(crate) fn positions(&self) -> BTreeMap<&str, usize> {
         let kinds = [&self.learnt, &self.running];
         kinds
@@ -125,7 +125,7 @@ pub(crate) fn named<B: Backend>(slices: &[Slice], vector: &Tensor<B, 1>) -> Vec<
     slices.iter().map(|slice| slice.named(&values)).collect()
 }
 
-/// Downloads the values of `tensor`, waiting for the device.
+/// Downloads the values of `tensor`. Waits until the device has computed them.
 pub(crate) fn numbers<B: Backend, const D: usize>(tensor: Tensor<B, D>) -> Vec<f32> {
     tensor.into_data().iter::<f32>().collect()
 }

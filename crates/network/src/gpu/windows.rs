@@ -12,13 +12,13 @@ pub(crate) struct Windows<B: Backend> {
     pub(crate) given: [usize; 2],
     /// Number of kernel positions.
     pub(crate) taps: usize,
-    /// Input pixel for each output pixel and kernel position.
+    /// Index of the input pixel for each output pixel and kernel position.
     onward: Table<B>,
-    /// Output pixel for each input pixel and kernel position, for the backward pass.
+    /// Index of the output pixel for each input pixel and kernel position, for the backward pass.
     back: Table<B>,
 }
 
-/// Pixel index for each pixel and kernel position. `None` if each pixel is its own window.
+/// Pixel index for each pixel and kernel position; `None` if the window of each pixel is the pixel itself.
 type Table<B> = Option<Tensor<B, 1, Int>>;
 
 /// Direction of a pass.
@@ -31,7 +31,7 @@ pub(crate) enum Way {
 }
 
 impl<B: Backend> Windows<B> {
-    /// Windows of a square kernel, centred on every `stride`-th pixel of every `stride`-th row.
+    /// Windows of a square kernel. They are centred on every `stride`-th pixel of every `stride`-th row.
     pub(crate) fn new(seen: [usize; 2], kernel: usize, stride: usize, device: &B::Device) -> Self {
         let given = seen.map(|length| given(length, kernel, stride));
         let itself = kernel == 1 && stride == 1;
@@ -48,10 +48,10 @@ impl<B: Backend> Windows<B> {
         }
     }
 
-    /// Gathers the windows of `pixels`, with zeros outside the picture.
+    /// Gathers the windows of `pixels`. Positions outside the picture are zero.
     ///
     /// # Shapes
-    /// `pixels`: `[samples, pixels, channels]`; returns `[samples, windows, taps · channels]`.
+    /// `pixels`: `[samples, pixels, channels]`. Returns `[samples, windows, taps · channels]`.
     pub(crate) fn of(&self, pixels: Tensor<B, 3>, way: Way) -> Tensor<B, 3> {
         let (table, windows) = match way {
             Way::Onward => (&self.onward, self.given),
@@ -73,7 +73,7 @@ pub(crate) const fn given(length: usize, kernel: usize, stride: usize) -> usize 
     (length + 2 * (kernel / 2) - kernel) / stride + 1
 }
 
-/// Input pixel for each output pixel and kernel position. The index after the last pixel means outside the picture.
+/// Index of the input pixel for each output pixel and kernel position. Positions outside the picture have the index after the last pixel.
 fn onward(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Vec<i32> {
     let place = |at: usize, tap: usize, length: usize| {
         let found = (at * stride + tap).checked_sub(kernel / 2);
@@ -82,7 +82,7 @@ fn onward(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> 
     positions(given, seen, kernel, place)
 }
 
-/// Output pixel for each input pixel and kernel position. The index after the last pixel means no output pixel.
+/// Index of the output pixel for each input pixel and kernel position. Positions without an output pixel have the index after the last pixel.
 fn back(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Vec<i32> {
     let place = |at: usize, tap: usize, length: usize| {
         let middle = (at + kernel / 2).checked_sub(tap)?;
@@ -92,7 +92,7 @@ fn back(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Ve
     positions(seen, given, kernel, place)
 }
 
-/// Pixel index in a picture of size `of` for each pixel of a picture of size `each` and each kernel position, computed by `place`.
+/// Index, computed by `place`, for each pixel of a picture of size `each` and each kernel position. It refers to a picture of size `of`.
 fn positions(
     each: [usize; 2],
     of: [usize; 2],

@@ -1,4 +1,4 @@
-//! Backward pass: each output passes its whole gradient to its source pixel.
+//! Backward pass: the gradient of each output is added to its source pixel.
 
 use rayon::prelude::*;
 
@@ -9,7 +9,7 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Results of the forward pass.
+/// Results of the forward pass that the backward pass reads.
 #[derive(Clone, Copy)]
 pub(crate) struct Pooled<'a> {
     pub(crate) output: &'a Planes,
@@ -17,7 +17,7 @@ pub(crate) struct Pooled<'a> {
     pub(crate) count: usize,
 }
 
-/// Sums for the gradients of the normalisation. Sets the output gradient `gradient` to zero where ReLU cut the output.
+/// Computes the sums for the gradients of the normalisation. Sets the output gradient `gradient` to zero where ReLU made the output zero.
 pub(crate) fn gradient_sums(
     machine: Machine,
     raw: &Planes,
@@ -53,8 +53,8 @@ pub(crate) fn gradient_sums(
     GradientSums::over(&sums[..count], moments, count * from.picture.pixels())
 }
 
-/// Replaces the raw pictures by their gradient, in place: they are the largest pictures of a network, and this is their last use. `gradient` is the
-/// output gradient, masked by [`gradient_sums`].
+/// Replaces the raw pictures by their gradient. The same buffer is used, because these are the largest pictures of a network, and are not read again.
+/// `gradient` is the output gradient, masked by [`gradient_sums`].
 pub(crate) fn input_gradient(
     machine: Machine,
     raw: &mut Planes,
@@ -86,7 +86,7 @@ pub(crate) fn input_gradient(
     });
 }
 
-/// Work of [`gradient_sums`] for one picture.
+/// Task of [`gradient_sums`] for one picture.
 struct Sums<'a> {
     raw: &'a [f32],
     from: Layout,
@@ -158,7 +158,7 @@ impl Job for Sums<'_> {
     }
 }
 
-/// Work of [`input_gradient`] for one picture.
+/// Task of [`input_gradient`] for one picture.
 struct Apply<'a> {
     raw: &'a mut [f32],
     from: Layout,

@@ -9,8 +9,7 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Vector};
 
-/// Normalises the first `count` pictures, applies ReLU and pools them. Writes the window position of each output's source to
-/// `choices`.
+/// Normalises the first `count` pictures, applies ReLU and pools them. Writes to `choices` the window position of each output's source pixel.
 ///
 /// # Shapes
 /// `choices`: `[pictures, output pixels, channels]`.
@@ -41,7 +40,7 @@ pub(crate) fn pool_normalised(
         });
 }
 
-/// Work for one picture.
+/// Task for one picture.
 struct Pool<'a> {
     raw: &'a [f32],
     from: Layout,

@@ -1,4 +1,4 @@
-//! Plain max pooling for prediction, of one picture while it is in cache.
+//! Max pooling for prediction, applied to one picture while the picture is in cache.
 
 use super::window;
 use crate::machine::Machine;
@@ -6,7 +6,7 @@ use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::simd::{Job, Vector};
 
-/// Pools `picture`, of layout `from`, into `into`, of layout `layout`.
+/// Pools `picture`, of layout `from`, and writes to `into`, of layout `layout`.
 pub(crate) fn pool(
     machine: Machine,
     picture: &[f32],

@@ -8,16 +8,16 @@ use crate::samples::Samples;
 use crate::stage::Stage;
 use crate::update::Update;
 
-/// Loss of some samples and its gradient by each parameter.
+/// Loss of some samples, and its gradient for each parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradients {
     /// Loss of the samples.
     pub loss: f64,
-    /// Gradients under the names of their parameters, sorted.
+    /// Gradients with the names of their parameters, sorted by name.
     pub tensors: Vec<NamedTensor>,
 }
 
-/// Update that stores every gradient.
+/// [`Update`] that stores every gradient.
 struct Keep(Vec<Vec<f32>>);
 
 impl Update for Keep {
@@ -27,10 +27,10 @@ impl Update for Keep {
 }
 
 impl Network {
-    /// Loss and gradients of `samples` as one batch, with batch moments. Updates the running moments.
+    /// Loss and gradients of `samples`, as one batch and with batch moments. Updates the running moments.
     ///
     /// # Errors
-    /// [`NetworkError`] if the samples do not match the network or the loss, or memory is short.
+    /// [`NetworkError`] if the samples do not match the network or the loss, or if memory is insufficient.
     pub fn gradients(
         &mut self,
         samples: Samples<'_>,
@@ -55,7 +55,7 @@ impl Network {
         })
     }
 
-    /// Names gradients, or other values of the same shape, given by slot.
+    /// Adds names to gradients, or to other values of the same shape, that are ordered by slot.
     pub(crate) fn named(&self, mut gradients: Vec<Vec<f32>>) -> Vec<NamedTensor> {
         let mut values = std::collections::BTreeMap::new();
         for (prefix, stage) in self.architecture.stage_names().iter().zip(&self.stages) {

@@ -1,4 +1,4 @@
-//! Weights by name, as in PyTorch.
+//! Weights by name. The names are those of PyTorch.
 
 use std::collections::BTreeMap;
 
@@ -13,14 +13,14 @@ use crate::stage::Stage;
 pub struct NamedTensor {
     /// Name of the tensor.
     pub name: String,
-    /// Dimensions; `[outputs, inputs, kernel rows, kernel columns]` for a convolution.
+    /// Dimensions of the tensor; `[outputs, inputs, kernel rows, kernel columns]` for a convolution.
     pub shape: Vec<usize>,
-    /// Values, last dimension fastest.
+    /// Values of the tensor. The index of the last dimension varies fastest.
     pub values: Vec<f32>,
 }
 
 impl NamedTensor {
-    /// True for trainable tensors: all except running moments.
+    /// True for trainable tensors, which are all tensors except running moments.
     pub fn is_learnt(&self) -> bool {
         !self.name.contains(".running_")
     }
@@ -30,7 +30,7 @@ impl NamedTensor {
 const COUNTER: &str = ".num_batches_tracked";
 
 impl Network {
-    /// All tensors that predictions depend on, sorted by name.
+    /// All tensors on which predictions depend, sorted by name.
     pub fn tensors(&self) -> Vec<NamedTensor> {
         let mut tensors = Vec::new();
         for (prefix, stage) in self.architecture.stage_names().iter().zip(&self.stages) {
@@ -70,7 +70,7 @@ impl Network {
         tensors
     }
 
-    /// Builds a network from tensors. PyTorch's batch counters are ignored.
+    /// Builds a network from tensors. Ignores PyTorch's batch counters.
     ///
     /// # Errors
     /// [`NetworkError`] if a tensor is missing, unexpected, of the wrong shape, or not finite.
@@ -117,7 +117,7 @@ impl Network {
         tensors
     }
 
-    /// Values of `learnt` in slot order. `learnt` must have the names and shapes of [`learnt`](Network::learnt).
+    /// Values of `learnt` in slot order. Names and shapes must equal those of [`learnt`](Network::learnt).
     pub(crate) fn slotted(&self, learnt: &[NamedTensor]) -> Vec<Aligned> {
         let mut carrier = self.clone();
         let mut tensors = carrier.tensors();
@@ -134,7 +134,7 @@ impl Network {
             .collect()
     }
 
-    /// Sets all tensors. Names and shapes must equal [`tensors`](Network::tensors).
+    /// Sets all tensors. Names and shapes must equal those of [`tensors`](Network::tensors).
     fn set_tensors(&mut self, tensors: &[NamedTensor]) {
         let by_name: BTreeMap<&str, &[f32]> = tensors
             .iter()

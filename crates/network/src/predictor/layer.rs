@@ -9,7 +9,7 @@ use crate::panel::Aligned;
 use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 
-/// Bytes of weights that fit into a thread's second-level cache beside pictures.
+/// Size of weights that fit into a thread's second-level cache together with pictures, in bytes.
 const WEIGHTS_IN_CACHE: usize = 256 << 10;
 
 /// Minimum number of pixels of a picture that amortise reading the weights.
@@ -26,7 +26,7 @@ pub(super) struct Layer {
     products: usize,
 }
 
-/// Weights, untransformed or as a pass reads them.
+/// Weights: untransformed, or in the format that a pass reads.
 #[derive(Debug)]
 enum Weights {
     Plain(ConvolutionWeights),
@@ -44,17 +44,17 @@ pub(super) struct Pass<'a> {
     pub(super) count: usize,
 }
 
-/// Operation after the bias.
+/// Operation after addition of the bias.
 #[derive(Clone, Copy)]
 pub(super) enum Ending<'a> {
     Keep,
     Relu,
-    /// Adds pictures with the layout of the output.
+    /// Adds pictures with the layout of the output, then applies ReLU.
     AddThenRelu(&'a [f32]),
 }
 
 impl Layer {
-    /// Convolution of `normed` from pictures of layout `input` to pictures with a border of `border` pixels.
+    /// Layer for the convolution `normed`, from pictures of layout `input` to pictures with a border of `border` pixels.
     pub(super) fn new(
         normed: &Normed,
         input: Layout,
@@ -80,7 +80,7 @@ impl Layer {
         }
     }
 
-    /// Length of the transformed weights not yet allocated.
+    /// Length of the transformed weights that are not allocated yet.
     pub(super) fn missing(&self) -> usize {
         match self.weights {
             Weights::Plain(_) => self.forward.transformed_len(),
@@ -88,7 +88,7 @@ impl Layer {
         }
     }
 
-    /// Transforms the weights if the form requires it, and drops the untransformed ones.
+    /// Transforms the weights if the algorithm requires it, and frees the untransformed weights.
     ///
     /// # Errors
     /// [`NetworkError::Memory`] if the transformed weights do not fit into memory.
@@ -102,7 +102,7 @@ impl Layer {
         Ok(())
     }
 
-    /// Multiplications per picture in direct form.
+    /// Number of multiplications per picture in the direct algorithm.
     pub(super) fn products(&self) -> usize {
         self.products
     }
@@ -131,7 +131,7 @@ impl Layer {
         output
     }
 
-    /// Convolves pictures and pools each output while in cache.
+    /// Convolves pictures, and pools each output while it is in cache.
     pub(super) fn pass_pooled(
         &self,
         pass: Pass<'_>,
@@ -169,7 +169,7 @@ impl Layer {
         }
     }
 
-    /// True for few weights and large pictures.
+    /// True if the layer has few weights and large pictures.
     pub(super) fn is_light(&self) -> bool {
         self.is_light
     }

@@ -1,4 +1,4 @@
-//! Stages of a predictor: convolutions with bias, with the running moments folded in.
+//! Stages of a predictor: convolutions with bias. The running moments are folded into weights and bias.
 
 use super::layer::{Ending, Layer, Pass};
 use crate::convolution::ConvolutionForm;
@@ -7,7 +7,7 @@ use crate::planes::{Layout, Planes};
 use crate::scratch::Scratch;
 use crate::stage::Stage;
 
-/// One stage.
+/// One stage of a predictor.
 #[derive(Debug)]
 pub(super) enum Folded {
     /// A convolution, and the layout of its pooled output.
@@ -16,7 +16,7 @@ pub(super) enum Folded {
     Block(Box<FoldedBlock>),
 }
 
-/// Two convolutions, and the shortcut's convolution if the picture shape changes.
+/// Two convolutions, and the convolution of the shortcut if the picture shape changes.
 #[derive(Debug)]
 pub(super) struct FoldedBlock {
     first: Layer,
@@ -61,7 +61,7 @@ impl Folded {
         }
     }
 
-    /// True for few weights and large pictures.
+    /// True if the stage has few weights and large pictures.
     pub(super) fn is_light(&self) -> bool {
         match self {
             Folded::Stem(layer, _) | Folded::Plain(layer) => layer.is_light(),
@@ -69,7 +69,7 @@ impl Folded {
         }
     }
 
-    /// Multiplications per picture in direct form.
+    /// Number of multiplications per picture in the direct algorithm.
     pub(super) fn products(&self) -> usize {
         match self {
             Folded::Stem(layer, _) | Folded::Plain(layer) => layer.products(),
@@ -80,7 +80,7 @@ impl Folded {
         }
     }
 
-    /// All convolutions.
+    /// All convolutions of the stage.
     pub(super) fn layers_mut(&mut self) -> Vec<&mut Layer> {
         match self {
             Folded::Stem(layer, _) | Folded::Plain(layer) => vec![layer],

@@ -14,7 +14,7 @@ use super::vector::{Job, Vector};
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// Returns the proof, or `None` if the CPU lacks the instructions.
+    /// Returns the proof; `None` if the CPU lacks the instructions.
     pub(crate) fn detect() -> Option<Avx2> {
         (is_x86_feature_detected!("avx2") && is_x86_feature_detected!("fma")).then_some(Avx2(()))
     }
@@ -30,11 +30,11 @@ impl Avx2 {
     }
 }
 
-/// Eight f32 values; constructed only from a proof or from other vectors.
+/// Eight f32 values. Construction requires a proof or other vectors.
 #[derive(Clone, Copy)]
 struct Eight(__m256);
 
-/// Executes one instruction on values whose existence proves that the CPU has it.
+/// Executes one instruction on values whose existence proves that the CPU has this instruction.
 macro_rules! proven {
     ($instruction:expr) => {
         // SAFETY: a vector or proof exists only on CPUs with AVX2 and fused multiply-add; no memory is accessed.

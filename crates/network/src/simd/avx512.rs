@@ -14,7 +14,7 @@ use super::vector::{Job, Vector};
 pub(crate) struct Avx512(());
 
 impl Avx512 {
-    /// Returns the proof, or `None` if the CPU lacks the instructions.
+    /// Returns the proof; `None` if the CPU lacks the instructions.
     pub(crate) fn detect() -> Option<Avx512> {
         (is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("fma"))
             .then_some(Avx512(()))
@@ -31,11 +31,11 @@ impl Avx512 {
     }
 }
 
-/// Sixteen f32 values; constructed only from a proof or from other vectors.
+/// Sixteen f32 values. Construction requires a proof or other vectors.
 #[derive(Clone, Copy)]
 struct Sixteen(__m512);
 
-/// Executes one instruction on values whose existence proves that the CPU has it.
+/// Executes one instruction on values whose existence proves that the CPU has this instruction.
 macro_rules! proven {
     ($instruction:expr) => {
         // SAFETY: a vector or proof exists only on CPUs with AVX-512; no memory is accessed.

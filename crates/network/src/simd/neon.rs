@@ -13,7 +13,7 @@ use super::vector::{Job, Vector};
 pub(crate) struct Neon(());
 
 impl Neon {
-    /// Returns the proof, or `None` if the CPU lacks the instructions.
+    /// Returns the proof; `None` if the CPU lacks the instructions.
     pub(crate) fn detect() -> Option<Neon> {
         (std::arch::is_aarch64_feature_detected!("neon")).then_some(Neon(()))
     }
@@ -29,11 +29,11 @@ impl Neon {
     }
 }
 
-/// Four f32 values; constructed only from a proof or from other vectors.
+/// Four f32 values. Construction requires a proof or other vectors.
 #[derive(Clone, Copy)]
 struct Four(float32x4_t);
 
-/// Executes one instruction on values whose existence proves that the CPU has it.
+/// Executes one instruction on values whose existence proves that the CPU has this instruction.
 macro_rules! proven {
     ($instruction:expr) => {
         // SAFETY: a vector or proof exists only on CPUs with NEON; no memory is accessed.

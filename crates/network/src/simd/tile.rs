@@ -1,4 +1,4 @@
-//! The two innermost loops, which take nearly all of the time: tiles of sums in registers.
+//! The two innermost loops, which take nearly all of the run time. They compute tiles of sums in registers.
 
 #![expect(unsafe_code, reason = "loads and stores without bounds checks")]
 
@@ -12,9 +12,9 @@ pub(crate) struct Tile<V: Vector, const ROWS: usize, const VECTORS: usize> {
     sums: [[V; VECTORS]; ROWS],
 }
 
-/// Pixels of one picture in summation order, as offsets into two tensors.
+/// Pixels of one picture in the order of summation, as offsets into two tensors.
 ///
-/// Fields are private, because the unsafe loops below rely on the bounds computed by `new`.
+/// Fields are private, because the unsafe loops in this file rely on the bounds computed by `new`.
 #[derive(Clone, Debug)]
 pub(crate) struct Pixels {
     offsets: Vec<(u32, u32)>,
@@ -23,7 +23,7 @@ pub(crate) struct Pixels {
 }
 
 impl Pixels {
-    /// The pixels at `offsets`.
+    /// Creates a list of the pixels at `offsets`.
     pub(crate) fn new(offsets: Vec<(u32, u32)>) -> Pixels {
         let reach = offsets.iter().fold((0, 0), |(a, b), &(from, to)| {
             (a.max(from as usize), b.max(to as usize))
@@ -36,7 +36,7 @@ impl Pixels {
         self.offsets.len()
     }
 
-    /// Offsets of pixel `position` in the two tensors.
+    /// Offsets of the pixel `position` in the two tensors.
     #[inline(always)]
     pub(crate) fn at(&self, position: usize) -> (usize, usize) {
         let (from, to) = self.offsets[position];
@@ -44,7 +44,7 @@ impl Pixels {
     }
 }
 
-/// Offset of vector `vector` from the first one, in panels `stride` values apart.
+/// Offset of the vector `vector` from the first vector, if panels are `stride` values apart.
 #[inline(always)]
 fn place<V: Vector>(vector: usize, stride: usize) -> usize {
     let lane = vector * V::LANES;
@@ -52,14 +52,14 @@ fn place<V: Vector>(vector: usize, stride: usize) -> usize {
 }
 
 impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> {
-    /// Sums of zero.
+    /// Creates a tile of zeros.
     #[inline(always)]
     pub(crate) fn zero(proof: V::Proof) -> Self {
         let sums = [[V::zero(proof); VECTORS]; ROWS];
         Tile { proof, sums }
     }
 
-    /// Loads the values at `starts`, panels `stride` apart.
+    /// Loads the values at `starts`. Panels are `stride` values apart.
     ///
     /// # Panics
     /// If a vector is outside `values`.
@@ -86,7 +86,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         tile
     }
 
-    /// Prefetches the values that [`load`](Tile::load) would read. Skips those outside `values`.
+    /// Prefetches the values that [`load`](Tile::load) would read. Values outside `values` are skipped.
     #[inline(always)]
     pub(crate) fn prefetch(proof: V::Proof, values: &[f32], starts: [usize; ROWS], stride: usize) {
         for start in starts {
@@ -98,7 +98,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Stores the sums in `values` at `starts`, panels `stride` apart.
+    /// Stores the sums in `values` at `starts`. Panels are `stride` values apart.
     ///
     /// # Panics
     /// If a vector is outside `values`.
@@ -118,7 +118,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Stores the sums of row `row` in separate panels, at index `start` of each.
+    /// Stores the sums of the row `row` in separate panels, at index `start` of each.
     ///
     /// # Panics
     /// If a panel is too short.
@@ -133,7 +133,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Loads the sums of row `row` from separate panels, at index `start` of each.
+    /// Loads the sums of the row `row` from separate panels, at index `start` of each.
     ///
     /// # Panics
     /// If a panel is too short.
@@ -148,7 +148,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         }
     }
 
-    /// Adds the sums of `other`.
+    /// Adds the sums of `other` to the sums of this tile.
     #[inline(always)]
     pub(crate) fn plus(mut self, other: Self) -> Self {
         for (sums, others) in self.sums.iter_mut().zip(other.sums) {
@@ -168,8 +168,7 @@ impl<V: Vector, const ROWS: usize, const VECTORS: usize> Tile<V, ROWS, VECTORS> 
         self
     }
 
-    /// Adds the products of a run of `length` input values with as many rows of `weights`, for each pixel. Panels of weights are
-    /// `stride` apart.
+    /// Adds, for each pixel, the products of a run of `length` input values with as many rows of `weights`. Panels of weights are `stride` values apart.
     ///
     /// # Panics
     /// If a run exceeds `input`, or the rows exceed `weights`.

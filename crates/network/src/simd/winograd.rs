@@ -4,7 +4,7 @@
 
 use super::vector::Vector;
 
-/// Positions of `count` vectors: the first at `start`, `stride` values apart. Vectors beyond `count` are not accessed.
+/// Positions of `count` vectors. The first vector is at `start`, and vectors are `stride` values apart. Vectors beyond `count` are not accessed.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Spaced {
     pub(crate) start: usize,
@@ -13,7 +13,7 @@ pub(crate) struct Spaced {
 }
 
 impl Spaced {
-    /// Loads the vectors of `values`, and zero beyond the count.
+    /// Loads the vectors from `values`. Vectors beyond the count are zero.
     ///
     /// # Panics
     /// If a vector is outside `values`.
@@ -45,7 +45,7 @@ impl Spaced {
         vectors
     }
 
-    /// Stores the first `count` of `vectors` in `values`.
+    /// Stores the first `count` vectors of `vectors` in `values`.
     ///
     /// # Panics
     /// If a vector is outside `values`.
@@ -68,7 +68,7 @@ impl Spaced {
         }
     }
 
-    /// Length of the span of `count` vectors, values.
+    /// Length of the range that `count` vectors span, in values.
     #[inline(always)]
     fn reach<V: Vector>(self, count: usize) -> usize {
         let last = (count - 1).saturating_mul(self.stride);

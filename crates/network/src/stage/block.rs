@@ -13,11 +13,11 @@ use crate::scratch::Scratch;
 pub(crate) struct Block {
     pub(crate) first: Normed,
     pub(crate) second: Normed,
-    /// Convolution of the shortcut. `None` if pictures keep their shape.
+    /// Convolution of the shortcut; `None` if the pictures do not change their shape.
     pub(crate) shortcut: Option<Normed>,
 }
 
-/// Activations and prepared passes in training.
+/// Activations and prepared passes of a block in training.
 #[derive(Debug)]
 pub(crate) struct BlockSpace {
     first: NormedSpace,
@@ -98,7 +98,7 @@ impl BlockSpace {
         }
     }
 
-    /// Longest transformed weights of any convolution.
+    /// Length of the longest transformed weights of any convolution.
     pub(super) fn transformed_len(&self) -> usize {
         let past = self.shortcut.as_ref();
         let past = past.map_or(0, NormedSpace::transformed_len);
@@ -106,7 +106,8 @@ impl BlockSpace {
         both.max(self.second.transformed_len()).max(past)
     }
 
-    /// Normalised output of the first convolution after ReLU. Both passes recompute it in a hundredth of the convolution's time, so it is not stored.
+    /// Normalised output of the first convolution after ReLU. Both passes compute it, which takes a hundredth of the convolution's time. It is therefore not
+    /// stored.
     fn middle(&self, machine: Machine, count: usize, scratch: &mut Scratch) -> Planes {
         let raw = &self.first.raw;
         let mut middle = scratch.take(self.middle, count);
@@ -154,8 +155,7 @@ impl BlockSpace {
         apply(machine, &second.raw, count, &second.moments, past, output);
     }
 
-    /// Runs the backward pass. Masks `gradient` in place. If the shortcut is the input itself, `gradient` then becomes the input
-    /// gradient.
+    /// Runs the backward pass. Masks `gradient` in place. If the shortcut is the input itself, `gradient` contains the input gradient afterwards.
     pub(super) fn backward(
         &mut self,
         block: &mut Block,

@@ -1,4 +1,4 @@
-//! Stages of a convolution, its normalisation and ReLU.
+//! Plain stages: a convolution, its normalisation and ReLU.
 
 use super::Standing;
 use crate::batch_norm::{Gate, Shortcut, apply};
@@ -8,12 +8,12 @@ use crate::normalised_convolution::{Back, Normed, NormedSpace};
 use crate::planes::{Layout, Pictures, Planes};
 use crate::scratch::Scratch;
 
-/// Activations and prepared passes in training.
+/// Activations and prepared passes of a plain stage in training.
 #[derive(Debug)]
 pub(crate) struct PlainSpace {
     pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
-    /// Layout of the input gradient. `None` if no earlier stage needs one.
+    /// Layout of the input gradient; `None` if no earlier stage needs a gradient.
     input: Option<Layout>,
 }
 

@@ -7,12 +7,12 @@ use crate::normalised_convolution::{Back, Normed, NormedSpace};
 use crate::planes::{Pictures, Planes};
 use crate::scratch::Scratch;
 
-/// Activations and prepared passes in training.
+/// Activations and prepared passes of a stem in training.
 #[derive(Debug)]
 pub(crate) struct StemSpace {
     pub(super) normed: NormedSpace,
     pub(crate) output: Planes,
-    /// Window position of each output's source pixel.
+    /// Position in its window of each output's source pixel.
     choices: Vec<u8>,
 }
 

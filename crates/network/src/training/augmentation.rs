@@ -1,4 +1,4 @@
-//! Random changes of pictures. Labels stay the same or change by a known amount.
+//! Random changes of pictures. Labels are unchanged, or change by a known amount.
 
 use serde::{Deserialize, Serialize};
 
@@ -10,25 +10,25 @@ use taceva_core::random::Draws;
 /// Random changes of pictures before each step. The default changes nothing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Augmentation {
-    /// Half-width of the uniform distribution around 1 of the brightness factor, 0 to 1.
+    /// Half-width, from 0 to 1, of the uniform distribution of the brightness factor around 1.
     pub brightness: f64,
     /// Standard deviation of the noise added to each value, in the unit of the pictures.
     pub noise: f64,
-    /// Random shifts.
+    /// Random shifts of pictures.
     pub jitter: Jitter,
 }
 
-/// Shifts by whole pixels. Edge pixels are repeated.
+/// Shifts by whole pixels. The pixels at the edge are repeated.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Jitter {
-    /// Largest shift in each direction, pixels.
+    /// Largest shift in each direction, in pixels.
     pub pixels: usize,
-    /// Change of each output's label for a shift by one pixel down and by one pixel to the right, in the unit of the label. Empty if
-    /// no label depends on position.
+    /// Change of each output's label, in the unit of the label, for a shift by one pixel down and by one pixel to the right. Empty if no label depends on
+    /// position.
     pub label_per_pixel: Vec<[f64; 2]>,
 }
 
-/// Shift down and to the right, pixels.
+/// Shift down and to the right, in pixels.
 pub(super) type Shift = [i32; 2];
 
 impl Augmentation {
@@ -71,7 +71,7 @@ impl Augmentation {
         Ok(())
     }
 
-    /// Changes a picture by this sample's draws. Returns the picture and its shift.
+    /// Changes a picture by random numbers of its sample. Returns the picture and its shift.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "drawn in double precision and kept in single"
@@ -116,7 +116,7 @@ impl Augmentation {
 }
 
 impl Jitter {
-    /// Shift along one axis, from a uniform draw in 0..1.
+    /// Shift along one axis, from a uniform random number in 0..1.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "checked to be at most 2^20 pixels"

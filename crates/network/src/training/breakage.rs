@@ -1,21 +1,21 @@
-//! Numbers that became infinite or NaN in a training.
+//! Detection of numbers that became infinite or NaN in a training.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::NetworkError;
 
-/// Position of the first number that is not finite. The training cannot continue.
+/// Location of the first number that is not finite. The training cannot continue.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Breakage {
-    /// The loss of this step, counted from 0.
+    /// Loss of this step, counted from 0.
     Loss(u64),
-    /// A weight or a running moment after this step, counted from 0.
+    /// Weight or running moment after this step, counted from 0.
     Weight(u64),
 }
 
 impl Breakage {
-    /// Breakage reported by `error`. `None` for other errors.
+    /// Breakage that `error` reports; `None` for other errors.
     pub(super) fn of(error: &NetworkError) -> Option<Breakage> {
         match error {
             NetworkError::LossNotFinite { step } => Some(Breakage::Loss(*step)),

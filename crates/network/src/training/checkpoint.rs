@@ -1,4 +1,4 @@
-//! Checkpoints: a training saved after a step, to be resumed later.
+//! Checkpoints: the state of a training after a step, from which it can be resumed.
 
 use std::collections::BTreeMap;
 
@@ -11,13 +11,12 @@ use crate::error::NetworkError;
 use crate::network::{NamedTensor, Network};
 use crate::samples::Samples;
 
-/// A training saved after a step. Resumed, it ends with the same bits as an uninterrupted one.
+/// State of a training after a step. A resumed training ends with the same bits as an uninterrupted one.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
     /// Settings and progress, for a short text file.
     pub summary: Summary,
-    /// Present weights, prefixed `now.`; weights of the best epoch, `best.`; optimiser state of each parameter, `moment.0.` and
-    /// `moment.1.`.
+    /// Tensors by prefix: present weights `now.`, weights of the best epoch `best.`, and optimiser state of each parameter `moment.0.` and `moment.1.`.
     pub tensors: Vec<NamedTensor>,
 }
 
@@ -30,17 +29,17 @@ pub struct Summary {
     pub recipe: Recipe,
     /// Number of training samples.
     pub samples: usize,
-    /// Form of convolutions on the CPU, which affects the last digits.
+    /// Algorithm of convolutions on the CPU. It affects the last digits.
     pub convolutions: ConvolutionForm,
     /// Progress and losses.
     pub state: TrainingState,
 }
 
 impl<'a> Trainer<'a> {
-    /// Form of convolutions for training on the CPU, unless [`in_form`](Trainer::in_form) selects another.
+    /// Algorithm of convolutions for training on the CPU, unless [`in_form`](Trainer::in_form) selects another.
     pub const CONVOLUTIONS: ConvolutionForm = ConvolutionForm::Winograd;
 
-    /// Saves the training after the last step.
+    /// Returns a checkpoint of the training after the last step.
     ///
     /// # Errors
     /// Errors of [`Engine::network`](super::Engine::network) and [`moments`](super::Engine::moments); none on the CPU.
@@ -76,11 +75,11 @@ impl<'a> Trainer<'a> {
         }
     }
 
-    /// Resumes the training saved in `checkpoint`, with the same samples and in the saved form.
+    /// Resumes the training of `checkpoint`, with the same samples and the algorithm in the checkpoint.
     ///
     /// # Errors
-    /// [`NetworkError::Checkpoint`] if the number of samples differs, or a tensor of the optimiser does not fit; otherwise errors of
-    /// [`new`](Trainer::new) and [`Network::from_tensors`].
+    /// [`NetworkError::Checkpoint`] if the number of samples differs, or if a tensor of the optimiser does not match. Otherwise errors of [`new`](Trainer::new)
+    /// and [`Network::from_tensors`].
     pub fn resume(
         checkpoint: Checkpoint,
         training: Samples<'a>,
@@ -138,7 +137,7 @@ impl<'a> Trainer<'a> {
     }
 }
 
-/// Optimiser state of `recipe` among `tensors`, named `<which>.<parameter of the network>`.
+/// Optimiser state for `recipe` among `tensors`, whose names are `<which>.<parameter of the network>`.
 fn moments_of(
     network: &Network,
     recipe: &Recipe,

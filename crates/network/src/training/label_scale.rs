@@ -1,16 +1,16 @@
-//! Scaling of labels to one range, independent of their unit.
+//! Scaling of labels to one range, whatever their unit.
 
 use serde::{Deserialize, Serialize};
 
 use crate::error::NetworkError;
 
-/// Method of scaling labels, computed only on the training part.
+/// Method of scaling labels. Scales are computed only from the training part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum LabelScaling {
-    /// Scaled by the range, to 0..1.
+    /// Scales by the range, to 0..1.
     MinMax,
-    /// Standardised, to a mean of 0 and a standard deviation of 1.
+    /// Standardises to a mean of 0 and a standard deviation of 1.
     Standard,
     /// No scaling.
     None,
@@ -26,7 +26,7 @@ pub struct LabelScale {
 }
 
 impl LabelScale {
-    /// Scale that changes nothing.
+    /// Scale that leaves labels unchanged.
     pub fn identity(outputs: usize) -> LabelScale {
         LabelScale {
             offset: vec![0.0; outputs],
@@ -34,12 +34,12 @@ impl LabelScale {
         }
     }
 
-    /// Computes the scale of `labels`.
+    /// Computes the scale of `labels` by the method `scaling`.
     ///
     /// # Shapes
     /// `labels`: `[samples, outputs]`.
     /// # Errors
-    /// [`NetworkError::ConstantLabels`] if all labels of an output are equal, with any scaling.
+    /// [`NetworkError::ConstantLabels`] if all labels of an output are equal, for any method.
     pub fn of(
         scaling: LabelScaling,
         labels: &[f64],

@@ -8,7 +8,7 @@ use crate::loss::Loss;
 use crate::network::{Network, TrainingSpace};
 use crate::optimizer::{Descent, Memory, Optimizer};
 
-/// Engine on the CPU.
+/// Training engine on the CPU.
 #[derive(Debug)]
 pub(super) struct Processor {
     network: Network,
@@ -20,7 +20,7 @@ pub(super) struct Processor {
 }
 
 impl Processor {
-    /// Continues from `snapshot`, whose moments belong to `recipe`'s optimiser, with convolutions in `form`.
+    /// Continues from `snapshot`, with the convolution algorithm `form`. The moments of `snapshot` must belong to the optimiser of `recipe`.
     ///
     /// # Errors
     /// [`NetworkError::Memory`] if the transformed weights do not fit into memory.

@@ -1,4 +1,4 @@
-//! Training settings, as data.
+//! Training settings, described as data.
 
 use serde::{Deserialize, Serialize};
 
@@ -19,7 +19,7 @@ pub struct Recipe {
     pub optimizer: Optimizer,
     /// Full learning rate, which the schedule multiplies.
     pub rate: f64,
-    /// Ratio of each step's rate to the full rate.
+    /// Ratio of the learning rate to the full rate, for each step.
     pub schedule: Schedule,
     /// Loss function.
     pub loss: Loss,
@@ -27,14 +27,14 @@ pub struct Recipe {
     pub scaling: LabelScaling,
     /// Random changes of pictures before each step.
     pub augmentation: Augmentation,
-    /// Number of epochs without a lower validation loss after which training stops. `None` never stops early.
+    /// Number of epochs without a lower validation loss after which the training stops; `None` to never stop early.
     pub patience: Option<u64>,
     /// Seed of all random numbers.
     pub seed: u64,
 }
 
 impl Default for Recipe {
-    /// Forty epochs in batches of 32 with AdamW, one cycle with a maximum rate of 0.003, Huber's loss on standardised labels.
+    /// Forty epochs in batches of 32 with AdamW, a one-cycle schedule with a maximum rate of 0.003, and Huber's loss on standardised labels.
     fn default() -> Recipe {
         Recipe {
             epochs: 40,

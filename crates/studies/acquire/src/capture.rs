@@ -1,7 +1,7 @@
 //! Capture and preview of a sensor without a robot: frames of its camera and readings of a transducer.
 //!
-//! One thread puts frames into a queue of 8, another reads the transducer. The calling thread labels each frame with the wrench at its time
-//! and records frames in batches. A frame that finds the queue full is counted and dropped, so no device waits for a disk.
+//! One thread adds frames to a queue of 8, and another reads the transducer. The calling thread labels each frame with the wrench at the time of the frame, and
+//! records frames in batches. If the queue is full, a new frame is counted and dropped, so that no device waits for a disk.
 
 mod camera;
 mod contacts;
@@ -45,28 +45,28 @@ const TOGETHER: usize = 8;
 /// Settings of a capture.
 #[derive(Clone, Debug)]
 pub struct CaptureRequest {
-    /// Folder of the recording, which must not exist.
+    /// Folder of the recording. It must not exist yet.
     pub path: PathBuf,
     /// Facts of the sensor.
     pub sensor: SensorFacts,
-    /// Duration of the capture by frame stamps; `None` records until cancelled.
+    /// Duration of the capture by the time stamps of frames; `None` records until the capture is cancelled.
     pub lasts: Option<Duration>,
-    /// Number of frames to record; `None` records until cancelled.
+    /// Number of frames to record; `None` records until the capture is cancelled.
     pub frames: Option<u64>,
 }
 
-/// Optional viewer and predictor of a capture. They never block.
+/// Optional viewer and predictor of a capture. They never delay it.
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Onlookers<'a> {
-    /// Viewer of forces and of lost frames.
+    /// Viewer that receives forces and counts of lost frames.
     pub viewer: Option<&'a dyn Viewer>,
-    /// Predictor of frames; its [table](LivePredictor::with_table) is written beside the recording.
+    /// Predictor that receives frames. Its [table](LivePredictor::with_table) is written beside the recording.
     pub predictor: Option<&'a LivePredictor<'a>>,
 }
 
 impl<'a> Onlookers<'a> {
-    /// No onlookers.
+    /// Neither viewer nor predictor.
     pub fn none() -> Onlookers<'a> {
         Onlookers::default()
     }
@@ -94,7 +94,7 @@ impl<'a> Onlookers<'a> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum CaptureStage {
-    /// Measuring the zero of the force and the frame without contact: nothing may touch the gel.
+    /// Measurement of the force zero and of the frame without contact. Nothing may touch the gel.
     Zeroing,
     /// Recording frames.
     Recording(CaptureState),
@@ -104,25 +104,25 @@ pub enum CaptureStage {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct CaptureState {
-    /// Number of durable frames.
+    /// Number of frames that are safely on disk.
     pub frames: u64,
     /// Mean frame rate, in Hz; 0 before the second frame.
     pub rate_hz: f64,
-    /// Lost frames.
+    /// Counts of lost frames.
     pub stream: StreamFacts,
-    /// Number of contacts begun.
+    /// Number of contacts that have begun.
     pub contacts: u64,
-    /// Number of frames without a force, if there is a transducer.
+    /// Number of frames without a force, if the capture has a transducer.
     pub without_force: u64,
-    /// Number of frames before the first reading, which have no force.
+    /// Number of frames before the first reading. They have no force.
     pub before_force: u64,
-    /// Number of frames between readings that are too far apart, which have no force.
+    /// Number of frames between readings that are too far apart. They have no force.
     pub in_force_gaps: u64,
-    /// Number of frames after which no reading came in time, which have no force.
+    /// Number of frames that were not followed by a reading in time. They have no force.
     pub late_force: u64,
-    /// Normal force at the last frame, in N.
+    /// Normal force at the last frame, in N; `None` if it is unknown.
     pub normal_n: Option<f64>,
-    /// Least normal force so far, in N: far below 0 if an axis has the wrong sign.
+    /// Least normal force so far, in N. A value far below 0 indicates an axis with the wrong sign.
     pub least_normal_n: f64,
 }
 
@@ -130,22 +130,22 @@ pub struct CaptureState {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct Captured {
-    /// Final state.
+    /// State at the end of the capture.
     pub state: CaptureState,
     /// Header of the recording.
     pub header: Header,
 }
 
-/// Records from `live` until `request` is met, the capture is cancelled, a replayed sensor ends, or a device fails.
+/// Records from `live` until the request is fulfilled, the capture is cancelled, a replayed sensor ends, or a device fails.
 ///
 /// Calls `on_stage` with each stage, at most a few times a second.
 ///
 /// # Errors
 /// - [`AcquireError::Device`] if a device fails before the first frame.
-/// - [`AcquireError::CaptureEnded`] if a device fails later; the earlier frames are a complete recording.
+/// - [`AcquireError::CaptureEnded`] if a device fails later. The earlier frames are then a complete recording.
 /// - [`AcquireError::CaptureBroken`] if the recording cannot be written.
 /// - [`AcquireError::Dataset`] if the folder exists.
-/// - [`AcquireError::Model`] if the model does not fit the frames. A model that fails later ends its predictions, not the capture.
+/// - [`AcquireError::Model`] if the model cannot read the frames. A model that fails later ends the predictions, but not the capture.
 pub fn capture(
     live: &mut LiveDevices,
     request: &CaptureRequest,
@@ -227,10 +227,10 @@ pub fn capture(
     }
 }
 
-/// Closes a capture interrupted by a full disk, a power cut or a kill: its durable frames become a recording.
+/// Closes a capture that a full disk, a power cut or a kill interrupted. The frames on disk become a recording.
 ///
 /// # Errors
-/// [`AcquireError::Dataset`] if nothing was recorded, if the capture was closed, or if the disk is full.
+/// [`AcquireError::Dataset`] if nothing was recorded, if the capture is already closed, or if the disk is full.
 pub fn close_capture(path: &Path) -> Result<Header, AcquireError> {
     Ok(Recorder::resume(path)?.close()?)
 }
@@ -248,7 +248,7 @@ struct Recording<'a> {
 }
 
 impl Recording<'_> {
-    /// Records frames until the request is met, or no more arrive.
+    /// Records frames until the request is fulfilled, or until no more frames arrive.
     fn take_all(
         &mut self,
         streams: &Streams<'_>,
@@ -296,7 +296,7 @@ impl Recording<'_> {
         }
     }
 
-    /// Counts a sample; returns true once the request is met.
+    /// Counts a sample. Returns true if the request is fulfilled.
     fn count(&mut self, streamed: &Streamed, stamp_s: f64) -> bool {
         let first_s = *self.first_s.get_or_insert(stamp_s);
         let state = &mut self.state;
@@ -344,7 +344,7 @@ fn source(live: &LiveDevices) -> Source {
     }
 }
 
-/// After a failed write: reopens and closes the recording if the disk has space.
+/// Reopens and closes the recording after a failed write, if the disk has space.
 fn kept_after(
     recorder: Recorder,
     path: &Path,
@@ -365,7 +365,7 @@ fn broken(path: &Path, state: CaptureState, is_whole: bool, source: DatasetError
     }
 }
 
-/// Creates an error of a device with its reason.
+/// Creates an error for a device failure, with its reason.
 fn device_error(
     kind: ErrorKind,
     driver: &DriverKey,

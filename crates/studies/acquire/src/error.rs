@@ -21,15 +21,15 @@ pub enum AcquireError {
     /// No model has this setting.
     #[error(transparent)]
     Setting(#[from] SettingError),
-    /// The scene is invalid; the error names its line.
+    /// The scene is invalid. The error contains the line.
     #[error(transparent)]
     Scene(Box<SceneError>),
     /// A device did not open.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Open {
-        /// The study.
+        /// Name of the study.
         study: String,
-        /// Reason.
+        /// Reason why the device did not open.
         source: Box<OpenError>,
     },
     /// A device of a rig file did not open.
@@ -43,7 +43,7 @@ pub enum AcquireError {
         rig: String,
         /// Kind of the device.
         device: DriverKind,
-        /// Reason.
+        /// Reason why the device did not open.
         source: Box<OpenError>,
     },
     /// A device failed during setup or a check of a rig, or before a capture had stored a frame.
@@ -52,15 +52,15 @@ pub enum AcquireError {
     /// A run stopped early. Every finished press is recorded, and the same study resumes from there.
     #[error("study `{study}`: {source}", study = taceva_core::shown(study))]
     Acquisition {
-        /// The study.
+        /// Name of the study.
         study: String,
-        /// Cause, and the place of the tip.
+        /// Cause of the stop, and the place of the tip.
         source: Box<RunError>,
     },
     /// A device of a capture or a preview did not open.
     #[error(transparent)]
     OpenLive(Box<OpenError>),
-    /// A device failed during a capture; the earlier frames are a complete recording.
+    /// A device failed during a capture. The earlier frames are a complete recording.
     #[error(
         "{source}; the {} before the failure {} a complete recording in {}",
         taceva_core::counted(*frames, "frame"),
@@ -68,54 +68,54 @@ pub enum AcquireError {
         taceva_core::shown(path)
     )]
     CaptureEnded {
-        /// The recording.
+        /// Path of the recording.
         path: PathBuf,
-        /// Number of frames in it.
+        /// Number of frames in the recording.
         frames: u64,
         /// Failure of the device.
         source: Box<DriverError>,
     },
-    /// A capture cannot be written any further.
+    /// A capture cannot be continued, because writing failed.
     #[error("{source}; {}", kept(path, *frames, *is_whole))]
     CaptureBroken {
-        /// The recording.
+        /// Path of the recording.
         path: PathBuf,
-        /// Number of durable frames.
+        /// Number of frames that are safely on disk.
         frames: u64,
-        /// True if the recording of the durable frames could be closed.
+        /// True if the recording of these frames could be closed.
         is_whole: bool,
         /// Failure of the write.
         source: Box<DatasetError>,
     },
-    /// A fitted model does not fit the frames of the camera.
+    /// A fitted model cannot read the frames of the camera.
     #[error("model {}: {problem}", taceva_core::shown(path))]
     Model {
-        /// File of the model.
+        /// Path of the model file.
         path: PathBuf,
-        /// Reason.
+        /// Reason why the model cannot read them.
         problem: String,
     },
     /// The lock of a device cannot be acquired.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RigLock {
-        /// Path of the lock.
+        /// Path of the lock file.
         path: PathBuf,
-        /// Reason.
+        /// Reason why the lock failed.
         problem: String,
     },
-    /// Another run holds a device of the rig file.
+    /// Another run uses a device of the rig file.
     #[error(
         "{}: `{}` is in use by another run: wait until it has ended, or stop it",
         taceva_core::shown(rig),
         taceva_core::shown(device)
     )]
     RigTaken {
-        /// The rig file.
+        /// Name of the rig file.
         rig: String,
         /// Selector of the device.
         device: String,
     },
-    /// Taps give no latency. The tip was raised again.
+    /// The taps do not determine the latency. The tip was raised again.
     #[error(
         "{}: {source}; nothing was written, and the tip stands above the gel at its clearance of 1 mm",
         taceva_core::shown(rig)
@@ -123,10 +123,10 @@ pub enum AcquireError {
     Taps {
         /// Name of the rig file.
         rig: String,
-        /// Reason.
+        /// Reason why the taps failed.
         source: TapError,
     },
-    /// The request names something that the dataset or the model does not have.
+    /// The request names an item that the dataset or the model lacks.
     #[error("{0}")]
     Request(String),
 }
@@ -175,7 +175,7 @@ impl AcquireError {
         }
     }
 
-    /// True if a device failed, rather than the request, a file or a write.
+    /// True if a device failed, as opposed to the request or a file operation.
     pub fn is_of_device(&self) -> bool {
         match self {
             AcquireError::Open { source, .. }
@@ -198,7 +198,7 @@ impl AcquireError {
         }
     }
 
-    /// True if the command line is at fault, rather than a file.
+    /// True if the command line is invalid, as opposed to a file.
     pub fn is_usage(&self) -> bool {
         matches!(self, AcquireError::Setting(_) | AcquireError::Request(_))
     }

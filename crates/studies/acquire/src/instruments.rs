@@ -10,7 +10,7 @@ use taceva_dataset::Source;
 use taceva_drivers::Selector;
 use taceva_protocol::RigFile;
 
-/// Instruments of the labels that the devices of `rig` make. The sensor is one of them if it has a certificate.
+/// Instruments that measure the labels on `rig`. The sensor is included if it has a certificate.
 pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
     let force = rig.force.as_ref().map(|force| {
         let driver = &force.driver.value;
@@ -28,8 +28,8 @@ pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
     [force, robot, sensor].into_iter().flatten().collect()
 }
 
-/// Instruments that a recording of `source` keeps, with the serial numbers that their drivers read, among `settings` of the recording.
-/// Labels that nothing measured need no certificate.
+/// Instruments to store in a recording of `source`. Serial numbers are those that drivers reported in `settings`. Labels that are not measured need no
+/// certificate.
 pub(crate) fn kept(
     instruments: Vec<Traceability>,
     source: Source,
@@ -47,7 +47,7 @@ pub(crate) fn kept(
     kept
 }
 
-/// Today, in UTC, for a recording that measures; certificates are valid for a time.
+/// Today's date in UTC, for a recording of measurements, because certificates expire; `None` for any other recording.
 pub(crate) fn day_of(source: Source) -> Option<Date> {
     today().filter(|_| source == Source::Recorded)
 }
@@ -58,7 +58,7 @@ pub(crate) fn today() -> Option<Date> {
     Some(Date::of_unix_s(since.as_secs()))
 }
 
-/// Contradictions of the certificates of `instruments` with the serial numbers that were read, and with today.
+/// Contradictions between the certificates of `instruments`, the reported serial numbers, and today's date.
 pub(crate) fn faults_today(instruments: &[Traceability]) -> Vec<CertificateFault> {
     let days = today().map(|today| today..=today);
     let faults = instruments.iter();
@@ -66,7 +66,7 @@ pub(crate) fn faults_today(instruments: &[Traceability]) -> Vec<CertificateFault
     faults.collect()
 }
 
-/// Warnings of labels that are measured today, for the certificates of `instruments` and the `settings` of the devices.
+/// Warnings about labels measured today, from the certificates of `instruments` and the `settings` of the devices.
 pub(crate) fn warnings_today(
     instruments: Vec<Traceability>,
     settings: &BTreeMap<String, String>,
@@ -75,7 +75,7 @@ pub(crate) fn warnings_today(
     faults_today(&instruments).iter().map(remedy).collect()
 }
 
-/// Sentence of `fault` with its remedy.
+/// Sentence that describes `fault` and its remedy.
 pub(crate) fn remedy(fault: &CertificateFault) -> String {
     let mended = match fault.contradiction {
         CertificateContradiction::IssuedLater { .. } => {
@@ -92,7 +92,7 @@ pub(crate) fn remedy(fault: &CertificateFault) -> String {
     )
 }
 
-/// The instrument of the device `driver`, a selector. Its serial number is the argument that chose it, if it has one.
+/// Instrument for the device with the selector `driver`. Its serial number is the argument by which it was selected, if any.
 pub(crate) fn traced(
     instrument: Instrument,
     driver: &str,

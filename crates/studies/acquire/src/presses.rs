@@ -1,4 +1,4 @@
-//! Records the missing presses of a plan, one unit after the other. Each press is durable before the next begins.
+//! Records the missing presses of a plan, one unit after another. Each press is safely on disk before the next begins.
 
 mod changers;
 mod content_key;
@@ -50,12 +50,12 @@ pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
 impl PlannedStudy {
-    /// Opens the recording that the scene names, or makes the missing presses of this study and opens the recording at `path`. Each finished press
+    /// Opens the recording that the scene names. Otherwise opens the recording at `path`, and makes the missing presses of this study. Each finished press
     /// advances the progress.
     ///
     /// # Errors
-    /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed or the run was cancelled: finished presses stay, and the same call
-    /// resumes. [`AcquireError::Dataset`] if the recording cannot be written, or `path` holds another recording.
+    /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device fails or the run is cancelled. Finished presses are kept, and the same call resumes
+    /// the run. [`AcquireError::Dataset`] if the recording cannot be written, or `path` contains another recording.
     pub fn acquire(
         &self,
         path: &Path,
@@ -68,13 +68,13 @@ impl PlannedStudy {
         }
     }
 
-    /// True if any device of a study that presses is real.
+    /// True if the study presses, and any of its devices is real.
     pub fn is_real(&self, drivers: &Drivers) -> bool {
         matches!(&self.source, StudySource::Rig(rig) if !rig.is_only_simulated(drivers))
     }
 }
 
-/// Begins, resumes or opens the recording of `study` at `path`, and completes it.
+/// Creates, resumes or opens the recording of `study` at `path`, and completes it.
 fn acquire(
     study: &PlannedStudy,
     rig: &RigSpec,
@@ -213,7 +213,7 @@ fn acquire_unit(
     done
 }
 
-/// Origin of the samples of `study`: simulated as soon as one device is simulated, or emulated by the rig file.
+/// Origin of the samples of `study`. It is simulated if a device is simulated, or if the rig file states an emulation.
 fn origin(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> Source {
     let file = study.study.rig.as_deref();
     let changers = file.map(|file| [&file.changers.specimen, &file.changers.unit]);
@@ -249,7 +249,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     RecordingSpec::new(facts, plan.truth_channels())
 }
 
-/// Footprint and greatest depth, in the form that recordings store.
+/// Footprint and greatest depth, in the format of recordings.
 fn footprint(plan: &Plan) -> Option<Footprint> {
     let footprint = plan.footprint?;
     let of_gel = footprint.depth_max().map(|depth| depth.to_millimetres());

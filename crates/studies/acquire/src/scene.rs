@@ -27,24 +27,24 @@ pub(crate) use text::read_rig_file;
 /// A scene with the plan of each of its studies.
 #[derive(Debug)]
 pub struct PlannedScene {
-    /// Parsed scene, with the effective seed.
+    /// Parsed scene, with the seed in use.
     pub scene: Scene,
-    /// Text as written.
+    /// Text of the scene as the user wrote it.
     pub text: SceneText,
     /// Studies, in order.
     pub studies: Vec<PlannedStudy>,
-    /// Seeds of repeated fits of the models; empty to use the seed of each model.
+    /// Seeds of repeated fits of the models. Empty to use each model's own seed.
     pub seeds: Vec<u64>,
-    /// True if the command line names the model or its settings. Errors about them then state no line of the scene.
+    /// True if the command line names the model or its settings. Errors about these then contain no line of the scene.
     pub is_model_typed: bool,
 }
 
 /// One sensor of a scene, with its plan.
 #[derive(Debug)]
 pub struct PlannedStudy {
-    /// Plan, with skipped parts and reasons.
+    /// Plan of the study.
     pub plan: Plan,
-    /// Study of the scene, with the devices of the rig file.
+    /// Study of the scene, including the devices of its rig file.
     pub study: Study,
     pub(crate) source: StudySource,
 }
@@ -52,17 +52,17 @@ pub struct PlannedStudy {
 /// Source of the samples of a study.
 #[derive(Debug)]
 pub(crate) enum StudySource {
-    /// Devices by name.
+    /// Devices that are given by name.
     Rig(RigSpec),
-    /// The folder of a recording.
+    /// Folder of an existing recording.
     Recording(PathBuf),
 }
 
 impl PlannedScene {
-    /// Parses `text` and plans it with `drivers`; `seed` replaces the one in the scene.
+    /// Parses `text`, and plans the scene with `drivers`. `seed` replaces the seed in the scene.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] with the line: see [`Scene::parse`] and [`plan`]; also for missing drivers, arguments, models and recordings.
+    /// [`AcquireError::Scene`] with the line, as for [`Scene::parse`] and [`plan`]. Also for missing drivers, arguments, models and recordings.
     pub fn new(
         text: SceneText,
         drivers: &Drivers,
@@ -75,10 +75,10 @@ impl PlannedScene {
         PlannedScene::with(text, drivers, &overrides)
     }
 
-    /// As [`new`](PlannedScene::new), with `overrides` in place of values in the text.
+    /// Like [`new`](PlannedScene::new), with `overrides` instead of values in the text.
     ///
     /// # Errors
-    /// As [`new`](PlannedScene::new); [`AcquireError::Request`] for model settings without a model.
+    /// Errors of [`new`](PlannedScene::new). [`AcquireError::Request`] for model settings without a model.
     pub fn with(
         text: SceneText,
         drivers: &Drivers,
@@ -192,7 +192,7 @@ fn recording(path: &Path) -> Result<RecordingInfo, AcquireError> {
     })
 }
 
-/// Schema `taceva.plans/1`: the plan of every study.
+/// Serialises the plan of every study, with the schema `taceva.plans/1`.
 impl Serialize for PlannedScene {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let plans: Vec<&Plan> = self.studies.iter().map(|study| &study.plan).collect();

@@ -1,4 +1,4 @@
-//! Accumulates rows into scores on all threads. The number of threads does not change a bit of the result.
+//! Accumulates rows into scores on all threads. The result has the same bits for any number of threads.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -11,10 +11,10 @@ use taceva_metrics::{ClusteredBy, Evaluator, Metric, MetricPlan};
 use crate::error::EvaluateError;
 use crate::recordings;
 
-/// Rows in a batch: large enough that merging is rare, small enough that a batch stays in the cache.
+/// Number of rows in a batch: large enough that merging is rare, small enough that a batch fits into the cache.
 pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
-/// Source of rows with truth and prediction; any thread may read any range.
+/// Source of rows with truth and prediction. Any thread may read any range.
 pub trait Rows: Sync {
     /// Number of rows.
     fn rows(&self) -> usize;
@@ -26,9 +26,9 @@ pub trait Rows: Sync {
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError>;
 }
 
-/// Accumulates all rows of `source`. Each thread takes a contiguous block; sums are exact, so the blocks do not change the result.
+/// Accumulates all rows of `source`. Each thread takes a contiguous block. Sums are exact, so the blocks do not affect the result.
 ///
-/// Blocks consist of whole batches, so the first batch with an error is the same on any number of threads.
+/// Blocks consist of whole batches. The first batch with an error is therefore the same for any number of threads.
 ///
 /// # Errors
 /// [`EvaluateError`] of the first batch that cannot be read or scored.
@@ -64,7 +64,7 @@ fn accumulate_block(
     Ok(evaluator)
 }
 
-/// The plan with fewer metrics. Its states merge with those of the whole plan.
+/// The plan restricted to fewer metrics. Its states can be merged with those of the whole plan.
 ///
 /// # Errors
 /// [`EvaluateError::Scores`] for an unusable constant or setting.
@@ -86,26 +86,26 @@ pub(crate) fn restricted(
     })
 }
 
-/// True if `metric` reads the truth alone, and so every row of a recording.
+/// True if `metric` reads only the truth, and therefore every row of a recording.
 pub(crate) fn reads_no_prediction(metric: &Metric) -> bool {
     let fields = metric.needs.fields;
     !fields.contains(Field::Prediction) && !fields.contains(Field::PredictedSpacing)
 }
 
-/// Truth and predictions in memory, column by column. The dataset holds the other fields of the same rows.
+/// Truth and predictions in memory, column by column. The other fields of the rows are read from the dataset.
 ///
 /// # Shapes
 /// One column for each channel of the plan, each as long as `rows`.
 pub struct Columns<'a> {
-    /// The truth.
+    /// Columns of the truth.
     pub truth: &'a [Column],
-    /// The predictions.
+    /// Columns of the predictions.
     pub prediction: &'a [Column],
-    /// The recording.
+    /// Recording that contains the rows.
     pub dataset: &'a Dataset,
     /// Row numbers in the recording.
     pub rows: &'a [usize],
-    /// Group of every row of the recording, if intervals are by group.
+    /// Group of every row of the recording, for intervals by group; `None` for other intervals.
     pub groups: Option<&'a [String]>,
 }
 

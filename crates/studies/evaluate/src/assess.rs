@@ -14,58 +14,58 @@ use crate::state_file::StateFile;
 
 /// Rows that were scored.
 pub enum ScoredRows {
-    /// Accumulators, whose state can be merged with that of other rows.
+    /// Accumulators, whose state can be merged with the state of other rows.
     Accumulated {
-        /// The accumulators.
+        /// Evaluator with the accumulators.
         evaluator: Box<Evaluator>,
-        /// The rows that they have accumulated.
+        /// Rows that the evaluator has accumulated.
         taken: Vec<Taken>,
     },
-    /// A finished evaluation of several groups of rows; no state is kept.
+    /// A finished evaluation of several groups of rows, without a state.
     Finished(Box<Evaluation>),
 }
 
 /// Parts of a report besides its scores.
 pub struct Context {
-    /// The sensor.
+    /// Description of the sensor.
     pub subject: Subject,
-    /// The inputs and settings.
+    /// Inputs and settings.
     pub provenance: Provenance,
     /// Notes for the reader, in order. Notes of earlier states are in `provenance`.
     pub notes: Vec<Note>,
-    /// True if the model was fitted on some of the rows, beyond what `provenance` states.
+    /// True if the model was fitted on some of the rows, beyond those that `provenance` states.
     pub is_seen: bool,
-    /// True if the model was fitted on neighbours of tested samples that resemble them.
+    /// True if the training part contains neighbours of tested samples that resemble these.
     pub are_neighbours_learnt: bool,
-    /// The fit behind the predictions; states do not record it.
+    /// Facts of the fit behind the predictions. States do not contain them.
     pub fit: FitFacts,
-    /// The scores of each single recording, if several were joined.
+    /// Scores of each recording, if several were joined.
     pub by_recording: Vec<RecordingScores>,
-    /// The scores for other training seeds.
+    /// Scores for other training seeds, if any.
     pub over_seeds: Option<OverSeeds>,
-    /// The samples, if one call has all of them.
+    /// All samples, if a single call evaluates all of them.
     pub samples: Option<Samples>,
 }
 
-/// Facts of a fit that only the call with the fit knows.
+/// Facts of a fit that are known only to the call that made the fit.
 #[derive(Clone, Debug, Default)]
 pub struct FitFacts {
-    /// Frames that the fit read.
+    /// Number of frames that the fit decoded.
     pub frames_decoded: u64,
     /// Notes for the reader, placed after all others.
     pub notes: Vec<Note>,
 }
 
-/// A report, with its state if the state can be stored.
+/// A report, and its state if the state can be stored.
 pub struct Assessed {
-    /// The report.
+    /// Report of the evaluation.
     pub report: EvaluationReport,
-    /// The state.
+    /// State behind the report.
     pub state: Option<StateFile>,
 }
 
 impl Context {
-    /// A context without notes, recordings, seeds and samples.
+    /// A context without notes, recordings, seeds or samples.
     pub fn new(subject: Subject, provenance: Provenance) -> Context {
         Context {
             subject,
@@ -81,7 +81,7 @@ impl Context {
     }
 }
 
-/// Report of `rows`; `predictions` counts the rows beyond the bounds of their model.
+/// Report of `rows`. `predictions` contains the numbers of predictions beyond the bounds of their model.
 ///
 /// # Errors
 /// [`EvaluateError::Scores`] for samples that the accumulators reject.

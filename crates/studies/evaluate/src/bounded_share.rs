@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-/// Numbers of predictions beyond the bounds and of all predictions, by channel; a channel without bounds is absent.
+/// Number of predictions beyond the bounds and number of all predictions, by channel. A channel without bounds is absent.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Bounded {
     counts: BTreeMap<String, Counts>,
 }
 
-/// Numbers of predictions of one channel: beyond the bounds, and in total.
+/// Counts of predictions of one channel: beyond the bounds, and in total.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Counts {
@@ -20,7 +20,7 @@ struct Counts {
 }
 
 impl Bounded {
-    /// Adds predictions of `channel`; each item is true if the prediction lies beyond the bounds.
+    /// Adds predictions of `channel`. Each item is true if the prediction is beyond the bounds.
     pub fn add(&mut self, channel: &str, beyond: impl Iterator<Item = bool>) {
         let counts = self.counts.entry(channel.to_owned()).or_default();
         for is_beyond in beyond {
@@ -50,7 +50,7 @@ impl Bounded {
         Some(counts.beyond as f64 / counts.of as f64)
     }
 
-    /// Share of each channel that has predictions.
+    /// Share of predictions beyond the bounds, for each channel that has predictions.
     pub fn shares(&self) -> BTreeMap<String, f64> {
         let channels = self.counts.keys();
         channels

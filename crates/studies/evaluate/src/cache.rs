@@ -1,4 +1,4 @@
-//! Cached results of the stages of runs, stored under the digest of all their inputs.
+//! Caches the results of the stages of runs, under the digest of all their inputs.
 //!
 //! ```text
 //! FOLDER/2/acquire/<key>      a line a folder of a run that holds the closed recording, the last one first
@@ -38,17 +38,17 @@ pub use study::StudyCache;
 pub use tree::remove;
 pub use value::Kept;
 
-/// Version of the layout of entries. Each version has its own folder, so that a version never reads entries of another.
+/// Version of the layout of entries. Each version has its own folder, so that a program never reads entries of another version.
 const LAYOUT: &str = "2";
-/// Folder for entries that are still being written.
+/// Name of the folder for entries that are still being written.
 const PARTIAL: &str = "partial";
-/// Age at which a partial entry counts as abandoned; writing a result always takes less time.
+/// Age at which a partial entry counts as abandoned. Writing a result always takes less time.
 const ABANDONED: Duration = Duration::from_secs(24 * 60 * 60);
 
-/// A folder of results shared between runs, and a list of the results that this run reused.
+/// A folder of results that runs share, and a list of the results that this run reused.
 ///
-/// A cache never stops a run. If it cannot be read or written, stages are computed again and [`notes`](Cache::notes) states the reason. Any number of
-/// runs can share a cache, because an entry appears only when complete and its name is the digest of its inputs.
+/// A cache never stops a run. If it cannot be read or written, stages are computed again, and [`notes`](Cache::notes) states the reason. Any number of runs can
+/// share a cache, because an entry is visible only when complete, and its name is the digest of its inputs.
 #[derive(Debug)]
 pub struct Cache {
     folder: PathBuf,
@@ -59,16 +59,16 @@ pub struct Cache {
     memory: Option<features::Memory>,
     /// True if entries are stored in the folder.
     is_on_disk: bool,
-    /// Removes leftovers of killed runs once.
+    /// Guard that removes leftovers of killed runs once.
     cleared: Once,
     notes: Mutex<BTreeSet<String>>,
     records: Mutex<Vec<(usize, StageRecord)>>,
 }
 
 impl Cache {
-    /// Cache in `folder`, which is created when the first stage is stored.
+    /// Cache in `folder`. The folder is created when the first result is stored.
     ///
-    /// `models` names the simulation models of the program's drivers, with version and parameters. Recordings from other models are not found.
+    /// `models` names the simulation models of the program's drivers, with version and parameters. Recordings made by other models are not reused.
     pub fn new(folder: PathBuf, models: String) -> Cache {
         Cache {
             folder,
@@ -82,9 +82,9 @@ impl Cache {
         }
     }
 
-    /// Shares this cache among many tasks, in this process and in others that use the folder. Features are computed for whole recordings, whatever
-    /// rows a task needs. One task computes them while the others wait. Each frame is then decoded once for each kind of features, if the cache can
-    /// store them.
+    /// Shares this cache among many tasks, in this process and in other processes that use the folder. Features are computed for whole recordings, whatever
+    /// rows a task needs. One task computes them while the others wait. Each frame is then decoded once for each kind of features, if the cache can store
+    /// these.
     #[must_use]
     pub fn of_many(self) -> Cache {
         Cache {
@@ -93,7 +93,7 @@ impl Cache {
         }
     }
 
-    /// Cache for the folds of one call: features of whole recordings stay in memory, backed by the folder of `outer`.
+    /// Cache for the folds of one call. Features of whole recordings are stored in memory, and also in the folder of `outer`.
     pub(crate) fn of_folds(outer: Option<&Cache>) -> Cache {
         let folder = outer.map_or_else(PathBuf::new, |outer| outer.folder.clone());
         let models = outer.map_or_else(String::new, |outer| outer.models.clone());
@@ -110,7 +110,7 @@ impl Cache {
         self.is_of_many
     }
 
-    /// The folder.
+    /// Path of the cache folder.
     pub fn path(&self) -> &Path {
         &self.folder
     }
@@ -121,7 +121,7 @@ impl Cache {
         notes.iter().cloned().collect()
     }
 
-    /// Stages of the run so far, study by study, and whether each was reused.
+    /// Stages of the run so far, study by study. Each record states whether the result was reused.
     pub fn stages(&self) -> Vec<StageRecord> {
         let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
         let mut records = records.clone();
@@ -144,18 +144,18 @@ impl Cache {
         records.push((study, record));
     }
 
-    /// The path of the entry of `key`.
+    /// Path of the entry of `key`.
     fn entry(&self, key: &Key) -> PathBuf {
         let folder = self.folder.join(LAYOUT).join(key.stage().name());
         folder.join(key.digits())
     }
 
-    /// The folder for entries that are still being written.
+    /// Path of the folder for entries that are still being written.
     fn partial(&self) -> PathBuf {
         self.folder.join(LAYOUT).join(PARTIAL)
     }
 
-    /// Removes the partial entries and the claims of killed runs.
+    /// Removes the partial entries and the claims that killed runs left.
     fn clear(&self) {
         self.cleared.call_once(|| {
             let partial = self.partial();
@@ -164,9 +164,9 @@ impl Cache {
         });
     }
 
-    /// Writes an entry by `write` beside its final path and renames it, unless another run was faster.
+    /// Writes an entry by `write` to a temporary path, and renames it. If another run has stored the entry first, the new entry is discarded.
     ///
-    /// `write` creates a file or a folder and fails if the path exists.
+    /// `write` creates a file or a folder. It must fail if the path exists.
     fn put(&self, key: &Key, write: impl Fn(&Path) -> io::Result<()>) {
         let entry = self.entry(key);
         if let Err(error) = self.try_put(&entry, write)
@@ -176,7 +176,7 @@ impl Cache {
         }
     }
 
-    /// Replaces the entry of `key` by the file `bytes`.
+    /// Replaces the entry of `key` by a file with the content `bytes`.
     fn put_anew(&self, key: &Key, bytes: &[u8]) {
         let entry = self.entry(key);
         let write = |beside: &Path| {
@@ -211,7 +211,7 @@ impl Cache {
         self.note(format!("{} cannot be used: {error}", shown(entry)));
     }
 
-    /// Removes a damaged entry; its stage is computed again.
+    /// Removes a damaged entry. Its stage is then computed again.
     fn discard(&self, key: &Key, problem: &str) {
         let entry = self.entry(key);
         let removed = remove(&entry);

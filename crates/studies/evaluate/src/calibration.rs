@@ -1,4 +1,4 @@
-//! Calibration of a model that predicts standard deviations.
+//! Calibration of a model's predicted standard deviations.
 
 use std::num::NonZeroUsize;
 
@@ -12,10 +12,10 @@ use crate::error::EvaluateError;
 use crate::note::{Coverage, Note};
 use crate::predict::Predicted;
 
-/// Share of `predicted`, the rows `rows` of `dataset`, within 1.96 predicted standard deviations of the truth, by channel, with an interval by
-/// contact point. `None` if the model predicts no standard deviation.
+/// Share of `predicted`, the rows `rows` of `dataset`, within 1.96 predicted standard deviations of the truth. Computed by channel, with an interval by contact
+/// point. `None` if the model predicts no standard deviation.
 ///
-/// Counts only rows pressed in the same light as the training data, because the standard deviations hold only there.
+/// Only rows pressed in the light of the training data are counted, because the standard deviations are valid only in this light.
 pub fn calibration(
     dataset: &Dataset,
     predicted: &Predicted,

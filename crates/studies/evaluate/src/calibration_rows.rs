@@ -14,15 +14,15 @@ use crate::run_layout::{PLANS, RECORDINGS};
 pub(crate) const NOTE: &str =
     "divided among the calibration presses of the run, as its plan does; all others are left out";
 
-/// Rows that a run divides, and the seed of the division.
+/// Rows that a run divides, and the seed of this division.
 pub(crate) struct PlannedRows {
     /// Row numbers, ascending.
     pub(crate) rows: Vec<usize>,
-    /// The seed of the scene.
+    /// Seed of the scene.
     pub(crate) seed: u64,
 }
 
-/// Fields of `plans.json` that are read, schema `taceva.plans/1`.
+/// Fields read from `plans.json`, schema `taceva.plans/1`.
 #[derive(Deserialize)]
 struct Plans {
     seed: u64,
@@ -42,10 +42,10 @@ struct Press {
 }
 
 impl PlannedRows {
-    /// Rows of `dataset` that its run divides; `None` if it is not a recording of a run, or its plan divides nothing.
+    /// Rows of `dataset` that its run divides. `None` if the dataset is not a recording of a run, or if the run's plan divides nothing.
     ///
     /// # Errors
-    /// [`EvaluateError::RunFolder`] if the plan beside it cannot be read.
+    /// [`EvaluateError::RunFolder`] if the plan beside the recording cannot be read.
     pub(crate) fn of(dataset: &Dataset) -> Result<Option<PlannedRows>, EvaluateError> {
         match dataset.recordings() {
             [] => PlannedRows::of_recording(dataset),
@@ -53,7 +53,7 @@ impl PlannedRows {
         }
     }
 
-    /// Rows of joined recordings; every row of a recording without a plan is divided.
+    /// Planned rows of joined recordings. If a recording has no plan, all of its rows are divided.
     fn of_joined(joined: &[JoinedRecording]) -> Result<Option<PlannedRows>, EvaluateError> {
         let mut all = PlannedRows {
             rows: Vec::new(),
@@ -112,7 +112,7 @@ impl PlannedRows {
     }
 }
 
-/// Plans file of the run whose recordings folder contains `path`, and the number of its study, from 1.
+/// Path of the plans file of the run whose recordings folder contains `path`, and the number of the run's study, counted from 1.
 fn plans_of(path: &Path) -> Option<(std::path::PathBuf, usize)> {
     let recordings = path
         .parent()

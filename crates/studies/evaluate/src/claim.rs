@@ -1,4 +1,4 @@
-//! Exclusive claims on work that several processes may start, on one machine or on several that share a folder.
+//! Exclusive claims on work that several processes may start. The processes may run on several machines that share a folder.
 //!
 //! A claim is a file that is created exclusively. This needs only exclusive creation and renaming; network file systems may lack `flock` and `fcntl`
 //! locks. While the owner lives, it writes a counter into the file. A waiting process checks with its own clock that the counter changes, so clocks
@@ -18,7 +18,7 @@ const COUNTS_EVERY: Duration = Duration::from_secs(2);
 /// Time without an update after which an owner counts as dead.
 const DEAD_AFTER: Duration = Duration::from_secs(30);
 
-/// A held claim, released on drop.
+/// A claim of this process. Dropping it releases the claim.
 #[derive(Debug)]
 pub struct Claim {
     path: PathBuf,
@@ -27,7 +27,7 @@ pub struct Claim {
     counting: Option<JoinHandle<()>>,
 }
 
-/// Observation of a claim of another process, since the first look.
+/// Observation of another process's claim, since the first look.
 #[derive(Debug)]
 pub struct Watch {
     path: PathBuf,
@@ -43,7 +43,7 @@ fn unique_name() -> String {
 }
 
 impl Claim {
-    /// The claim at `path`; `None` if another owner holds it.
+    /// Creates the claim at `path`; `None` if another process has claimed it.
     ///
     /// # Errors
     /// Errors of the file system.
@@ -103,7 +103,7 @@ impl Drop for Claim {
 }
 
 impl Watch {
-    /// Starts to observe the claim at `path`.
+    /// Starts observing the claim at `path`.
     pub fn new(path: &Path) -> Watch {
         Watch {
             path: path.to_owned(),
@@ -112,8 +112,8 @@ impl Watch {
         }
     }
 
-    /// Removes the claim if its owner is dead: the process ended on this machine, or the counter has not changed for long. Only one of several
-    /// observers removes it. Returns true if this call removed it, or if the claim no longer exists.
+    /// Removes the claim if its owner is dead: the process ended on this machine, or the counter has not changed for long. If several observers try, only one
+    /// removes the claim. Returns true if this call removed the claim, or if the claim no longer exists.
     ///
     /// # Errors
     /// Errors of the file system.
@@ -166,7 +166,7 @@ impl Watch {
     }
 }
 
-/// Removes claims in `folder` of processes that ended on this machine, and their marks.
+/// Removes claims in `folder` of processes that ended on this machine, and the marks with which these processes began to remove claims.
 ///
 /// No process waits for the claim of a finished task, so nothing else would remove it. Links and files that are not claims are kept.
 pub fn clear_dead_claims(folder: &Path) {
@@ -192,7 +192,7 @@ fn is_line(text: &str) -> bool {
     })
 }
 
-/// A line of constant length, so that it can be overwritten in place.
+/// Content of a claim file. Its length is constant, so that it can be overwritten in place.
 fn line(owner: &str, count: u64) -> String {
     format!("{owner} {count:020}\n")
 }
@@ -221,7 +221,7 @@ fn process_name() -> String {
     name.clone()
 }
 
-/// Boot id of this machine and namespace of its processes, in digits and letters.
+/// Boot id of this machine and id of its process namespace, in digits and letters.
 fn machine() -> String {
     let boot = fs::read_to_string("/proc/sys/kernel/random/boot_id").unwrap_or_default();
     let space = fs::read_link("/proc/self/ns/pid").unwrap_or_default();
@@ -229,7 +229,7 @@ fn machine() -> String {
     words.chars().filter(char::is_ascii_alphanumeric).collect()
 }
 
-/// Start time of a process, in ticks since boot.
+/// Start time of a process, in clock ticks since boot; `None` if unknown.
 fn start_of(process: u32) -> Option<String> {
     let text = fs::read_to_string(format!("/proc/{process}/stat")).ok()?;
     // The name may contain any character, so it ends at the last bracket. The start time is the twentieth word after it.
@@ -237,7 +237,7 @@ fn start_of(process: u32) -> Option<String> {
     rest.split_whitespace().nth(19).map(str::to_owned)
 }
 
-/// True if `owner` was a process of this machine that has ended.
+/// True if `owner` was a process of this machine and has ended.
 fn ended_here(owner: &str) -> bool {
     let mut parts = owner.split('-');
     let (Some(of), Some(process), Some(start)) = (parts.next(), parts.next(), parts.next()) else {

@@ -10,15 +10,15 @@ use crate::fit::{FitPlan, FitRequest};
 use crate::predict::Target;
 use crate::rows::DataPart;
 
-/// Bytes per stored feature.
+/// Number of bytes per stored feature.
 const FEATURE_BYTES: u64 = 4;
 
-/// Frames to decode, and bytes to store if there is a cache.
+/// Number of frames to decode, and number of bytes to store if there is a cache.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Effort {
-    /// Rows whose frames are decoded, part after part.
+    /// Rows whose frames are decoded, one part after another.
     pub rows: Vec<usize>,
-    /// Upper limit of the stored features, in bytes. If features are still to be chosen, each trial also stores its own.
+    /// Upper limit of the stored features, in bytes. If features are still to be chosen, each trial stores additional features.
     pub kept_bytes: u64,
 }
 
@@ -59,7 +59,7 @@ impl Effort {
         }
     }
 
-    /// Effort of one fit, and of predicting a part with its model.
+    /// Effort of one fit, and of predicting a part with the fitted model.
     fn of_fold(
         dataset: &Dataset,
         plan: FitPlan<'_>,

@@ -31,7 +31,7 @@ pub enum EvaluateError {
     /// The model cannot be written to a file.
     #[error(transparent)]
     ModelFormat(#[from] FormatError),
-    /// The model does not suit the dataset.
+    /// The model cannot be used on the dataset.
     #[error("the model does not suit the dataset: {0}")]
     Unsuited(String),
     /// No model or feature has this setting.
@@ -49,15 +49,15 @@ pub enum EvaluateError {
     /// The recording has no samples.
     #[error("{}: no sample: the dataset has 0 rows", taceva_core::shown(path))]
     NoSamples {
-        /// The dataset.
+        /// Path of the dataset.
         path: PathBuf,
     },
     /// Two tables do not belong together.
     #[error("{}: {problem}", taceva_core::shown(path))]
     Tables {
-        /// The table that does not fit the other.
+        /// Path of the table that does not match the other.
         path: PathBuf,
-        /// The mismatch and the expected content.
+        /// Description of the mismatch, and the expected content.
         problem: String,
     },
     /// A Parquet table of scores cannot be read.
@@ -66,17 +66,17 @@ pub enum EvaluateError {
     /// A state file cannot be read or merged with the others.
     #[error("{}: {problem}", taceva_core::shown(path))]
     State {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The fault and the expected content.
+        /// Description of the fault, and the expected content.
         problem: String,
     },
     /// A folder of a run cannot be created, read or resumed.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
-        /// The folder or a file in it.
+        /// Path of the folder or of a file in it.
         path: PathBuf,
-        /// The fault and the expected content.
+        /// Description of the fault, and the expected content.
         problem: String,
     },
     /// The request names something that the dataset or the model lacks.
@@ -99,7 +99,7 @@ impl EvaluateError {
         }
     }
 
-    /// True if the user's input is at fault, not the data.
+    /// True if the user's input is invalid, as opposed to the data.
     pub fn is_usage(&self) -> bool {
         matches!(
             self,

@@ -1,4 +1,4 @@
-//! Features of the frames or signals of a dataset. Each worker holds one decoded frame; only the features are kept.
+//! Features of the frames or signals of a dataset. Each worker stores one decoded frame at a time; only the features are kept.
 
 mod model_input;
 mod table;
@@ -28,11 +28,11 @@ pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, Eval
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }
 
-/// Features of `rows`, in that order, from the cache or computed now. `extractor` returns the extractor of one recording, because each recording has
-/// its own reference without contact.
+/// Features of `rows`, in this order, from the cache or computed now. `extractor` returns the extractor for one recording. Each recording needs its own,
+/// because its contact-free reference differs.
 ///
-/// `[rows, height, width, depth]`. Memory: the features and a few frames for each worker; for joined recordings, also the features of the longest run
-/// of rows of one recording.
+/// Returns `[rows, height, width, depth]`. Memory contains the features and a few frames for each worker. For joined recordings, it also contains the features
+/// of the longest run of rows of one recording.
 pub fn extract(
     dataset: &Dataset,
     extractor: impl Fn(&Dataset) -> Result<Extractor, EvaluateError>,
@@ -72,8 +72,8 @@ fn of_recording(
     }
 }
 
-/// Features of `rows`, selected from the features of the whole recording, which other tasks need too. Computes only `rows` if the whole cannot be
-/// stored, or a frame outside `rows` cannot be read.
+/// Features of `rows`, selected from the features of the whole recording, which other tasks also need. Computes only `rows` if the features of the whole
+/// recording cannot be stored, or if a frame outside `rows` cannot be read.
 fn of_whole(
     recording: &Dataset,
     extractor: &Extractor,
@@ -155,7 +155,7 @@ fn make(
     Ok(Features::new(shape, values)?)
 }
 
-/// All-zero features, for models that use none. Reads no frame.
+/// Features that are all zero, for models that use no features. Reads no frame.
 pub fn blank(shape: FeatureShape, rows: usize) -> Result<Features, EvaluateError> {
     Ok(Features::new(shape, vec![0.0; rows * shape.len()])?)
 }

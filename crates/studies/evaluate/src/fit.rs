@@ -19,13 +19,13 @@ pub use request::Recipe;
 /// A fitted model, and the division of its dataset.
 #[derive(Debug)]
 pub struct Fitted {
-    /// The model.
+    /// The fitted model.
     pub model: Model,
-    /// The division of the dataset.
+    /// Division of the dataset.
     pub divided: Divided,
-    /// The same division as a record.
+    /// Record of the division.
     pub manifest: SplitManifest,
-    /// Frames decoded for the fit.
+    /// Number of frames decoded for the fit.
     pub frames_decoded: u64,
     /// Number of samples in the training and validation parts without a label or a frame.
     pub left_out: usize,
@@ -33,7 +33,7 @@ pub struct Fitted {
 
 /// Fits a model on the training part of `dataset`.
 ///
-/// A long training stores a checkpoint in `checkpoints` and resumes from it. Models fitted in one step have none.
+/// A long training writes checkpoints to `checkpoints` and resumes from them. Models fitted in one step have no checkpoints.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, the dataset cannot be read, or no model can be fitted to it.

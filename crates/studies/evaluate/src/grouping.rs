@@ -1,4 +1,4 @@
-//! Groups of samples that stay together in a division, and the columns that a split reads.
+//! Groups of samples that a division never separates, and the columns that a split reads.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,7 +12,7 @@ use crate::recordings;
 /// Share of tested samples with a neighbour in the training part above which a division is marked.
 const SHARE_BESIDE: f64 = 0.1;
 
-/// Samples that stay together by default.
+/// Samples that a division does not separate by default.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Grouping {
     /// Samples of one contact point, if some points repeat.
@@ -21,12 +21,12 @@ pub(crate) enum Grouping {
     Column(String),
     /// Blocks of time.
     Blocks,
-    /// Single samples; `are_apart` is true if neighbours are known not to resemble each other.
+    /// Single samples. `are_apart` is true if neighbours are known not to resemble each other.
     Samples { are_apart: bool },
 }
 
 impl Grouping {
-    /// Grouping found in `rows` of `dataset`.
+    /// Detects the grouping of `rows` of `dataset`.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Grouping {
         if has_repeats(dataset, rows) {
             return Grouping::Points;
@@ -41,7 +41,7 @@ impl Grouping {
         }
     }
 
-    /// Split with one division by these groups.
+    /// Kind of split with a single division by these groups.
     pub(crate) fn kind(self) -> SplitKind {
         match self {
             Grouping::Points => SplitKind::ByPoint,
@@ -54,7 +54,7 @@ impl Grouping {
         }
     }
 
-    /// Folds by these groups.
+    /// Groups of folds by this grouping.
     pub(crate) fn folds(self) -> FoldGroups {
         match self {
             Grouping::Points => FoldGroups::Points,
@@ -77,7 +77,7 @@ pub(crate) struct SplitFields {
     times_s: Option<Vec<f64>>,
     parts: Option<Vec<String>>,
     column: Option<(String, Vec<String>)>,
-    /// All columns if the requested one is missing, to suggest another.
+    /// All columns if the requested column is missing, to suggest another one.
     alternatives: Vec<(String, Vec<String>)>,
     recordings: Option<Vec<String>>,
     sections: Vec<usize>,
@@ -151,7 +151,7 @@ impl SplitFields {
         }
     }
 
-    /// Note on neighbours among `rows` that `splits` keep together or separate; `splits` hold positions among `rows`.
+    /// Note on neighbours among `rows` that `splits` separate or do not separate. `splits` contain indices into `rows`.
     pub(crate) fn neighbours(
         &self,
         dataset: &Dataset,
@@ -196,7 +196,7 @@ impl SplitFields {
         Some(Note::Neighbours { found, division })
     }
 
-    /// True if each of `rows` is its own contact point: points are not named, the division makes no groups, and neighbours do not resemble each
+    /// True if each of `rows` is its own contact point. In this case points are not named, the division has no groups, and neighbours do not resemble each
     /// other.
     pub(crate) fn are_independent(
         &self,
@@ -219,7 +219,7 @@ impl SplitFields {
             && Resemblance::of(dataset, rows) == Resemblance::Apart
     }
 
-    /// Group of every row of `dataset` for intervals, if the division makes such groups.
+    /// Group of every row of `dataset` for intervals, if the division has groups.
     pub(crate) fn groups_of_rows(
         &self,
         dataset: &Dataset,
@@ -236,7 +236,7 @@ impl SplitFields {
     }
 }
 
-/// The `names` of `rows` as names of all rows of a dataset; the empty text for other rows.
+/// Converts the `names` of `rows` to names of all rows of a dataset. Other rows have the empty text.
 pub(crate) fn of_all_rows(names: &[String], rows: &[usize], all: usize) -> Vec<String> {
     let mut groups = vec![String::new(); all];
     for (row, name) in rows.iter().zip(names) {
@@ -245,7 +245,7 @@ pub(crate) fn of_all_rows(names: &[String], rows: &[usize], all: usize) -> Vec<S
     groups
 }
 
-/// True if the column of `kind` holds names of parts. Its values are no groups.
+/// True if the column of `kind` contains names of parts, which are not groups.
 fn names_parts(kind: &SplitKind) -> bool {
     match kind {
         SplitKind::ByColumn(by) => {
@@ -274,7 +274,7 @@ fn beside_learnt(dataset: &Dataset, rows: &[usize], split: &Split) -> usize {
     split.test.iter().filter(|&&row| beside[row]).count()
 }
 
-/// Texts of `rows`; `None` if any is missing.
+/// Texts of `rows`; `None` if any text is missing.
 fn all_texts(column: &[Option<String>], rows: &[usize]) -> Option<Vec<String>> {
     rows.iter().map(|&row| column[row].clone()).collect()
 }

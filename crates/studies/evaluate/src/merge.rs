@@ -1,4 +1,4 @@
-//! Merges the states of several shards.
+//! Merges the states of several shards, and computes their scores.
 
 use std::borrow::Borrow;
 use std::path::{Path, PathBuf};
@@ -13,10 +13,10 @@ use crate::row_ledger::{AllTaken, Taken};
 use crate::state_file::{ReadState, StateFile};
 use taceva_results::EvaluationReport;
 
-/// Scores of states of different plans side by side, such as those of the phases of a run. No sums are merged.
+/// Report with the scores of several states of different plans, such as those of the phases of a run. No sums are merged.
 ///
 /// # Errors
-/// [`EvaluateError::State`] for a file that is no state of its plan; [`EvaluateError::Request`] without a file.
+/// [`EvaluateError::State`] for a file that is not a state of its plan. [`EvaluateError::Request`] without a file.
 pub fn side_by_side(states: &[ReadState]) -> Result<EvaluationReport, EvaluateError> {
     let first = &states.first().ok_or_else(no_state)?.file;
     let mut parts = Vec::new();
@@ -41,15 +41,15 @@ fn no_state() -> EvaluateError {
     EvaluateError::Request("no state file is given: name at least one".to_owned())
 }
 
-/// Scores of several states together, and the merged state.
+/// Merges several states, and returns their common scores and the merged state.
 ///
 /// # Errors
-/// [`EvaluateError::State`] with the first file that does not match the first state; [`EvaluateError::Request`] without a file.
+/// [`EvaluateError::State`] with the first file that does not match the first state. [`EvaluateError::Request`] without a file.
 pub fn merge(paths: &[PathBuf]) -> Result<(EvaluationReport, StateFile), EvaluateError> {
     merged(paths.iter().map(|path| ReadState::read(path)))
 }
 
-/// Scores of several states together, and the merged state, as [`merge`] of their files.
+/// Merges several states that were already read, as [`merge`] does with files.
 ///
 /// # Errors
 /// Errors of [`merge`].
@@ -57,7 +57,7 @@ pub fn merge_read(states: &[ReadState]) -> Result<(EvaluationReport, StateFile),
     merged(states.iter().map(Ok))
 }
 
-/// Merges states one by one, so that at most two are in memory if `states` reads them.
+/// Merges states one by one. If `states` reads them, at most two are in memory.
 fn merged<S: Borrow<ReadState>>(
     mut states: impl Iterator<Item = Result<S, EvaluateError>>,
 ) -> Result<(EvaluationReport, StateFile), EvaluateError> {

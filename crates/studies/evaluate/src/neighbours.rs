@@ -1,4 +1,5 @@
-//! Neighbouring samples that resemble each other, found from labels and their order. A random division would leak between parts.
+//! Detects neighbouring samples that resemble each other, from labels and their order. With such samples, a random division would leak information between
+//! parts.
 
 mod blocks;
 mod sequence;
@@ -11,28 +12,28 @@ use crate::note::Neighbours;
 pub(crate) use blocks::Blocks;
 use sequence::Sequence;
 
-/// Least resemblance at which neighbours are kept together.
+/// Minimum resemblance at which a division does not separate neighbours.
 const LEAST: f64 = 0.3;
-/// Factor on the standard deviation of the resemblance of independent samples, about 1/√pairs. The resemblance must exceed the product.
+/// Minimum resemblance, in standard deviations of the resemblance of independent samples. One standard deviation is about 1/√pairs.
 const DEVIATIONS: f64 = 3.5;
-/// Least number of pairs of neighbours for any decision.
+/// Minimum number of pairs of neighbours for any decision.
 const PAIRS_LEAST: usize = 20;
-/// Least number of groups for which a column is preferred to blocks of time.
+/// Minimum number of groups for which a column is preferred to blocks of time.
 const GROUPS_LEAST: usize = 5;
-/// Parts of names of columns whose values are groups, in order of preference. The last is general, as a draft names groups of HDF5.
+/// Parts of the names of columns whose values are groups, in order of preference. The last name is general, as in a draft for groups of HDF5.
 const GROUP_NAMES: [&str; 12] = [
     "clip", "video", "episode", "take", "trial", "press", "grasp", "repeat", "session", "run",
     "object", "group",
 ];
 
-/// Resemblance of neighbouring samples, from the labels of a recording.
+/// Resemblance of neighbouring samples, computed from the labels of a recording.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Resemblance {
     /// Neighbours resemble each other.
     Alike(Neighbours),
     /// Neighbours resemble each other no more than random pairs do.
     Apart,
-    /// Too few samples to decide.
+    /// There are too few samples to decide.
     Unknown,
 }
 
@@ -54,12 +55,12 @@ impl Resemblance {
     }
 }
 
-/// Pairs of neighbouring positions among `rows`.
+/// Pairs of neighbouring indices into `rows`.
 pub(crate) fn pairs(dataset: &Dataset, rows: &[usize]) -> Vec<[usize; 2]> {
     Sequence::of(dataset, rows).pairs(1).collect()
 }
 
-/// Channel whose neighbours resemble each other most, with its ranks and the resemblance; `None` if no channel shows any.
+/// Channel with the greatest resemblance of neighbours, with its ranks and its resemblance; `None` if no channel has any.
 fn most_alike(
     dataset: &Dataset,
     rows: &[usize],
@@ -86,12 +87,12 @@ fn most_alike(
     most
 }
 
-/// Resemblance that independent samples do not reach with this number of pairs.
+/// Minimum resemblance for this number of pairs, which independent samples do not reach.
 fn least(pairs: usize) -> f64 {
     LEAST.max(DEVIATIONS / (pairs as f64).sqrt())
 }
 
-/// One minus the mean squared difference of the rank pairs divided by that of independent ranks, with the number of pairs; `None` if all ranks are
+/// Resemblance of the rank pairs, and their number. It is one minus their mean squared difference divided by that of independent ranks. `None` if all ranks are
 /// equal.
 fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     let (mut count, mut apart, mut sum, mut squares) = (0_usize, 0.0, 0.0, 0.0);
@@ -106,7 +107,7 @@ fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     (variance > 1e-12).then(|| (1.0 - apart / count as f64 / (2.0 * variance), count))
 }
 
-/// Rank of each label, 0 to 1, so that outliers have little weight. Equal labels share their mean rank.
+/// Rank of each label, from 0 to 1. Ranks give outliers little weight. Equal labels have their mean rank.
 fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     let mut order: Vec<(f64, usize)> = labels
         .iter()
@@ -127,14 +128,14 @@ fn ranks(labels: &[Option<f64>]) -> Vec<Option<f64>> {
     ranks
 }
 
-/// Preference of a column whose name says that its values are groups, the least first; `None` for any other name.
+/// Position in the order of preference of a column whose name indicates groups; 0 is preferred most. `None` for any other name.
 pub(crate) fn preference(name: &str) -> Option<usize> {
     let name = name.to_lowercase();
     GROUP_NAMES.iter().position(|known| name.contains(known))
 }
 
-/// Column whose values are groups of neighbours. Several groups consist of consecutive rows, and the last sample of one does not resemble the first
-/// of the next.
+/// Column whose values are groups of neighbours. Several groups consist of consecutive rows, and the last sample of a group does not resemble the first sample
+/// of the next group.
 fn group_column(
     dataset: &Dataset,
     rows: &[usize],
@@ -195,7 +196,7 @@ mod tests {
         }
     }
 
-    /// Numbers from −1 to 1 from a linear congruential generator.
+    /// Test numbers from −1 to 1 from a linear congruential generator.
     fn noise(rows: usize) -> Vec<f64> {
         let mut state = 7_u64;
         let next = |_| {

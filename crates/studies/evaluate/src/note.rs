@@ -1,4 +1,4 @@
-//! Notes on the samples and the model behind scores: stored as data, printed as sentences.
+//! Notes on the samples and the model behind scores. They are stored as data and printed as sentences.
 
 mod detection;
 mod division;
@@ -17,7 +17,7 @@ pub use division::{Division, Independence, Neighbours, SampleOrder};
 pub use few_clusters::FewClusters;
 pub use within::Within;
 
-/// A note for the reader of scores; `Display` gives its sentence.
+/// A note for the reader of scores. `Display` writes its sentence.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
@@ -25,194 +25,194 @@ pub enum Note {
     Split(String),
     /// Neighbouring samples that resemble each other, and their division.
     Neighbours {
-        /// The finding.
+        /// Findings on the neighbours.
         found: Neighbours,
-        /// The resulting division.
+        /// Division that results from the findings.
         division: Division,
     },
-    /// Samples treated as independent, each as one contact point.
+    /// Samples are treated as independent, each as one contact point.
     Independent(Independence),
     /// The clusters of intervals, if recordings were joined.
     Clusters {
-        /// Recordings with scored rows.
+        /// Number of recordings with scored rows.
         recordings: usize,
-        /// Contact points within them.
+        /// Number of contact points in these recordings.
         points: usize,
-        /// Least number of recordings for intervals by recording.
+        /// Minimum number of recordings for intervals by recording.
         least: usize,
     },
-    /// Tested groups that lie within larger groups, which the models may have seen.
+    /// Tested groups are within larger groups, which the models may have seen.
     Within(Within),
-    /// Contact points or groups, too few for any interval.
+    /// There are too few contact points or groups for any interval.
     FewClusters(FewClusters),
     /// Rows that were added to a recording later.
     Extended {
-        /// The recording, if several were joined.
+        /// Name of the recording, if several were joined.
         recording: Option<String>,
         /// Number of added rows.
         added: u64,
-        /// Number of earlier rows, day and folder of the extension.
+        /// Number of earlier rows, and day and folder of the extension.
         extension: Extension,
     },
     /// Frames that were reduced before storage.
     Reduced {
-        /// The recording, if several were joined.
+        /// Name of the recording, if several were joined.
         recording: Option<String>,
         /// The frames as stored.
         frames: FramesInfo,
     },
     /// View in use, for a recording whose samples have several pictures.
     View {
-        /// The recording, if several were joined.
+        /// Name of the recording, if several were joined.
         recording: Option<String>,
-        /// The view: `left`, or `left+right` side by side.
+        /// Name of the view: `left`, or `left+right` side by side.
         view: String,
         /// All views, as text.
         of: String,
     },
-    /// A warning of an import, the zero or gravity that it subtracted from labels, or a table that it joined.
+    /// Message of an import: a warning, the zero or gravity subtracted from labels, or a joined table.
     Imported {
-        /// The recording, if several were joined.
+        /// Name of the recording, if several were joined.
         recording: Option<String>,
         /// The message of the import.
         words: String,
     },
-    /// Standard uncertainty of the heights from which depths count.
+    /// Standard uncertainty of the heights relative to which depths are measured.
     DepthZeros {
-        /// The recording, if several were joined.
+        /// Name of the recording, if several were joined.
         recording: Option<String>,
-        /// Median over the samples with one, mm.
+        /// Median uncertainty over the samples that have one, in mm.
         median_mm: f64,
-        /// The greatest, mm.
+        /// Greatest uncertainty, in mm.
         most_mm: f64,
-        /// Samples with a depth that have none.
+        /// Number of samples with a depth but without an uncertainty.
         without: usize,
-        /// Samples with a depth.
+        /// Number of samples with a depth.
         of: usize,
     },
     /// Angles between predicted and true rotations.
     Rotation {
         /// The channels of the rotation.
         channels: Vec<String>,
-        /// Samples with both rotations.
+        /// Number of samples with both rotations.
         samples: usize,
         /// Mean angle, in degrees.
         mean: f64,
         /// 95th percentile of the angle, in degrees.
         most: f64,
     },
-    /// A scored part on which the model was fitted.
+    /// The model was fitted on the scored part.
     Seen(&'static str),
-    /// A model fitted on other data, with the digest of that data.
+    /// The model was fitted on other data with this digest.
     FittedElsewhere(String),
     /// Frames of the test part that are also in the training part.
     Copies {
-        /// Number of such pictures.
+        /// Number of such frames.
         copies: usize,
         /// Number of scored rows.
         of: usize,
     },
-    /// A model fitted before rows were added.
+    /// The model was fitted before rows were added.
     FittedBefore {
-        /// Rows at the time of the fit.
+        /// Number of rows at the time of the fit.
         rows: u64,
-        /// Rows now.
+        /// Number of rows now.
         now: u64,
     },
     /// Samples without a label or a frame.
     LeftOut {
-        /// Their part of the split.
+        /// Part of the split that contains the samples.
         part: String,
-        /// Their number.
+        /// Number of such samples.
         count: usize,
     },
     /// Shares of predictions beyond the bounds of the model, by channel.
     Bounded(Vec<(String, f64)>),
     /// Shares of samples within 1.96 predicted standard deviations, by channel.
     Calibration(Vec<Coverage>),
-    /// A sample that makes a great part of the squared error of a channel.
+    /// One sample is responsible for a great part of the squared error of a channel.
     Dominant {
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// The sample.
+        /// The sample, with its share of the squared error.
         sample: DominantSample,
     },
     /// A setting that the fit chose, as the model card describes it.
     Chosen {
-        /// The recording that the fold leaves out, if there are folds.
+        /// Recording that the fold leaves out, if there are folds.
         fold: Option<String>,
-        /// The choice.
+        /// Description of the choice.
         choice: String,
     },
-    /// Metrics of the truth alone, which use every row.
+    /// Metrics that read only the truth use every row.
     EveryRow {
-        /// Their ids.
+        /// Ids of the metrics.
         metrics: Vec<&'static str>,
         /// Number of rows.
         rows: usize,
     },
-    /// A model of the caller.
+    /// A caller's own model, with the knowledge of its training data.
     CallersModel(Learning),
-    /// Predictions of a model of the caller, scored unclipped.
+    /// Predictions of a caller's own model were scored without clipping.
     Unbounded,
     /// Number of merged states.
     States(usize),
-    /// Number of rows in merged shards, and in the input, if some shards are missing.
+    /// Number of rows in merged shards, and number of rows in the input, if some shards are missing.
     Shards([usize; 2]),
     /// Scored shard of two tables.
     Shard {
         /// Shard number and number of shards.
         shard: String,
-        /// First row, and the row after the last.
+        /// Index of the first row, and index after the last row.
         rows: [u64; 2],
         /// Number of rows of the tables.
         of: u64,
     },
     /// Method that paired the rows of two tables.
     Paired(PairedBy),
-    /// Columns of tables that are taken as channels of unit 1, because no unit is stated.
+    /// Columns that are read as channels of unit 1, because no unit is stated.
     UnitOfOne(Vec<String>),
-    /// An angle without a stated unit whose values all lie within its period in radians.
+    /// An angle without a stated unit, whose values are all within its period in radians.
     LikelyRadians {
-        /// The channel.
+        /// Name of the channel.
         channel: String,
-        /// Period that was taken, in degrees.
+        /// Period that was assumed, in degrees.
         period: u16,
     },
-    /// Byte-identical tables of truth and predictions.
+    /// The tables of truth and predictions are byte-identical.
     SameBytes,
     /// An item that a plan leaves out.
     NotPlanned {
-        /// The item.
+        /// Name of the item.
         what: String,
-        /// The reason.
+        /// Reason why the item is left out.
         reason: String,
     },
     /// Planned samples that were not recorded.
     Untaken {
-        /// Their number.
+        /// Number of samples that were not recorded.
         count: usize,
         /// Number of planned samples.
         of: usize,
     },
-    /// The measured sensor unit, if metrics between units also used others.
+    /// The only measured sensor unit, although the plan contained several.
     MeasuredUnit {
-        /// The serial number of the unit.
+        /// Serial number of the measured unit.
         unit: String,
         /// Metrics that compare units.
         metrics: Vec<&'static str>,
-        /// The serial numbers of all units.
+        /// Serial numbers of all planned units.
         of: Vec<String>,
     },
     /// Detection limit of the normal force, or the reason why there is none.
     DetectionLimit(Detection),
     /// Method that predicted the spacings of gratings.
     Spacings(&'static str),
-    /// Sessions on a real rig that made a recording.
+    /// Sessions on a real rig in which a recording was made.
     Sessions(String),
     /// Number of frames that were captured again.
     FramesRetried(u64),
-    /// Number of frozen frames whose presses were broken off.
+    /// Number of frozen frames, whose presses were aborted.
     FramesFrozen(u64),
 }
 
@@ -237,20 +237,20 @@ pub enum PairedBy {
 /// Training data of a model of the caller, as far as known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Learning {
-    /// The training part, fitted in this call.
+    /// The training part, on which the caller fitted the model in this call.
     Here,
-    /// The training part, as the caller states.
+    /// The training part, according to the caller.
     Stated,
-    /// Unknown.
+    /// The training data is unknown.
     Unknown,
 }
 
 /// Share of the samples of a channel whose truth lies within 1.96 predicted standard deviations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coverage {
-    /// The channel.
+    /// Name of the channel.
     pub channel: String,
-    /// The share, in percent.
+    /// Share of the samples, in percent.
     pub percent: f64,
     /// 95 % interval of the share by contact point, in percent.
     pub interval: Option<[f64; 2]>,

@@ -54,7 +54,8 @@ mod tests {
 
     use super::*;
 
-    /// Two repeats at each of six points, `scatter` mm to either side at the first and six times as much at the last, all `bias` mm too small.
+    /// Test evaluation with two repeats at each of six points. Repeats differ by `scatter` mm to either side at the first point, and six times as much at the
+    /// last. All values are too small by `bias` mm.
     fn evaluation(metric: &str, scatter: f64, bias: f64) -> Evaluation {
         let channels = Channels::new([Channel::PZ]).expect("one channel");
         let wanted = catalogue::select([metric]).expect("a known name");

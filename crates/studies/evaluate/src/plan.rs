@@ -16,9 +16,9 @@ pub struct Plan {
 /// One step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// `read`, `decode`, `fit`, `predict`, `score`, `write`.
+    /// Verb of the step: `read`, `decode`, `fit`, `predict`, `score` or `write`.
     pub verb: &'static str,
-    /// The object of the verb, with its numbers.
+    /// Object of the verb, with its numbers.
     pub what: String,
 }
 

@@ -19,10 +19,10 @@ pub use predictions::{AtBound, Predicted};
 pub use predictor::Predictor;
 pub use target::Target;
 
-/// Predicts a part of `dataset`. The default is the unseen data: the test part of the model's own dataset, or all of another. Each prediction has the
-/// distance of its frame from the training part, if the model measures it.
+/// Predicts a part of `dataset`. The default is the unseen data: the test part of the model's own dataset, or all rows of any other dataset. Each prediction
+/// includes the distance of its frame from the training part, if the model computes it.
 ///
-/// # Errors
+/// [`EvaluateError`] if the model cannot be used on the dataset, or the dataset cannot be read.
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
 pub fn predict(
     dataset: &Dataset,
@@ -41,7 +41,8 @@ pub fn predict(
     })
 }
 
-/// Group of each row of `target`: of the split of the model, else of a column that names groups. It stands for the contact point, if none is named.
+/// Group of each row of `target`, from the split of the model, or else from a column that names groups. It replaces the contact point if no contact point is
+/// named.
 fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
     let divided = target.divided.as_ref();
     if let Some(groups) = divided.and_then(|divided| divided.groups.as_ref()) {
@@ -56,7 +57,7 @@ fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
 
 /// Predictions of `model` for the rows of `target`, clipped to the bounds of the model, and unclipped.
 ///
-/// # Errors
+/// [`EvaluateError`] if the model cannot be used on the dataset, or the dataset cannot be read.
 /// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
 pub fn predict_target(
     dataset: &Dataset,
@@ -68,10 +69,10 @@ pub fn predict_target(
     predicted_table(dataset, Predictor::of(model), target, &numbers)
 }
 
-/// Unclipped predictions of `model` for the rows of `target`, with standard deviations if the model gives them.
+/// Unclipped predictions of `model` for the rows of `target`, and standard deviations if the model predicts them.
 ///
 /// # Shapes
-/// `[rows, channels]`, row after row; then the standard deviations in the same order, or nothing.
+/// Predictions: `[rows, channels]`, row by row. Standard deviations: the same order, or empty.
 pub fn predicted_numbers(
     dataset: &Dataset,
     model: &Model,
@@ -81,7 +82,7 @@ pub fn predicted_numbers(
     numbers_of(model, &features_of(dataset, model, target, work)?)
 }
 
-/// Features of the rows of `target`; blank features for a model that reads none.
+/// Features of the rows of `target`; blank features for a model that reads no features.
 fn features_of(
     dataset: &Dataset,
     model: &Model,
@@ -184,7 +185,7 @@ pub fn predicted_table(
     })
 }
 
-/// Other columns of `rows` that `score` reads.
+/// Other columns of `rows` that `score` can read.
 fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<String>>)> {
     let column = |field: Field| {
         let texts = dataset.table().as_text(field.name())?;
@@ -200,7 +201,7 @@ fn beside(dataset: &Dataset, rows: &[usize]) -> Vec<(&'static str, Vec<Option<St
     others.filter_map(column).collect()
 }
 
-/// Truth of `rows`; a channel that the dataset lacks is absent in every row.
+/// Truth of `rows`. A channel that the dataset lacks is undefined in every row.
 pub fn truth(
     dataset: &Dataset,
     channel: &Channel,

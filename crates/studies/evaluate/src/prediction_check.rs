@@ -1,4 +1,4 @@
-//! Labels and predictions in a table of samples, compared with those of a recording and of a model file.
+//! Compares labels and predictions in a table of samples with those of a recording and a model file.
 
 use std::path::{Path, PathBuf};
 
@@ -12,9 +12,9 @@ use crate::predict::{Predicted, Target, predict_target};
 use crate::rows::DataPart;
 use crate::work::Work;
 
-/// Greatest difference of predictions on two instruction sets, as a share of the range of the labels.
+/// Greatest allowed difference of predictions on two instruction sets, as a share of the label range.
 const NEAR: f64 = 1e-5;
-/// Most bytes of the features that a model file of others may ask for.
+/// Maximum size of the features that an untrusted model file may request, in bytes.
 const MOST_FEATURES: u64 = 16 << 30;
 
 /// Outcome of the comparison of a table of samples with a recording and a model.
@@ -26,24 +26,24 @@ pub enum PredictionCheck {
         /// Number of predicted samples.
         samples: usize,
     },
-    /// Labels are equal, and predictions differ as they may on another instruction set.
+    /// Labels are equal, and predictions differ no more than between instruction sets.
     Near {
-        /// Greatest difference, as a share of the range of the labels.
+        /// Greatest difference, as a share of the label range.
         share: f64,
-        /// First difference, in words.
+        /// Description of the first difference.
         first: String,
     },
-    /// Samples, labels or predictions differ; the first difference in words.
+    /// Samples, labels or predictions differ. Contains a description of the first difference.
     Differs(String),
 }
 
-/// Compares `samples` with the recording in `datasets`, and with the predictions of the model file at `model` on it.
+/// Compares `samples` with the recording in `datasets`, and with predictions for it by the model file at `model`.
 ///
-/// The results with `provenance` name the recording and the part. No plugin is loaded. Several folders are one recording each, or joined.
+/// `provenance` of the results names the recording and the part. No plugin is loaded. If there are several folders, each is one recording, or all are joined.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if no recording has the digest of the results, or the model needs a plugin. [`EvaluateError::ModelFormat`] for a
-/// file that is no model of this program. Others as [`predict_target`].
+/// [`EvaluateError::Request`] if no recording has the digest of the results, or if the model needs a plugin. [`EvaluateError::ModelFormat`] for a file that is
+/// not a model of this program. Otherwise errors of [`predict_target`].
 pub fn check_predictions(
     model: &Path,
     datasets: &[PathBuf],
@@ -82,12 +82,12 @@ pub fn check_predictions(
     Ok(compared(&dataset, &predicted, &lines, samples))
 }
 
-/// Models that are compiled into this program. Plugins are not among them.
+/// Models that are compiled into this program, without plugins.
 pub(crate) fn compiled_models() -> Models {
     Models::builtin().with_libraries(library_models())
 }
 
-/// The model at `path`, which is a file of others: no plugin is loaded for it.
+/// Reads the model at `path`. The file is untrusted, so no plugin is loaded for it.
 pub(crate) fn compiled_model(path: &Path) -> Result<Model, EvaluateError> {
     compiled_models().open(path).map_err(|error| match error {
         ModelFileError::Format {
@@ -103,7 +103,7 @@ pub(crate) fn compiled_model(path: &Path) -> Result<Model, EvaluateError> {
     })
 }
 
-/// Rejects a model whose features of `rows` samples, four bytes each, would fill the memory.
+/// Rejects a model whose features of `rows` samples, at four bytes each, would exceed the memory limit.
 fn check_features(shape: FeatureShape, rows: usize) -> Result<(), EvaluateError> {
     let bytes = [shape.len(), rows].map(|count| count as u64);
     let bytes = bytes.into_iter().fold(4, u64::saturating_mul);
@@ -117,7 +117,7 @@ fn check_features(shape: FeatureShape, rows: usize) -> Result<(), EvaluateError>
     }
 }
 
-/// The recording with the digest that the results state: one of `datasets`, or all of them joined.
+/// The recording whose digest the results state: one of `datasets`, or all of them joined.
 pub(crate) fn dataset_of(
     datasets: &[PathBuf],
     provenance: &Provenance,
@@ -170,7 +170,7 @@ pub(crate) fn part_named(name: &str) -> Result<DataPart, EvaluateError> {
     })
 }
 
-/// Rows with a prediction of the model, in a table of every row.
+/// Rows of the table with a prediction of the model. The table contains every row.
 fn predicted_rows(model: &Model, samples: &Samples) -> Vec<usize> {
     let channels = model.channels().iter();
     let channels: Vec<SampleChannel<'_>> = channels
@@ -183,7 +183,7 @@ fn predicted_rows(model: &Model, samples: &Samples) -> Vec<usize> {
     (0..samples.rows()).filter(is_predicted).collect()
 }
 
-/// First difference of the samples of the table from `rows` of `dataset`.
+/// Description of the first difference between the samples of the table and `rows` of `dataset`.
 fn other_samples(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option<String> {
     if samples.rows() != rows.len() {
         return Some(format!(
@@ -213,7 +213,7 @@ fn other_samples(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option
     })
 }
 
-/// First difference of the labels of the table from those of `rows` of `dataset`.
+/// Description of the first difference between the labels of the table and those of `rows` of `dataset`.
 fn other_labels(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option<String> {
     let table = dataset.table();
     table
@@ -302,7 +302,7 @@ fn label_range(dataset: &Dataset, channel: &Channel) -> f64 {
     (high - low).max(0.0)
 }
 
-/// `distance` as a share of `range`; infinite if it is no number, as for a model that predicts none.
+/// Ratio of `distance` to `range`; infinite if the ratio is not a number, as for a missing prediction.
 fn share(distance: f64, range: f64) -> f64 {
     if distance <= 0.0 {
         return 0.0;
@@ -314,7 +314,7 @@ fn share(distance: f64, range: f64) -> f64 {
     }
 }
 
-/// Distance of two predictions, along the shorter way around for an angle with a period.
+/// Distance between two predictions. For an angle with a period, the shorter way around is used.
 fn distance(channel: &Channel, one: Option<f64>, other: Option<f64>) -> f64 {
     let (Some(one), Some(other)) = (one, other) else {
         return match one.is_none() && other.is_none() {

@@ -11,7 +11,7 @@ use crate::note::Note;
 use crate::recordings;
 use crate::rows::DataPart;
 
-/// Setting of models with random draws.
+/// Name of the setting for the seed, in models with random draws.
 const SEED: &str = "seed";
 
 /// Provenance of `dataset`.
@@ -33,7 +33,7 @@ pub fn of(dataset: &Dataset) -> Provenance {
     provenance
 }
 
-/// Adds the origin of a recording from its header; prefixes its file names with `folder`.
+/// Adds the origin of a recording from its header. File names are prefixed with `folder`.
 fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
     let header = dataset.header();
     if !header.presses.is_empty() {
@@ -51,7 +51,7 @@ fn add_recording(provenance: &mut Provenance, dataset: &Dataset, folder: &str) {
         .extend(edits.map(|edit| format!("{folder}dataset.toml, {edit}")));
 }
 
-/// True if the model was fitted on some of the scored samples, so that its skill on others is unknown.
+/// True if the model was fitted on some of the scored samples. Its skill on other samples is then unknown.
 pub(crate) fn is_of_seen_samples(provenance: &Provenance) -> bool {
     let is_test = |part: &str| part == DataPart::Test.name();
     let part = provenance.part.as_deref();
@@ -100,7 +100,7 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
     })
 }
 
-/// Setting that a fit chose, and how; `None` if it chose none.
+/// Description of the setting that a fit chose, and of the criterion; `None` if it chose none.
 fn chosen_by(choice: &Choice) -> Option<String> {
     let how = match choice.by {
         ChosenBy::Nobody => return None,
@@ -114,7 +114,7 @@ fn chosen_by(choice: &Choice) -> Option<String> {
     Some(format!("{setting} {how}"))
 }
 
-/// Notes on the settings that the user left open.
+/// Notes on the chosen settings that the user had left open.
 pub fn choices(model: &Model) -> impl Iterator<Item = Note> {
     let card = model.card();
     let features = card.feature_choice.as_ref().map(ToString::to_string);

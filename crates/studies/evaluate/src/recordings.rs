@@ -15,7 +15,7 @@ use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::row_ledger::Taken;
 
-/// Recordings that were joined into `dataset`; empty for a single one.
+/// Provenance of each recording that was joined into `dataset`; empty for a single recording.
 pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
     let joined = dataset.recordings().iter();
     joined
@@ -27,7 +27,7 @@ pub(crate) fn provenance(dataset: &Dataset) -> Vec<RecordingProvenance> {
         .collect()
 }
 
-/// Paths of all joined recordings, or of the single one.
+/// Paths of all joined recordings, or of the single recording.
 pub(crate) fn paths(dataset: &Dataset) -> Vec<PathBuf> {
     match dataset.recordings() {
         [] => vec![dataset.path().to_owned()],
@@ -38,14 +38,14 @@ pub(crate) fn paths(dataset: &Dataset) -> Vec<PathBuf> {
     }
 }
 
-/// Name of the recording of each of `rows`; `None` if none were joined.
+/// Name of the recording of each of `rows`; `None` for a single recording.
 pub(crate) fn names(dataset: &Dataset, rows: &[usize]) -> Option<Vec<String>> {
     let joined = dataset.recordings();
     let name = |row: &usize| joined[at(dataset, *row)].name().to_owned();
     (!joined.is_empty()).then(|| rows.iter().map(name).collect())
 }
 
-/// Digest of the recording of each of `rows`. These labels for intervals are the same in every shard, whatever the folder names.
+/// Digest of the recording of each of `rows`, as a label for intervals. Digests are the same in every shard, whatever the folder names.
 pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> Labels {
     let joined = dataset.recordings();
     let digests = joined.iter().map(|own| own.dataset().digest().to_string());
@@ -55,13 +55,13 @@ pub(crate) fn labels(dataset: &Dataset, rows: impl Iterator<Item = usize>) -> La
     labels
 }
 
-/// The index of the joined recording that contains `row`.
+/// Index of the joined recording that contains `row`.
 fn at(dataset: &Dataset, row: usize) -> usize {
     let joined = dataset.recordings();
     joined.partition_point(|own| own.rows().end <= row)
 }
 
-/// Positions among the ascending `rows` at which a recording or added rows begin, except the first.
+/// Indices into the ascending `rows` at which a recording or added rows begin, except the first index.
 pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     let mut starts = BTreeSet::new();
     let mut add = |recording: &Dataset, first: usize| {
@@ -85,7 +85,7 @@ pub(crate) fn sections(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
     positions.into_iter().collect()
 }
 
-/// Splits `rows` into runs of one recording, each with that recording and the row numbers in it, in order.
+/// Splits `rows` into runs of one recording, in order. Each run contains the recording and the row numbers within it.
 pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset, Vec<usize>)> {
     if dataset.recordings().is_empty() {
         return vec![(dataset, rows.to_vec())];
@@ -100,8 +100,8 @@ pub(crate) fn runs<'a>(dataset: &'a Dataset, rows: &[usize]) -> Vec<(&'a Dataset
     chunks.map(run).collect()
 }
 
-/// `rows` under the digest of the version of the recording that first contained them. Added rows have the digest of the extended recording, earlier
-/// ones the digest before.
+/// Records `rows` under the digest of the version of the recording that first contained them. Added rows have the digest of the extended recording, and earlier
+/// rows the digest before the extension.
 pub(crate) fn taken(dataset: &Dataset, rows: &[usize]) -> Vec<Taken> {
     let mut taken = Vec::new();
     for (recording, own) in runs(dataset, rows) {
@@ -140,7 +140,7 @@ pub(crate) fn extended(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, of)
 }
 
-/// Notes on warnings of the imports, on the zero and gravity that they subtracted from labels, and on the tables that they joined.
+/// Notes on imports: warnings, the zero and gravity subtracted from labels, and joined tables.
 pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let header = recording.header();
@@ -171,7 +171,7 @@ pub fn reduced(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// Uncertainty of the heights from which depths count, for recordings whose depths count from a fitted surface.
+/// Uncertainty of the heights relative to which depths are measured, for recordings whose depths refer to a fitted surface.
 pub fn depth_zeros(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         depth_zero(recording, name).into_iter().collect()
@@ -194,7 +194,7 @@ fn depth_zero(recording: &Dataset, name: Option<&str>) -> Option<Note> {
     })
 }
 
-/// The view used, for recordings whose samples have several pictures.
+/// View that was used, for recordings whose samples have several pictures.
 pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
     of_each(dataset, |recording, name| {
         let note = recording.view().map(|view| Note::View {
@@ -206,7 +206,7 @@ pub(crate) fn viewed(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// Notes of each recording. They name the recording if there are several.
+/// Notes on each recording. If there are several, the notes name the recording.
 fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, Option<&str>) -> Vec<Note>) -> Vec<Note> {
     match dataset.recordings() {
         [] => of(dataset, None),
@@ -219,10 +219,10 @@ fn of_each(dataset: &Dataset, of: impl Fn(&Dataset, Option<&str>) -> Vec<Note>) 
     }
 }
 
-/// True if `model` was fitted on `dataset`: on each of its recordings, or before rows were added to it.
+/// True if `model` was fitted on `dataset`: on each of its recordings, or before rows were added.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if it was fitted on only some of them, because the unseen samples are then unknown.
+/// [`EvaluateError::Request`] if the model was fitted on only some of the recordings, because the unseen samples are then unknown.
 pub(crate) fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, EvaluateError> {
     let provenance = &model.card().provenance;
     let fitted_on: Vec<&str> = match &provenance.recordings[..] {
@@ -257,7 +257,7 @@ pub(crate) fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, Eva
     }
 }
 
-/// The clusters of intervals, for the scored rows of joined recordings.
+/// Kind of clusters for intervals, for the scored rows of joined recordings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Clusters {
     recordings: usize,
@@ -265,7 +265,7 @@ pub(crate) struct Clusters {
 }
 
 impl Clusters {
-    /// The clusters of `rows`; `None` if no recordings were joined.
+    /// Clusters of `rows`; `None` for a single recording.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Clusters> {
         if dataset.recordings().is_empty() {
             return None;
@@ -287,7 +287,7 @@ impl Clusters {
         self.recordings >= LEAST_CLUSTERS
     }
 
-    /// Note on the intervals.
+    /// Note on the clusters of the intervals.
     pub(crate) fn note(self) -> Note {
         Note::Clusters {
             recordings: self.recordings,
@@ -304,7 +304,7 @@ mod tests {
 
     use super::*;
 
-    /// The note on a recording of presses to 1 mm with these uncertainties of their zeros.
+    /// Test note on a recording of presses to 1 mm, with the uncertainties `zeros_u_mm` of their zeros.
     fn note(channel: Channel, zeros_u_mm: &[Option<f64>]) -> Vec<Note> {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("pressed");

@@ -1,4 +1,4 @@
-//! Scores of the table of samples by the plan of a state, so that a state can be checked against what it was summed from.
+//! Scores a table of samples by the plan of a state, to check the state against the samples from which it was summed.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -11,7 +11,7 @@ use crate::accumulate::{Rows, accumulate, reads_no_prediction, restricted};
 use crate::error::EvaluateError;
 use crate::state_file::{ReadState, StateFile};
 
-/// Fields that the table of samples holds without loss.
+/// Fields that a table of samples stores without loss.
 const EXACT: [Field; 10] = [
     Field::Truth,
     Field::Prediction,
@@ -25,19 +25,19 @@ const EXACT: [Field; 10] = [
     Field::Spacing,
 ];
 
-/// Scores of tables, by the plan and the facts of a state.
+/// Scores of tables, computed by the plan and the facts of a state.
 #[derive(Debug)]
 pub struct Recount {
-    /// The scores, with the subject and the provenance of the state.
+    /// Report with the subject and the provenance of the state.
     pub report: EvaluationReport,
-    /// True if the sums of the tables equal those of the state, bit for bit.
+    /// True if the sums of the tables equal those of the state bit for bit.
     pub has_equal_sums: bool,
-    /// Metrics that the tables cannot give, each with the reason.
+    /// Metrics that cannot be computed from the tables, each with the reason.
     pub left_out: Vec<Skip>,
 }
 
 impl Recount {
-    /// Scores of `evaluator`, finished as the state in `file`.
+    /// Scores of `evaluator`, completed in the same way as those of the state `file`.
     ///
     /// # Errors
     /// [`EvaluateError::Scores`] for samples that the accumulators reject.
@@ -57,11 +57,10 @@ impl Recount {
     }
 }
 
-/// Scores of `samples` by the plan of `state`, as far as they hold what its metrics read.
+/// Scores `samples` by the plan of `state`. Omits metrics that read fields absent from the table.
 ///
 /// # Errors
-/// [`EvaluateError::State`] for samples that do not fit the state; [`EvaluateError::Scores`] for numbers that
-/// the metrics reject.
+/// [`EvaluateError::State`] for samples that do not match the state. [`EvaluateError::Scores`] for numbers that the metrics reject.
 pub fn recount_samples(
     state: &ReadState,
     samples: &Samples,
@@ -93,7 +92,7 @@ pub fn recount_samples(
     Recount::of(file, total, left_out)
 }
 
-/// Metrics of `plan` that the table of samples can give, and the others.
+/// Divides the metrics of `plan` into those that can be computed from a table of samples, and the others.
 fn covered(plan: &MetricPlan) -> (Vec<&'static Metric>, Vec<Skip>) {
     let (mut metrics, mut left_out) = (Vec::new(), Vec::new());
     let exact: FieldSet = EXACT.into_iter().collect();
@@ -121,14 +120,14 @@ fn covered(plan: &MetricPlan) -> (Vec<&'static Metric>, Vec<Skip>) {
 /// Rows of a table of samples.
 struct SampleRows<'a> {
     samples: &'a Samples,
-    /// Provenance of the state, which names the recordings of its clusters.
+    /// Provenance of the state. It names the recordings that are clusters.
     provenance: &'a Provenance,
-    /// True if predictions are taken before they were limited to the bounds of the model.
+    /// True to read predictions before clipping to the bounds of the model.
     is_unbounded: bool,
 }
 
 impl SampleRows<'_> {
-    /// Rejects a table that lacks a channel or the name of a cluster, or holds an unknown word.
+    /// Rejects a table that lacks a channel or the name of a cluster, or contains an unknown word.
     fn check(&self, plan: &MetricPlan) -> Result<(), String> {
         let mut channels = plan.channels().iter();
         if let Some(channel) =
@@ -161,7 +160,7 @@ impl SampleRows<'_> {
         Ok(())
     }
 
-    /// Name of the cluster of a row, for clusters other than contact points.
+    /// Name of the cluster of a row, if clusters are not contact points.
     fn cluster(&self, plan: &MetricPlan, row: usize) -> Option<String> {
         match plan.clustered_by() {
             ClusteredBy::Recording => {

@@ -1,4 +1,4 @@
-//! Fit of a model file, repeated on its recording.
+//! Repeats the fit of a model file on its recording.
 
 use std::path::{Path, PathBuf};
 
@@ -17,19 +17,19 @@ use crate::work::Work;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Refit {
-    /// The same model file, byte for byte.
+    /// The repeated fit gives the same model file, byte for byte.
     Equal,
-    /// Another model, with its predictions of the part that was scored.
+    /// The repeated fit gives another model. Contains its predictions of the scored part.
     Other(Box<Samples>),
 }
 
-/// Fits the model file at `model` again by the split, the seed and the settings in its card, on the recording in `datasets`.
+/// Repeats the fit of the model file at `model` on the recording in `datasets`. Split, seed and settings are read from the model's card.
 ///
-/// The results with `provenance` name the recording and the part. No plugin is loaded.
+/// `provenance` of the results names the recording and the part. No plugin is loaded.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] if no recording has the digest of the results, or the model was fitted on another one. The same for a model of
-/// every sample after a cross-validation. Others as [`fit`](crate::fit()).
+/// [`EvaluateError::Request`] if no recording has the digest of the results, or if the model was fitted on another recording. Also for a model of every sample
+/// after a cross-validation. Otherwise errors of [`fit`](crate::fit()).
 pub fn refit(
     model: &Path,
     datasets: &[PathBuf],

@@ -6,7 +6,7 @@ use taceva_dataset::Dataset;
 use crate::note::Note;
 use crate::predict::Predicted;
 
-/// A note for each rotation of `dataset` whose channels are all predicted.
+/// Notes on each rotation of `dataset` whose channels are all predicted.
 pub(crate) fn rotations(dataset: &Dataset, predicted: &Predicted) -> Vec<Note> {
     let rotations = dataset.header().rotations.iter();
     rotations
@@ -45,7 +45,7 @@ fn of_rotation(channels: &[String], predicted: &Predicted) -> Option<Note> {
     })
 }
 
-/// Orientation from a rotation vector in degrees, or from a quaternion of any length but 0.
+/// Orientation from a rotation vector in degrees, or from a quaternion of any nonzero length.
 fn orientation(parts: &[f64]) -> Option<Orientation> {
     match *parts {
         [x, y, z] => Some(Orientation::of_vector([x, y, z].map(f64::to_radians))),

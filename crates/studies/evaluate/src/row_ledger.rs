@@ -1,4 +1,4 @@
-//! Rows that a state has counted, so that no row is counted twice.
+//! Records the rows that a state has counted, so that no row is counted twice.
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -12,9 +12,9 @@ use taceva_core::{by_count, counted};
 pub struct Taken {
     /// Digest of the recording, or of both tables.
     input: String,
-    /// Ranges of row numbers from 0, end exclusive, ascending.
+    /// Ranges of row numbers, counted from 0, end exclusive, ascending.
     rows: Vec<[usize; 2]>,
-    /// Number of rows of the input, for shards.
+    /// Number of rows of the input, if these are rows of a shard.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     of: Option<usize>,
 }
@@ -77,7 +77,7 @@ impl Taken {
         Some([own, self.of?])
     }
 
-    /// Drops the total if all rows are counted; the result is then no shard.
+    /// Removes the total if all rows are counted. The result is then not a shard.
     fn whole_or_not(mut self) -> Taken {
         if let ([[0, end]], Some(of)) = (self.rows.as_slice(), self.of)
             && *end == of
@@ -101,7 +101,7 @@ impl Taken {
         }
     }
 
-    /// First row that both have counted, and the number of such rows.
+    /// First row that both inputs have counted, and the number of such rows.
     fn shared(&self, other: &Taken) -> Option<(usize, usize)> {
         if self.input != other.input {
             return None;
@@ -124,7 +124,7 @@ impl Taken {
     }
 }
 
-/// Rows that several states have counted, each with its file.
+/// Rows that several states have counted, each with the path of its file.
 #[derive(Debug, Default)]
 pub(crate) struct AllTaken {
     taken: Vec<(PathBuf, Taken)>,
@@ -132,7 +132,7 @@ pub(crate) struct AllTaken {
 }
 
 impl AllTaken {
-    /// Adds the rows of the state file at `path` with this digest; returns an error message if some were counted before.
+    /// Adds the rows of the state file at `path` with the digest `digest`. Returns an error message if some rows were already counted.
     pub(crate) fn add(&mut self, path: &Path, digest: &str, taken: &[Taken]) -> Result<(), String> {
         // Shards without rows are equal, and counting one twice is harmless.
         let is_empty = !taken.is_empty() && taken.iter().all(|taken| taken.rows.is_empty());
@@ -173,7 +173,7 @@ impl AllTaken {
         })
     }
 
-    /// Counted rows: inputs in the order of arrival, shards of one input merged.
+    /// Counted rows. Inputs are in the order in which they were added, and shards of one input are merged.
     pub(crate) fn into_taken(self) -> Vec<Taken> {
         let mut all: Vec<Taken> = Vec::new();
         for (_, taken) in self.taken {

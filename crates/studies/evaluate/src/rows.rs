@@ -15,7 +15,7 @@ use crate::grouping::{Grouping, SplitFields};
 use crate::note::Note;
 use crate::recordings::is_fitted_on;
 
-/// Columns of a table of samples that are not channels, in order.
+/// Columns of a table of samples that are not channels, in the order of the table.
 pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Point,
     Field::UnitId,
@@ -29,13 +29,13 @@ pub(crate) const BESIDE_CHANNELS: [Field; 10] = [
     Field::Intensity,
 ];
 
-/// Column of the distances of frames from the training part, as in the table of live predictions.
+/// Name of the column with distances of frames from the training part, as in the table of live predictions.
 pub(crate) const DISTANCE: &str = "distance";
 
 /// A part of a dataset.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DataPart {
-    /// Samples for fitting a model.
+    /// Samples for the fit of a model.
     Train,
     /// Samples for choosing settings.
     Validation,
@@ -46,7 +46,7 @@ pub enum DataPart {
 }
 
 impl DataPart {
-    /// Name in results.
+    /// Name of the part in results.
     pub const fn name(self) -> &'static str {
         match self {
             DataPart::Train => "train",
@@ -60,28 +60,28 @@ impl DataPart {
 /// A dataset divided into parts, with the method of the division.
 #[derive(Clone, Debug)]
 pub struct Divided {
-    /// The method.
+    /// Method of the division.
     pub spec: SplitSpec,
-    /// The seed.
+    /// Seed of the division.
     pub seed: u64,
     /// Part of each row.
     pub split: Split,
-    /// The note on neighbouring samples.
+    /// Note on neighbouring samples, if any.
     pub neighbours: Option<Note>,
-    /// Group of every row of the dataset, if intervals are by group; the empty text for a row without a group.
+    /// Group of every row of the dataset, if intervals are by group. Rows without a group have the empty text.
     pub groups: Option<Vec<String>>,
-    /// True if no contact point repeats and neighbours do not resemble each other, so that each sample counts as one contact point.
+    /// True if no contact point repeats and neighbours do not resemble each other. Each sample then counts as one contact point.
     pub are_independent: bool,
-    /// Tested rows of each fold; empty for one division.
+    /// Tested rows of each fold; empty for a single division.
     pub folds: Vec<Vec<usize>>,
 }
 
 impl Divided {
-    /// Division of `dataset` for `model`, which was fitted on it, maybe before rows were added. All samples that `model` has seen are in the training
-    /// and validation parts. `None` if it was fitted on another dataset.
+    /// Division of `dataset` for `model`, which was fitted on it, possibly before rows were added. All samples that `model` has seen are in the training and
+    /// validation parts. `None` if the model was fitted on another dataset.
     ///
     /// # Errors
-    /// [`EvaluateError::Split`] as [`Divided::new`]; [`EvaluateError::Request`] if the plan that divided it is missing, or if `model` was fitted on
+    /// [`EvaluateError::Split`] as [`Divided::new`]. [`EvaluateError::Request`] if the plan that divided the dataset is missing, or if `model` was fitted on
     /// only some of the recordings.
     pub fn by_model(dataset: &Dataset, model: &Model) -> Result<Option<Divided>, EvaluateError> {
         let provenance = &model.card().provenance;
@@ -104,8 +104,8 @@ impl Divided {
         divided.map(Some)
     }
 
-    /// Divides `dataset` by the split `text`. The default is by point where points repeat, else by groups or blocks of time where neighbours resemble
-    /// each other, else at random. Each of several joined recordings is divided as if alone. Added rows do not change the part of earlier rows.
+    /// Divides `dataset` by the split `text`. The default is by point if points repeat, else by groups or blocks of time if neighbours resemble each other,
+    /// else at random. Joined recordings are divided independently of each other. Added rows do not change the part of earlier rows.
     ///
     /// # Errors
     /// [`EvaluateError::Split`] if the text is not a split, or the table lacks a column that the split needs.
@@ -113,11 +113,11 @@ impl Divided {
         Divided::within(dataset, &dataset.all_rows(), text, seed)
     }
 
-    /// Divides `dataset` by the split `text`. The default for a recording of a run is its plan: it divides the presses for the fit, with the seed of
-    /// its scene.
+    /// Divides `dataset` by the split `text`. The default for a recording of a run is its plan, which divides the presses for the fit with the seed of its
+    /// scene.
     ///
     /// # Errors
-    /// As [`new`](Divided::new), and [`EvaluateError::RunFolder`] if the plan of the run cannot be read.
+    /// Errors of [`new`](Divided::new). [`EvaluateError::RunFolder`] if the plan of the run cannot be read.
     pub fn of(dataset: &Dataset, text: Option<&str>, seed: u64) -> Result<Divided, EvaluateError> {
         let Some(planned) = PlannedRows::of(dataset)? else {
             return Divided::new(dataset, text, seed);
@@ -135,7 +135,7 @@ impl Divided {
     /// Divides the ascending `rows` of `dataset`; all other rows are in no part.
     ///
     /// # Errors
-    /// As [`new`](Divided::new).
+    /// Errors of [`new`](Divided::new).
     pub fn within(
         dataset: &Dataset,
         rows: &[usize],
@@ -155,7 +155,7 @@ impl Divided {
     /// Divides `rows` of `dataset` by the default split, into parts of these sizes.
     ///
     /// # Errors
-    /// As [`new`](Divided::new).
+    /// Errors of [`new`](Divided::new).
     pub fn within_default(
         dataset: &Dataset,
         rows: &[usize],
@@ -219,7 +219,7 @@ impl Divided {
     /// Rejects a division without test samples.
     ///
     /// # Errors
-    /// [`EvaluateError::Request`], with the alternatives.
+    /// [`EvaluateError::Request`] with the alternatives.
     pub fn require_test(&self) -> Result<(), EvaluateError> {
         if self.spec.kind != SplitKind::All {
             return Ok(());
@@ -231,7 +231,7 @@ impl Divided {
         ))
     }
 
-    /// Sample names of each part, and of each fold.
+    /// Record of the names of the samples in each part, and in each fold.
     ///
     /// # Errors
     /// [`EvaluateError::Split`] if `table` is not the divided table.
@@ -255,7 +255,7 @@ impl Divided {
 /// Rejects a dataset without samples.
 ///
 /// # Errors
-/// [`EvaluateError::NoSamples`].
+/// [`EvaluateError::NoSamples`] for a dataset without samples.
 pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
     match dataset.table().rows() {
         0 => Err(EvaluateError::NoSamples {
@@ -265,7 +265,7 @@ pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
     }
 }
 
-/// Channels among `channels` that at least one sample with a frame has; all of them if no sample does.
+/// Channels among `channels` with a label in at least one sample with a frame. If there are none, all of `channels`.
 pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
     let table = dataset.table();
     let is_seen = |channel: &&Channel| {
@@ -283,7 +283,7 @@ pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels 
     Channels::new(seen).expect("some of distinct channels are distinct")
 }
 
-/// Channels called `names`; all channels of the dataset if `names` is empty.
+/// Channels with the names `names`; all channels of the dataset if `names` is empty.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for an unknown name, or if the dataset has no channel.

@@ -50,7 +50,7 @@ pub(crate) fn add_division(samples: &mut Samples, rows: &[usize], divided: &Divi
     }
 }
 
-/// Protocol phases of each of `rows`, such as `calibration light-sweep`.
+/// Protocol phases of each of `rows`, such as `calibration light-sweep`; `None` for a row in no phase.
 pub fn protocol(rows: &[usize], parts: &BTreeMap<&'static str, Vec<usize>>) -> Vec<Option<String>> {
     let words = rows.iter().map(|row| {
         let of_row = parts
@@ -63,7 +63,7 @@ pub fn protocol(rows: &[usize], parts: &BTreeMap<&'static str, Vec<usize>>) -> V
 
 /// Adds predictions of `of_rows`, a subset of `rows`, to the samples of `rows`.
 ///
-/// If a prediction was clipped to the bounds of the model, a second column has the unclipped value, which some metrics read.
+/// If a prediction was clipped to the bounds of the model, a second column contains the unclipped value, which some metrics read.
 pub fn add_predictions(
     samples: &mut Samples,
     rows: &[usize],
@@ -91,7 +91,7 @@ pub fn add_predictions(
     }
 }
 
-/// Samples called `ids` from two columns for each channel: truth and prediction.
+/// Samples with the names `ids`, from two columns for each channel: truth and prediction.
 pub(crate) fn of_pairs(
     ids: Vec<Option<String>>,
     points: Option<Vec<Option<String>>>,

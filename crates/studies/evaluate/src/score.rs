@@ -1,4 +1,4 @@
-//! Scores of predictions of other programs, from two tables, without frames or a model.
+//! Scores predictions of other programs from two tables, without frames or a model.
 
 mod agreement;
 mod fields;
@@ -82,9 +82,9 @@ pub struct Scoring {
 #[derive(Debug)]
 struct ScorePlan {
     metrics: MetricPlan,
-    /// Columns of the fields.
+    /// Locations of the fields in the tables.
     places: Vec<Place>,
-    /// The facts of the sensor.
+    /// Facts of the sensor.
     sensor: SensorFile,
     /// Columns that identify rows.
     keys: RowKeys,
@@ -121,7 +121,7 @@ impl Scoring {
         })
     }
 
-    /// Steps of [`run`](Scoring::run).
+    /// Steps that [`run`](Scoring::run) will execute.
     pub fn plan(&self) -> Plan {
         let mut plan = Plan {
             skipped: self.plan.metrics.skipped().to_vec(),
@@ -163,10 +163,10 @@ impl Scoring {
         scored
     }
 
-    /// Pairs of truth and prediction, named by the key of the truth or by row number. Scoring itself never holds them all.
+    /// Pairs of truth and prediction, named by the key of the truth or by row number. Only this method stores all pairs in memory.
     ///
     /// # Errors
-    /// As [`run`](Scoring::run).
+    /// Errors of [`run`](Scoring::run).
     pub fn samples(&self) -> Result<Samples, EvaluateError> {
         let rows = self.truth.rows();
         let batch = self.paired()?.batch(&self.plan.metrics, 0..rows)?;
@@ -259,21 +259,21 @@ fn planned(
     })
 }
 
-/// Notes on scored tables.
+/// Notes on tables that were scored.
 struct Said {
     /// True if the caller treats samples as independent.
     is_independent: bool,
     /// Pairing of rows, which the state also records.
     paired: PairedBy,
-    /// Columns that are taken as channels of unit 1.
+    /// Columns that are read as channels of unit 1.
     unit_of_one: Option<Note>,
     /// Angles that are probably in radians.
     angles: Vec<Note>,
-    /// The shard, which only the report states.
+    /// Note on the shard, which is only in the report.
     shard: Option<Note>,
 }
 
-/// Scores and state of `evaluator` after the tables with these digests.
+/// Scores and state of `evaluator`, after it has read the tables with these digests.
 fn finished(
     evaluator: Evaluator,
     sensor: &SensorFile,

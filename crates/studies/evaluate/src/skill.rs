@@ -1,8 +1,8 @@
-//! Adds the skill of a model to all scores of predictions. Verdicts need it.
+//! Adds the skill of a model to all scores of predictions, because verdicts need it.
 
 use taceva_metrics::{Metric, catalogue};
 
-/// `wanted`, plus the skill score if one of the metrics uses predictions.
+/// Adds the skill score to the metrics `wanted` if one of them uses predictions.
 pub fn with_skill(mut wanted: Vec<&'static Metric>) -> Vec<&'static Metric> {
     if wanted.iter().any(|metric| metric.reads_predictions()) {
         wanted.push(skill());

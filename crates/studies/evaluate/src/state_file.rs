@@ -1,4 +1,4 @@
-//! State of a shard as a file. Labs can exchange and merge such files; the scores equal those of one run over all samples.
+//! State of a shard as a file. Laboratories can exchange and merge such files. The scores equal those of one run over all samples.
 
 mod plan;
 
@@ -21,10 +21,10 @@ use taceva_results::{Provenance, Subject};
 /// Schema of a state file.
 pub const STATE_SCHEMA: &str = "taceva.state/1.0";
 
-/// Size limit of a state file, in bytes; far above the size of 64 clusters of every family.
+/// Size limit of a state file, in bytes. It far exceeds the size of 64 clusters of every family.
 const LARGEST: u64 = 1 << 30;
 
-/// Accumulators of a plan after some samples, with all that is needed to continue.
+/// Accumulators of a plan after some samples, with everything needed to continue.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct StateFile {
@@ -32,7 +32,7 @@ pub struct StateFile {
     pub(crate) subject: Subject,
     pub(crate) plan: WrittenPlan,
     pub(crate) provenance: Provenance,
-    /// Predictions beyond the bounds of their model, if there are bounds.
+    /// Counts of predictions beyond the bounds of their model, if there are bounds.
     #[serde(default, skip_serializing_if = "Bounded::is_empty")]
     pub(crate) bounded: Bounded,
     /// True if the model was fitted on some of the samples.
@@ -50,7 +50,7 @@ pub struct StateFile {
     seal: Option<serde_json::Value>,
 }
 
-/// A state with the path from which it was read, and the digest of its content.
+/// A state, the path from which it was read, and the digest of its content.
 #[derive(Clone, Debug)]
 pub struct ReadState {
     pub(crate) path: PathBuf,
@@ -59,10 +59,10 @@ pub struct ReadState {
 }
 
 impl StateFile {
-    /// State of `evaluator`, without the rows that it has counted.
+    /// State of `evaluator`. The rows that it has counted are not recorded yet.
     ///
     /// # Errors
-    /// [`EvaluateError::Scores`] for collected samples that it rejects.
+    /// [`EvaluateError::Scores`] for collected samples that the evaluator rejects.
     pub fn of(
         evaluator: &mut Evaluator,
         subject: &Subject,
@@ -84,11 +84,11 @@ impl StateFile {
         })
     }
 
-    /// Scores of `evaluator` after the samples of this state, with the share of predictions beyond bounds. Marks them if the model was fitted on the
+    /// Scores of `evaluator` after the samples of this state, with the share of predictions beyond bounds. The scores are marked if the model was fitted on the
     /// samples.
     ///
     /// # Errors
-    /// [`EvaluateError::Scores`] for collected samples that it rejects.
+    /// [`EvaluateError::Scores`] for collected samples that the evaluator rejects.
     pub(crate) fn finish(&self, evaluator: Evaluator) -> Result<Evaluation, EvaluateError> {
         let evaluation = evaluator.finish()?;
         let evaluation = evaluation.with_bounded_shares(&self.bounded.shares());
@@ -102,12 +102,12 @@ impl StateFile {
         })
     }
 
-    /// The same state with these rows counted.
+    /// Returns the state with `taken` as its counted rows.
     pub(crate) fn with_taken(self, taken: Vec<Taken>) -> StateFile {
         StateFile { taken, ..self }
     }
 
-    /// The same state; `is_seen` marks a model that was fitted on some of the samples.
+    /// Returns the state. `is_seen` marks a model that was fitted on some of the samples.
     pub(crate) fn with_seen(self, is_seen: bool) -> StateFile {
         StateFile {
             seen: self.seen || is_seen,
@@ -115,7 +115,7 @@ impl StateFile {
         }
     }
 
-    /// The same state; `are_learnt` marks a model whose training part has neighbours that resemble the samples.
+    /// Returns the state. `are_learnt` marks a model whose training part has neighbours that resemble the samples.
     pub(crate) fn with_neighbours(self, are_learnt: bool) -> StateFile {
         StateFile {
             neighbours: self.neighbours || are_learnt,
@@ -123,7 +123,7 @@ impl StateFile {
         }
     }
 
-    /// True if the state counts all rows of its inputs, not only some shards.
+    /// True if the state counts all rows of its inputs, as opposed to some shards.
     pub fn is_whole(&self) -> bool {
         !self.taken.iter().any(Taken::is_of_shard)
     }
@@ -136,7 +136,7 @@ impl StateFile {
         ReadState::read(path).map(|read| read.file)
     }
 
-    /// Writes the sealed content of the file as one line.
+    /// Writes the state as sealed JSON in one line.
     ///
     /// # Errors
     /// Errors of `out`.
@@ -188,7 +188,7 @@ impl ReadState {
     }
 }
 
-/// The only key that is read before the schema is checked.
+/// Beginning of the file, which contains only the schema and is read before the rest.
 #[derive(Deserialize)]
 struct Head {
     schema: String,

@@ -1,4 +1,4 @@
-//! Subjects of evaluations: the sensor, as far as known.
+//! Subjects of evaluations: the sensor, if known.
 
 use taceva_dataset::{Dataset, SensorFile, Source};
 use taceva_results::Subject;
@@ -19,7 +19,7 @@ pub fn of(dataset: &Dataset) -> Subject {
     }
 }
 
-/// Subject of tables of numbers, as far as a sensor file states it.
+/// Subject of tables of numbers, as described by a sensor file.
 pub(crate) fn of_file(file: &SensorFile) -> Subject {
     let stated = |text: &Option<String>| text.clone().unwrap_or_else(|| "unknown".to_owned());
     Subject {

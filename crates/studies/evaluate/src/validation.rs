@@ -1,4 +1,4 @@
-//! Cross-validated fit: a model of every sample, with scores of models that were fitted without some of them.
+//! Cross-validated fit. The model is fitted on every sample; its scores are those of models that were fitted without some samples.
 
 use taceva_dataset::Dataset;
 use taceva_models::{Checkpoints, ValidationCard, ValidationScore};
@@ -10,14 +10,14 @@ use crate::evaluate::{EvaluateRequest, ModelChoice, folds};
 use crate::fit::{FitPlan, FitRequest, Fitted, fit};
 use crate::work::Work;
 
-/// Metrics in the card of a model.
+/// Metrics in the model's card.
 const METRICS: [&str; 2] = ["mae", "r2"];
 
-/// Fits like [`fit`]. If the split of `request` is a cross-validation, the models of the folds give scores on unseen samples. The final model is
-/// fitted on every sample and states those scores. Its settings are chosen by leaving out whole groups of the split. Features are computed once.
+/// Fits like [`fit`]. If the split of `request` is a cross-validation, the models of the folds give scores on unseen samples. The final model is fitted on
+/// every sample, and its card contains these scores. Its settings are chosen by leaving out whole groups of the split. Features are computed once.
 ///
 /// # Errors
-/// As [`fit`] and [`evaluate`](crate::evaluate).
+/// Errors of [`fit`] and [`evaluate`](crate::evaluate).
 pub fn fit_validated(
     dataset: &Dataset,
     request: &FitRequest,

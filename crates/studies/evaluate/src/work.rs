@@ -1,4 +1,4 @@
-//! Threads, progress and cache of a stage; none of them changes its result.
+//! Threads, progress and cache of a stage. They do not affect its result.
 
 use std::num::NonZeroUsize;
 
@@ -11,7 +11,7 @@ use crate::cache::Cache;
 pub struct Work<'a> {
     /// Number of worker threads.
     pub jobs: NonZeroUsize,
-    /// Receives progress, and may cancel the work.
+    /// Observer that receives progress, and can cancel the work.
     pub progress: &'a dyn Progress,
     /// Cache for features of frames, if any.
     pub cache: Option<&'a Cache>,

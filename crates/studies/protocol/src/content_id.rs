@@ -1,10 +1,10 @@
-//! Ids computed from content: equal contents have equal ids on every machine and in every version.
+//! Ids computed from content. Equal contents have equal ids on every machine and in every version.
 
 use std::fmt;
 
 /// Id of a press or a plan: a 128-bit hash of its content, written as 32 hexadecimal digits.
 ///
-/// The hash is FNV-1a. Accidental collisions are negligible; deliberate ones are possible.
+/// The hash is FNV-1a. Accidental collisions are negligible, but deliberate ones are possible.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ContentId(u128);
 
@@ -40,7 +40,7 @@ impl serde::Serialize for ContentId {
     }
 }
 
-/// Hash in progress. Every part includes its length or has a fixed width, so different contents give different bytes.
+/// Hash in progress. Every part has a length prefix or a fixed width, so different contents give different bytes.
 #[derive(Clone, Debug)]
 pub(crate) struct Hasher(u128);
 
@@ -62,7 +62,7 @@ impl Hasher {
         self.bytes(&(count as u64).to_le_bytes())
     }
 
-    /// Adds a number by its bits. Zeros come from whole nanometres, so −0 does not occur.
+    /// Adds a number by its bits. Numbers are converted from whole nanometres, so −0 does not occur.
     pub(crate) fn number(self, number: f64) -> Hasher {
         self.bytes(&number.to_bits().to_le_bytes())
     }

@@ -1,4 +1,4 @@
-//! Counter-based random numbers: each depends on seed, purpose and counters, never on earlier draws.
+//! Counter-based random numbers. Each number depends on seed, purpose and counters, never on earlier numbers.
 
 use taceva_core::random::{STEP, fnv_1a, mix};
 use taceva_core::{Footprint, Nanometre};
@@ -9,7 +9,7 @@ pub(crate) struct Draws {
     key: u64,
 }
 
-/// Greatest number of tries for a place within an outline. A disc fills 79 % of its square, so 64 misses in a row occur once in 10⁴³ points.
+/// Maximum number of tries for a place within an outline. A disc fills 79 % of its square, so 64 misses in a row occur once in 10⁴³ points.
 const TRIES: u64 = 64;
 
 impl Draws {

@@ -42,7 +42,7 @@ impl FrameSize {
         self.width <= info.width && self.height <= info.height
     }
 
-    /// Format of the stored frames: this size, in 8 bits.
+    /// Format of the stored frames: this size, with 8 bits per value.
     pub fn kept(self, info: FrameInfo) -> FrameInfo {
         FrameInfo {
             width: self.width,

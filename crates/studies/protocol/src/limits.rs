@@ -1,4 +1,4 @@
-//! Limits of a rig: the tightest value among scene, rig file and devices. They cannot be switched off or loosened.
+//! Limits of a rig. Each is the tightest value among scene, rig file and devices, and cannot be disabled or loosened.
 
 mod signals;
 
@@ -17,17 +17,17 @@ use crate::text::{SceneError, SceneProblem, Setting, Text};
 /// mm, N and mm/s.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct RigLimits {
-    /// Deepest indentation, from the zero of the press: the fitted surface, or the first contact.
+    /// Deepest indentation, measured from the zero of the press: the fitted surface, or the first contact.
     pub depth_max: Millimetre,
     /// Greatest normal force.
     pub normal_max: Newton,
     /// Greatest shear force; by default the limit of the normal force, or the range of the transducer if that is smaller.
     pub shear_max: Newton,
-    /// Greatest force that the transducer measures; `None` if it states none.
+    /// Greatest force that the transducer measures; `None` if its descriptor states none.
     pub saturation: Option<Newton>,
     /// Greatest speed out of contact, in mm/s.
     pub speed_max_mm_s: f64,
-    /// Travel of the tip beyond a limit until it rests.
+    /// Travel of the tip beyond a limit until the tip rests.
     pub overshoot: Overshoot,
     /// True if all devices are simulated.
     pub simulated: bool,
@@ -43,7 +43,8 @@ pub struct RigLimits {
 /// later than the stop, so latency adds no travel. A link may delay a force until it counts as stale; the tip does not move meanwhile.
 ///
 /// - With healthy signals, a limit is exceeded by at most s + b + m.
-/// - A frozen force hides later segments, until [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings halt the rig: n·s + b + m.
+/// - A frozen force signal hides later segments, until [`FROZEN_READINGS`](crate::FROZEN_READINGS) = n equal readings halt the rig. The excess is then at most
+///   n·s + b + m.
 ///
 /// b is the braking distance: v·t for a robot that states a stop time t, else v²/2a. m = 3·√2·σ is the margin for the pose noise σ, because depth is
 /// the difference of two poses. Every segment is at least 4·σ long, so that it is visible in the pose.
@@ -62,15 +63,15 @@ pub struct Overshoot {
     pub frozen_mm: f64,
 }
 
-/// Duration of a segment in contact, in s. A limit exceeded within it is detected at its end.
+/// Duration of a segment in contact, in s. A limit exceeded within a segment is detected at the segment's end.
 pub const SEGMENT_S: f64 = 0.015;
 /// Number of bit-equal readings, each after a motion, at which the signal counts as frozen.
 pub const FROZEN_READINGS: u32 = 8;
-/// Assumed deceleration of a robot that states none, in mm/s². At 1 m/s², an arm stops from 5 mm/s within 0.0125 mm.
+/// Deceleration assumed for a robot that states none, in mm/s². At 1 m/s², an arm stops from 5 mm/s within 0.0125 mm.
 const DECELERATION_MM_S2: f64 = 1_000.0;
 /// Least length of a segment, in standard deviations of the reported pose.
 const SEGMENT_NOISES: f64 = 4.0;
-/// Margin in standard deviations: less than 3 in 1,000 normally distributed values exceed it.
+/// Margin in standard deviations. Fewer than 3 in 1,000 normally distributed values exceed it.
 const NOISE_SPREAD: f64 = 3.0;
 
 impl Overshoot {
@@ -116,7 +117,7 @@ impl RigLimits {
     }
 }
 
-/// A limit, and the name of the device or file that states it.
+/// A limit, and the name of the device or file that sets it.
 struct Stated {
     limit: f64,
     who: String,
@@ -206,7 +207,7 @@ struct Tighten<'a> {
 }
 
 impl Tighten<'_> {
-    /// Tightest of the stated limits. Rejects a scene with a looser limit than a device.
+    /// Tightest of the stated limits. Rejects a scene whose limit is looser than that of a device.
     fn least(
         &self,
         key: &'static str,
@@ -262,7 +263,7 @@ impl Tighten<'_> {
     }
 }
 
-/// The stated limit after `written` tightens it.
+/// The limit after tightening it to `written`.
 ///
 /// # Errors
 /// `LimitLoosened` if `written` exceeds `tightest`.

@@ -1,4 +1,4 @@
-//! Phases of a protocol. Each phase returns its presses as values and moves nothing.
+//! Phases of a protocol. Each phase computes its presses as values, and moves nothing.
 
 mod calibration;
 mod gratings;
@@ -23,14 +23,14 @@ pub(crate) struct PhaseInputs<'a> {
     pub(crate) protocol: &'a Protocol,
     pub(crate) footprint: Footprint,
     pub(crate) depth_max: Nanometre,
-    /// Units of the sensor, never empty. All phases except the surface map measure the first unit.
+    /// Units of the sensor, never empty. All phases except the surface map use only the first unit.
     pub(crate) units: &'a [String],
-    /// Light scenes, the one of calibration first; empty if the light cannot be set.
+    /// Light scenes, that of calibration first; empty if the light cannot be set.
     pub(crate) lights: &'a [String],
-    /// False if the gel has no markers, so that shear leaves no visible trace.
+    /// True if the gel has markers. Without markers, shear leaves no visible trace.
     pub(crate) markers: bool,
     pub(crate) seed: u64,
-    /// True if waypoints stay inside the footprint: on every rig except simulated and emulated ones, whose presses stay as they were.
+    /// True if waypoints must be inside the footprint. False for simulated and emulated rigs, so that their presses are the same as in earlier versions.
     pub(crate) stays_inside: bool,
 }
 

@@ -1,4 +1,4 @@
-//! Plans a study by pure passes. They remove and merge, never add, and store the reason for each removal.
+//! Plans a study in pure passes. Passes remove and merge parts, never add any, and record the reason for each removal.
 //!
 //! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass.
 
@@ -52,9 +52,9 @@ pub struct Plan {
     pub fields: FieldSet,
     /// Channels of the truth.
     pub channels: Vec<String>,
-    /// Units to measure, in order.
+    /// Units to measure, in the order of measurement.
     pub units: Vec<String>,
-    /// Light scenes, the one of calibration first.
+    /// Light scenes, that of calibration first.
     pub lights: Vec<String>,
     /// Skipped metrics, phases, models, fields and channels, with reasons.
     pub skipped: Vec<PlanSkip>,
@@ -68,16 +68,16 @@ pub struct Plan {
     pub opaque: Option<bool>,
     /// Size and format of the frames, if known.
     pub frame: Option<FrameInfo>,
-    /// Size to which frames are reduced before they are stored; `None` keeps them whole.
+    /// Size to which frames are reduced before storage; `None` stores full frames.
     pub kept_frames: Option<FrameSize>,
     /// Estimated cost.
     pub cost: Cost,
 }
 
 impl Plan {
-    /// Digest of the acquisition. A recording with another digest is not resumed.
+    /// Digest of the acquisition. A recording with another digest cannot be resumed.
     ///
-    /// Excludes metrics, so that a finished acquisition also serves a scene with fewer metrics from the same presses.
+    /// The digest excludes metrics. A finished acquisition can therefore also be used by a scene with fewer metrics from the same presses.
     pub fn digest(&self) -> ContentId {
         let contact = &self.contact;
         let hasher = Hasher::new("taceva.plan/1")
@@ -114,7 +114,7 @@ impl Plan {
         Channels::new(channels).unwrap_or_default()
     }
 
-    /// Facts of the sensor that metrics read. The reference light scene is that of calibration.
+    /// Facts about the sensor that metrics read. The reference light scene is that of calibration.
     pub fn sensor_facts(&self) -> SensorFacts {
         let depth_max_mm = self.limits.as_ref().map(|limits| limits.depth_max.0);
         let footprint = self

@@ -1,23 +1,23 @@
-//! A press: its place, specimen and depths, with an id computed from its content.
+//! A press: its place, specimen and depths. Its id is computed from its content.
 
 use taceva_core::{Footprint, Nanometre, Phase, Specimen};
 
 use crate::content_id::{ContentId, Hasher};
 
-/// One approach, the waypoints in contact, and the retreat.
+/// A press, which consists of an approach, waypoints in contact, and a retreat.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Press {
     /// Unit of the sensor model.
     pub unit: String,
     /// Light scene; `None` if the light cannot be set.
     pub light: Option<String>,
-    /// Specimen that touches the gel.
+    /// Specimen that presses the gel.
     pub specimen: Specimen,
-    /// Place along x and y of the sensor frame.
+    /// Place of the press along x and y of the sensor frame.
     pub place: [Nanometre; 2],
     /// Rotation of the specimen about z, in thousandths of a degree.
     pub turn_millidegrees: i32,
-    /// Number of the trial for repeated presses.
+    /// Number of the trial; `None` unless presses are repeated.
     pub repeat: Option<u32>,
     /// Motion at this place.
     pub motion: Motion,
@@ -31,25 +31,25 @@ pub enum Motion {
         /// Number of frames.
         frames: u32,
     },
-    /// First contact only, for the surface height.
+    /// First contact only, to measure the surface height.
     Touch,
-    /// First contact, then these waypoints in order.
+    /// First contact, followed by these waypoints in order.
     Indent(Vec<Waypoint>),
 }
 
-/// Position at which the tip rests for a sample, relative to the zero of the press.
+/// Position at which the tip rests for a sample. It is relative to the zero of the press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Waypoint {
     /// Depth below the zero of the press.
     pub depth: Nanometre,
     /// Offset along x and y from the place of the press.
     pub shear: [Nanometre; 2],
-    /// Loading or unloading.
+    /// Loading or unloading phase.
     pub phase: Phase,
 }
 
 impl Press {
-    /// Digest of the press; equal presses have equal ids.
+    /// Digest of the press. Equal presses have equal ids.
     pub fn id(&self) -> ContentId {
         let hasher = Hasher::new("taceva.press/1")
             .text(&self.unit)
@@ -80,7 +80,7 @@ impl Press {
         .finish()
     }
 
-    /// Contact point shared by all its samples: the board of a grating, else the place in mm.
+    /// Id of the contact point that all samples of the press share: the board of a grating, otherwise the place in mm.
     pub fn point_id(&self) -> String {
         match self.specimen {
             Specimen::Grating { kind, spacing } => format!("{kind} {}", spacing.to_millimetres()),
@@ -91,7 +91,7 @@ impl Press {
         }
     }
 
-    /// Turns each shear that would leave `footprint` towards its middle, or removes it if every direction leaves.
+    /// Rotates each shear that would leave `footprint` towards the middle. Removes the shear if every direction leaves the footprint.
     pub(crate) fn turn_shear_inwards(&mut self, footprint: &Footprint) {
         let [x, y] = self.place;
         let Motion::Indent(waypoints) = &mut self.motion else {
@@ -113,14 +113,14 @@ impl Press {
         }
     }
 
-    /// Greatest shear of its waypoints, in mm.
+    /// Greatest shear of the press's waypoints, in mm.
     pub fn greatest_shear_mm(&self) -> f64 {
         let shears = self.waypoints().iter().map(|waypoint| waypoint.shear);
         let lengths = shears.map(|[x, y]| x.to_millimetres().hypot(y.to_millimetres()));
         lengths.fold(0.0, f64::max)
     }
 
-    /// Number of samples if no limit ends the press early.
+    /// Number of samples, unless a limit ends the press early.
     pub fn samples(&self) -> usize {
         match &self.motion {
             Motion::Rest { frames } => usize::try_from(*frames).unwrap_or(usize::MAX),
@@ -129,7 +129,7 @@ impl Press {
         }
     }
 
-    /// Waypoints; empty unless the press indents.
+    /// Waypoints of the press; empty unless the press indents.
     pub fn waypoints(&self) -> &[Waypoint] {
         match &self.motion {
             Motion::Indent(waypoints) => waypoints,

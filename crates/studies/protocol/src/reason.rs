@@ -6,7 +6,7 @@ use taceva_core::{Field, SkipReason, by_count, counted};
 
 use crate::phase_kind::PhaseKind;
 
-/// Lines of a scene that state the sensing surface; one of them suffices.
+/// Lines of a scene that state the sensing surface. One of them is sufficient.
 const FOOTPRINT_LINE: &str = "`footprint = { shape = \"disc\", radius_mm = … }` or \
      `footprint = { shape = \"rect\", half_x_mm = …, half_y_mm = … }`";
 
@@ -15,7 +15,7 @@ const FOOTPRINT_LINE: &str = "`footprint = { shape = \"disc\", radius_mm = … }
 pub struct PlanSkip {
     /// Skipped part.
     pub subject: Subject,
-    /// Reason.
+    /// Reason why it is skipped.
     pub reason: PlanReason,
 }
 
@@ -35,7 +35,7 @@ pub enum Subject {
 }
 
 impl Subject {
-    /// Key in data, such as `metric:r_light`.
+    /// Key of the subject in data, such as `metric:r_light`.
     pub fn key(&self) -> String {
         match self {
             Subject::Metric(id) => format!("metric:{id}"),
@@ -67,23 +67,23 @@ pub enum PlanReason {
     Skip(SkipReason),
     /// A field has no source.
     Unresolved {
-        /// The field.
+        /// Field without a source.
         field: Field,
         /// Missing source.
         cause: Cause,
     },
     /// No device of the rig measures a channel.
     Unmeasured {
-        /// The channel.
+        /// Channel that is not measured.
         channel: String,
         /// Missing device.
         cause: Cause,
     },
     /// The gel has no markers, so shear leaves no repeatable trace.
     NoMarkers,
-    /// No computed metric needs it.
+    /// No planned metric needs the part.
     NoMetricNeeds,
-    /// Presses are shared with another phase and made once.
+    /// Presses are shared with another phase, and are made only once.
     VisitedBy {
         /// The other phase.
         phase: PhaseKind,
@@ -106,18 +106,18 @@ pub enum Cause {
     NoAxis,
     /// No model.
     NoModel,
-    /// No model can be fitted; a fitted one predicts its own labels only.
+    /// No model can be fitted. A model that was fitted earlier predicts only its own labels.
     NoEstimator,
     /// The light cannot be set.
     NoLighting,
-    /// There is one light scene; the metric compares two.
+    /// There is only one light scene, but the metric compares two.
     OneLight,
-    /// There is one unit; the metric compares two.
+    /// There is only one unit, but the metric compares two.
     OneUnit,
 }
 
 impl Cause {
-    /// Every cause.
+    /// All causes.
     pub const ALL: [Cause; 9] = [
         Cause::NoSensor,
         Cause::NoRobot,
@@ -211,7 +211,7 @@ mod tests {
 
     use super::*;
 
-    /// Index of a kind of reason; a kind without an index does not compile.
+    /// Index of a kind of reason. A new kind without an index does not compile.
     fn place(reason: &PlanReason) -> usize {
         match reason {
             PlanReason::Skip(_) => 0,
@@ -223,7 +223,7 @@ mod tests {
         }
     }
 
-    /// Index of a cause; a cause without an index does not compile.
+    /// Index of a cause. A new cause without an index does not compile.
     fn place_of_cause(cause: Cause) -> usize {
         match cause {
             Cause::NoSensor => 0,

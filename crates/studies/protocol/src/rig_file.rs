@@ -58,11 +58,11 @@ const GREATEST_LIMIT: f64 = 1_000.0;
 pub struct RigFile {
     /// True if the devices are emulated, so that recordings are not measurements.
     pub simulated: bool,
-    /// The robot.
+    /// Robot of the rig, if any.
     pub robot: Option<RigRobot>,
-    /// The force transducer.
+    /// Force transducer of the rig, if any.
     pub force: Option<RigForce>,
-    /// The sensor.
+    /// Sensor of the rig, if any.
     pub sensor: Option<RigSensor>,
     /// Enabling switch and its operator, if any.
     pub operator: Option<RigOperator>,
@@ -78,13 +78,13 @@ pub struct RigFile {
 pub struct RigRobot {
     /// Selector of its driver.
     pub driver: Setting<String>,
-    /// Body that it moves.
+    /// Body that the robot moves.
     pub carries: Carried,
     /// Position of the tip at the middle of the untouched gel, in the base frame, in mm.
     pub origin_mm: Setting<[f64; 3]>,
-    /// Axis of the base for each axis of the sensor.
+    /// Axes of the robot base that correspond to the axes of the sensor.
     pub axes: Setting<SignedAxes>,
-    /// Rotation of the tool in the base frame for an unturned tip: about x, y and z, in degrees. `None` uses the rotation at opening.
+    /// Rotation of the tool in the base frame for an unrotated tip: about x, y and z, in degrees. `None` uses the rotation at opening.
     pub turned_deg: Option<[f64; 3]>,
     /// Delay between a pose and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
@@ -107,7 +107,7 @@ pub enum Carried {
 pub struct RigForce {
     /// Selector of its driver.
     pub driver: Setting<String>,
-    /// Axis of the transducer for each axis of the sensor. Fz above 0 presses into the gel.
+    /// Axes of the transducer that correspond to the axes of the sensor. A positive Fz presses into the gel.
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
@@ -117,12 +117,12 @@ pub struct RigForce {
     pub certificate: Option<Certificate>,
 }
 
-/// Operator of a rig, with the enabling switch.
+/// Operator of a rig, who holds the enabling switch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigOperator {
     /// Selector of the enabling switch. Releasing the switch halts the robot.
     pub enable: Setting<String>,
-    /// Longest wait for a held switch, in s.
+    /// Maximum wait for the switch to be held, in s.
     pub patience_s: f64,
 }
 
@@ -213,12 +213,12 @@ impl RigFile {
         self.text.source_name()
     }
 
-    /// Digest of the text. A changed file counts as another rig.
+    /// Digest of the text. A changed file counts as a different rig.
     pub fn digest(&self) -> ContentId {
         ContentId::of_text(self.text.whole())
     }
 
-    /// Longest wait for the enabling switch to be held, in s; 0 without a switch.
+    /// Maximum wait for the enabling switch to be held, in s; 0 without a switch.
     pub fn patience_s(&self) -> f64 {
         let operator = self.operator.as_ref();
         operator.map_or(0.0, |operator| operator.patience_s)

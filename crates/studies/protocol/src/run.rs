@@ -70,9 +70,9 @@ use session::Run;
 /// Plan, unit and mode of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct RunSpec<'a> {
-    /// The plan.
+    /// Plan to execute.
     pub plan: &'a Plan,
-    /// Unit on the rig; another run makes the presses of other units.
+    /// Unit on the rig. Presses of other units need another run.
     pub unit: &'a str,
     /// Acquisition or rehearsal.
     pub mode: Mode,
@@ -83,47 +83,47 @@ pub struct RunSpec<'a> {
 pub enum Mode {
     /// Makes and records presses.
     Acquire,
-    /// Visits every place at this height above the travel height, with the same loop and supervisor. Nothing is recorded.
+    /// Visits every place at a height above the travel height, with the same loop and supervisor. Nothing is recorded.
     Rehearse {
-        /// Height added to the clearance.
+        /// Height that is added to the clearance.
         height: Millimetre,
     },
 }
 
-/// Clock, cancellation and the receiver of events.
+/// Clock, cancellation, operator and event callback of a run.
 pub struct Controls<'a> {
-    /// Clock that stamps the devices.
+    /// Clock that stamps the samples of the devices.
     pub clock: &'a mut dyn Timekeeper,
-    /// Stops the run before its next motion.
+    /// Cancellation, which stops the run before its next motion.
     pub cancel: &'a Cancel,
     /// Callback for events.
     pub events: &'a mut dyn FnMut(&Event),
-    /// Operator for manual steps. Without one, a plan that needs such a step stops there.
+    /// Operator for manual steps. Without an operator, a plan that needs such a step stops there.
     pub operator: Option<&'a mut dyn Operator>,
 }
 
 /// Counts of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunReport {
-    /// Presses of this unit that earlier runs finished.
+    /// Number of presses of this unit that earlier runs finished.
     pub resumed: usize,
-    /// Durable presses of this run; in a rehearsal, visited places.
+    /// Number of presses that this run recorded. In a rehearsal, number of visited places.
     pub made: usize,
-    /// Interrupted presses that were repeated, after stale signals or a released enabling switch.
+    /// Number of repetitions of presses that stale signals or a released enabling switch interrupted.
     pub redone: u32,
-    /// Presses of this run that a limit of the gel ended.
+    /// Number of presses of this run that a limit of the gel ended.
     pub limited: usize,
-    /// Presses of this run without contact.
+    /// Number of presses of this run without contact.
     pub without_contact: usize,
-    /// Samples recorded in this run.
+    /// Number of samples recorded in this run.
     pub samples: usize,
-    /// Presses left for another run because the operator skipped a step that they need.
+    /// Number of presses left for another run, because the operator skipped a step that they need.
     pub skipped: usize,
 }
 
-/// Makes the presses of `spec` that are missing in `log`. Each is durable before the next begins.
+/// Makes the presses of `spec` that are missing in `log`. Each press is safely stored before the next begins.
 ///
-/// Starts and stops sensor and transducer; leaves the robot above the gel.
+/// Starts and stops sensor and transducer. At the end, the robot is above the gel.
 ///
 /// # Errors
 /// [`RunError`] with the cause, the press to repeat, and the place of the tip.
@@ -136,10 +136,10 @@ pub fn run<'a>(
     run_under(spec, devices, log, controls, None)
 }
 
-/// Makes the presses of `spec` under `guard`, whose threads pass readings to the supervisor.
+/// Makes the presses of `spec` under `guard`. The threads of the guard pass readings to the supervisor.
 ///
 /// # Errors
-/// As [`run`]; a session also fails with [`StopCause::Rig`], [`StopCause::SlowGuard`] or [`StopCause::Touch`] before its first press.
+/// Errors of [`run`]. A session also fails with [`StopCause::Rig`], [`StopCause::SlowGuard`] or [`StopCause::Touch`] before its first press.
 pub fn run_guarded<'a>(
     spec: &RunSpec<'a>,
     devices: Devices<'a>,

@@ -30,7 +30,7 @@ use taceva_core::DriverKind;
 use crate::rig_file::RigFile;
 use crate::text::{SceneError, SceneProblem, Setting, Text};
 
-/// Source of the device names.
+/// Origin of the device names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum NamedBy {
     /// The scene.
@@ -39,7 +39,7 @@ enum NamedBy {
     Rig,
 }
 
-/// A checked scene. [`plan`](crate::plan) checks it against the capabilities of the devices.
+/// A checked scene. [`plan`](crate::plan) compares it with the capabilities of the devices.
 ///
 /// ```
 /// use taceva_protocol::Scene;
@@ -68,7 +68,7 @@ pub struct Scene {
     pub rig: Option<Setting<String>>,
     /// Counts of presses by phase.
     pub protocol: Protocol,
-    /// Formats of the report.
+    /// Formats and files of the report.
     pub report: ReportSpec,
     pub(crate) text: Text,
 }
@@ -86,10 +86,10 @@ impl Scene {
         check::checked(Text::new(source_name, text)?, NamedBy::Scene)
     }
 
-    /// Parses a scene that a rig file will complete: it need not name devices.
+    /// Parses a scene that a rig file completes. The scene need not name devices.
     ///
     /// # Errors
-    /// As [`parse`](Scene::parse).
+    /// Errors of [`parse`](Scene::parse).
     pub fn parse_for_rig(source_name: &str, text: &str) -> Result<Scene, SceneError> {
         check::checked(Text::new(source_name, text)?, NamedBy::Rig)
     }

@@ -27,7 +27,7 @@ pub struct RigInfo {
 /// Contents of a recording.
 #[derive(Clone, Debug)]
 pub struct RecordingInfo {
-    /// Fields of its samples, without predictions, which a model makes.
+    /// Fields of the recording's samples. Predictions are not included, because a model computes them.
     pub fields: FieldSet,
     /// The channels of the truth.
     pub channels: Channels,

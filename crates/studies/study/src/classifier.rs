@@ -14,12 +14,12 @@ use crate::settings::settings_of;
 pub(crate) enum SpacingClassifier {
     /// Linear discriminants of the radial spectrum.
     Spectrum,
-    /// A model of the radial spectrum that predicts one of its training labels.
+    /// A model that reads the radial spectrum and predicts one of its training labels.
     Model(Box<ModelClassifier>),
     Network(Box<NetworkClassifier>),
 }
 
-/// A model of the radial spectrum before its fit.
+/// A model that reads the radial spectrum, before its fit.
 #[derive(Debug)]
 pub(crate) struct ModelClassifier {
     pub(crate) model: ChosenModel,
@@ -30,7 +30,7 @@ pub(crate) struct ModelClassifier {
 #[derive(Debug)]
 pub(crate) struct NetworkClassifier {
     pub(crate) estimator: NetworkEstimator,
-    /// Features of a frame.
+    /// Features computed from a frame.
     pub(crate) features: FeatureSpec,
     pub(crate) output: SpacingOutput,
 }
@@ -69,7 +69,7 @@ impl SpacingClassifier {
         })))
     }
 
-    /// Grid cells of a frame that it reads, along x and y; `None` if it reads the whole frame.
+    /// Grid cells of a frame that the classifier reads, along x and y; `None` if it reads the whole frame.
     pub(crate) fn cells(&self) -> Option<[u32; 2]> {
         match self {
             SpacingClassifier::Network(network) => {
@@ -79,7 +79,7 @@ impl SpacingClassifier {
         }
     }
 
-    /// Prediction method of spacings, for the report.
+    /// Description of the prediction method, for the report.
     pub(crate) const fn note(&self) -> &'static str {
         match self {
             SpacingClassifier::Spectrum => {

@@ -16,10 +16,10 @@ pub enum StudyError {
     /// An error of evaluation.
     #[error(transparent)]
     Evaluate(#[from] EvaluateError),
-    /// A folder of a run cannot be created, read or resumed.
+    /// The folder of a run cannot be created, read or resumed.
     #[error("{}: {problem}", taceva_core::shown(path))]
     RunFolder {
-        /// The folder or a file in it.
+        /// Path of the folder or of a file in it.
         path: PathBuf,
         /// The fault and the expected content.
         problem: String,
@@ -27,7 +27,7 @@ pub enum StudyError {
 }
 
 impl StudyError {
-    /// Kind of the error, in the common list of error kinds.
+    /// True if a device failed, as opposed to invalid input or a failed file operation.
     pub fn kind(&self) -> ErrorKind {
         match self {
             StudyError::Acquire(error) => error.kind(),

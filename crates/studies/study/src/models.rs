@@ -9,9 +9,9 @@ use crate::classifier::SpacingClassifier;
 use crate::error::StudyError;
 use crate::settings::settings_of;
 
-/// Rejects an unknown model to be fitted, or an unknown setting.
+/// Checks before a run that every model of the scene is known and has valid settings.
 ///
-/// Separate from [`new`](PlannedScene::new), because programs without these models can still read the plan.
+/// Separate from [`new`](PlannedScene::new), so that programs without these models can read the plan.
 ///
 /// # Errors
 /// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line.
@@ -57,7 +57,7 @@ pub fn check_models(scene: &PlannedScene, models: &Models) -> Result<(), StudyEr
     Ok(())
 }
 
-/// Rejects stored frames below the resolution that a model reads, before the first press.
+/// Rejects, before the first press, stored frames with a lower resolution than a model reads.
 fn check_kept(
     scene: &PlannedScene,
     planned: &PlannedStudy,
@@ -99,9 +99,9 @@ pub(crate) fn classifier(
     })
 }
 
-/// Fit of the scene, if it has one. Contact points are kept whole.
+/// Fit request of the scene; `None` if the scene fits no model. Samples of one contact point stay in one part.
 ///
-/// `seed` is that of the scene and divides the samples. A model draws from the seed in its own settings.
+/// The seed `seed` of the scene divides the samples. Random draws of a model use the seed in the model's own settings.
 pub(crate) fn fit_request(
     planned: &PlannedStudy,
     seed: u64,

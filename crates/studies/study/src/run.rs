@@ -1,4 +1,4 @@
-//! Run of a whole scene: acquires, fits, predicts and scores every study.
+//! Runs a whole scene: acquires, fits, predicts and scores every study.
 
 mod folder;
 mod layout;
@@ -28,11 +28,11 @@ pub struct RunSetup<'a> {
     pub models: &'a Models,
     /// Cache of finished stages, if any.
     pub cache: Option<&'a Cache>,
-    /// Number of threads.
+    /// Number of worker threads.
     pub jobs: NonZeroUsize,
 }
 
-/// Reports of the studies of `scene`, in order. Records presses in `folder`, several studies at a time.
+/// Records the presses of `scene` in `folder`, with several studies at a time, and returns the reports of its studies in order.
 ///
 /// Reports do not depend on `jobs`, on interruptions of the run, or on the content of a cache.
 ///
@@ -69,8 +69,8 @@ pub fn run_scene(
     assessed.collect()
 }
 
-/// Recordings of all studies of `scene` in `folder`, in order: acquired, resumed or found, as in [`run_scene`]. Each worker takes the next free
-/// study. Real devices exist only once, so studies on them run in turn.
+/// Acquires, resumes or finds the recordings of all studies of `scene` in `folder`, and returns them in order, as [`run_scene`] does. Each worker takes the
+/// next free study. Real devices exist only once, so their studies run in turn.
 ///
 /// # Errors
 /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] as [`run_scene`]; [`AcquireError::Request`] for a scene that needs an operator if there

@@ -1,4 +1,4 @@
-//! Stages from the recording of a study to its report: fit, predict and score, each on its planned presses.
+//! Stages from the recording of a study to its report: fit, predict and score. Each stage reads its planned presses.
 
 mod context;
 mod gratings;
@@ -36,7 +36,7 @@ use gratings::PredictedSpacings;
 use phase_rows::{PhaseRows, seen};
 use score::{Scores, StudyScores, score};
 
-/// Report of `study` with the recording `dataset`.
+/// Evaluates the recording `dataset` of `study`, and returns the report.
 pub(crate) fn assess(
     scene: &PlannedScene,
     study: &PlannedStudy,
@@ -171,7 +171,7 @@ pub(crate) fn assess(
     Ok(taceva_evaluate::assess(rows, beyond, context)?.report)
 }
 
-/// Writes the state of a group of rows, for bundles of the run.
+/// Writes the state of a group of rows, for the bundles of the run.
 fn write_state(state: &StateFile, path: &Path) -> Result<(), StudyError> {
     let failed = |error: io::Error| StudyError::RunFolder {
         path: path.to_owned(),
@@ -184,7 +184,7 @@ fn write_state(state: &StateFile, path: &Path) -> Result<(), StudyError> {
     .map_err(failed)
 }
 
-/// Keeps the model of a study, for bundles of the run.
+/// Writes the model of a study to `path`, for the bundles of the run.
 fn save_model(model: &Model, path: &Path) -> Result<(), StudyError> {
     let failed = |problem: String| StudyError::RunFolder {
         path: path.to_owned(),
@@ -194,7 +194,7 @@ fn save_model(model: &Model, path: &Path) -> Result<(), StudyError> {
     model.save(path).map_err(|error| failed(error.to_string()))
 }
 
-/// Model of a study, and the split of its fit.
+/// Fitted or opened model of a study, and the split of its fit.
 struct Learnt {
     model: Model,
     divided: Option<Divided>,

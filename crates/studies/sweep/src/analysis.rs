@@ -33,7 +33,7 @@ impl Loaded<'_> {
     }
 }
 
-/// Reads the results of all tasks of `list`.
+/// Reads the result or failure of every task of `list`.
 pub(crate) fn load<'a>(
     folder: &SweepFolder,
     list: &'a TaskList,
@@ -55,7 +55,7 @@ pub(crate) struct Group<'a> {
     pub(crate) dataset: &'a str,
     pub(crate) split: Option<&'a str>,
     pub(crate) configuration: String,
-    /// Results in the order of the tasks, each with its seed.
+    /// Results in the order of the tasks, each with the seed of its task.
     pub(crate) results: Vec<(u64, &'a TaskResult)>,
     /// True if there is a result for every seed.
     pub(crate) is_whole: bool,
@@ -75,7 +75,7 @@ impl Group<'_> {
         Some((sum / self.results.len() as f64, unit?))
     }
 
-    /// Scores for each seed.
+    /// Scores of `metric` on `channel`, one for each seed with a score.
     pub(crate) fn values(&self, metric: &str, channel: &str) -> Vec<f64> {
         let results = self.results.iter();
         let scores =
@@ -83,7 +83,7 @@ impl Group<'_> {
         scores.collect()
     }
 
-    /// Recording and split of the group.
+    /// Names of the recording and the split of the group.
     pub(crate) fn place(&self) -> (&str, Option<&str>) {
         (self.dataset, self.split)
     }

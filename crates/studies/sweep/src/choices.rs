@@ -12,17 +12,17 @@ pub(crate) use table::table;
 #[derive(Clone, Debug)]
 pub(crate) struct Choice {
     pub(crate) channel: String,
-    /// Position among the groups.
+    /// Index of the chosen configuration among the groups.
     pub(crate) chosen: usize,
-    /// Number of candidates.
+    /// Number of candidates for the choice.
     pub(crate) among: usize,
-    /// Positions of all other configurations with results, including those that lack some seeds.
+    /// Indices of all other configurations with results, including configurations that lack some seeds.
     pub(crate) others: Vec<usize>,
     rmse: f64,
     unit: String,
 }
 
-/// A configuration with a validation error, at its position among the groups.
+/// A configuration with a validation error, and its index among the groups.
 struct Known<'a> {
     at: usize,
     rmse: f64,
@@ -30,7 +30,7 @@ struct Known<'a> {
     seeds: Vec<u64>,
 }
 
-/// Choice for each recording, split and channel. Candidates have the same seeds as the configuration with the most results.
+/// Chooses a configuration for each recording, split and channel. Candidates have the same seeds as the configuration with the most results.
 pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> {
     let mut places: Vec<(&str, Option<&str>)> = Vec::new();
     for group in groups {
@@ -78,12 +78,12 @@ pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> 
     choices
 }
 
-/// Number with about three significant digits.
+/// Formats a number with about three significant digits.
 pub(crate) fn number(value: f64) -> Cell {
     Cell::Number(FormattedValue::number(value, None).value)
 }
 
-/// Both ends of the interval of `value`, as text.
+/// Formats both ends of `interval`, the interval of `value`.
 pub(crate) fn ends(value: f64, interval: [f64; 2]) -> String {
     match FormattedValue::number(value, Some(interval)).interval {
         Some([low, high]) => format!("{low} … {high}"),

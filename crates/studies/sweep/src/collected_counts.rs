@@ -16,14 +16,14 @@ pub struct Collected {
     pub failed: usize,
     /// Number of tasks not run yet.
     pub missing: usize,
-    /// Digest of the table. For shards of two tables, the digest of their scores, or empty while a shard is missing.
+    /// Digest of the table. For shards of two tables, the digest of the merged scores; empty while a shard is missing.
     pub digest: String,
-    /// True if the tasks were shards of two tables and were merged.
+    /// True if the tasks were shards of two tables, and their states were merged.
     #[serde(default)]
     pub is_of_tables: bool,
     /// Units checked against limits; empty if the sweep file names no limits.
     pub units: Vec<Unit>,
-    /// Digest of all inputs of the table.
+    /// Digest of all inputs of the results table.
     pub(crate) made_of: String,
 }
 

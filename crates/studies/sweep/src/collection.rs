@@ -1,4 +1,4 @@
-//! Output of a sweep from all results: the table, its digest, and the pages.
+//! Writes the output of a sweep from all results: the table, its digest, and the pages.
 
 use std::fs;
 
@@ -17,7 +17,7 @@ use crate::task_list::TaskList;
 use crate::times;
 use crate::units;
 
-/// Writes the table and the pages of all results in `folder`. Keeps existing output of the same results, unless `anew` is true.
+/// Writes the table and the pages of all results in `folder`. If `anew` is false, existing output of the same results is kept.
 ///
 /// # Errors
 /// [`SweepError`] for a result that was edited or has another version, and if the folder cannot be written.
@@ -51,7 +51,7 @@ pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Coll
     Ok(collected)
 }
 
-/// Rejects an evaluation that its task did not write. A missing evaluation is allowed, because the table does not need it.
+/// Rejects an evaluation file that does not match `result`. A missing file is accepted, because the table does not need it.
 fn check_evaluation(folder: &SweepFolder, result: &TaskResult) -> Result<(), SweepError> {
     match folder.evaluation(&result.key).exists() {
         true => result.read_evaluation(folder).map(drop),

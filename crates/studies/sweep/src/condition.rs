@@ -12,7 +12,7 @@ use crate::task::Task;
 
 use term::Term;
 
-/// Selection of tasks: by key, or by alternatives whose terms must all hold.
+/// Selection of tasks: by key, or by alternatives. A task matches an alternative if all its terms hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Condition {
     text: String,
@@ -53,7 +53,7 @@ impl Condition {
         })
     }
 
-    /// Text as typed.
+    /// Text of the condition as the user typed it.
     pub fn text(&self) -> &str {
         &self.text
     }
@@ -79,7 +79,7 @@ impl Condition {
         Ok(())
     }
 
-    /// True if the condition holds for `task`.
+    /// True if `task` satisfies the condition.
     pub fn holds(&self, task: &Task) -> bool {
         let mut alternatives = self.alternatives.iter();
         alternatives.any(|terms| terms.iter().all(|term| term.holds(task)))

@@ -18,7 +18,7 @@ use reach::{flips_of, out_of_reach};
 use shared_seeds::SharedSeeds;
 use trainings::between_seeds;
 
-/// A chosen configuration and another one.
+/// A chosen configuration and a configuration compared with it.
 struct Pair<'a> {
     choice: &'a Choice,
     other: usize,

@@ -13,10 +13,10 @@ use crate::choices::{ends, number};
 use crate::task_list::TaskList;
 use dimension::{Dimension, dimensions};
 
-/// Least number of pairs for an interval.
+/// Least number of pairs for which an interval is computed.
 const LEAST: usize = 2;
 
-/// One row for each setting, value and channel: mean difference in test error from the first value, over otherwise equal tasks.
+/// Table with one row for each setting, value and channel. It shows the mean difference in test error from the first value, over otherwise equal tasks.
 pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String]) -> Table {
     let columns = [
         "setting",

@@ -18,22 +18,22 @@ pub enum SweepError {
     /// An unknown model, setting or metric, or another error of evaluation.
     #[error(transparent)]
     Study(#[from] EvaluateError),
-    /// A sweep file with valid syntax has an invalid value.
+    /// A value in a syntactically valid sweep file is invalid.
     #[error("{}{}: {problem}", shown(path), line.map_or_else(String::new, |line| format!(", line {line}")))]
     Meaning {
         /// Path of the file.
         path: PathBuf,
         /// Line of the value, if known.
         line: Option<usize>,
-        /// Fault, and the accepted form.
+        /// Description of the fault, and the accepted form.
         problem: String,
     },
     /// A condition in `--only` or in a file is invalid.
     #[error("`{}`: {problem}", shown(text))]
     Condition {
-        /// Condition as typed.
+        /// Condition as the user typed it.
         text: String,
-        /// Fault, and the accepted form.
+        /// Description of the fault, and the accepted form.
         problem: String,
     },
     /// A file in the folder of a sweep was edited, or was not written by this program.
@@ -41,15 +41,15 @@ pub enum SweepError {
     Kept {
         /// Path of the file.
         path: PathBuf,
-        /// Fault, and the remedy.
+        /// Description of the fault, and the remedy.
         problem: String,
     },
     /// A recording, a table, the sensor file or a plugin has changed since the sweep was planned.
     #[error("{}: {problem}; start the sweep again", shown(path))]
     Changed {
-        /// File, folder, or name of the model.
+        /// Path of the file or folder, or name of the model.
         path: PathBuf,
-        /// Description of the change.
+        /// Description of what changed.
         problem: String,
     },
     /// An input or output operation failed.
@@ -76,7 +76,7 @@ pub enum SweepError {
 }
 
 impl SweepError {
-    /// Converts an error of the operating system.
+    /// Returns a converter from an error of the operating system to [`SweepError`].
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> SweepError {
         let path = path.to_owned();
         move |source| SweepError::Io {
@@ -86,7 +86,7 @@ impl SweepError {
         }
     }
 
-    /// True if the sweep file or the arguments are wrong. No data was read in this case.
+    /// True if the sweep file or the arguments are wrong. No data has been read in this case.
     pub fn is_usage(&self) -> bool {
         match self {
             SweepError::Condition { .. } => true,

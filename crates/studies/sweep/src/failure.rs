@@ -25,7 +25,7 @@ impl Failure {
         folder.write(&path, text.as_bytes())
     }
 
-    /// Reads the failure of `key`; `None` if it did not fail.
+    /// Reads the failure of the task with key `key`; `None` if this task did not fail.
     pub(crate) fn read(folder: &SweepFolder, key: &TaskKey) -> Result<Option<Failure>, SweepError> {
         let path = folder.failure(key);
         match fs::read_to_string(&path) {
@@ -40,7 +40,7 @@ impl Failure {
         }
     }
 
-    /// Removes the failure record of `key`, if any.
+    /// Removes the failure record of the task with key `key`, if any.
     pub(crate) fn forget(folder: &SweepFolder, key: &TaskKey) -> Result<(), SweepError> {
         let path = folder.failure(key);
         match fs::remove_file(&path) {

@@ -32,7 +32,7 @@ pub struct SweepFile {
     pub name: String,
     /// Folders of recordings, or patterns of folders, relative to the folder of the file.
     pub datasets: Vec<String>,
-    /// View of recordings with several pictures per sample; `left+right` puts two side by side.
+    /// View to read from recordings with several pictures per sample; `left+right` joins two views side by side.
     pub view: Option<String>,
     /// Scenes whose recordings are acquired first: files relative to the folder of the file, or names of built-in scenes.
     pub scenes: Vec<String>,
@@ -40,19 +40,19 @@ pub struct SweepFile {
     pub models: Vec<ModelEntry>,
     /// Seeds of the sweep.
     pub seeds: Vec<u64>,
-    /// Splits; a single `None` for the default split of each recording.
+    /// Splits; a single `None` means the default split of each recording.
     pub splits: Vec<Option<String>>,
     /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
-    /// File of sensor facts.
+    /// Path of the file of sensor facts.
     pub sensor: Option<PathBuf>,
-    /// File of limits for each unit.
+    /// Path of the file of limits, against which each unit is checked.
     pub limits: Option<PathBuf>,
-    /// Settings that vary, each with its values.
+    /// Varied settings, each with its list of values.
     pub vary: BTreeMap<String, Vec<String>>,
-    /// Combinations to skip.
+    /// Conditions that select combinations to skip.
     pub skip: Vec<Condition>,
-    /// Tables that are scored in shards, instead of recordings and models.
+    /// Tables that are scored in shards. A sweep has either tables, or recordings and models.
     pub tables: Option<TablesEntry>,
     /// Resources that Slurm jobs request.
     pub slurm: SlurmSpec,
@@ -64,7 +64,7 @@ impl SweepFile {
         folder_of(&self.path)
     }
 
-    /// Error for a value of `key`, with its line.
+    /// Error for an invalid value of `key`, with its line.
     pub fn wrong(&self, key: &str, problem: String) -> SweepError {
         let text = fs::read_to_string(&self.path).unwrap_or_default();
         FilePlace {

@@ -1,4 +1,4 @@
-//! Folder of a sweep: results by key, and further files.
+//! Folder of a sweep: results by key, and its other files.
 //!
 //! ```text
 //! FOLDER/results/KEY.json       scores of a task: absent or complete
@@ -43,7 +43,7 @@ impl SweepFolder {
         &self.path
     }
 
-    /// Path of the cache that tasks share.
+    /// Path of the cache shared by all tasks.
     pub fn cache(&self) -> PathBuf {
         self.path.join("cache")
     }
@@ -116,7 +116,7 @@ impl SweepFolder {
         self.path.join("slurm")
     }
 
-    /// Writes a file atomically, so that it is always absent or complete. Two processes that write to one path write the same content.
+    /// Writes a file atomically, so that readers find either no file or a complete file. Two processes that write to one path write the same content.
     ///
     /// # Errors
     /// [`SweepError::Io`] if the file cannot be written.

@@ -1,9 +1,9 @@
-//! Folder patterns: `units/*`, `week-?/unit-*`.
+//! Patterns for folders: `units/*`, `week-?/unit-*`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// True if `text` is a pattern, not a path.
+/// True if `text` contains a wildcard of a pattern.
 pub(crate) fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?'])
 }

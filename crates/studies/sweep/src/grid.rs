@@ -28,14 +28,14 @@ pub struct Grid {
     pub tasks: Vec<Task>,
     /// Number of combinations that `[skip]` excludes.
     pub skipped: usize,
-    /// Tables whose shards are the tasks.
+    /// Tables that were planned; their shards are the tasks.
     pub(crate) tables: Option<PlannedTables>,
 }
 
 impl Grid {
-    /// Tasks of `file`, including tasks on recordings that `scenes` will acquire. Opens each recording once for its digest, without reading frames;
-    /// scans tables once. Tasks on a recording that is not acquired yet have provisional keys. They can be counted and checked, and are planned
-    /// again once the recording exists.
+    /// Plans the tasks of `file`, including tasks on recordings that `scenes` will acquire. Opens each recording once for its digest, without reading frames;
+    /// scans tables once. Tasks on a recording that is not acquired yet have provisional keys. These tasks can be counted and checked, and are planned again
+    /// once the recording exists.
     ///
     /// # Errors
     /// [`SweepError`] for a grid that is empty or exceeds [`MOST_TASKS`](crate::MOST_TASKS), for an unknown model, setting or metric, and for an

@@ -1,4 +1,4 @@
-//! Key of the result of a task: the digest of all its inputs.
+//! Key of a task's result: the digest of all inputs of the task.
 
 mod shard;
 
@@ -10,9 +10,9 @@ use taceva_dataset::Digest;
 
 pub(crate) use shard::ShardParts;
 
-/// Version of the key; incremented when the same inputs give another result within one version of this program.
+/// Version of the key. It must be incremented if the same inputs give another result within one version of this program.
 const VERSION: &str = "2";
-/// Hexadecimal digits of a key; they encode 128 bits.
+/// Number of hexadecimal digits of a key, which encode 128 bits.
 const DIGITS: usize = 32;
 
 /// Key of the result of a task.
@@ -77,12 +77,12 @@ impl TaskKey {
         bytes.finish()
     }
 
-    /// Digits of the key.
+    /// Hexadecimal digits of the key.
     pub fn as_str(&self) -> &str {
         &self.0
     }
 
-    /// True if `text` has the form of a key, which is a safe file name.
+    /// True if `text` has the form of a key, and is therefore a safe file name.
     pub(crate) fn is_one(text: &str) -> bool {
         let is_digit = |byte: u8| byte.is_ascii_digit() || (b'a'..=b'f').contains(&byte);
         text.len() == DIGITS && text.bytes().all(is_digit)

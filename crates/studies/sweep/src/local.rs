@@ -19,23 +19,23 @@ use crate::task_list::TaskList;
 /// Runs tasks.
 #[derive(Clone, Copy)]
 pub struct Runner<'a> {
-    /// Task list of the sweep.
+    /// Tasks of the sweep.
     pub list: &'a TaskList,
-    /// Folder for the results.
+    /// Folder in which results are stored.
     pub folder: &'a SweepFolder,
     /// Available models.
     pub models: &'a Models,
-    /// Cache that tasks share, if any.
+    /// Cache shared by all tasks, if any.
     pub cache: Option<&'a Cache>,
     /// Number of concurrent tasks.
     pub jobs: NonZeroUsize,
     /// True if failed tasks are retried.
     pub retry_failed: bool,
-    /// Receives progress, and may cancel.
+    /// Observer that receives progress, and can cancel the run.
     pub progress: &'a dyn Progress,
 }
 
-/// Outcome of the tasks.
+/// Outcome of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Ran {
@@ -43,14 +43,14 @@ pub struct Ran {
     pub found: usize,
     /// Number of tasks scored during this run, by this or another process.
     pub scored: usize,
-    /// Failed tasks: position in the list, and reason.
+    /// Failed tasks: index in the list, and reason.
     pub failed: Vec<(usize, String)>,
     /// True if the run was cancelled before all tasks were done.
     pub is_stopped: bool,
 }
 
 impl Runner<'_> {
-    /// Runs the tasks at `wanted` that have no result yet. A failed task stores the reason, and the other tasks continue.
+    /// Runs the tasks at the indices `wanted` that have no result yet. If a task fails, its reason is stored, and the other tasks continue.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be used.

@@ -41,7 +41,7 @@ pub(crate) struct Common<'a> {
 /// Fits and scores `task`, and writes its result.
 ///
 /// # Errors
-/// [`SweepError`] if the task fails; no result is written then.
+/// [`SweepError`] if the task fails. No result is written in this case.
 pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Result<(), SweepError> {
     if let Some(tables) = &common.list.tables {
         return shard::carry_out(task, tables, common, work);
@@ -112,7 +112,7 @@ pub(crate) fn sealed(report: &EvaluationReport) -> Result<String, SweepError> {
     })
 }
 
-/// Samples on which settings were chosen, and the error of each channel on these samples.
+/// Name of the samples on which settings were chosen, and the error of each channel on these samples.
 fn validation(model: &Model) -> (String, Vec<ValidationError>) {
     let card = model.card();
     let by = match card.choice.by {

@@ -1,4 +1,4 @@
-//! Results of a sweep as a text table, averaged by any of the varied names.
+//! Results of a sweep as a text table, averaged by any of the names that vary.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -61,7 +61,7 @@ pub fn show(
     Ok(table(&loaded, by, metric))
 }
 
-/// Values to be averaged.
+/// Values to average.
 #[derive(Default)]
 struct Averaged {
     values: Vec<f64>,

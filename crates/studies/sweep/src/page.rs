@@ -1,4 +1,4 @@
-//! Pages of a sweep: results, and separately the run times.
+//! Pages of a sweep: one of results, and a separate one of run times.
 
 mod times;
 
@@ -83,7 +83,7 @@ fn title(list: &TaskList) -> String {
     }
 }
 
-/// Badge of a page with simulated or synthetic samples.
+/// Badge for a page with simulated or synthetic samples; `None` for recorded samples only.
 fn badge(loaded: &[Loaded<'_>]) -> Option<String> {
     let results = loaded.iter().filter_map(Loaded::result);
     not_measured(results.map(|result| result.source.as_str()))

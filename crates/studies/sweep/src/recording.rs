@@ -12,7 +12,7 @@ use crate::error::SweepError;
 /// samples.
 ///
 /// # Errors
-/// [`SweepError`] if the recording cannot be opened, or has no such view.
+/// [`SweepError`] if the recording cannot be opened, or does not have this view.
 pub(crate) fn opened(path: &Path, view: Option<&str>) -> Result<(Dataset, Digest), SweepError> {
     let whole = Dataset::open(path)?;
     let dataset = match view {

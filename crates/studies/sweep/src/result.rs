@@ -13,7 +13,7 @@ use crate::key::TaskKey;
 
 const SCHEMA: &str = "taceva.sweep-result/1.0";
 
-/// For each channel: group or contact point, number of its samples, and sum of their absolute errors.
+/// Errors of each channel: group or contact point, number of its samples, and sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
 
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -24,21 +24,21 @@ pub(crate) struct TaskResult {
     pub(crate) taceva: String,
     /// Origin of the samples: `recorded`, `simulated`, `synthetic`.
     pub(crate) source: String,
-    /// Sensor model, and serial number of the unit.
+    /// Model of the sensor, and serial number of the unit.
     pub(crate) sensor: String,
     pub(crate) serial: String,
     /// Digest of the fitted model.
     pub(crate) model_digest: String,
-    /// Samples on which settings were chosen, such as `validation`; never the test part.
+    /// Name of the samples on which settings were chosen, such as `validation`; never the test part.
     pub(crate) chosen_by: String,
-    /// Root mean square error of each channel on those samples.
+    /// Root mean square error of each channel on the samples named by `chosen_by`.
     pub(crate) validation: Vec<ValidationError>,
     /// Scores on the test part.
     #[serde(rename = "metrics", with = "by_metric")]
     pub(crate) scores: Vec<Score>,
     /// Errors on the test part, by group or contact point.
     pub(crate) errors: PointErrors,
-    /// Digest of the evaluation file.
+    /// Digest of the evaluation's file.
     pub(crate) evaluation: String,
 }
 
@@ -69,7 +69,7 @@ impl TaskResult {
         }
     }
 
-    /// Adds the scores of `report` that are single numbers or missing. Maps and curves are only in the evaluation.
+    /// Adds the scores of `report` that are single numbers or missing. Maps and curves are stored only in the evaluation.
     pub(crate) fn with_scores(mut self, report: &EvaluationReport) -> TaskResult {
         self.source.clone_from(&report.subject.source);
         self.sensor.clone_from(&report.subject.sensor);

@@ -8,16 +8,16 @@ use taceva_dataset::Digest;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct SceneRecording {
-    /// Name in tasks, from the scene and its study.
+    /// Name of the recording in tasks, derived from the scene and its study.
     pub name: String,
-    /// Path, known before the recording exists.
+    /// Path of the recording, defined before the recording exists.
     pub path: PathBuf,
     /// Placeholder for the digest until the recording exists.
     pub(crate) planned: Digest,
 }
 
 impl SceneRecording {
-    /// Recording of `study` of `scene`, acquired to `path`.
+    /// Recording of the study `study` of the scene `scene`, to be acquired to `path`.
     ///
     /// ```
     /// use taceva_sweep::SceneRecording;

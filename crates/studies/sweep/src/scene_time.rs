@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::folder::SweepFolder;
 
-/// Duration of the presses of a scene.
+/// Measured duration of the presses of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct SceneTime {
@@ -18,7 +18,7 @@ pub struct SceneTime {
 }
 
 impl SceneTime {
-    /// Duration `time` of `presses` presses.
+    /// Creates the record of `presses` presses that took `time`.
     pub fn new(presses: u64, time: Duration) -> SceneTime {
         SceneTime {
             presses,
@@ -26,7 +26,7 @@ impl SceneTime {
         }
     }
 
-    /// Stores this time for the scene `name`. Ignores a failed write, because no result needs the time.
+    /// Stores this time for the scene `name`. A failed write is ignored, because no result needs the time.
     pub fn keep(self, folder: &SweepFolder, name: &str) {
         let times = folder.scene_times();
         let made = fs::create_dir_all(&times).ok();

@@ -1,4 +1,4 @@
-//! Merged scores of all shards of two tables, equal to the scores of a single run.
+//! Merges the scores of all shards of two tables. The merged scores equal the scores of a single run.
 
 use std::fs;
 use std::path::PathBuf;
@@ -17,10 +17,10 @@ use crate::times;
 /// File of the scores, byte for byte as printed by `taceva score --format json`.
 const RESULT: &str = "score.json";
 
-/// Merges the shards in `folder` into the file of scores. While a shard is missing, no file is written.
+/// Merges the shards in `folder` into the file of scores. Writes no file while a shard is missing.
 ///
 /// # Errors
-/// [`SweepError`] for a state that was edited or belongs to other tables, and if the folder cannot be written.
+/// [`SweepError`] for a state that was edited or belongs to other tables. Also if the folder cannot be written.
 pub(crate) fn join(
     folder: &SweepFolder,
     list: &TaskList,

@@ -1,7 +1,7 @@
 //! Tasks as Slurm jobs: readable scripts, arrays, and one job that collects the results.
 //!
-//! No daemon is needed. Jobs find their tasks in the shared folder, results mark finished tasks, and the scheduler lists running jobs. A job that
-//! runs twice, as after a restart of the controller, finds the results of its first run.
+//! No daemon is needed. Jobs find their tasks in the shared folder, a result marks a task as finished, and the scheduler lists running jobs. If a job runs
+//! twice, for example after a restart of the controller, it finds the results of its first run.
 
 mod command;
 mod queue;
@@ -23,13 +23,13 @@ pub use queue::{JobState, queue_of};
 pub use record::Submitted;
 pub use submission::submit;
 
-/// Scripts to submit, with the number of tasks and jobs.
+/// Scripts to submit, with the numbers of their tasks and jobs.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct Submission {
     /// Scripts of the arrays, in order.
     pub arrays: Vec<PathBuf>,
-    /// Script that collects the results.
+    /// Script of the job that collects the results.
     pub collect: PathBuf,
     /// Number of tasks.
     pub tasks: usize,
@@ -37,14 +37,14 @@ pub struct Submission {
     pub jobs: usize,
 }
 
-/// Tasks of one job array. All request the same resources.
+/// Tasks of one job array. All of them request the same resources.
 struct Array<'a> {
     name: &'static str,
     tasks: Vec<usize>,
     gres: Option<&'a str>,
 }
 
-/// Writes the scripts that run the tasks at `wanted`.
+/// Writes the scripts that run the tasks at the indices `wanted`.
 ///
 /// # Errors
 /// [`SweepError::Io`] if a script cannot be written.

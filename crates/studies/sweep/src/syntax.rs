@@ -1,4 +1,4 @@
-//! Deserialised form of the sweep file, key by key.
+//! Deserialised sweep file, key by key.
 
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::slurm_spec::SlurmSpec;
 
-/// Deserialised form of the sweep file.
+/// Deserialised sweep file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenSweep {

@@ -12,7 +12,7 @@ use crate::analysis::{Found, Loaded};
 use crate::error::SweepError;
 use rows::{head, scored, without_scores};
 
-/// A table with typed columns. The same tasks and results give the same bytes.
+/// Table with typed columns. The same tasks and results give the same bytes in every file format.
 pub(crate) struct TidyTable {
     columns: Vec<(String, WrittenKind)>,
     rows: Vec<Vec<Cell>>,
@@ -85,7 +85,7 @@ impl TidyTable {
         }
     }
 
-    /// CSV text, with numbers in shortest round-trip form.
+    /// CSV text of the table. Numbers have their shortest form that reads back exactly.
     pub(crate) fn csv(&self) -> Vec<u8> {
         let mut out = Vec::new();
         let line = |out: &mut Vec<u8>, cells: Vec<String>| {
@@ -121,7 +121,7 @@ impl TidyTable {
     }
 }
 
-/// A CSV cell, quoted if necessary, and escaped so that no spreadsheet reads it as a formula.
+/// Converts text to a CSV cell, with quotes if necessary. Escapes text that a spreadsheet would read as a formula.
 fn field(text: &str) -> String {
     let text = escape_csv(text);
     match text.contains([',', '"', '\n', '\r']) {

@@ -19,26 +19,26 @@ pub struct Task {
     pub dataset: String,
     /// Path of the recording.
     pub path: PathBuf,
-    /// Digest of the whole recording, including its header, when the sweep was planned.
+    /// Digest of the whole recording, including its header, at the time of planning.
     pub digest: String,
     /// Name of the model.
     pub model: String,
-    /// All settings from the sweep file.
+    /// All settings that the sweep file gives for this task.
     pub settings: BTreeMap<String, String>,
-    /// Split; `None` for the default of the recording.
+    /// Name of the split; `None` for the default of the recording.
     pub split: Option<String>,
     /// Seed of the split and of the random draws of the model.
     pub seed: u64,
-    /// Build of the plugin that provides the model, when the sweep was planned.
+    /// Build of the plugin that provides the model, at the time of planning.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plugin: Option<String>,
 }
 
-/// Name of the setting that holds the shard of a task: `2/7`.
+/// Name of the setting that contains the shard of a task: `2/7`.
 pub(crate) const SHARD: &str = "shard";
 
 impl Task {
-    /// Value of `name` in this task: a setting, or `dataset`, `model`, `split` or `seed`.
+    /// Value of `name` in this task. The name is a setting, or `dataset`, `model`, `split` or `seed`.
     pub fn word(&self, name: &str) -> Option<String> {
         match name {
             "dataset" => Some(self.dataset.clone()),
@@ -49,14 +49,14 @@ impl Task {
         }
     }
 
-    /// Model with its settings, without recording, split and seed: `ridge size=32x32`.
+    /// Model with its settings, without recording, split and seed, such as `ridge size=32x32`.
     pub fn configuration(&self) -> String {
         let settings = self.settings.iter();
         let settings = settings.map(|(key, value)| format!(" {key}={value}"));
         format!("{}{}", self.model, settings.collect::<String>())
     }
 
-    /// Replaces the path of the recording in `reason` by its name, and makes other paths relative to the sweep folder. The text is then the same on
+    /// Replaces the path of the recording in `reason` by the recording's name, and makes other paths relative to the sweep folder. The text is then the same on
     /// every machine.
     pub(crate) fn without_folders(&self, reason: &str, folder: &SweepFolder) -> String {
         let mut reason = reason.to_owned();

@@ -35,16 +35,16 @@ pub struct TaskList {
     pub metrics: Vec<String>,
     /// File of sensor facts.
     pub sensor: Option<PathBuf>,
-    /// Digest of that file when the sweep was planned.
+    /// Digest of the file of sensor facts, at the time of planning.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) sensor_digest: Option<Digest>,
-    /// File of limits for each unit.
+    /// Path of the file of limits, against which each unit is checked.
     pub limits: Option<PathBuf>,
     /// Varied settings, each with its values in order.
     pub vary: Vec<(String, Vec<String>)>,
     /// Tasks, in the order of the table.
     pub tasks: Vec<Task>,
-    /// Tables whose shards are the tasks.
+    /// Planned tables; their shards are the tasks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) tables: Option<PlannedTables>,
 }
@@ -53,7 +53,7 @@ impl TaskList {
     /// Tasks of `grid`.
     ///
     /// # Errors
-    /// [`SweepError::Io`] if the working folder is unknown.
+    /// [`SweepError::Io`] if the working directory cannot be determined.
     pub fn new(file: &SweepFile, grid: Grid) -> Result<TaskList, SweepError> {
         let absolute =
             |path: &PathBuf| std::path::absolute(path).map_err(SweepError::io("find", path));
@@ -73,7 +73,7 @@ impl TaskList {
         })
     }
 
-    /// True if the sweep file at `path` is unchanged since planning, or cannot be read.
+    /// True if the sweep file at `path` has not changed since planning, or cannot be read.
     pub fn is_of(&self, path: &Path) -> bool {
         std::fs::read(path).map_or(true, |text| Digest::of(&text) == self.file)
     }

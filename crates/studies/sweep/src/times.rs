@@ -1,4 +1,4 @@
-//! Run times and hosts of tasks, stored outside the table because they differ between runs.
+//! Run times and hosts of tasks, stored outside the table because these values differ between runs.
 
 use std::fs;
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
@@ -14,10 +14,10 @@ use crate::task::Task;
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct TaskTime {
     pub(crate) seconds: f64,
-    /// Size of the result and the evaluation, in bytes.
+    /// Total size of the result and the evaluation, in bytes.
     pub(crate) bytes: u64,
     pub(crate) host: String,
-    /// Start time on the clock of that host, s since 1970.
+    /// Start time in s since 1970, by the clock of the host.
     pub(crate) began: u64,
     /// Job id of the scheduler, if any.
     pub(crate) job: Option<String>,
@@ -38,7 +38,7 @@ impl Timer {
         }
     }
 
-    /// Stores the time of `key`. Ignores a failed write, because no result needs the time.
+    /// Stores the time of `key`. A failed write is ignored, because no result needs the time.
     pub(crate) fn keep(&self, folder: &SweepFolder, key: &TaskKey) {
         let size = |path: &std::path::Path| fs::metadata(path).map_or(0, |facts| facts.len());
         let time = TaskTime {

@@ -1,4 +1,4 @@
-//! Checks sensor units against limits: one line for each unit.
+//! Checks sensor units against limits, and describes each unit in one line.
 
 use std::fs;
 
@@ -19,15 +19,15 @@ pub struct Unit {
     pub dataset: String,
     /// Serial number of the unit.
     pub serial: String,
-    /// Model with its settings, split and seed.
+    /// Model with its settings, split and seed, as text.
     pub task: String,
     /// True if every limit is met.
     pub is_passed: bool,
-    /// Limits not met, with the values found, or the reason why there is no result.
+    /// Limits that the unit does not meet, with the values found. Without a result, the reason.
     pub broken: Vec<String>,
 }
 
-/// Checks every task against the limits of the sweep; empty without limits.
+/// Checks the result of every task against the limits of the sweep. Empty if the sweep has no limits.
 pub(crate) fn units(
     folder: &SweepFolder,
     list: &TaskList,
@@ -96,7 +96,7 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
     Ok(unit)
 }
 
-/// One row for each unit.
+/// Table with one row for each unit.
 pub(crate) fn table(units: &[Unit]) -> Table {
     let columns = ["recording", "serial", "model", "verdict", "limits not met"];
     let mut table = Table::new("Units", columns.map(Column::new));

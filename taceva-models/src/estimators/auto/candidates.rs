@@ -1,21 +1,21 @@
-//! Candidate models and their order.
+//! Candidate models and the order of their trials.
 
 use super::cost::{DEEPER, NETWORK, Sizes, seconds, work};
 use crate::estimators::library::LibraryModel;
 use crate::training::info::ModelInfo;
 
-/// Share of the epochs that a network trains for its first look.
+/// Share of the epochs in the first, shortened training of a network.
 pub(super) const LOOK: f64 = 0.25;
-/// Factor of a network's work in the trial order. Networks are tried early, because they learn from whole pictures.
+/// Factor by which a network's work is multiplied for the trial order. Networks are tried early, because they learn from whole pictures.
 const EARLIER: f64 = 0.1;
 
 /// A model to try.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) info: &'static ModelInfo,
-    /// Work of one fold, s of the budget; for a network, including its whole training.
+    /// Work of one fold, in s of the budget. For a network, the work of its whole training.
     pub(super) fold_s: f64,
-    /// Work of the final fit, s of the budget.
+    /// Work of the final fit, in s of the budget.
     pub(super) fit_s: f64,
 }
 
@@ -29,7 +29,7 @@ impl Candidate {
         DEEPER.contains(&self.info.name)
     }
 
-    /// Work of the first fold, s of the budget.
+    /// Work of the first fold, in s of the budget.
     pub(super) fn first_s(&self) -> f64 {
         match self.is_network() {
             true => LOOK * self.fold_s,
@@ -45,7 +45,7 @@ impl Candidate {
     }
 }
 
-/// Models of `models` and `libraries` that support these sizes, the cheapest first.
+/// Models of `models` and `libraries` that support a training part of these sizes, the cheapest first.
 pub(super) fn candidates(
     models: &'static [ModelInfo],
     libraries: &[&'static LibraryModel],

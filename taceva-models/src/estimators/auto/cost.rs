@@ -1,20 +1,20 @@
-//! Work of trying and fitting a model, computed from the sizes of a recording alone.
+//! Work of trying and fitting a model, computed only from the sizes of a recording.
 
 use crate::estimators::library::LibrarySizes;
 use taceva_core::whole_size;
 
-/// Sizes of a training part.
+/// Numbers of samples, features and channels of a training part.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sizes {
     pub(super) samples: f64,
     pub(super) features: f64,
-    /// Values per picture for networks. `None` without pictures.
+    /// Number of values per picture for networks; `None` without pictures.
     pub(super) picture: Option<f64>,
     pub(super) channels: f64,
 }
 
 impl Sizes {
-    /// Sizes with a share of the samples.
+    /// Sizes of a part with the share `share` of the samples.
     pub(super) fn share(self, share: f64) -> Sizes {
         Sizes {
             samples: share * self.samples,
@@ -31,7 +31,7 @@ impl Sizes {
     }
 }
 
-/// Multiplications per second of the budget.
+/// Number of multiplications per second of the budget.
 const RATE: f64 = 1e9;
 
 /// Name of the small network; `DEEPER` names the residual networks.
@@ -43,9 +43,9 @@ pub(super) fn seconds(work: f64) -> f64 {
     work / RATE
 }
 
-/// Multiplications of one fit of the model `name` with default settings. `None` if it cannot be fitted.
+/// Number of multiplications of one fit of the model `name` with default settings; `None` if the model cannot be fitted.
 ///
-/// Leading terms of each fit. Their factors make a second of the budget about one of the processor seconds measured in docs/models.md.
+/// Leading terms of the work of each fit. Their factors make one second of the budget about one processor second as measured in docs/models.md.
 pub(super) fn work(name: &str, sizes: Sizes) -> Option<f64> {
     let Sizes {
         samples,

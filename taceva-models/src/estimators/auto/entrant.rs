@@ -9,13 +9,13 @@ use crate::training::fit::ModelEstimator;
 pub(super) struct Entrant {
     pub(super) candidate: Candidate,
     pub(super) estimator: Box<dyn ModelEstimator>,
-    /// Losses by fold and unit.
+    /// Losses of each unit (inner) on each fold (outer).
     pub(super) losses: Vec<Vec<f64>>,
-    /// Work spent on its trials, s of the budget.
+    /// Work spent on trials of the model, in s of the budget.
     pub(super) spent_s: f64,
-    /// Completed share of its training; `None` for the whole training.
+    /// Completed share of the training; `None` for a complete training.
     pub(super) share: Option<f64>,
-    /// Reason why it left the race; `None` while it is a candidate.
+    /// Reason why the model left the race; `None` while the model is a candidate.
     pub(super) left: Option<String>,
 }
 
@@ -29,7 +29,7 @@ impl Entrant {
         mean(&self.losses[..folds].concat())
     }
 
-    /// Mean excess of its losses over those of `other` on the first `folds` folds.
+    /// Mean difference between the losses of this model and those of `other` on the first `folds` folds.
     pub(super) fn excess_over(&self, other: &Entrant, folds: usize) -> Excess {
         Excess::of(
             &self.losses[..folds].concat(),
@@ -37,7 +37,7 @@ impl Entrant {
         )
     }
 
-    /// Entry for the model card.
+    /// Record of the trials for the model card.
     pub(super) fn trial(&self) -> AutoTrial {
         AutoTrial {
             model: self.name().to_owned(),

@@ -1,21 +1,21 @@
 //! Comparison of two models by their losses on the same units.
 
-/// Standard errors of a difference above which a model is clearly better. By chance, the best of a dozen models is two standard errors ahead of the
+/// Number of standard errors of a difference above which a model is clearly better. By chance, the best of a dozen models is two standard errors ahead of the
 /// simplest.
 pub(super) const CLEARLY: f64 = 3.0;
-/// Standard errors of a difference above which a network replaces the best other model, or that model replaces the baseline.
+/// Number of standard errors of a difference above which a network replaces the best other model, or this model replaces the baseline.
 pub(super) const BEYOND_CHANCE: f64 = 2.0;
 
 /// Mean difference of the losses of two models over units.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Excess {
     mean: f64,
-    /// Standard error of the mean. Infinite for fewer than two units, so that nothing exceeds chance.
+    /// Standard error of the mean. Infinite for fewer than two units, so that no difference is significant.
     standard_error: f64,
 }
 
 impl Excess {
-    /// Excess of `losses` over `others`, unit by unit.
+    /// Difference between `losses` and `others`, unit by unit.
     pub(super) fn of(losses: &[f64], others: &[f64]) -> Excess {
         let differences = losses.iter().zip(others).map(|(own, other)| own - other);
         let differences: Vec<f64> = differences.collect();
@@ -37,7 +37,7 @@ impl Excess {
     }
 }
 
-/// Mean of `values`; 0 if empty.
+/// Mean of `values`; 0 if `values` is empty.
 pub(super) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len().max(1) as f64
 }

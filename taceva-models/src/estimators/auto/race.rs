@@ -1,4 +1,4 @@
-//! First fold of the race: tries every model that is worth its work.
+//! First fold of the race: tries every model with an acceptable amount of work.
 
 use taceva_core::{ModelError, Progress, TrainingSet};
 
@@ -15,22 +15,22 @@ use crate::training::info::ModelInfo;
 /// Models tried regardless of the budget.
 pub(super) const ALWAYS: [&str; 2] = ["baseline", "ridge"];
 
-/// Unfitted model with default settings. The inner error says why it does not support the present features.
+/// Unfitted model with default settings. The inner error is the reason why the model does not support the features.
 pub(super) type Made = Result<Result<Box<dyn ModelEstimator>, FeatureError>, ModelError>;
 
 /// Race of models on the folds of one training part.
 pub(super) struct Race<'a> {
-    /// Budget for trials and the final fit, s.
+    /// Budget for trials and the final fit, in s.
     pub(super) budget_s: f64,
     pub(super) make: &'a dyn Fn(&ModelInfo) -> Made,
     pub(super) folds: Folds,
-    /// Training part with the features for networks, and with the features for other models.
+    /// Training part, with features for networks and with features for other models.
     pub(super) pictures: TrainingSet<'a>,
     pub(super) training: TrainingSet<'a>,
     pub(super) progress: &'a dyn Progress,
     pub(super) spent_s: f64,
     pub(super) entrants: Vec<Entrant>,
-    /// First look at the network, then its whole training if the first look was not decisive.
+    /// Shortened training of the network, and its complete training if the shortened one was not decisive.
     pub(super) network: Vec<Entrant>,
     pub(super) untried: Vec<Untried>,
 }
@@ -60,7 +60,7 @@ impl Race<'_> {
         Ok((taken, self.card(taken)))
     }
 
-    /// Reason for skipping a candidate; `None` if it is worth trying.
+    /// Reason for skipping a candidate; `None` if the candidate is to be tried.
     fn unworthy(&self, candidate: &Candidate) -> Option<String> {
         let Candidate { info, fit_s, .. } = *candidate;
         if candidate.is_named_only() {
@@ -94,7 +94,7 @@ impl Race<'_> {
         });
     }
 
-    /// Tries a model on the first fold; a network with a share of its epochs.
+    /// Tries a model on the first fold. A network trains only a share of its epochs.
     fn enter(&mut self, candidate: Candidate) -> Result<(), ModelError> {
         let estimator = match (self.make)(candidate.info)? {
             Ok(estimator) => estimator,

@@ -1,4 +1,4 @@
-//! Choice of the model, after further folds if needed.
+//! Final choice of the model, after further folds if needed.
 
 use taceva_core::ModelError;
 
@@ -9,15 +9,15 @@ use super::race::{ALWAYS, Race};
 use crate::linalg::progress::interrupted;
 use crate::training::card::{AutoCard, FOLDS};
 
-/// Most optimistic ratio of a network's squared error after its whole training to that after the first look.
+/// Smallest ratio assumed between a network's squared error after complete training and after the shortened training.
 const GRANTED: f64 = 0.5;
-/// Ratio of a network's squared error to the best other model's below which the network is worth its work.
+/// Ratio of squared errors, network to best other model, below which the network justifies its work.
 const WORTH: f64 = 0.95;
-/// Ratio of work above which a model must be better than a cheaper one.
+/// Ratio of the work of two models above which the costlier model must have a smaller error.
 const DEARER: f64 = 10.0;
 
 impl Race<'_> {
-    /// Model of least error still in the race, except networks. Models are compared on the folds that both completed.
+    /// Model with the least error among the remaining models, except networks. Two models are compared on the folds that both completed.
     pub(super) fn best(&self) -> Option<&Entrant> {
         let going = self.entrants.iter().filter(|own| own.left.is_none());
         going.reduce(|best, next| {
@@ -38,7 +38,7 @@ impl Race<'_> {
         })
     }
 
-    /// Trains the network completely on the first fold, unless its first look was decisive.
+    /// Trains the network completely on the first fold, unless its shortened training was decisive.
     pub(super) fn look_again(&mut self) -> Result<(), ModelError> {
         let Some((look, best)) = self.network.last().zip(self.best()) else {
             return Ok(());
@@ -61,7 +61,7 @@ impl Race<'_> {
         Ok(())
     }
 
-    /// Tries the other models on further folds until one is left or the budget is spent.
+    /// Tries the other models on further folds until one model is left or the budget is spent.
     pub(super) fn more_folds(&mut self) -> Result<(), ModelError> {
         for fold in 1..FOLDS {
             self.thin_out();
@@ -89,7 +89,7 @@ impl Race<'_> {
         Ok(())
     }
 
-    /// True if one model is left, or the baseline and one model that is clearly ahead of it.
+    /// True if one model is left, or if the baseline and one clearly better model are left.
     fn is_decided(&self) -> bool {
         let going = self.entrants.iter().filter(|own| own.left.is_none());
         let going: Vec<&Entrant> = going.collect();
@@ -105,8 +105,8 @@ impl Race<'_> {
         }
     }
 
-    /// Removes models that are clearly worse than the best, and models no better than one with a tenth of their work. Keeps the baseline, which costs
-    /// nothing.
+    /// Removes models that are clearly worse than the best model. Also removes models no better than a model with a tenth of their work. The baseline is never
+    /// removed, because it costs nothing.
     fn thin_out(&mut self) {
         let Some(best) = self.best() else {
             return;
@@ -135,7 +135,7 @@ impl Race<'_> {
         }
     }
 
-    /// Takes the baseline unless another model is better beyond chance. Takes the network if it beats the best of the others beyond chance.
+    /// Chooses the baseline unless another model is significantly better. Chooses the network if it is significantly better than the best other model.
     pub(super) fn settle(&mut self) -> Option<Candidate> {
         let baseline = self.entrants.iter().find(|own| own.name() == ALWAYS[0]);
         let best = self.best().map(|best| {
@@ -175,7 +175,7 @@ impl Race<'_> {
     }
 }
 
-/// True if a network beats `best` on the first fold, by more than `standard_errors` standard errors and by enough to be worth its work.
+/// True if a network is better than `best` on the first fold, by more than `standard_errors` standard errors, and by enough to justify its work.
 fn is_ahead(network: &Entrant, best: &Entrant, standard_errors: f64) -> bool {
     let excess = best.excess_over(network, 1);
     network.loss(1) < WORTH * best.loss(1) && excess.is_beyond(standard_errors)
@@ -188,7 +188,7 @@ mod tests {
     use crate::settings::ModelSettings;
     use crate::training::card::Untried;
 
-    /// A model whose fold takes `fold_s` s of work, with `losses` on the units of the first fold.
+    /// Test model with `losses` on the units of the first fold. One fold takes `fold_s` s of work.
     fn entrant(name: &str, fold_s: f64, losses: [f64; 4]) -> Entrant {
         let info = find(name).expect("registered");
         let estimator = info.estimator(&ModelSettings::default());
@@ -206,7 +206,7 @@ mod tests {
         }
     }
 
-    /// Race after the first fold, with entrants and the looks at the network.
+    /// Test race after the first fold, with `entrants` and the trainings of the network. Calls `then` with the race.
     fn race_of(entrants: Vec<Entrant>, network: Vec<Entrant>, then: impl FnOnce(&mut Race<'_>)) {
         let samples = 8_u8;
         let shape = taceva_core::FeatureShape::flat(1);

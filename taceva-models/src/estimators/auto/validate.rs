@@ -7,9 +7,9 @@ use taceva_core::{ErrorKind, Features, ModelError, Progress, Regressor, Targets,
 use crate::training::card::FOLDS;
 use crate::training::fit::ModelEstimator;
 
-/// Fewest groups per fold for groups to be the units of losses.
+/// Minimum number of groups per fold; with fewer groups, losses are computed by run of samples.
 const GROUPS_LEAST: usize = 3;
-/// Runs of neighbouring samples that serve as units of a fold with fewer groups.
+/// Number of runs of neighbouring samples in a fold with too few groups. Each run is one unit.
 const RUNS: usize = 10;
 
 /// Rows and independent units of each fold.
@@ -18,14 +18,14 @@ pub(super) struct Folds {
     rows: Vec<Vec<usize>>,
     /// Unit of each row, counted from 0 in each fold.
     units: Vec<Vec<usize>>,
-    /// Variance of each channel's labels, which normalises squared errors. `None` if all labels are equal.
+    /// Variance of the labels of each channel, which normalises squared errors; `None` if all labels of the channel are equal.
     variances: Vec<Option<f64>>,
-    /// True if folds are whole groups.
+    /// True if a group is never divided between folds.
     pub(super) by_group: bool,
 }
 
 impl Folds {
-    /// Assigns whole groups in turn if there are at least as many as folds, otherwise runs of neighbouring samples.
+    /// Assigns whole groups to folds in turn if there are at least as many groups as folds. Otherwise assigns runs of neighbouring samples.
     pub(super) fn new(training: &TrainingSet<'_>, groups: Option<Vec<Vec<usize>>>) -> Folds {
         let groups = groups.filter(|groups| groups.len() >= FOLDS);
         let by_group = groups.is_some();
@@ -57,8 +57,8 @@ impl Folds {
         }
     }
 
-    /// Loss of each unit of a fold, for a model that learns from three other folds and chooses settings on the fourth. Losses are squared errors
-    /// relative to the label variance, averaged over samples and varying channels. The inner error says why the model cannot be fitted.
+    /// Loss of each unit of a fold. The model learns from three other folds and chooses settings on the fourth. A loss is the squared error relative to the
+    /// label variance, averaged over samples and varying channels. The inner error is the reason why the model cannot be fitted.
     ///
     /// # Errors
     /// [`ModelError`] if `progress` was cancelled.
@@ -112,7 +112,7 @@ impl Folds {
     }
 }
 
-/// Unit of each of `rows`: its group if there are enough groups, otherwise a run of neighbours.
+/// Unit of each of `rows`: the group of the row if there are enough groups, otherwise a run of neighbouring rows.
 fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
     let groups: Option<Vec<usize>> = rows.iter().map(|row| of_group.get(row).copied()).collect();
     let are_enough = |groups: &Vec<usize>| {
@@ -127,7 +127,7 @@ fn units(rows: &[usize], of_group: &BTreeMap<usize, usize>) -> Vec<usize> {
     })
 }
 
-/// Variance of a channel's labels. `None` if all labels are equal; compares labels, because the rounded mean of equal labels may differ.
+/// Variance of a channel's labels; `None` if all labels are equal. Compares the labels, because the rounded mean of equal labels may differ from them.
 fn variance(targets: Targets<'_>, channel: usize) -> Option<f64> {
     let channels = targets.channels.len();
     let labels = || {

@@ -9,23 +9,22 @@ use super::scatter::{Blocks, Scatter, means, whitening};
 
 /// Predicts the class with the nearest mean, in features whitened by the scatter within classes.
 ///
-/// With S the covariance within classes, x is assigned the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), with equal prior probabilities.
-/// S* = ρ m I + (1 − ρ) S with m = tr S / p. The share ρ minimises the expected squared error of S*, so that the covariance can be
-/// inverted for few samples of many features.
+/// With S the covariance within classes, x is assigned the class c of least (x − μ_c)ᵀ S*⁻¹ (x − μ_c), with equal prior probabilities. S* = ρ m I + (1 − ρ) S
+/// with m = tr S / p. The share ρ minimises the expected squared error of S*. S* can therefore be inverted even for few samples of many features.
 ///
 /// # Reference
 /// Fisher (1936) for the discriminant. Ledoit and Wolf (2004), A well-conditioned estimator for large-dimensional covariance matrices,
 /// equations 9 to 14, for ρ.
 #[derive(Clone, Debug)]
 pub struct Discriminant {
-    /// Whitening matrix, `[features, features]`.
+    /// Whitening matrix, shape `[features, features]`.
     whitening: Mat<f64>,
-    /// Class means in whitened features. `None` for classes without samples.
+    /// Mean of each class in whitened features; `None` for a class without samples.
     centres: Vec<Option<Vec<f64>>>,
 }
 
 impl Discriminant {
-    /// Fits samples `features`, each with the class number in `classes`.
+    /// Fits the classifier to the samples `features`. `classes` contains the class number of each sample.
     ///
     /// # Shapes
     /// `features`: `[samples][features]`; `classes`: `[samples]`.
@@ -50,7 +49,7 @@ impl Discriminant {
         Discriminant::of_blocks(&blocks, classes, &SilentProgress)
     }
 
-    /// Fits samples that are read in blocks.
+    /// Fits the classifier to samples that are read in blocks.
     pub(super) fn of_blocks(
         blocks: &Blocks<'_>,
         classes: &[usize],
@@ -66,7 +65,7 @@ impl Discriminant {
         Ok(Discriminant { whitening, centres })
     }
 
-    /// Plane (w, b) of each class with samples. The predicted class has the greatest wᵀx + b.
+    /// Plane (w, b) of each class with samples. The predicted class is the one with the greatest wᵀx + b.
     pub(super) fn planes(&self) -> Vec<(Vec<f64>, f64)> {
         let turned = self.whitening.transpose().to_owned();
         let plane = |centre: &Vec<f64>| {
@@ -76,7 +75,7 @@ impl Discriminant {
         self.centres.iter().flatten().map(plane).collect()
     }
 
-    /// Predicts the class of `features`; of equally near classes, the first.
+    /// Predicts the class of `features`. Of equally near classes, returns the first.
     pub fn class(&self, features: &[f64]) -> usize {
         let round = applied(&self.whitening, features);
         let distance = |centre: &Vec<f64>| -> f64 {
@@ -106,7 +105,7 @@ mod tests {
     use super::*;
     use taceva_core::random::SplitMix64;
 
-    /// Samples of two classes along x, with a diagonal scatter far wider than their distance.
+    /// Samples of two classes that differ along x. Their scatter is diagonal and far wider than the distance of the classes.
     fn tilted(samples: usize, seed: u64) -> (Vec<Vec<f64>>, Vec<usize>) {
         let mut random = SplitMix64::new(seed);
         let mut uniform = || {

@@ -1,4 +1,4 @@
-//! Classification by planes: the value of the highest plane is predicted.
+//! Classification by planes: predicts the value of the plane that is highest at the sample.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -14,15 +14,15 @@ use crate::training::regressor::{FittedModel, ModelRegressor};
 /// Planes of one channel over raw features.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Planes {
-    /// Value of each plane, in the unit of the channel.
+    /// Value predicted by each plane, in the unit of the channel.
     values: Vec<f64>,
-    /// `[values, features]`.
+    /// Weights of the planes, shape `[values, features]`.
     weights: Vec<f64>,
     offsets: Vec<f64>,
 }
 
 impl Planes {
-    /// Converts planes over standardised features of `design` to planes over raw features.
+    /// Converts planes over the standardised features of `design` to planes over raw features.
     pub(super) fn new(
         values: Vec<f64>,
         planes: Vec<(Vec<f64>, f64)>,
@@ -46,7 +46,7 @@ impl Planes {
         }
     }
 
-    /// Value of the highest plane at `sample`; the least value of equally high planes.
+    /// Value of the plane that is highest at `sample`. Of equally high planes, returns the least value.
     fn class(&self, sample: &[f32]) -> f64 {
         let mut best = (f64::NEG_INFINITY, f64::NAN);
         let planes = self.weights.chunks_exact(sample.len()).zip(&self.offsets);
@@ -64,7 +64,7 @@ impl Planes {
     }
 }
 
-/// Predicts each channel as one of its training labels.
+/// Fitted classifier that predicts each channel as one of its training labels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ClassRegressor {
     channels: Channels,
@@ -90,7 +90,7 @@ impl ClassRegressor {
         }
     }
 
-    /// Number of classes, summed over channels.
+    /// Total number of classes over all channels.
     pub fn classes(&self) -> usize {
         self.planes.iter().map(|planes| planes.values.len()).sum()
     }

@@ -1,4 +1,4 @@
-//! Scatter of samples about their class means, shrunk so that it can be inverted for few samples.
+//! Scatter of samples about their class means, shrunk so that the matrix can be inverted for few samples.
 
 use std::ops::Range;
 
@@ -8,20 +8,20 @@ use taceva_core::{ModelError, Progress};
 use crate::linalg::progress::interrupted;
 use crate::linalg::{multiply, symmetric_eigen};
 
-/// Reads a range of samples, standardised if configured: `[features, samples]`.
+/// Function that reads a range of samples, standardised if configured, as a matrix of shape `[features, samples]`.
 pub(super) type Blocks<'a> = dyn Fn(Range<usize>) -> Mat<f64> + Sync + 'a;
 
-/// Samples per block.
+/// Number of samples per block.
 const BLOCK: usize = 1024;
 
-/// Block ranges of `samples` samples.
+/// Divides `samples` samples into block ranges.
 pub(super) fn ranges(samples: usize) -> impl Iterator<Item = Range<usize>> {
     (0..samples)
         .step_by(BLOCK)
         .map(move |start| start..samples.min(start + BLOCK))
 }
 
-/// Mean of each class. `None` for classes without samples.
+/// Mean of each class; `None` for a class without samples.
 pub(super) fn means(blocks: &Blocks<'_>, classes: &[usize]) -> Vec<Option<Vec<f64>>> {
     let count = classes.iter().max().map_or(0, |greatest| greatest + 1);
     let mut sums: Vec<(f64, Vec<f64>)> = vec![(0.0, Vec::new()); count];
@@ -45,7 +45,7 @@ pub(super) fn means(blocks: &Blocks<'_>, classes: &[usize]) -> Vec<Option<Vec<f6
         .collect()
 }
 
-/// Scatter of samples about their class means.
+/// Accumulated scatter of samples about their class means.
 pub(super) struct Scatter {
     covariance: Mat<f64>,
     samples: f64,
@@ -92,7 +92,7 @@ impl Scatter {
         })
     }
 
-    /// S*: the covariance, shrunk towards a multiple of the identity.
+    /// Shrunk covariance S*: moved towards a multiple of the identity.
     pub(super) fn shrunk(self) -> Mat<f64> {
         let mut covariance = self.covariance;
         let length = covariance.nrows();
@@ -115,7 +115,7 @@ impl Scatter {
     }
 }
 
-/// S*^(−½); the identity if samples do not scatter at all.
+/// Whitening matrix S*^(−½); the identity if all samples of a class are equal.
 pub(super) fn whitening(scatter: &Mat<f64>) -> Result<Mat<f64>, ModelError> {
     let length = scatter.nrows();
     let (values, vectors) = symmetric_eigen(scatter.as_ref())?;

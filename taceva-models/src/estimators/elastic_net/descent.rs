@@ -5,26 +5,25 @@ use taceva_core::{ModelError, Progress};
 use super::predictors::{Predictors, Residual, Target};
 use crate::linalg::progress::interrupted;
 
-/// Penalty on weights.
+/// Penalty on the weights of one channel.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Penalty<'a> {
-    /// Strengths, ascending, relative to the least penalty at which every weight is 0.
+    /// Strengths, ascending, as factors of the least penalty at which every weight is 0.
     pub(super) strengths: &'a [f64],
-    /// Share of the penalty on absolute values.
+    /// Share α of the penalty on absolute values.
     pub(super) mix: f64,
 }
 
-/// Maximum number of sweeps at one strength.
+/// Maximum number of sweeps over the weights at one strength.
 const SWEEPS: usize = 1000;
 
-/// Convergence threshold: largest change of a sweep relative to the variation of labels. Equals 1e-7 of their squares, as in the
-/// reference.
+/// Convergence threshold: largest change in one sweep relative to the variation of labels. Corresponds to about 1e-7 of squared labels, as in the reference.
 const ENOUGH: f64 = 3e-4;
 
 /// Computes the weights at each strength.
 ///
-/// Starts with the strongest penalty; every other strength starts from the previous weights. A strength ends if a sweep changes predictions by at
-/// most 0.0003 of the typical label, or after 1,000 sweeps.
+/// Starts with the strongest penalty. Every other strength starts from the weights of the previous strength. A strength ends if a sweep changes predictions by
+/// at most 0.0003 of the typical label, or after 1,000 sweeps.
 pub(super) fn path(
     predictors: &Predictors,
     target: Target<'_>,
@@ -99,7 +98,7 @@ mod tests {
     use taceva_core::random::SplitMix64;
     use taceva_core::{FeatureShape, Features, SilentProgress};
 
-    /// Samples of twelve features, with labels computed from two of them.
+    /// Test samples of twelve features, with labels computed from two of the features.
     fn problem(samples: usize) -> (Features, Vec<f64>) {
         let mut random = SplitMix64::new(9);
         let mut next = || f32::from(random.next_u64().to_le_bytes()[0]) / 255.0 - 0.5;

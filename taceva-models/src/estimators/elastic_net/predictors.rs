@@ -6,7 +6,7 @@ use taceva_core::{ModelError, Progress};
 use crate::linalg::invalid;
 use crate::linalg::{Design, dot, feature_gram};
 
-/// Features X of all samples, one column per feature.
+/// Centred features X of all samples, one column per feature.
 #[derive(Debug)]
 pub(super) struct Predictors {
     layout: Layout,
@@ -16,17 +16,18 @@ pub(super) struct Predictors {
 
 #[derive(Debug)]
 enum Layout {
-    /// XᵀX: a step reads one number per feature.
+    /// Gram matrix XᵀX. A coordinate step reads one number per feature.
     Gram(Mat<f64>),
-    /// X: a step reads one number per sample, twice.
+    /// Matrix X. A coordinate step reads one number per sample, twice.
     Columns(Mat<f64>),
 }
 
-/// Maximum number of features of a Gram matrix: 134 MB.
+/// Maximum number of features of a Gram matrix, which then takes 134 MB.
 const FEATURES_MAX: usize = 4096;
 
 impl Predictors {
-    /// Chooses columns for fewer than half as many samples as features, or if the Gram matrix is too large; otherwise the Gram matrix.
+    /// Chooses [`Columns`](Self::Columns) for fewer than half as many samples as features, or if the Gram matrix is too large. Otherwise chooses the Gram
+    /// matrix.
     ///
     /// # Errors
     /// [`ModelError`] if both samples and features are too many, or `progress` was cancelled.
@@ -73,7 +74,7 @@ impl Predictors {
     }
 }
 
-/// Labels to explain.
+/// Labels of one channel, which the weights are fitted to.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Target<'a> {
     /// Centred labels y of the samples.
@@ -108,7 +109,7 @@ impl<'a> Residual<'a> {
         residual
     }
 
-    /// Product of the residual with a feature.
+    /// Scalar product of the residual with the column of `feature`.
     pub(super) fn along(&self, feature: usize) -> f64 {
         match &self.predictors.layout {
             Layout::Gram(_) => self.values[feature],
@@ -116,7 +117,7 @@ impl<'a> Residual<'a> {
         }
     }
 
-    /// Updates the residual after an increase of the weight of `feature` by `step`.
+    /// Updates the residual after the weight of `feature` was increased by `step`.
     pub(super) fn follow(&mut self, feature: usize, step: f64) {
         let (Layout::Gram(columns) | Layout::Columns(columns)) = &self.predictors.layout;
         let places = self.values.iter_mut().zip(columns.col_as_slice(feature));

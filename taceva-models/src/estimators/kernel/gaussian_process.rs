@@ -1,4 +1,4 @@
-//! Gaussian process on landmarks, with settings of maximum likelihood.
+//! Gaussian process on landmarks, with settings chosen by maximum likelihood.
 
 use std::borrow::Cow;
 
@@ -23,10 +23,10 @@ use crate::training::regressor::ModelRegressor;
 
 /// Gaussian process regression in Nyström's form, with predictive standard deviations.
 ///
-/// Each channel has a signal of variance s² and noise of variance λs². Each channel gets the likeliest of 41 ratios λ from 10⁻⁸ to 10²,
-/// which determines s². The kernel length is common to all channels and maximises their joint likelihood. No samples are held out.
-/// With a validation part, the deviations of each channel are then scaled so that 95 % of it lie within 1.96 deviations. Unscaled
-/// deviations are too wide, because landmarks explain only part of the variance.
+/// Each channel has a signal of variance s² and noise of variance λs². The ratio λ of each channel is the likeliest of 41 values from 10⁻⁸ to 10², and
+/// determines s². The kernel length is common to all channels and maximises their joint likelihood. No samples are held out. With a validation part, the
+/// deviations of each channel are then scaled so that 95 % of the errors lie within 1.96 deviations. Unscaled deviations are too wide, because landmarks
+/// explain only part of the variance.
 ///
 /// # Reference
 /// C. E. Rasmussen, C. K. I. Williams, Gaussian Processes for Machine Learning, MIT Press 2006, eqs. 5.8 and 8.14, 8.15.
@@ -60,7 +60,7 @@ impl GaussianProcess {
     }
 }
 
-/// Fitted Gaussian process of one length.
+/// Gaussian process fitted with one kernel length.
 struct Fit {
     cost: f64,
     mapped: Mapped,
@@ -69,7 +69,7 @@ struct Fit {
 }
 
 impl Fit {
-    /// Validation error of each channel, and the factor by which its deviations must be multiplied to cover 95 %.
+    /// Validation error of each channel, and the factor by which the channel's deviations must be multiplied to cover 95 % of the errors.
     fn validated(
         &self,
         problem: &Problem<'_>,
@@ -221,7 +221,7 @@ impl ModelEstimator for GaussianProcess {
 }
 
 impl Problem<'_> {
-    /// Root mean square error of each channel in its unit. `found` has one row per sample of `part`.
+    /// Root mean square error of each channel, in the unit of the channel. `found` has one row of predictions per sample of `part`.
     pub(crate) fn errors_of(&self, found: &[f64], part: &Validation<'_>) -> Vec<Option<f64>> {
         let channels = self.channels();
         let of = |channel: usize| {

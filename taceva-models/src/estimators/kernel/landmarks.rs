@@ -1,4 +1,4 @@
-//! Landmarks: training samples with which every sample is compared.
+//! Selection of landmarks: training samples with which every sample is compared.
 
 use rayon::prelude::*;
 use taceva_core::{Features, ModelError, Progress};
@@ -8,32 +8,32 @@ use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::linalg::standard::Standard;
 use crate::linalg::{FeatureScale, dot};
 
-/// Kernel length for choosing landmarks.
+/// Kernel length used to choose landmarks.
 const LENGTH: f64 = 1.0;
 
-/// Unexplained share of a sample below which it cannot become a landmark: the rounding error of single precision.
+/// Unexplained share below which a sample cannot become a landmark. It equals the rounding error of single precision.
 pub(super) const EXPLAINED: f64 = 1e-5;
 
-/// Samples per task of a thread.
+/// Number of samples per task of a thread.
 const CHUNK: usize = 64;
 
-/// Training samples that explain the others, and the distances of all samples from them.
+/// Landmarks, and the distances of all training samples from them.
 ///
-/// Chosen by pivoted Cholesky: first the sample nearest to the mean, then always the least explained one. The choice is
-/// deterministic; the order of samples matters only between equals.
+/// Landmarks are chosen by pivoted Cholesky decomposition: first the sample nearest to the mean, then always the least explained sample. The choice is
+/// deterministic. The order of samples matters only between equally good samples.
 ///
 /// # Reference
 /// S. Fine, K. Scheinberg, J. Mach. Learn. Res. 2 (2001) 243.
 #[derive(Debug)]
 pub(super) struct Landmarks {
     pub(super) standard: Standard,
-    /// Summed variance D of the features.
+    /// Variance D, summed over the features.
     pub(super) variance: f64,
     /// Indices of the landmarks among the training samples.
     pub(super) chosen: Vec<usize>,
     /// Standardised landmarks, concatenated.
     pub(super) rows: Vec<f32>,
-    /// Squared distances, one row per training sample and one column per landmark.
+    /// Squared distances, with one row per training sample and one column per landmark.
     pub(super) distances: Vec<f32>,
 }
 
@@ -116,7 +116,7 @@ impl Landmarks {
     }
 }
 
-/// Rate 1 / 2ℓ²D.
+/// Rate 1 / 2ℓ²D, the factor of squared distances in the kernel.
 pub(super) fn rate(length: f64, variance: f64) -> f64 {
     0.5 / (length * length * variance)
 }
@@ -125,7 +125,7 @@ pub(super) fn kernel(squared_distance: f32, rate: f64) -> f64 {
     (-f64::from(squared_distance) * rate).exp()
 }
 
-/// Index of the first best value.
+/// Index of the best value; of equal values, the first.
 fn extreme(values: &[f64], better: impl Fn(f64, f64) -> bool) -> usize {
     let mut best = 0;
     for (position, &value) in values.iter().enumerate() {

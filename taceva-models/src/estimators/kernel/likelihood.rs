@@ -1,10 +1,10 @@
-//! Noise-to-signal ratio of maximum likelihood.
+//! Noise-to-signal ratio, chosen by maximum likelihood.
 
 use faer::Mat;
 
 use crate::linalg::Spectrum;
 
-/// Ratios to try, ascending.
+/// Candidate ratios, ascending.
 pub(super) fn ratios() -> Vec<f64> {
     (0..=40)
         .map(|step| 10_f64.powf(-8.0 + 0.25 * f64::from(step)))
@@ -22,7 +22,7 @@ pub(super) struct Likeliest {
     pub(super) signal: f64,
 }
 
-/// Finds the settings of each column of centred `labels`, given the spectrum of the centred features.
+/// Finds the likeliest settings for each column of centred `labels`, given the spectrum of the centred features.
 pub(super) fn likeliest(
     spectrum: &Spectrum<'_, '_>,
     rotated: &Mat<f64>,

@@ -1,4 +1,4 @@
-//! Nyström features: their products approximate the kernel.
+//! Nyström features: their scalar products approximate the kernel.
 
 use rayon::prelude::*;
 use taceva_core::{FeatureShape, Features, single};
@@ -8,30 +8,31 @@ use crate::linalg::distance::squared_distance;
 use crate::linalg::dot;
 use crate::linalg::standard::Standard;
 
-/// φ(x) = L⁻¹ k(x), with L Lᵀ the kernel matrix of the landmarks and k(x) their kernel with x. φ(x)ᵀφ(x') is Nyström's kernel.
+/// Feature map φ(x) = L⁻¹ k(x). L Lᵀ is the kernel matrix of the landmarks, and k(x) contains the kernel of x with each landmark. φ(x)ᵀφ(x') is Nyström's
+/// kernel.
 ///
 /// # Reference
 /// C. K. I. Williams, M. Seeger, NIPS 13 (2001) 682.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Nystrom {
     pub(super) standard: Standard,
-    /// Length ℓ, for the model card.
+    /// Kernel length ℓ, for the model card.
     pub(super) length: f64,
-    /// Rate 1 / 2ℓ²D.
+    /// Rate 1 / 2ℓ²D, the factor of squared distances in the kernel.
     pub(super) rate: f64,
-    /// Landmarks standardised by `standard`.
+    /// Landmarks, standardised by `standard`.
     pub(super) rows: Vec<f32>,
-    /// Lower triangle of L, row by row.
+    /// Lower triangle of the factor L, row by row.
     pub(super) factor: Vec<f64>,
-    /// Indices into `Landmarks::chosen`.
+    /// Indices into `Landmarks::chosen` of the landmarks in use.
     kept: Vec<usize>,
 }
 
-/// Samples per task of a thread.
+/// Number of samples per task of a thread.
 const CHUNK: usize = 16;
 
 impl Nystrom {
-    /// Keeps the landmarks that a kernel of this length can separate.
+    /// Builds the map from the landmarks that a kernel of this length can separate.
     pub(super) fn new(landmarks: &Landmarks, length: f64) -> Nystrom {
         let rate = rate(length, landmarks.variance);
         let width = landmarks.standard.centre().len();
@@ -61,7 +62,7 @@ impl Nystrom {
         }
     }
 
-    /// Builds the map from stored numbers of checked lengths.
+    /// Builds the map from stored numbers with checked lengths.
     pub(super) fn ready(
         standard: Standard,
         length: f64,
@@ -80,12 +81,12 @@ impl Nystrom {
         }
     }
 
-    /// Number of features: one per landmark.
+    /// Number of Nyström features, which is the number of landmarks.
     pub(super) fn len(&self) -> usize {
         self.kept.len()
     }
 
-    /// Features of the training samples, from known distances.
+    /// Nyström features of the training samples, from known distances.
     pub(super) fn of_training(&self, landmarks: &Landmarks) -> Features {
         let count = landmarks.chosen.len();
         let samples = landmarks.distances.par_chunks_exact(count);
@@ -101,7 +102,7 @@ impl Nystrom {
         self.features(values)
     }
 
-    /// Features of any samples.
+    /// Nyström features of any samples.
     pub(super) fn of(&self, features: &Features) -> Features {
         let width = self.standard.centre().len();
         let samples = features.values().par_chunks(CHUNK * width);
@@ -114,7 +115,7 @@ impl Nystrom {
         self.features(values)
     }
 
-    /// Features of a single sample.
+    /// Nyström features of a single sample.
     pub(super) fn of_one(&self, sample: &[f32]) -> Vec<f32> {
         let mut own = vec![0.0; sample.len()];
         self.standard.write(sample, &mut own);
@@ -134,7 +135,7 @@ impl Nystrom {
     }
 }
 
-/// L⁻¹ `values`, in place.
+/// Solves L x = `values` in place.
 fn substitute(factor: &[f64], values: &mut [f64]) {
     let mut start = 0;
     for position in 0..values.len() {

@@ -1,14 +1,14 @@
-//! Calibration of predictive deviations.
+//! Calibration of predictive standard deviations.
 
-/// Standard deviations that include 95 % of normal errors: the 97.5 % quantile.
+/// The 97.5 % quantile of the standard normal distribution. 95 % of normal errors are at most this many standard deviations.
 pub const NORMAL_95: f64 = 1.959_963_984_540_054;
 
-/// Fewest errors for a 95 % quantile.
+/// Minimum number of errors for a 95 % quantile.
 const ENOUGH: usize = 19;
 
-/// Factor of a channel's deviations, so that 95 % of held-out samples lie within 1.96 deviations.
+/// Factor for the deviations of a channel. After multiplication, 95 % of held-out samples lie within 1.96 deviations.
 ///
-/// `misses` are errors of held-out samples divided by their deviations. Returns 1 for too few samples or if the quantile is 0.
+/// `misses` are errors of held-out samples divided by their predicted deviations. Returns 1 for too few samples or if the quantile is 0.
 ///
 /// # Reference
 /// J. Lei et al., J. Am. Stat. Assoc. 113 (2018) 1094, sec. 5.2: split conformal intervals, weighted locally.

@@ -1,4 +1,4 @@
-//! Fitted kernel methods, linear in the features of their landmarks.
+//! Fitted kernel models, linear in their Nyström features.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -14,7 +14,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// A fitted kernel method.
+/// A fitted kernel model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct KernelRegressor {
     shape: FeatureShape,
@@ -23,7 +23,7 @@ pub struct KernelRegressor {
     uncertainty: Option<Uncertainty>,
 }
 
-/// Samples per task of a thread.
+/// Number of samples per task of a thread.
 const CHUNK: usize = 8;
 
 const CENTRE: &str = "kernel.centre";

@@ -15,10 +15,10 @@ use crate::training::regressor::ModelRegressor;
 
 use super::regressor::KernelRegressor;
 
-/// Kernel ridge regression on landmarks: [`Ridge`] on their features, with its choice of strength for each channel.
+/// Kernel ridge regression on landmarks: [`Ridge`] on Nyström features. [`Ridge`] chooses a strength for each channel.
 ///
-/// The kernel length is common to all channels. It has the least sum of squared errors relative to label ranges, on the samples that
-/// choose the strengths.
+/// The kernel length is common to all channels. The chosen length has the least sum of squared errors relative to label ranges, on the samples that also
+/// determine the strengths.
 ///
 /// # Reference
 /// C. Saunders, A. Gammerman, V. Vovk, ICML 1998, 515.
@@ -52,7 +52,7 @@ impl KernelRidge {
     }
 }
 
-/// Fits ridge regression at each length of `kernel` and returns the best fit with its map.
+/// Fits ridge regression at each length of `kernel`, and returns the best fit with its feature map.
 pub(super) fn fit_best(
     kernel: &Kernel,
     refit: bool,

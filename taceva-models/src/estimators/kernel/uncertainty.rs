@@ -4,23 +4,23 @@ use crate::linalg::dot;
 use crate::training::file::error::FormatError;
 use crate::training::file::tensors::{Raw, Tensors};
 
-/// Posterior of the weights of each channel.
+/// Posterior distribution of the weights of each channel.
 ///
-/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)), with φ in the second term centred like Φ. The terms are the variance not
-/// explained by landmarks, the uncertainty of the weights, and the noise λs² of a label and of the mean.
+/// Var(x) = s² ((1 − φᵀφ) + λ φᵀ(ΦᵀΦ + λ)⁻¹φ + λ (1 + 1/n)), with φ in the second term centred like Φ. The first term is the variance not explained by
+/// landmarks, the second the uncertainty of the weights. The third is the noise λs² of a label and of the mean.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Uncertainty {
-    /// Mean of Φ.
+    /// Mean of the rows of Φ.
     pub(super) centre: Vec<f64>,
     /// Eigenvectors of ΦᵀΦ, concatenated.
     pub(super) vectors: Vec<f64>,
-    /// Their eigenvalues.
+    /// Eigenvalues of ΦᵀΦ.
     pub(super) eigenvalues: Vec<f64>,
-    /// λ of each channel: noise variance divided by signal variance.
+    /// Ratio λ of each channel: noise variance divided by signal variance.
     pub(super) ratio: Vec<f64>,
-    /// s² of each channel, in its squared unit.
+    /// Signal variance s² of each channel, in the squared unit of the channel.
     pub(super) signal: Vec<f64>,
-    /// λ (1 + 1/n) of each channel.
+    /// Noise term λ (1 + 1/n) of each channel.
     pub(super) noise: Vec<f64>,
 }
 
@@ -32,7 +32,7 @@ const SIGNAL: &str = "posterior.signal";
 const NOISE: &str = "posterior.noise";
 
 impl Uncertainty {
-    /// Writes the standard deviation of each channel for a sample with features `mapped`.
+    /// Writes the standard deviation of each channel for a sample with Nyström features `mapped`.
     pub(super) fn write(&self, mapped: &[f32], into: &mut [f64]) {
         let own: f64 = mapped.iter().map(|&value| f64::from(value).powi(2)).sum();
         let centred: Vec<f64> = mapped
@@ -58,7 +58,7 @@ impl Uncertainty {
         }
     }
 
-    /// Scales the deviations of each channel by `reaches`.
+    /// Multiplies the deviations of each channel by its factor in `reaches`.
     pub(super) fn reaching(mut self, reaches: &[f64]) -> Uncertainty {
         let signals = self.signal.iter_mut().zip(reaches);
         signals.for_each(|(signal, reach)| *signal *= reach * reach);
@@ -78,7 +78,7 @@ impl Uncertainty {
         ]
     }
 
-    /// Reads the posterior from a file of `count` landmarks. `None` if the file has none.
+    /// Reads the posterior from a file of a model with `count` landmarks; `None` if the file contains no posterior.
     pub(super) fn from_tensors(
         tensors: &Tensors<'_>,
         count: usize,

@@ -1,4 +1,4 @@
-//! Adapters as tables: registry entry, numeric settings and library call.
+//! Adapters as tables of a registry entry, numeric settings and a library call.
 
 use taceva_core::{ModelError, TrainingSet};
 
@@ -17,29 +17,29 @@ pub(crate) struct Adapter {
     pub(crate) is_classifier: bool,
     /// Rejects training sets that the library does not support.
     pub(crate) check: fn(&TrainingSet<'_>) -> Result<(), ModelError>,
-    /// Fits the library's estimator with these settings.
+    /// Fits the library's estimator with these values of the settings.
     pub(crate) fit: fn(&Numbers<'_>, &LibraryTask<'_>) -> LoadedPredictor,
 }
 
-/// A numeric setting.
+/// A numeric setting of an adapter.
 pub(crate) struct Number {
     pub(crate) info: SettingInfo,
-    /// Smallest and largest value.
+    /// Smallest and largest valid value.
     pub(crate) range: [f64; 2],
     pub(crate) is_whole: bool,
     pub(crate) unset: Unset,
 }
 
-/// Default of a numeric setting.
+/// Value of a numeric setting that the user did not set.
 #[derive(Clone, Copy)]
 pub(crate) enum Unset {
-    /// Fixed value.
+    /// A fixed value.
     Is(f64),
-    /// Candidate values; for each channel the one with the smallest held-out error is used. Simplest last.
+    /// Candidate values, simplest last. Each channel uses the value with the smallest held-out error.
     ChosenAmong(&'static [f64]),
 }
 
-/// Values of an adapter's settings. `None` for a setting chosen by held-out error.
+/// Values of an adapter's settings; `None` for a setting chosen by held-out error.
 pub(crate) struct Numbers<'a> {
     adapter: &'a Adapter,
     values: &'a [Option<f64>],
@@ -71,7 +71,7 @@ impl Adapter {
 }
 
 impl Number {
-    /// Value in `settings`. `None` if it is chosen by held-out error.
+    /// Value in `settings`; `None` if the value is chosen by held-out error.
     fn of(&self, settings: &ModelSettings) -> Result<Option<f64>, SettingError> {
         let [least, greatest] = self.range;
         let read = |text: &str| {
@@ -90,7 +90,7 @@ impl Number {
 }
 
 impl Numbers<'_> {
-    /// Value of a setting; NaN if it is chosen by held-out error.
+    /// Value of a setting; NaN if the value is chosen by held-out error.
     pub(crate) fn real(&self, number: &Number) -> f64 {
         let mut numbers = self.adapter.numbers.iter();
         let place = numbers.position(|known| known.info.key == number.info.key);
@@ -110,7 +110,7 @@ impl Numbers<'_> {
     }
 }
 
-/// An adapter with its settings.
+/// An adapter with the values of its settings.
 struct Learner {
     adapter: &'static Adapter,
     settings: LibrarySettings,

@@ -6,22 +6,22 @@ use taceva_core::{ErrorKind, Features, ModelError};
 use super::task::LibraryPredictor;
 use crate::linalg::standard::Standard;
 
-/// Fit of a library on some rows.
+/// Library model fitted on some rows.
 pub(super) struct Fitted {
-    /// Standardisation of all features.
+    /// Standardisation applied to all features.
     pub(super) standard: Standard,
     /// Indices of the features passed to the predictor, ascending.
     pub(super) kept: Vec<usize>,
     /// Indices of the channels that the predictor predicts, ascending.
     pub(super) live: Vec<usize>,
-    /// Constant added to the predictions. For other channels, the whole prediction.
+    /// Constant of each channel, added to the predictions. It is the whole prediction of channels outside `live`.
     pub(super) base: Vec<f64>,
-    /// `None` if no feature or no label varies.
+    /// Predictor of the library; `None` if no feature or no label varies.
     pub(super) predictor: Option<Box<dyn LibraryPredictor>>,
 }
 
 impl Fitted {
-    /// Predicts every sample of `features`, in the scale of the training labels, one row per sample.
+    /// Predicts every sample of `features`, with one row per sample. Predictions have the scale of the training labels.
     pub(super) fn predict(&self, features: &Features) -> Result<Mat<f64>, ModelError> {
         let mut found = Mat::from_fn(features.samples(), self.base.len(), |_, channel| {
             self.base[channel]

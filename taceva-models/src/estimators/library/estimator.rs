@@ -1,4 +1,4 @@
-//! Adapter from library estimators to [`ModelEstimator`], with the same checks, trials and scaling as other models.
+//! Adapter from library estimators to [`ModelEstimator`], with the same checks, trials and scaling as models of this crate.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -19,7 +19,7 @@ pub(crate) struct LibraryEstimator {
 }
 
 impl LibraryEstimator {
-    /// Summed squared error of each channel for each of `tried` values of the setting. Infinite if the library fails.
+    /// Summed squared error of each channel for each value in `tried`. Infinite if the library fails.
     fn squares(
         &self,
         trials: &Trials<'_>,
@@ -121,7 +121,7 @@ impl ModelEstimator for LibraryEstimator {
     }
 }
 
-/// Labels of both parts in their units, one row per sample.
+/// Labels of the training and held-out part in their units, one row per sample.
 fn as_given(training: &TrainingSet<'_>, held: Option<&TrainingSet<'_>>) -> Mat<f64> {
     let channels = training.targets.channels.len();
     let values = held.map_or(&[][..], |held| held.targets.values);

@@ -9,7 +9,7 @@ use super::task::{LibrarySizes, LibraryTask};
 use crate::linalg::progress::interrupted;
 use crate::linalg::standard::Standard;
 
-/// Fits `learner` on `features` and `labels`, one row per sample. `values` are those of the chosen setting, one per channel.
+/// Fits `learner` on `features` and `labels`, one row per sample. `values` contains the chosen setting of each channel.
 pub(super) fn fit(
     learner: &dyn LibraryLearner,
     features: &Features,

@@ -1,13 +1,13 @@
-//! Converts panics of linfa and smartcore to errors, without printing them.
+//! Converts panics of linfa and smartcore to errors, without printing the panic message.
 
 use std::fmt::Display;
 
 use taceva_core::{ErrorKind, ModelError, contained};
 
-/// Runs a library `call` for the model `name`.
+/// Runs `call` into a library for the model `name`.
 ///
 /// # Errors
-/// [`ModelError`] of kind `InvalidArgument` if the library fails, of kind `Panicked` if it panics. Both name the model.
+/// [`ModelError`] of kind `InvalidArgument` if the library fails, of kind `Panicked` if the library panics. Both errors name the model.
 pub(crate) fn guarded<T, E: Display>(
     name: &str,
     call: impl FnOnce() -> Result<T, E>,

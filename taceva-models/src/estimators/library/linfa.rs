@@ -1,4 +1,4 @@
-//! Models of linfa: each passes a checked task to the library and stores the fit as tensors.
+//! Models of linfa. Each adapter passes a checked task to the library and stores the fit as tensors.
 
 mod elastic_net;
 mod linear;
@@ -11,10 +11,10 @@ use taceva_core::{ErrorKind, ModelError};
 
 use crate::estimators::library::{LibraryModel, LibraryTask};
 
-/// Release in use.
+/// Release of linfa in this build.
 const RELEASE: &str = "linfa 0.8.1";
 
-/// All models, the simplest first.
+/// All models of linfa, the simplest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
     &linear::ADAPTER.model,
     &pls::ADAPTER.model,
@@ -23,7 +23,7 @@ pub(crate) const ALL: &[&LibraryModel] = &[
     &logistic::ADAPTER.model,
 ];
 
-/// Reshapes `values` to a matrix of `rows` rows.
+/// Converts `values`, stored row by row, to a matrix with `rows` rows.
 fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
     let columns = values.len() / rows.max(1);
     Array2::from_shape_vec((rows, columns), values.to_vec()).map_err(|error| {
@@ -31,12 +31,12 @@ fn matrix(values: &[f64], rows: usize) -> Result<Array2<f64>, ModelError> {
     })
 }
 
-/// Rows of a task.
+/// Rows of a task as a matrix.
 fn records(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     matrix(task.rows, task.sizes.samples)
 }
 
-/// Rows of a task in column-major order, for methods that process features one by one.
+/// Rows of a task as a matrix in column-major order, for methods that process features one by one.
 fn columns(task: &LibraryTask<'_>) -> Result<Array2<f64>, ModelError> {
     let (samples, features) = (task.sizes.samples, task.sizes.features);
     let by_column = (0..features).flat_map(|feature| {

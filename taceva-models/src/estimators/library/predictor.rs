@@ -1,4 +1,4 @@
-//! Predictors of library models: parameters as tensors, and prediction by our code in a fixed order of operations.
+//! Predictors of library models. Parameters are stored as tensors, and this crate computes predictions in a fixed order of operations.
 
 mod linear;
 #[cfg(feature = "linfa")]
@@ -15,7 +15,7 @@ pub(crate) use self::support::{Machine, Support};
 pub(crate) use self::trees::{Node, Tree, Trees};
 use taceva_core::{ErrorKind, ModelError};
 
-/// Error for tensors that no fit produces.
+/// Error for tensors that no fit can produce.
 pub(crate) fn damaged(why: &str) -> ModelError {
     ModelError::new(ErrorKind::Protocol, why)
 }

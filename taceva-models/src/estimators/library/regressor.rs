@@ -64,12 +64,12 @@ impl LibraryRegressor {
         }
     }
 
-    /// Library and release that fitted the model.
+    /// Card entry with the library and release that fitted the model.
     pub fn card(&self) -> &LibraryCard {
         &self.card
     }
 
-    /// Loads the model from a file. The build must include its library.
+    /// Loads the model from a file. The build must include the library of the model.
     pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let card = stored.card.library.as_ref().ok_or(FormatError::Card)?;
         let model = library_models().find(|model| model.info.name == stored.card.model);

@@ -3,7 +3,7 @@
 use crate::linalg::FeatureScale;
 use crate::settings::{ModelSettings, SettingError, SettingInfo};
 
-/// Feature scaling and refit.
+/// Values of the shared settings: feature scaling and refit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LibrarySettings {
     pub(crate) scale: FeatureScale,
@@ -11,9 +11,9 @@ pub(crate) struct LibrarySettings {
 }
 
 impl LibrarySettings {
-    /// Division of each feature by its standard deviation over the training part.
+    /// Setting that divides each feature by its standard deviation over the training part.
     pub(crate) const SCALE: SettingInfo = FeatureScale::SETTING;
-    /// Refit on training and validation parts with the chosen settings.
+    /// Setting that refits on training and validation parts with the chosen settings.
     pub(crate) const REFIT: SettingInfo = SettingInfo::REFIT;
 
     /// Reads the settings.

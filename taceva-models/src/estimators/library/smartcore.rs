@@ -1,4 +1,4 @@
-//! Models of smartcore: each passes a checked task to the library and stores the fit as tensors.
+//! Models of smartcore. Each adapter passes a checked task to the library and stores the fit as tensors.
 
 mod boosting;
 mod forest;
@@ -13,10 +13,10 @@ use taceva_core::ModelError;
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::{LibraryModel, LibraryTask};
 
-/// Release in use.
+/// Release of smartcore in this build.
 const RELEASE: &str = "smartcore 0.7.0";
 
-/// All models, the simplest first.
+/// All models of smartcore, the simplest first.
 pub(crate) const ALL: &[&LibraryModel] = &[
     &ridge::ADAPTER.model,
     &lasso::ADAPTER.model,
@@ -27,7 +27,7 @@ pub(crate) const ALL: &[&LibraryModel] = &[
     &boosting::ADAPTER.model,
 ];
 
-/// Reshapes `values` to a matrix of `rows` rows, in column-major order for the library.
+/// Converts `values` to a matrix with `rows` rows, in column-major order for the library.
 fn matrix(name: &str, values: &[f64], rows: usize) -> Result<DenseMatrix<f64>, ModelError> {
     let columns = values.len() / rows.max(1);
     let by_column = (0..columns).flat_map(|column| {
@@ -39,7 +39,7 @@ fn matrix(name: &str, values: &[f64], rows: usize) -> Result<DenseMatrix<f64>, M
     })
 }
 
-/// Rows of a task.
+/// Rows of a task as a matrix.
 fn records(name: &str, task: &LibraryTask<'_>) -> Result<DenseMatrix<f64>, ModelError> {
     matrix(name, task.rows, task.sizes.samples)
 }

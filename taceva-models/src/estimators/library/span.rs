@@ -1,28 +1,28 @@
-//! Coordinates of samples in their span, for no more samples than features.
+//! Coordinates of samples in their span, used if there are no more samples than features.
 //!
-//! Rotating the features does not change ridge regression or the least-norm solution of least squares. Weights outside the span of the samples
-//! are zero. There are fewer span coordinates than samples. A library that needs more samples than features therefore gives the same result in
-//! these coordinates.
+//! A rotation of the features does not change ridge regression or the least-norm solution of least squares. The weights have no component outside the span of
+//! the samples. There are fewer span coordinates than samples. A library that needs more samples than features therefore gives the same result in these
+//! coordinates.
 
 use crate::estimators::library::predictor::Weighted;
 use crate::linalg::dot;
 
-/// Orthonormal basis of the span of rows about their mean, and the rows in this basis.
+/// Orthonormal basis of the span of rows about their mean, and the coordinates of the rows in this basis.
 pub(crate) struct Span {
-    /// Mean row, `[features]`.
+    /// Mean row, shape `[features]`.
     centre: Vec<f64>,
-    /// Orthonormal vectors, `[dimensions, features]`.
+    /// Orthonormal vectors, shape `[dimensions, features]`.
     basis: Vec<f64>,
     features: usize,
-    /// Coordinates of the rows, `[samples, dimensions]`.
+    /// Coordinates of the rows, shape `[samples, dimensions]`.
     pub(crate) rows: Vec<f64>,
 }
 
-/// Relative length of a row's remainder after projection, compared to the longest row, up to which the row adds no direction.
+/// Largest remainder of a row after projection, relative to the longest row, for which the row adds no direction.
 const TOLERANCE: f64 = 1e-10;
 
 impl Span {
-    /// Computes the span of `rows`, `[samples, features]`, by Gram–Schmidt with each projection done twice.
+    /// Computes the span of `rows`, shape `[samples, features]`, by the Gram–Schmidt method with every projection done twice.
     pub(crate) fn new(rows: &[f64], features: usize) -> Span {
         // Single-precision rows are centred only up to rounding, which would add a dimension.
         let centre = mean(rows, features);
@@ -75,7 +75,7 @@ impl Span {
     }
 }
 
-/// Mean of `rows`.
+/// Mean row of `rows`.
 fn mean(rows: &[f64], features: usize) -> Vec<f64> {
     let samples = (rows.len() / features) as f64;
     let mut mean = vec![0.0; features];

@@ -4,10 +4,10 @@ use taceva_core::{ModelError, Progress};
 
 use crate::training::file::tensors::Raw;
 
-/// Sizes of a library fit.
+/// Numbers of samples, features and targets of a library fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct LibrarySizes {
-    /// Training samples; 0 for a loaded model.
+    /// Number of training samples; 0 for a loaded model.
     pub(crate) samples: usize,
     /// Number of varying features.
     pub(crate) features: usize,
@@ -16,7 +16,7 @@ pub(crate) struct LibrarySizes {
 }
 
 impl LibrarySizes {
-    /// Numbers of samples, features and targets, for estimates of work.
+    /// Numbers of samples, features and targets as `f64`, for estimates of work.
     pub(crate) fn real(self) -> [f64; 3] {
         [self.samples, self.features, self.targets].map(|size| size as f64)
     }
@@ -27,13 +27,13 @@ impl LibrarySizes {
 pub(crate) struct LibraryTask<'a> {
     /// Numbers of samples, features and targets.
     pub(crate) sizes: LibrarySizes,
-    /// `[samples, features]`, centred and scaled. Each value is exact in single precision.
+    /// Feature values, shape `[samples, features]`, centred and scaled. Each value is exact in single precision.
     pub(crate) rows: &'a [f64],
-    /// `[samples, targets]`: labels scaled to 0..1 by the training part and centred. Unscaled for classes.
+    /// Labels, shape `[samples, targets]`, scaled to 0..1 by the training part and centred. Unscaled for classifiers.
     pub(crate) labels: &'a [f64],
-    /// `[targets]`: value of the setting chosen by error for each target. Empty without such a setting.
+    /// Value of the chosen setting, shape `[targets]`. Empty if no setting is chosen by error.
     pub(crate) values: &'a [f64],
-    /// Progress receiver, which may cancel between library calls.
+    /// Progress receiver, which may cancel the fit between library calls.
     pub(crate) progress: &'a dyn Progress,
 }
 
@@ -59,5 +59,5 @@ pub(crate) trait LibraryPredictor: Send + Sync {
     fn predict(&self, sample: &[f32], into: &mut [f64]) -> Result<(), ModelError>;
 }
 
-/// Loaded predictor, or the error of its tensors.
+/// Loaded predictor, or the error found in the tensors.
 pub(crate) type LoadedPredictor = Result<Box<dyn LibraryPredictor>, ModelError>;

@@ -1,4 +1,4 @@
-//! Parameters of library models as prefixed tensors of a model file.
+//! Stores parameters of library models as prefixed tensors of a model file.
 
 use safetensors::tensor::{Dtype, TensorView};
 use taceva_core::{ErrorKind, ModelError};
@@ -16,11 +16,11 @@ pub(super) fn prefixed(tensor: Raw) -> Raw {
     }
 }
 
-/// Tensors of a library model in a file, accessed without the prefix.
+/// Tensors of a library model in a file. Names are given without the prefix.
 pub(crate) struct LibraryTensors<'a>(pub(super) &'a Tensors<'a>);
 
 impl<'a> LibraryTensors<'a> {
-    /// First dimension of the tensor `name`.
+    /// Size of the first dimension of the tensor `name`.
     ///
     /// # Errors
     /// [`ModelError`] of kind `Protocol` if the tensor is missing or a scalar.
@@ -29,7 +29,7 @@ impl<'a> LibraryTensors<'a> {
         rows.ok_or_else(|| wrong(name, "rows"))
     }
 
-    /// Values of the f64 tensor `name`, all finite.
+    /// Values of the f64 tensor `name`. All values are finite.
     ///
     /// # Errors
     /// [`ModelError`] of kind `Protocol` if the tensor is missing, of another type or shape, or not finite.
@@ -44,7 +44,7 @@ impl<'a> LibraryTensors<'a> {
             .ok_or_else(|| wrong(name, expected))
     }
 
-    /// Values of the f32 tensor `name`, all finite.
+    /// Values of the f32 tensor `name`. All values are finite.
     ///
     /// # Errors
     /// [`ModelError`] of kind `Protocol` if the tensor is missing, of another type or shape, or not finite.

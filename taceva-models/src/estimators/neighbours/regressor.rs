@@ -1,4 +1,4 @@
-//! Nearest-neighbour models: stored training samples and their weighted mean.
+//! Nearest-neighbour models: stored training samples, and their weighted mean label.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -21,7 +21,7 @@ pub struct NeighbourRegressor {
     standard: Standard,
     /// Standardised training samples, concatenated.
     rows: Vec<f32>,
-    /// Centred, scaled labels: one row per training sample, one column per channel.
+    /// Labels, centred and scaled, with one row per training sample and one column per channel.
     labels: Vec<f64>,
     scale: OutputScale,
     counts: Vec<usize>,
@@ -35,14 +35,14 @@ const OFFSET: &str = "neighbours.offset";
 const ROWS: &str = "neighbours.samples";
 const SPAN: &str = "neighbours.span";
 
-/// Neighbour of a sample.
+/// A training sample near a sample, with its distance.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near {
     distance: f32,
     sample: usize,
 }
 
-/// Nearest `count` rows of `sample` and all at the distance of the last, nearest first.
+/// Finds the `count` rows nearest to `sample`, and all rows as near as the last of them. Sorted by distance.
 pub(super) fn nearest(sample: &[f32], rows: &[f32], count: usize) -> Vec<Near> {
     let rows = rows.chunks_exact(sample.len()).enumerate();
     let mut all: Vec<Near> = rows
@@ -65,7 +65,7 @@ pub(super) fn nearest(sample: &[f32], rows: &[f32], count: usize) -> Vec<Near> {
     all
 }
 
-/// Mean of `label` over the first `count` of `near` and all at the distance of the last, weighted by 1 / distance.
+/// Mean of `label` over the first `count` neighbours of `near`, weighted by 1 / distance. Includes all neighbours as near as the last of them.
 pub(super) fn weighted(near: &[Near], count: usize, label: impl Fn(usize) -> f64) -> f64 {
     let farthest = near[count.min(near.len()) - 1].distance;
     let inside = near.iter().take_while(|near| near.distance <= farthest);

@@ -1,4 +1,4 @@
-//! Preprocessing and augmentation of pictures for a network, depending on their signal: moving markers, or light.
+//! Preprocessing and augmentation of pictures for a network. Both depend on the kind of signal in the pictures: moving markers, or light.
 
 use taceva_core::FeatureShape;
 use taceva_network::Jitter;
@@ -6,29 +6,29 @@ use taceva_network::Jitter;
 use crate::features::Preprocessing;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// Signal of a picture.
+/// Kind of signal in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Appearance {
-    /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures.
-    /// Widths are taken from [`USUAL`], in proportion to the picture's width.
+    /// Moving markers: subtracts a local mean, divides each picture by its standard deviation, and shifts training pictures. Widths are those of [`USUAL`], in
+    /// proportion to the picture's width.
     Markers,
     /// Light and position: pictures are unchanged.
     Light,
-    /// Light for pictures with several values per cell, such as colour; markers otherwise.
+    /// `Light` for pictures with several values per cell, such as colour. `Markers` for other pictures.
     ByPicture,
 }
 
-/// Preprocessing and augmentation of pictures.
+/// Resolved preprocessing and augmentation of pictures.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Prepared {
     pub(super) preprocessing: Preprocessing,
-    /// Largest shift of training pictures.
+    /// Largest shift of training pictures, in pixels.
     pub(super) jitter_px: usize,
     /// Standard deviation of the noise added to training pictures, after preprocessing.
     pub(super) noise: f64,
 }
 
-/// Default settings.
+/// Default settings for pictures with `USUAL_WIDTH` columns.
 const USUAL: Prepared = Prepared {
     preprocessing: Preprocessing {
         local_mean_px: 6.0,
@@ -38,7 +38,7 @@ const USUAL: Prepared = Prepared {
     noise: 0.1,
 };
 
-/// Columns of pictures to which [`USUAL`] applies.
+/// Number of picture columns to which [`USUAL`] applies.
 const USUAL_WIDTH: usize = 128;
 
 /// Settings that leave pictures unchanged.
@@ -51,7 +51,7 @@ const AS_THEY_ARE: Prepared = Prepared {
     noise: 0.0,
 };
 
-/// Settings given by the user.
+/// Preprocessing and augmentation as set by the user.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Preparation {
     appearance: Option<Appearance>,
@@ -117,7 +117,7 @@ impl Preparation {
         })
     }
 
-    /// Settings for signals. Mean, contrast and position of taxels carry the touch itself, so signals are changed only on request.
+    /// Settings for signals. The mean, contrast and position of taxels depend on the touch, so signals are changed only if the user requests it.
     pub(super) fn of_signals(self) -> Preparation {
         Preparation {
             of_signals: true,
@@ -125,7 +125,7 @@ impl Preparation {
         }
     }
 
-    /// Resolves the settings for pictures of `shape`.
+    /// Resolves the user's settings for pictures of `shape`.
     pub(super) fn of(self, shape: FeatureShape) -> Prepared {
         let usual = match self.appearance {
             _ if self.of_signals => Prepared {
@@ -153,7 +153,7 @@ impl Preparation {
 }
 
 impl Prepared {
-    /// Shifts of training pictures, which do not change labels.
+    /// Random shifts of training pictures. The labels remain unchanged.
     pub(super) fn jitter(&self) -> Jitter {
         Jitter {
             pixels: self.jitter_px,
@@ -162,7 +162,7 @@ impl Prepared {
     }
 }
 
-/// [`USUAL`] in proportion to `width`.
+/// Settings of [`USUAL`], scaled in proportion to `width`.
 fn markers(width: usize) -> Prepared {
     let share = width as f64 / USUAL_WIDTH as f64;
     Prepared {
@@ -182,7 +182,7 @@ fn markers(width: usize) -> Prepared {
 mod tests {
     use super::*;
 
-    /// Local mean, contrast, jitter and noise of pictures of this width and depth.
+    /// Local mean, contrast, jitter and noise resolved for pictures of this width and depth.
     fn of(words: &[&str], width: usize, depth: usize) -> (f64, bool, usize, f64) {
         let settings = ModelSettings::parse(words.iter().copied()).expect("pairs");
         let preparation = Preparation::from_settings(&settings).expect("valid");

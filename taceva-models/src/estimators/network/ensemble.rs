@@ -1,4 +1,4 @@
-//! Ensembles: mean of small networks with different seeds.
+//! Ensembles: average the predictions of small networks with different seeds.
 
 mod regressor;
 
@@ -30,7 +30,7 @@ const MEMBERS: SettingInfo = SettingInfo {
 
 const OF_EACH: &[SettingInfo] = NetworkEstimator::CNN.settings;
 
-/// Settings of the small network, and the number of members.
+/// Settings in the registry: those of the small network, and the number of members.
 const SETTINGS: [SettingInfo; OF_EACH.len() + 1] = {
     let mut all = [MEMBERS; OF_EACH.len() + 1];
     let mut at = 0;

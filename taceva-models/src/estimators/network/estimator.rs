@@ -12,17 +12,16 @@ use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 use crate::training::checkpoint::Checkpoints;
 use crate::training::info::ModelInfo;
 
-/// Unfitted network. Training uses AdamW, one cycle of the rate, Huber's loss on standardised labels, and the epoch of least
-/// validation error.
+/// Unfitted network. Training uses AdamW, a one-cycle learning rate, Huber's loss on standardised labels, and the epoch of least validation error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NetworkEstimator {
     kind: Kind,
-    /// Training settings, without noise and shifts, which [`preparation`](Self::preparation) holds.
+    /// Training settings, except noise and shifts, which are in [`preparation`](Self::preparation).
     recipe: Recipe,
     preparation: Preparation,
-    /// Form of convolutions for predictions.
+    /// Algorithm of convolutions for predictions.
     pub(super) convolutions: ConvolutionForm,
-    /// Kind of GPU that trains. `None` for the CPU.
+    /// Kind of GPU for training; `None` for the CPU.
     pub(super) gpu: Option<GpuKind>,
     pub(super) checkpoints: Option<Checkpoints>,
 }
@@ -109,7 +108,7 @@ const SETTINGS: &[SettingInfo] = &{
     ]
 };
 
-/// Fewest cells along a side of a grid: each of five layers halves it.
+/// Minimum number of cells along a side of the grid. Each of the five layers halves this number.
 const PLACES_LEAST: u32 = 8;
 
 /// Default features of networks.
@@ -215,7 +214,7 @@ impl NetworkEstimator {
         })
     }
 
-    /// Adapts the estimator to signals of `info`.
+    /// Adapts the estimator to signals described by `info`.
     pub(super) fn for_signals(&self, info: SignalInfo) -> Result<NetworkEstimator, FeatureError> {
         if info.rows.min(info.columns) < PLACES_LEAST {
             let least = PLACES_LEAST;
@@ -235,7 +234,7 @@ impl NetworkEstimator {
         (recipe, prepared.preprocessing)
     }
 
-    /// Copy with a changed recipe.
+    /// Copy of the estimator with a recipe modified by `change`.
     pub(super) fn with_recipe(&self, change: impl FnOnce(&mut Recipe)) -> NetworkEstimator {
         let mut own = self.clone();
         change(&mut own.recipe);
@@ -259,7 +258,7 @@ impl NetworkEstimator {
     }
 }
 
-/// Parses a form of convolutions.
+/// Parses the algorithm of convolutions; `None` for an unknown word.
 fn form_of(word: &str) -> Option<ConvolutionForm> {
     match word {
         "winograd" => Some(ConvolutionForm::Winograd),
@@ -269,7 +268,7 @@ fn form_of(word: &str) -> Option<ConvolutionForm> {
     }
 }
 
-/// Parses a device. `Some(None)` is the CPU, `None` an unknown device.
+/// Parses a device. `Some(None)` is the CPU; `None` is an unknown device.
 fn gpu_of(device: &str) -> Option<Option<GpuKind>> {
     if device == "cpu" {
         return Some(None);

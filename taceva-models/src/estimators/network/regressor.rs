@@ -18,13 +18,13 @@ use crate::training::file::limits::FILE_MAX;
 use crate::training::file::tensors::{DISTANCE, Raw, Tensors};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Fitted network from features to channels.
+/// Fitted network that predicts channels from features.
 #[derive(Debug)]
 pub struct NetworkRegressor {
     channels: Channels,
     card: NetworkCard,
     network: Network,
-    /// Idle predictors: each call takes one or builds one.
+    /// Idle predictors for reuse. Each prediction takes one, or builds one if none is idle.
     spare: Mutex<Vec<Predictor>>,
 }
 
@@ -32,7 +32,7 @@ impl NetworkRegressor {
     /// Builds a regressor from a network.
     ///
     /// # Errors
-    /// [`ModelError`] if card, network and channels do not match.
+    /// [`ModelError`] if card, network and channels do not match each other.
     pub(crate) fn new(
         channels: Channels,
         card: NetworkCard,
@@ -74,7 +74,7 @@ impl NetworkRegressor {
         &self.card
     }
 
-    /// Tensors, with torchvision's names for residual networks.
+    /// Tensors of the network. Residual networks use torchvision's tensor names.
     pub fn tensors(&self) -> Vec<NamedTensor> {
         self.network.tensors()
     }
@@ -87,7 +87,7 @@ impl NetworkRegressor {
         Ok(ModelRegressor::new(own))
     }
 
-    /// Builds the network from tensors of a file and its card.
+    /// Builds the network from its card and the tensors of a file.
     pub(super) fn of_tensors(
         stored: &Stored<'_>,
         card: &NetworkCard,
@@ -107,7 +107,7 @@ impl NetworkRegressor {
         Ok(NetworkRegressor::new(channels, card.clone(), ready)?)
     }
 
-    /// Computes the outputs for preprocessed pictures.
+    /// Computes the network outputs for preprocessed pictures.
     fn outputs(&self, pictures: &[f32], into: &mut [f64]) -> Result<(), ModelError> {
         let spare = || {
             self.spare
@@ -134,7 +134,7 @@ impl Clone for NetworkRegressor {
     }
 }
 
-/// Picture shape of features.
+/// Shape of the picture that the features form.
 pub(super) const fn picture(shape: FeatureShape) -> Picture {
     Picture {
         height: shape.height,
@@ -143,7 +143,7 @@ pub(super) const fn picture(shape: FeatureShape) -> Picture {
     }
 }
 
-/// All tensors of a file except those of the training distance. They must be f32.
+/// All tensors of a file except those of the training distance. All must be of type f32.
 pub(super) fn named_tensors(tensors: &Tensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
     let all = tensors.0.tensors().into_iter();
     let own = all.filter(|(name, _)| !DISTANCE.contains(&name.as_str()));

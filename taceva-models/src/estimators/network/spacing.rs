@@ -9,12 +9,12 @@ use super::training::{Training, no_gpu, refused};
 use crate::features::Preprocessing;
 use crate::linalg::invalid;
 
-/// Kind of output for spacings.
+/// Kind of network output for spacings.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SpacingOutput {
-    /// One output per spacing of the training pictures, trained with cross entropy. Predicts one of these spacings.
+    /// One output per spacing of the training pictures, trained with cross entropy. The network predicts one of these spacings.
     Classes,
-    /// One output, the spacing, trained with Huber's loss. Predictions may lie between training spacings.
+    /// A single output, the spacing, trained with Huber's loss. Predictions may lie between training spacings.
     Length,
 }
 
@@ -23,7 +23,7 @@ pub enum SpacingOutput {
 pub struct SpacingNetwork {
     shape: FeatureShape,
     preprocessing: Preprocessing,
-    /// `None` if all training pictures have the same spacing.
+    /// Network and label scale; `None` if all training pictures have the same spacing.
     network: Option<(Network, LabelScale)>,
     output: SpacingOutput,
     /// Spacings of the training pictures, ascending.
@@ -31,12 +31,13 @@ pub struct SpacingNetwork {
 }
 
 impl NetworkEstimator {
-    /// Fits a network to the grating spacing of each of `pictures`, with the settings of this estimator.
+    /// Fits a network that predicts the grating spacing of each of `pictures`, with the settings of this estimator.
     ///
     /// # Shapes
-    /// `spacings`: `[samples]`.
+    /// `spacings`: `[samples]`, one per picture.
     /// # Errors
-    /// [`ModelError`] without pictures or for another number of spacings; otherwise as [`Estimator::fit`](taceva_core::Estimator::fit).
+    /// [`ModelError`] without pictures, or if the number of spacings differs from the number of pictures. Otherwise as
+    /// [`Estimator::fit`](taceva_core::Estimator::fit).
     pub fn fit_spacings(
         &self,
         pictures: &Features,
@@ -106,7 +107,7 @@ fn recipe_of(recipe: Recipe, output: SpacingOutput, samples: usize) -> Recipe {
     }
 }
 
-/// Spacings as labels.
+/// Spacings as labels of a network.
 struct Learnt {
     classes: Vec<u32>,
     lengths: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Training runs, with resumption after an interruption.
+//! Training of networks, which can resume after an interruption.
 
 use taceva_core::shown;
 use taceva_core::{ErrorKind, ModelError, Progress};
@@ -15,14 +15,14 @@ pub(super) struct Training<'a> {
     pub(super) recipe: &'a Recipe,
     pub(super) samples: Samples<'a>,
     pub(super) validation: Option<Samples<'a>>,
-    /// GPU that trains. `None` for the CPU.
+    /// GPU for training; `None` for the CPU.
     pub(super) gpu: Option<&'a Gpu>,
-    /// Checkpoints of the run.
+    /// Checkpoints of the run; `None` if checkpoints are disabled.
     pub(super) checkpoints: Option<&'a Checkpoints>,
 }
 
 impl<'a> Training<'a> {
-    /// Runs all remaining steps and reports progress after each.
+    /// Runs all remaining training steps, and reports progress after each step.
     pub(super) fn run(&self, progress: &dyn Progress) -> Result<Trained, ModelError> {
         let mut shelf = self.shelf();
         let (name, mut trainer) = self.begin(shelf.as_ref())?;
@@ -61,7 +61,7 @@ impl<'a> Training<'a> {
         })
     }
 
-    /// Resumes the training from its checkpoint, or starts a new one. Also returns its title for progress reports.
+    /// Resumes the training from its checkpoint, or starts a new training. Also returns the title for progress reports.
     fn begin(&self, shelf: Option<&Shelf<'_>>) -> Result<(&'static str, Trainer<'a>), ModelError> {
         let (samples, validation) = (self.samples, self.validation);
         let found = shelf.map(Shelf::take).transpose()?.flatten();
@@ -87,7 +87,7 @@ impl<'a> Training<'a> {
     }
 }
 
-/// Error of a training that cannot continue. Saves a checkpoint of its best epoch if checkpoints are enabled.
+/// Error of a training that cannot continue. Stores a checkpoint of the best epoch if checkpoints are enabled.
 fn broken(error: NetworkError, trainer: &Trainer<'_>, shelf: Option<Shelf<'_>>) -> ModelError {
     let refusal = refused(error);
     let Some((best, mut shelf)) = trainer.state().best.zip(shelf) else {

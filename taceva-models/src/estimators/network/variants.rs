@@ -1,11 +1,10 @@
-//! Variants of a training: shorter, or with another seed.
+//! Variants of an unfitted network: shorter training, or another seed.
 
 use super::NetworkEstimator;
 use taceva_core::whole_count;
 
 impl NetworkEstimator {
-    /// Copy with `share` of the epochs, at least one, and without checkpoints. The learning-rate cycle shortens as well, so it ends like the whole
-    /// training.
+    /// Copy with `share` of the epochs, at least one, and without checkpoints. The learning-rate cycle is shortened as well, and still completes.
     pub(super) fn shortened(&self, share: f64) -> NetworkEstimator {
         let mut own = self.with_recipe(|recipe| {
             let epochs = whole_count((share * recipe.epochs as f64).round());

@@ -1,4 +1,4 @@
-//! SIMPLS directions by products with the features alone, without a Gram matrix or a deflated copy.
+//! SIMPLS directions. They are computed only by products with the features, without a Gram matrix or a deflated copy.
 
 use faer::{Mat, MatRef};
 use taceva_core::{ModelError, Progress};
@@ -12,14 +12,14 @@ const NOISE: f64 = 1e-10;
 /// Directions in feature space with orthonormal scores, and the loadings of each channel.
 #[derive(Debug)]
 pub(super) struct Directions {
-    /// One column per direction.
+    /// Weights of the features, one column per direction.
     weights: Mat<f64>,
-    /// One row per direction, one column per channel.
+    /// Loadings, one row per direction and one column per channel.
     loadings: Vec<Vec<f64>>,
 }
 
 impl Directions {
-    /// Finds at most `count` directions of `design` for centred `targets`; fewer if they explain all labels.
+    /// Finds at most `count` directions of `design` for centred `targets`. Finds fewer if these explain all labels.
     pub(super) fn find(
         design: &Design<'_>,
         targets: &Mat<f64>,
@@ -87,7 +87,7 @@ impl Directions {
         self.loadings[direction][channel]
     }
 
-    /// Weights of features for the first `counts` directions of each channel, one column per channel.
+    /// Weights of features, with one column per channel. Column c uses the first `counts[c]` directions.
     pub(super) fn solution(&self, counts: &[usize]) -> Mat<f64> {
         let coefficients = Mat::from_fn(self.count(), counts.len(), |direction, channel| {
             if direction < counts[channel] {

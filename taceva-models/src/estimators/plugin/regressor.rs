@@ -17,13 +17,13 @@ use crate::training::file::error::FormatError;
 use crate::training::file::tensors::Raw;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Tensor of a file with the plugin's bytes.
+/// Name of the tensor with the plugin's bytes.
 const TENSOR: &str = "plugin";
 
-/// Error for a plugin model on principal components.
+/// Error message for a plugin model on principal components.
 const OPAQUE: &str = "the model of a plugin reads pixels: remove `pca`; the plugin may compute its own principal components";
 
-/// Fitted model of a plugin. The plugin predicts; this type stores its bytes.
+/// Fitted model of a plugin. The plugin computes predictions; this type stores the model's bytes.
 #[derive(Clone)]
 pub struct PluginRegressor {
     card: PluginCard,
@@ -60,7 +60,7 @@ impl PluginRegressor {
         })
     }
 
-    /// Loads the model from a file with `factory`.
+    /// Loads the model from a file; `factory` opens it in the plugin.
     pub(crate) fn load(
         factory: &dyn EstimatorFactory,
         card: &PluginCard,
@@ -81,7 +81,7 @@ impl PluginRegressor {
         Ok(ModelRegressor::new(own))
     }
 
-    /// Plugin that fitted the model.
+    /// Card entry of the plugin that fitted the model.
     pub fn card(&self) -> &PluginCard {
         &self.card
     }
@@ -95,7 +95,7 @@ impl FittedModel for PluginRegressor {
         }
     }
 
-    /// Bytes from which the plugin loads the model.
+    /// Tensor with the bytes from which the plugin loads the model.
     fn tensors(&self) -> Vec<Raw> {
         vec![Raw {
             name: TENSOR.to_owned(),

@@ -1,4 +1,4 @@
-//! Presets: names for a model with settings, by available time.
+//! Presets: names for a model with settings, chosen by available time.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use crate::settings::ModelSettings;
 /// if a preset changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Name on the command line.
+    /// Name of the preset on the command line.
     pub name: &'static str,
     /// Name of the model.
     pub model: &'static str,
@@ -17,8 +17,8 @@ pub struct Preset {
     pub settings: &'static [(&'static str, &'static str)],
 }
 
-/// Settings resolved from the recording: as many cells as frames have pixels for. Colour frames use colours minus the contact-free
-/// frame, with light as signal. Other frames use markers.
+/// Settings that depend on the recording: the grid has as many cells as frames have pixels for. Colour frames use colours minus the contact-free frame, with
+/// light as signal. Other frames use markers.
 const COLOR: (&str, &str) = ("color", "auto");
 const DIFFERENCE: (&str, &str) = ("difference", "in-color");
 const APPEARANCE: (&str, &str) = ("appearance", "auto");
@@ -57,20 +57,20 @@ impl Preset {
         PRESETS.iter().find(|preset| preset.name == name)
     }
 
-    /// Combines the preset with settings `given`, which override it.
+    /// Combines the preset with the settings `given`. A setting in `given` overrides the preset.
     #[must_use]
     pub fn changed_by(&self, given: ModelSettings) -> ModelSettings {
         given.or(self.settings)
     }
 
-    /// Settings of the model, without those of features.
+    /// Settings of the model, without the settings of features.
     pub(crate) fn of_model(&self) -> ModelSettings {
         let all = self.changed_by(ModelSettings::default());
         all.partition(FeatureSpec::SETTINGS).1
     }
 }
 
-/// Formats as `fast: cnn size=up-to-80x60`.
+/// Formats the preset as `fast: cnn size=up-to-80x60`.
 impl fmt::Display for Preset {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}: {}", self.name, self.model)?;

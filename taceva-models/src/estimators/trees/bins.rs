@@ -1,4 +1,4 @@
-//! Features quantised to at most 256 bins, so that splits are found by counting instead of sorting.
+//! Features quantised to at most 256 bins, so that splits are found without sorting.
 
 use rayon::prelude::*;
 use taceva_core::Features;
@@ -9,7 +9,7 @@ pub(super) const BINS: usize = 256;
 /// Bin of each feature of each sample.
 #[derive(Debug)]
 pub(super) struct Binned {
-    /// Bins of all samples, feature by feature.
+    /// Bin numbers of all samples, feature by feature.
     bins: Vec<u8>,
     /// Edges between the bins of each feature. A bin includes its upper edge.
     edges: Vec<Vec<f32>>,
@@ -46,18 +46,18 @@ impl Binned {
         self.edges.len()
     }
 
-    /// Bins of all samples in one feature.
+    /// Bin numbers of all samples in one feature.
     pub(super) fn of(&self, feature: usize) -> &[u8] {
         &self.bins[feature * self.samples..(feature + 1) * self.samples]
     }
 
-    /// Upper edge of a bin except the last.
+    /// Upper edge of the bin `bin`, which must not be the last bin.
     pub(super) fn edge(&self, feature: usize, bin: usize) -> f32 {
         self.edges[feature][bin]
     }
 }
 
-/// Edges between distinct values, near the quantiles.
+/// Bin edges near the quantiles, each between distinct values.
 fn edges(values: &[f32]) -> Vec<f32> {
     let mut sorted = values.to_vec();
     sorted.sort_unstable_by(f32::total_cmp);

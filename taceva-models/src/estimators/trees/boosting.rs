@@ -18,13 +18,13 @@ use crate::training::problem::{Problem, centred};
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// Gradient boosting of squared errors: each tree is fitted to the residuals of the trees before it, and a share of it is added.
+/// Gradient boosting of squared errors: fits each tree to the residuals of the previous trees, and adds a share of its predictions.
 ///
-/// Each channel has its own trees. Their number has the least squared error on the validation part, or on folds of the training part
-/// if there is none.
+/// Each channel has its own trees. The number of trees has the least squared error on the validation part, or on folds of the training part if there is no
+/// validation part.
 ///
 /// # Reference
-/// J. H. Friedman, Ann. Stat. 29 (2001) 1189, algorithm 2; Comput. Stat. Data Anal. 38 (2002) 367 (drawn features take the place of drawn samples).
+/// J. H. Friedman, Ann. Stat. 29 (2001) 1189, algorithm 2; Comput. Stat. Data Anal. 38 (2002) 367 (features are drawn here instead of samples).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GradientBoosting {
     most: usize,
@@ -35,7 +35,7 @@ pub struct GradientBoosting {
     refit: bool,
 }
 
-/// Trees of one channel.
+/// Boosted trees of one channel.
 #[derive(Clone, Copy)]
 struct Ensemble {
     channel: usize,
@@ -43,7 +43,7 @@ struct Ensemble {
     trees: usize,
 }
 
-/// Growth of each tree.
+/// Settings for the growth of each tree.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Growing {
     share: f64,
@@ -134,7 +134,7 @@ impl GradientBoosting {
         })
     }
 
-    /// Calls `take` with each tree of a channel, its values times the rate. The first tree is fitted to `labels`.
+    /// Calls `take` with each tree of a channel, with values multiplied by the rate. The first tree is fitted to `labels`.
     fn boost(
         &self,
         features: &Features,

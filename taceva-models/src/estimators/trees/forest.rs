@@ -19,10 +19,10 @@ use crate::training::problem::{Problem, centred};
 use crate::training::regressor::ModelRegressor;
 use crate::training::trials::{Trials, rows_of};
 
-/// Random forest for each channel: mean of trees, each on its own draw of samples, with a draw of features at each split.
+/// Random forest for each channel: averages trees. Each tree has its own random draw of samples, and each split its own draw of features.
 ///
-/// No setting is chosen by error. With a validation part, a forest of the training part alone is scored on it. The final forest
-/// learns from both unless `refit` is false.
+/// No setting is chosen by error. With a validation part, a forest fitted to the training part is scored on the validation part. The final forest learns from
+/// both parts unless `refit` is false.
 ///
 /// # Reference
 /// L. Breiman, Mach. Learn. 45 (2001) 5.
@@ -94,7 +94,7 @@ impl RandomForest {
         })
     }
 
-    /// Grows the trees of every channel on `features` and centred labels.
+    /// Grows the trees of every channel from `features` and centred labels.
     fn grown(
         &self,
         features: &Features,
@@ -138,7 +138,7 @@ impl RandomForest {
         trees.collect()
     }
 
-    /// Forest of the samples `rows` of `trials`.
+    /// Fits a forest to the samples `rows` of `trials`.
     fn regressor(
         &self,
         problem: &Problem<'_>,
@@ -157,17 +157,17 @@ impl RandomForest {
     }
 }
 
-/// Parses a share above 0 and at most 1.
+/// Parses a share above 0 and at most 1; `None` for any other text.
 pub(super) fn share(text: &str) -> Option<f64> {
     number(text, 0.0..=1.0).filter(|share| *share > 0.0)
 }
 
-/// Number of features in a share, at least one.
+/// Number of features in the share `share` of `features`, at least one.
 pub(super) fn part(share: f64, features: usize) -> usize {
     whole_size((share * features as f64).ceil().max(1.0))
 }
 
-/// Random generator of one draw among many from the same seed.
+/// Random generator of draw `number`. Draws with the same seed and different numbers are independent.
 pub(super) fn draw(seed: u64, number: usize) -> SplitMix64 {
     SplitMix64::new(SplitMix64::new(seed ^ (number as u64).rotate_left(32)).next_u64())
 }

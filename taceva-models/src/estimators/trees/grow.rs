@@ -10,24 +10,24 @@ use taceva_core::random::SplitMix64;
 /// Limits of a tree's growth.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Growth {
-    /// Greatest depth: nodes from the root to a leaf.
+    /// Maximum depth: number of nodes from the root to a leaf.
     pub(super) depth: usize,
-    /// Fewest samples in a leaf.
+    /// Minimum number of samples in a leaf.
     pub(super) leaf: usize,
-    /// Features considered for a split, drawn anew for each split.
+    /// Number of features considered for a split. They are drawn anew for each split.
     pub(super) features: usize,
 }
 
 /// Tree with root node 0. The children of a node are adjacent and come after it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Tree {
-    /// Feature that a node compares.
+    /// Index of the feature that each node compares.
     pub(super) feature: Vec<u32>,
-    /// Largest feature value that goes to the left child.
+    /// Largest feature value for which a sample goes to the left child.
     pub(super) threshold: Vec<f32>,
-    /// Index of the left child; the right child is the next index. 0 for a leaf.
+    /// Index of the left child; the right child has the next index. 0 for a leaf.
     pub(super) left: Vec<u32>,
-    /// Mean of each output over the samples of a node.
+    /// Mean of each output over the samples of each node.
     pub(super) values: Vec<f64>,
 }
 
@@ -43,7 +43,7 @@ impl Tree {
     }
 }
 
-/// A split and the variance it explains.
+/// A candidate split, and the variance that it explains.
 #[derive(Clone, Copy, Debug)]
 struct Question {
     gain: f64,
@@ -51,19 +51,19 @@ struct Question {
     bin: usize,
 }
 
-/// Samples for growing trees.
+/// Binned features and targets for growing trees.
 pub(super) struct Samples<'a> {
     pub(super) binned: &'a Binned,
-    /// One row per sample, one column per output.
+    /// Targets, with one row per sample and one column per output.
     pub(super) targets: &'a Mat<f64>,
     pub(super) growth: Growth,
 }
 
 impl Samples<'_> {
-    /// Grows a tree on the samples `rows`, which may repeat.
+    /// Grows a tree on the samples `rows`, which may contain duplicates.
     ///
-    /// Each split explains the most of the summed variance of all outputs. Ties go to the first feature and the lowest bin. One thread
-    /// sums each feature, in the order of `rows`.
+    /// Each split explains the greatest part of the variance, summed over all outputs. Of equal splits, the one with the first feature and the lowest bin is
+    /// chosen. One thread sums each feature, in the order of `rows`.
     pub(super) fn grow(&self, mut rows: Vec<u32>, random: &mut SplitMix64) -> Tree {
         let mut tree = Tree::default();
         let mut order: Vec<usize> = (0..self.binned.features()).collect();
@@ -99,7 +99,7 @@ impl Samples<'_> {
         tree
     }
 
-    /// Appends a leaf of these samples.
+    /// Appends a leaf with the samples `rows`.
     fn push(&self, tree: &mut Tree, rows: &[u32]) {
         tree.feature.push(0);
         tree.threshold.push(0.0);
@@ -111,7 +111,7 @@ impl Samples<'_> {
         }
     }
 
-    /// Draws features without replacement, ascending.
+    /// Draws feature indices without replacement, and returns them in ascending order.
     fn draw(&self, order: &mut [usize], random: &mut SplitMix64) -> Vec<usize> {
         let count = self.growth.features.min(order.len());
         for position in 0..count {

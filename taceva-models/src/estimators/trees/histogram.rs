@@ -1,15 +1,15 @@
-//! Histograms of targets by the bins of one feature.
+//! Histograms of the targets over the bins of one feature.
 
 use faer::Mat;
 
 use super::bins::BINS;
 
-/// Count and summed outputs of each bin.
+/// Number of samples and sums of outputs in each bin.
 pub(super) struct Histogram {
     pub(super) counts: Vec<u32>,
     pub(super) sums: Vec<f64>,
     pub(super) outputs: usize,
-    /// Nonempty bins, ascending.
+    /// Indices of nonempty bins, ascending.
     pub(super) held: Vec<u8>,
 }
 
@@ -49,7 +49,7 @@ impl Histogram {
         }
     }
 
-    /// Empties the histogram. Writes only the nonempty bins.
+    /// Empties the histogram. Only the nonempty bins are overwritten.
     pub(super) fn clear(&mut self) {
         for bin in self.held.drain(..) {
             let bin = usize::from(bin);

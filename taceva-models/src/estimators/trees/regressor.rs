@@ -1,4 +1,4 @@
-//! Fitted trees, whose values are added up.
+//! Fitted trees, whose predictions are summed.
 
 use rayon::prelude::*;
 use taceva_core::{Channels, FeatureShape, Features, ModelError, Regressor};
@@ -11,7 +11,7 @@ use crate::training::file::tensors::{Raw, Tensors};
 use crate::training::output::{OutputScale, check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Sum of trees, each for one channel or for all.
+/// Sum of trees, each of which predicts one channel or all channels.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TreeRegressor {
     channels: Channels,
@@ -24,14 +24,14 @@ pub struct TreeRegressor {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Member {
     pub(super) tree: Tree,
-    /// Channel that the tree predicts. `None` for all channels.
+    /// Channel that the tree predicts; `None` for all channels.
     pub(super) channel: Option<usize>,
 }
 
-/// Samples per task of a thread.
+/// Number of samples per task of a thread.
 const CHUNK: usize = 64;
 
-/// Channel number in files for trees that predict all channels.
+/// Channel number in files that marks trees for all channels.
 const ALL: u32 = u32::MAX;
 
 const CHANNEL: &str = "trees.channel";
@@ -44,7 +44,7 @@ const THRESHOLD: &str = "trees.threshold";
 const VALUES: &str = "trees.values";
 
 impl TreeRegressor {
-    /// Builds a regressor from trees whose values, in centred and scaled labels, add up to the prediction.
+    /// Builds a regressor from trees. Their values, in centred and scaled labels, sum to the prediction.
     pub(super) fn new(
         channels: Channels,
         shape: FeatureShape,

@@ -43,10 +43,10 @@ impl Complex {
     }
 }
 
-/// Transform of one length: X\[k\] = Σ x\[n\] exp(−2πi kn/N) (Cooley and Tukey, 1965).
+/// Discrete Fourier transform of one length: X\[k\] = Σ x\[n\] exp(−2πi kn/N) (Cooley and Tukey, 1965).
 #[derive(Clone, Debug)]
 pub(super) struct Fourier {
-    /// exp(−2πi k/N) for the first half of the circle.
+    /// Factors exp(−2πi k/N) for the first half of the circle.
     turns: Vec<Complex>,
 }
 
@@ -64,7 +64,7 @@ impl Fourier {
         }
     }
 
-    /// Transforms `values` in place. Their number must be the prepared length.
+    /// Transforms `values` in place. The number of values must be the prepared length.
     pub(super) fn transform(&self, values: &mut [Complex]) {
         let length = values.len();
         if length < 2 {

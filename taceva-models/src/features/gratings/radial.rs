@@ -1,14 +1,14 @@
-//! Power spectrum of a picture by spatial frequency, independent of direction.
+//! Power spectrum of a picture by spatial frequency, averaged over directions.
 
 use taceva_core::{Frame, FrameInfo};
 
 use super::fourier::{Complex, Fourier};
 use crate::features::FeatureError;
 
-/// Logarithm of the mean power in rings of equal width of the Fourier plane.
+/// Logarithms of the mean power in rings of equal width in the Fourier plane.
 ///
-/// The picture is centred, multiplied by a Hann window, and zero-padded to a square whose side is a power of two. Ring b of B holds
-/// the waves with b/(2B) ≤ √(f_x² + f_y²) < (b + 1)/(2B) cycles per pixel. A rotated or shifted grating keeps its rings.
+/// The picture is centred, multiplied by a Hann window, and zero-padded to a square whose side is a power of two. Ring b of B contains the waves with b/(2B) ≤
+/// √(f_x² + f_y²) < (b + 1)/(2B) cycles per pixel. Rotating or shifting a grating does not change the rings of its waves.
 ///
 /// # Shapes
 /// One value per ring, from the lowest to the highest frequency.
@@ -18,13 +18,13 @@ pub struct RadialSpectrum {
     side: usize,
     fourier: Fourier,
     windows: [Vec<f64>; 2],
-    /// Ring of each point of the plane. `None` beyond the last ring.
+    /// Ring index of each point of the plane; `None` for a point beyond the last ring.
     rings: Vec<Option<usize>>,
     counts: Vec<f64>,
 }
 
 impl RadialSpectrum {
-    /// Rings per spectrum.
+    /// Number of rings of a spectrum.
     pub const RINGS: usize = 48;
 
     /// Prepares spectra of pictures of `info`.
@@ -49,7 +49,7 @@ impl RadialSpectrum {
         }
     }
 
-    /// Size of a Fourier plane in memory, bytes.
+    /// Size of a Fourier plane in memory, in bytes.
     pub fn plane_bytes(&self) -> u64 {
         (self.side * self.side * size_of::<Complex>()) as u64
     }
@@ -75,7 +75,7 @@ impl RadialSpectrum {
         self.spectrum(plane.waves.iter().map(|wave| wave.power()))
     }
 
-    /// Spectrum of `plane` minus the mean of `count` planes with the sum `sum`, such as a constant background.
+    /// Spectrum of `plane` minus a mean plane, such as a constant background. The mean plane is `sum`, the sum of `count` planes, divided by `count`.
     pub fn beyond(&self, plane: &FourierPlane, sum: &FourierPlane, count: f64) -> Vec<f64> {
         let waves = plane.waves.iter().zip(&sum.waves);
         self.spectrum(waves.map(|(wave, sum)| wave.minus(sum.scaled(1.0 / count)).power()))
@@ -95,7 +95,7 @@ impl RadialSpectrum {
             .collect()
     }
 
-    /// Fourier coefficients of a windowed picture, transposed.
+    /// Fourier coefficients of a windowed picture, as a transposed plane.
     fn waves(&self, luma: &[f64]) -> Vec<Complex> {
         let [across, down] = &self.windows;
         let (side, width) = (self.side, across.len());
@@ -122,14 +122,14 @@ impl RadialSpectrum {
     }
 }
 
-/// Fourier coefficients of a picture. The planes of several pictures add like the pictures.
+/// Fourier coefficients of a picture. The sum of planes is the plane of the summed pictures.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FourierPlane {
     waves: Vec<Complex>,
 }
 
 impl FourierPlane {
-    /// Adds the plane of a picture of the same size. An empty plane takes any size.
+    /// Adds the plane of a picture of the same size. An empty plane accepts any size.
     pub fn add(&mut self, other: &FourierPlane) {
         if self.waves.is_empty() {
             self.waves = vec![Complex::default(); other.waves.len()];
@@ -140,7 +140,7 @@ impl FourierPlane {
     }
 }
 
-/// Ring of the wave numbers `waves` in a square of side `side`.
+/// Ring index of the wave numbers `waves` in a square of side `side`; `None` beyond the last ring.
 fn ring(waves: [usize; 2], side: usize) -> Option<usize> {
     let cycles = waves.map(|wave| wave.min(side - wave));
     // (2B f)² = (2B)² (k² + l²) / N², in integers.
@@ -149,7 +149,7 @@ fn ring(waves: [usize; 2], side: usize) -> Option<usize> {
     (ring < RadialSpectrum::RINGS).then_some(ring)
 }
 
-/// w\[n\] = sin²(π (n + ½)/N), a Hann window with nonzero ends.
+/// Hann window with nonzero ends: w\[n\] = sin²(π (n + ½)/N).
 fn hann(length: usize) -> Vec<f64> {
     let place = |position: usize| {
         let part = (position as f64 + 0.5) / length as f64;
@@ -158,7 +158,7 @@ fn hann(length: usize) -> Vec<f64> {
     (0..length).map(place).collect()
 }
 
-/// Gray values, or (299 R + 587 G + 114 B) / 1000.
+/// Gray values of a frame; for RGB, (299 R + 587 G + 114 B) / 1000.
 fn luma(frame: &Frame) -> Vec<f64> {
     let samples: Vec<f64> = frame.samples().map(f64::from).collect();
     match frame.info().format.samples() {
@@ -188,7 +188,7 @@ mod tests {
         }
     }
 
-    /// Lines of `cycles` cycles per pixel, turned by `turn` degrees and shifted by `offset` pixels.
+    /// Test picture of lines with `cycles` cycles per pixel, rotated by `turn` degrees and shifted by `offset` pixels.
     fn lines(cycles: f64, turn: f64, offset: f64) -> Frame {
         let (sin, cos) = turn.to_radians().sin_cos();
         let pixel = |place: u32| {

@@ -1,4 +1,4 @@
-//! Displacements of markers as features: a field over the cells of a grid.
+//! Displacements of markers as features: a displacement field over the cells of a grid.
 
 use taceva_core::{Frame, single};
 
@@ -12,23 +12,23 @@ use crate::features::spec::FeatureSpec;
 
 /// Number of markers from which a cell is interpolated.
 const SPEAKERS: usize = 12;
-/// Number of nearest markers of a cell that are counted as seen or unseen.
+/// Number of nearest markers of a cell for which the unseen share is computed.
 const NEAREST: usize = 4;
-/// Largest distance of an interpolated cell from the nearest marker, in spacings.
+/// Largest distance of an interpolated cell from the nearest marker, in marker spacings.
 const REACH: f64 = 1.5;
 
 /// Three values per cell. The first two are the displacement of the gel to the right and down at the cell's centre, in marker spacings. The third
 /// is the unseen share of its four nearest markers.
 ///
-/// Displacements are interpolated linearly between markers. Cells without a marker nearby hold zeros. The field shows the stretch of
-/// the gel: shear directly, depth by the spreading of markers. It does not show details smaller than the spacing, or light.
+/// Displacements are interpolated linearly between markers. Cells without a marker nearby contain zeros. The field shows the stretch of the gel: shear
+/// directly, and depth by the spreading of markers. It does not show changes of light, or details smaller than the spacing.
 #[derive(Debug)]
 pub(crate) struct MarkerField {
     tracker: MarkerTracker,
     cells: Vec<Cell>,
 }
 
-/// Centre of a cell, and the markers from which it is interpolated. Empty if no marker is near.
+/// Centre of a cell, and the markers from which its displacement is interpolated. There are none if no marker is near.
 #[derive(Debug)]
 struct Cell {
     middle_px: [f64; 2],

@@ -1,47 +1,47 @@
-//! Detection of the marker grid of an untouched gel.
+//! Detects the marker grid of an untouched gel.
 
 use super::plane::Plane;
 use super::spots::{Marker, Polarity, Scale, distance, spots};
 
-/// Minimum contrast of a marker, in standard deviations of noise. By chance, less than one in a million pixels exceeds it.
+/// Minimum contrast of a marker, in standard deviations of noise. By chance, fewer than one in a million pixels exceed it.
 const SIGNIFICANT: f32 = 6.0;
-/// Minimum contrast of a marker, relative to the upper quartile of all spots. Below 1, because lamps shine unevenly.
+/// Minimum contrast of a marker, relative to the upper quartile of all spots. The low value allows for uneven lamps.
 const ALIKE: f32 = 0.15;
 /// Minimum number of marker columns across the shorter side of a frame.
 const ACROSS_MIN: f64 = 4.0;
-/// Smallest spacing of markers, pixels.
+/// Smallest spacing of markers, in pixels.
 const SPACING_MIN_PX: f64 = 5.0;
-/// Ratio of each scale to the previous one.
+/// Ratio of each tried spacing to the previous one.
 const FINER: f64 = 0.8;
-/// Neighbours that determine the local spacing of a marker.
+/// Number of neighbours that determine the local spacing of a marker.
 const NEIGHBOURS: usize = 6;
-/// Minimum number of spots in a grid. Fewer spots may have any arrangement.
+/// Minimum number of spots in a grid. Fewer spots would fit into any arrangement.
 const GRID_MIN: usize = 9;
-/// Largest allowed unevenness of a grid: median relative excess of the distance to the third nearest spot over the nearest. It is 0 in square and
-/// hexagonal grids, and about 0.5 for random spots.
+/// Largest allowed unevenness of a grid. Unevenness is the median relative excess of the distance to the third nearest spot over that to the nearest. It is 0
+/// in square and hexagonal grids, and about 0.5 for random spots.
 const UNEVEN: f64 = 0.3;
 
 /// Markers of an untouched gel.
 #[derive(Clone, Debug)]
 pub(super) struct Lattice {
-    /// Scale of detection, also for other frames.
+    /// Scale of detection, which is also used for other frames.
     pub(super) scale: Scale,
-    /// Typical spacing of markers, pixels.
+    /// Typical spacing of markers, in pixels.
     pub(super) spacing_px: f64,
     /// Minimum contrast of a spot.
     pub(super) least: f32,
     /// Markers, highest contrast first.
     pub(super) markers: Vec<Marker>,
-    /// Local spacing around each marker, pixels.
+    /// Local spacing around each marker, in pixels.
     pub(super) spacings_px: Vec<f64>,
     unevenness: f64,
 }
 
 impl Lattice {
-    /// Finds the grid of `picture`: over all polarities and scales, the grid with the most, clearest and most even spots.
+    /// Finds the marker grid of `picture`. Tries all polarities and scales, and returns the grid with the best score.
     ///
     /// # Errors
-    /// Number of spots found that form no grid.
+    /// Number of spots found, if the spots form no grid.
     pub(super) fn find(picture: &Plane) -> Result<Lattice, usize> {
         let noise = picture.noise();
         let shorter = picture.width.min(picture.height) as f64;
@@ -79,7 +79,7 @@ impl Lattice {
         }
     }
 
-    /// Spots at one scale and their spacings. `None` without spots.
+    /// Detects spots at one scale and computes their spacings; `None` without spots.
     fn at(picture: &Plane, scale: Scale, noise: f32) -> Option<Lattice> {
         let significant = SIGNIFICANT * scale.noise_gain() * noise;
         let mut markers = spots(picture, scale, significant);
@@ -102,14 +102,14 @@ impl Lattice {
         })
     }
 
-    /// Quality: many spots with high contrast at even distances.
+    /// Quality of the grid: high for many spots with high contrast at even distances.
     fn score(&self) -> f64 {
         let contrast = f64::from(self.markers[self.markers.len() / 2].contrast);
         (self.markers.len() as f64).sqrt() * contrast * (-4.0 * self.unevenness).exp()
     }
 }
 
-/// Local spacing around each marker. `otherwise` for a single marker.
+/// Local spacing around each marker, in pixels; `otherwise` for a single marker.
 fn spacings(markers: &[Marker], otherwise: f64) -> Vec<f64> {
     let nearest = nearest_distances(markers, otherwise);
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
@@ -133,7 +133,7 @@ fn nearest_distances(markers: &[Marker], otherwise: f64) -> Vec<f64> {
     markers.iter().enumerate().map(of).collect()
 }
 
-/// Median relative excess distance of the third nearest marker over the nearest. Needs at least four markers.
+/// Median relative excess of the distance to the third nearest marker over that to the nearest. Needs at least four markers.
 fn unevenness(markers: &[Marker]) -> f64 {
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
     let of = |own: &[f64; 2]| {
@@ -145,7 +145,7 @@ fn unevenness(markers: &[Marker]) -> f64 {
     median(places.iter().map(of).collect())
 }
 
-/// Indices of the `count` places closest to `place`, nearest first, ties by index.
+/// Indices of the `count` places closest to `place`, sorted by distance. Equal distances are sorted by index.
 pub(super) fn closest(place: [f64; 2], places: &[[f64; 2]], count: usize) -> Vec<usize> {
     let mut order: Vec<(f64, usize)> = places
         .iter()
@@ -157,7 +157,7 @@ pub(super) fn closest(place: [f64; 2], places: &[[f64; 2]], count: usize) -> Vec
     order.into_iter().map(|(_, position)| position).collect()
 }
 
-/// Median; the upper middle value for even counts.
+/// Median of `values`; for an even count, the upper of the two middle values.
 fn median(mut values: Vec<f64>) -> f64 {
     values.sort_by(f64::total_cmp);
     values[values.len() / 2]

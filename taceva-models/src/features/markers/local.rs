@@ -1,18 +1,18 @@
-//! Displacement of a point from its neighbours by a local linear model: stretch, rotation and shear.
+//! Displacement of a point, computed from its neighbours by a local linear model of stretch, rotation and shear.
 
 use super::spots::distance;
 
-/// A place and its displacement, pixels.
+/// A place and its displacement, both in pixels.
 pub(super) type Moved = ([f64; 2], [f64; 2]);
 
-/// Distance, in spacings, below which weights level off.
+/// Distance, in marker spacings, below which weights are nearly constant.
 const NEAR: f64 = 0.3;
-/// Addend to the diagonal of the normal equations, where a place one spacing away contributes about 1. It bounds gradients if all
-/// neighbours are on a line.
+/// Addend to the diagonal of the normal equations, where a place at a distance of one spacing contributes about 1. Limits gradients if all neighbours are on
+/// one line.
 const STIFF: f64 = 0.05;
 
-/// Displacement of `place`, if displacements around it are linear in position, by least squares weighted by 1 / distance².
-/// `None` without neighbours.
+/// Displacement of `place`, if the displacements around it are linear in position. Computed by least squares, weighted by 1 / distance²; `None` without
+/// neighbours.
 ///
 /// The result is `d̄ - G ū`, with weighted means `ū` of positions and `d̄` of displacements. `G` solves the normal equations with `STIFF`
 /// added to their diagonal.

@@ -1,4 +1,4 @@
-//! Gray pictures and their local means.
+//! Gray pictures, and local means of their pixels.
 
 use taceva_core::{Frame, single};
 
@@ -39,8 +39,8 @@ impl Plane {
         }
     }
 
-    /// Mean over a square of `2 radius + 1` pixels around each pixel. Near the border the square shrinks symmetrically, so that the mean
-    /// of a linear light gradient stays unbiased.
+    /// Mean over a square of `2 radius + 1` pixels around each pixel. The square shrinks symmetrically near the border, so that the mean of a linear light
+    /// gradient is unbiased.
     pub(super) fn local_mean(&self, radius: usize) -> Plane {
         let across = self.means_across(radius);
         Plane {
@@ -64,7 +64,7 @@ impl Plane {
         means
     }
 
-    /// Computes running sums: a row enters and a row leaves.
+    /// Means over columns by running sums: each step adds one row and subtracts one row.
     fn means_down(&self, values: &[f64], radius: usize) -> Vec<f32> {
         let row = |index: usize| &values[index * self.width..][..self.width];
         let mut sums = vec![0.0; self.width];
@@ -90,11 +90,11 @@ impl Plane {
         means
     }
 
-    /// Standard deviation of pixel noise, by the median, so that edges do not count. At least that of rounding to 8 bits.
+    /// Standard deviation of pixel noise, computed by the median, so that edges have no effect. At least the deviation of rounding to 8 bits.
     pub(super) fn noise(&self) -> f32 {
-        /// Factor from the median absolute deviation to the standard deviation of normal noise minus its mean over nine pixels.
+        /// Factor from the median absolute deviation to the standard deviation. Valid for normal noise minus its mean over nine pixels.
         const DEVIATIONS: f32 = 1.4826 * 1.0607;
-        /// Rounding error: one level over √12.
+        /// Standard deviation of rounding to 8 bits: one level divided by √12.
         const ROUNDING: f32 = 0.2887 / 255.0;
         let means = self.local_mean(1);
         let pairs = self.values.iter().zip(&means.values);

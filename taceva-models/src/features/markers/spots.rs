@@ -6,16 +6,16 @@ use taceva_core::whole_size;
 /// Contrast of markers with the gel: darker or brighter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Polarity {
-    /// Black dots on a bright gel.
+    /// Black dots on a brighter gel.
     Dark,
-    /// White or glowing tips on a dark one.
+    /// White or glowing tips on a darker gel.
     Bright,
 }
 
 /// A detected spot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Marker {
-    /// Column and row, from the centre of the first pixel.
+    /// Column and row of the spot, in pixels from the centre of the first pixel.
     pub place_px: [f64; 2],
     /// Contrast with the surroundings; full scale is 1.
     pub contrast: f32,
@@ -28,22 +28,21 @@ pub(super) struct Scale {
     pub(super) spacing_px: f64,
 }
 
-/// Smallest distance of two spots, in spacings.
+/// Smallest distance between two spots, in marker spacings.
 const APART: f64 = 0.5;
 
 impl Scale {
-    /// Half width of the averaging square, applied twice to detect a spot. Its side is a fifth of the spacing.
+    /// Half width of the square for averaging, which is applied twice to detect a spot. The side of the square is a fifth of the spacing.
     fn near(self) -> usize {
         whole(0.1 * self.spacing_px)
     }
 
-    /// Half width of the square of surroundings, one spacing wide. It ends between spots: a spot that it cut would shift the
-    /// position.
+    /// Half width of the square of surroundings, which is one spacing wide. The square ends between spots, because a cut spot would shift the position.
     fn around(self) -> usize {
         whole(0.5 * self.spacing_px)
     }
 
-    /// Standard deviation of a response for unit pixel noise: from the squared weights of both averages, without the surroundings.
+    /// Standard deviation of a response for unit pixel noise. Computed from the squared weights of both averages, without the surroundings.
     pub(super) fn noise_gain(self) -> f32 {
         let side = (2 * self.near() + 1) as f32;
         (2.0 * side * side + 1.0) / (3.0 * side * side * side)
@@ -56,9 +55,8 @@ fn whole(pixels: f64) -> usize {
 
 /// Detects spots of `picture` with a contrast above `least`, highest contrast first.
 ///
-/// The response of a pixel is a tent-weighted local mean minus the mean of its surroundings. A spot is a maximum of the response within
-/// half a spacing. Its position is the vertex of the least-squares paraboloid through nine responses around it. Spots cut by the
-/// frame are skipped.
+/// The response of a pixel is a tent-weighted local mean minus the mean of its surroundings. A spot is a maximum of the response within half a spacing. Its
+/// position is the vertex of the least-squares paraboloid through nine responses around the maximum. Spots at the edge of the frame are skipped.
 pub(super) fn spots(picture: &Plane, scale: Scale, least: f32) -> Vec<Marker> {
     let response = response(picture, scale);
     let (width, height) = (picture.width, picture.height);
@@ -97,7 +95,7 @@ fn response(picture: &Plane, scale: Scale) -> Vec<f32> {
     pairs.map(|(near, around)| sign * (near - around)).collect()
 }
 
-/// True for a local maximum. Of equal neighbours, only the first counts.
+/// True for a local maximum of the response. Of equal neighbours, only the first is a maximum.
 fn is_top(response: &[f32], width: usize, place: usize) -> bool {
     let own = response[place];
     let before = [
@@ -116,7 +114,7 @@ fn is_top(response: &[f32], width: usize, place: usize) -> bool {
         && after.iter().all(|&other| response[other] <= own)
 }
 
-/// Vertex of the paraboloid through the responses at `place` and `step` pixels to each side.
+/// Marker at the vertex of the paraboloid through the responses at `place` and `step` pixels to each side.
 fn marker(response: &[f32], width: usize, place: usize, step: usize) -> Marker {
     let at = |column: usize, row: usize| {
         f64::from(response[place + row * step * width + column * step - step * width - step])

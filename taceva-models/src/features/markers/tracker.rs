@@ -10,22 +10,22 @@ use super::plane::Plane;
 use super::spots::{Marker, Polarity, distance, spots};
 use crate::features::FeatureError;
 
-/// Neighbours that predict the position of a marker.
+/// Number of neighbours that predict the position of a marker.
 const NEIGHBOURS: usize = 8;
 /// Number of seed markers.
 const SEEDS: usize = 4;
-/// Largest displacement of a seed, in spacings.
+/// Largest displacement of a seed, in marker spacings.
 const SEED_REACH: f64 = 1.6;
-/// Cost of a displacement of one spacing, relative to an unseen marker. A regular grid moved by one spacing differs only at
-/// its rim. Where even the rim is hidden, less movement is likelier.
+/// Cost of a displacement of one spacing, relative to an unseen marker. A regular grid moved by one spacing differs only at its rim. If the rim is also hidden,
+/// the match with less movement is chosen.
 const MOVEMENT: f64 = 0.02;
-/// Share of unseen markers up to which the first match is accepted.
+/// Share of unseen markers up to which the first match is accepted without further trials.
 const ENOUGH: f64 = 0.03;
 
 /// A tracked marker.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tracked {
-    /// Displacement from the untouched gel to the right and down, pixels. Interpolated from neighbours if unseen.
+    /// Displacement from the untouched gel to the right and down, in pixels. Interpolated from neighbours if the marker is unseen.
     pub displacement_px: [f64; 2],
     /// True if the marker was found in the frame.
     pub is_seen: bool,
@@ -33,9 +33,9 @@ pub struct Tracked {
 
 /// Tracks the markers of an untouched gel in other frames.
 ///
-/// Markers may be dark or bright, on a square or hexagonal grid with gaps. The match starts at a marker that has hardly moved and grows
-/// from neighbour to neighbour. Matched neighbours predict where to search, so a marker may move farther than the spacing. Several
-/// starts are tried, and the match with the most markers is taken.
+/// Markers may be dark or bright, on a square or hexagonal grid with gaps. The match starts at a marker that has hardly moved, and grows from neighbour to
+/// neighbour. Matched neighbours predict the search position, so a marker may move farther than the spacing. Several starting markers are tried, and the match
+/// with the most markers is used.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -59,7 +59,7 @@ pub struct MarkerTracker {
     info: FrameInfo,
     lattice: Lattice,
     places: Vec<[f64; 2]>,
-    /// Nearest neighbours of each marker.
+    /// Indices of the nearest neighbours of each marker.
     neighbours: Vec<Vec<usize>>,
 }
 
@@ -67,7 +67,7 @@ impl MarkerTracker {
     /// Finds the markers of the untouched gel in `reference`.
     ///
     /// # Errors
-    /// [`FeatureError::NoMarkers`] if there are no significant spots, or they form no grid.
+    /// [`FeatureError::NoMarkers`] if there are no significant spots, or if the spots form no grid.
     pub fn new(reference: &Frame) -> Result<MarkerTracker, FeatureError> {
         let lattice = Lattice::find(&Plane::of(reference))
             .map_err(|found| FeatureError::NoMarkers { found })?;
@@ -85,12 +85,12 @@ impl MarkerTracker {
         })
     }
 
-    /// Dark or bright markers.
+    /// Polarity of the markers: dark or bright.
     pub fn polarity(&self) -> Polarity {
         self.lattice.scale.polarity
     }
 
-    /// Typical spacing of markers, pixels.
+    /// Typical spacing of markers, in pixels.
     pub fn spacing_px(&self) -> f64 {
         self.lattice.spacing_px
     }
@@ -114,7 +114,7 @@ impl MarkerTracker {
         Ok(self.follow(frame))
     }
 
-    /// Tracks markers in a frame of checked size and format.
+    /// Tracks markers in a frame whose size and format were checked.
     pub(super) fn follow(&self, frame: &Frame) -> Vec<Tracked> {
         let found = spots(&Plane::of(frame), self.lattice.scale, self.lattice.least);
         let found: Vec<[f64; 2]> = found.iter().map(|spot| spot.place_px).collect();
@@ -135,7 +135,7 @@ impl MarkerTracker {
         best.tracked()
     }
 
-    /// Candidate seeds as pairs of marker and spot, the likeliest first: the markers that seem to have moved least, with spots near them.
+    /// Candidate seeds as pairs of marker and spot, the likeliest first. These are the markers that seem to have moved least, with spots near them.
     fn beginnings(&self, found: &[[f64; 2]]) -> Vec<(usize, usize)> {
         let mut seeds: Vec<(f64, usize)> = Vec::new();
         for (own, place) in self.places.iter().enumerate() {

@@ -1,4 +1,4 @@
-//! Area averages against their definition.
+//! Tests of area averages against their definition.
 
 use taceva_core::{Frame, PixelFormat};
 
@@ -21,7 +21,7 @@ fn features(frame: &Frame, spec: FeatureSpec) -> Vec<f32> {
     values
 }
 
-/// The definition in its simplest form: areas of overlap in f64.
+/// Area averages by their definition: areas of overlap in f64.
 fn by_definition(frame: &Frame, spec: FeatureSpec) -> Vec<f64> {
     let info = frame.info();
     let samples: Vec<f64> = frame.samples().map(f64::from).collect();

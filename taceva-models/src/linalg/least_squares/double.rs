@@ -2,14 +2,14 @@
 
 use std::ops::{Add, Mul, Sub};
 
-/// Sum high + low, with |low| at most half a unit in the last place of high.
+/// Sum of high and low, with |low| at most half a unit in the last place of high.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Double {
     high: f64,
     low: f64,
 }
 
-/// Sum a + b, exact: the rounded sum and its rounding error (Knuth).
+/// Exact sum of a and b: the rounded sum and its rounding error (Knuth).
 fn two_sum(a: f64, b: f64) -> Double {
     let sum = a + b;
     let of_b = sum - a;
@@ -18,12 +18,12 @@ fn two_sum(a: f64, b: f64) -> Double {
 }
 
 impl Double {
-    /// Number high + low.
+    /// Creates the number high + low.
     pub(super) fn new(high: f64, low: f64) -> Double {
         two_sum(high, low)
     }
 
-    /// Product a · b, exact (Dekker, Veltkamp; one fused operation).
+    /// Exact product of a and b (Dekker, Veltkamp; one fused operation).
     pub(super) fn product(a: f64, b: f64) -> Double {
         let high = a * b;
         Double {
@@ -32,7 +32,7 @@ impl Double {
         }
     }
 
-    /// Rounds to a double.
+    /// Rounds the number to double precision.
     pub(super) fn value(&self) -> f64 {
         self.high + self.low
     }

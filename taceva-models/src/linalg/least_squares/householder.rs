@@ -2,12 +2,12 @@
 
 use faer::Mat;
 
-/// A D = Q R, with a power of two in D for each column that brings its norm near 1.
+/// Decomposition A D = Q R. D contains a power of two for each column, which brings the norm of the column near 1.
 #[derive(Clone, Debug)]
 pub(super) struct Householder {
-    /// Reflectors below and on the diagonal, R above it.
+    /// Reflectors on and below the diagonal, R above the diagonal.
     packed: Mat<f64>,
-    /// The diagonal of R.
+    /// Diagonal of R.
     diagonal: Vec<f64>,
     /// Diagonal of D.
     scale: Vec<f64>,
@@ -46,7 +46,7 @@ impl Householder {
         }
     }
 
-    /// First column that is a linear combination of earlier columns to within rounding.
+    /// Index of the first column that is a linear combination of earlier columns to within rounding; `None` if there is no such column.
     pub(super) fn dependent(&self) -> Option<usize> {
         let rounding = self.packed.nrows() as f64 * f64::EPSILON;
         self.diagonal
@@ -112,7 +112,7 @@ fn norm(values: &[f64]) -> f64 {
     values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
-/// Reflects `values` at the plane normal to the unit vector `reflector`.
+/// Reflects `values` in the plane normal to the unit vector `reflector`.
 fn reflect(reflector: &[f64], values: &mut [f64]) {
     let along: f64 = reflector
         .iter()
@@ -123,7 +123,7 @@ fn reflect(reflector: &[f64], values: &mut [f64]) {
     places.for_each(|(value, own)| *value -= 2.0 * along * own);
 }
 
-/// Power of two that scales `size` to 0.5..2; 1 for 0. Scaling by it is exact.
+/// Power of two that scales `size` to 0.5..2; 1 for a `size` of 0. The scaling is exact.
 fn power_of_two_over(size: f64) -> f64 {
     if size > 0.0 && size.is_finite() {
         (-size.log2().round()).exp2()

@@ -1,11 +1,11 @@
-//! Least squares on the certified data sets of NIST.
+//! Tests least squares on the certified data sets of NIST.
 
 use faer::Mat;
 
 use super::double::Double;
 use super::{Wide, least_squares};
 
-/// A data set: name, file, highest power of x if any, and intercept.
+/// A data set: name, file, highest power of x if the model is a polynomial, and intercept.
 struct Set {
     name: &'static str,
     text: &'static str,
@@ -41,7 +41,7 @@ const SETS: &[Set] = &[
     set!("Wampler5", Some(5), true, 9.0),
 ];
 
-/// Data rows of a file, from line 61.
+/// Data rows of a file, which start at line 61.
 fn rows(text: &str) -> Vec<Vec<f64>> {
     let lines = text.lines().skip(60).map(str::split_whitespace);
     let rows = lines.map(|words| words.map(|word| word.parse().expect("a number")).collect());
@@ -49,7 +49,7 @@ fn rows(text: &str) -> Vec<Vec<f64>> {
 }
 
 impl Set {
-    /// One row per sample, one column per coefficient. Powers are exact in two doubles.
+    /// Design matrix with one row per sample and one column per coefficient. Powers are exact in two doubles.
     fn design(&self) -> (Mat<f64>, Mat<f64>, Mat<f64>) {
         let rows = rows(self.text);
         let entries: Vec<Vec<Double>> = rows
@@ -84,7 +84,7 @@ impl Set {
         (of(Double::value), of(low), targets)
     }
 
-    /// Coefficients, rounded from 40 digits.
+    /// Certified coefficients, rounded from 40 digits.
     fn exact(&self) -> Vec<f64> {
         let lines = include_str!("../../../tests/strd/exact_f64.txt").lines();
         let mut words = lines.map(str::split_whitespace);
@@ -96,7 +96,7 @@ impl Set {
     }
 }
 
-/// Fewest correct digits of any coefficient.
+/// Least number of correct digits of any coefficient.
 fn digits(found: &[f64], exact: &[f64]) -> f64 {
     let of = |(found, exact): (&f64, &f64)| {
         let error = ((found - exact) / exact).abs();

@@ -1,4 +1,4 @@
-//! Record of an automatic choice: models tried, their errors, and the reasons.
+//! Record of an automatic choice: models tried, their errors, and reasons for leaving the race.
 
 use std::fmt;
 
@@ -14,9 +14,9 @@ pub struct AutoCard {
     pub budget_s: f64,
     /// Number of folds of the training part.
     pub folds: usize,
-    /// True if folds are whole groups of samples, false for runs of neighbours.
+    /// True if folds consist of whole groups of samples, false if they consist of runs of neighbouring samples.
     pub by_group: bool,
-    /// Models tried, in order. A network appears twice if its first look was not decisive.
+    /// Models tried, in order. A network appears twice if its shortened training was not decisive.
     pub tried: Vec<AutoTrial>,
     /// Models not tried.
     pub untried: Vec<Untried>,
@@ -29,16 +29,16 @@ pub struct AutoCard {
 pub struct AutoTrial {
     /// Name of the model.
     pub model: String,
-    /// Root mean square error on its folds, relative to the standard deviation of labels, over the channels that vary.
+    /// Root mean square error over the completed folds, relative to the standard deviation of labels, over the varying channels.
     pub error: f64,
-    /// Work of the trial, s of the budget.
+    /// Work of the trial, in s of the budget.
     pub cost_s: f64,
-    /// Number of completed folds, from the first on.
+    /// Number of completed folds, counted from the first fold.
     pub folds: usize,
-    /// Completed share of the training of a network; `None` for the whole training.
+    /// Completed share of the training of a network; `None` for a complete training.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub share: Option<f64>,
-    /// Reason for leaving the race. `None` if it stayed until the end.
+    /// Reason for leaving the race; `None` if the model remained until the end.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub left: Option<String>,
 }
@@ -48,9 +48,9 @@ pub struct AutoTrial {
 pub struct Untried {
     /// Name of the model.
     pub model: String,
-    /// Work of a trial on one fold, s of the budget.
+    /// Work of a trial on one fold, in s of the budget.
     pub cost_s: f64,
-    /// Reason why it was not tried.
+    /// Reason why the model was not tried.
     pub reason: String,
 }
 

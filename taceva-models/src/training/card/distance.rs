@@ -14,7 +14,7 @@ use crate::features::FeatureDistance;
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct DistanceCard {
-    /// Limit along the directions of the training part, in its standard deviations.
+    /// Limit along the directions of the training part, in the part's standard deviations.
     pub along: f64,
     /// Limit orthogonal to the directions, in units of the features.
     pub beside: f64,

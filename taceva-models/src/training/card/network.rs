@@ -13,16 +13,16 @@ pub struct NetworkCard {
     pub architecture: Architecture,
     /// Preprocessing of pictures.
     pub preprocessing: Preprocessing,
-    /// Scale from outputs to labels.
+    /// Scale that converts outputs to labels.
     pub scale: LabelScale,
-    /// Label of each channel that is constant in the training part, and predicted as such. `None` for other channels, which the
-    /// outputs predict in order.
+    /// Label of each channel with a constant label in the training part; the model predicts this label. `None` for other channels, which the outputs predict in
+    /// order.
     pub constant: Vec<Option<f64>>,
-    /// Form of convolutions for predictions.
+    /// Algorithm of convolutions for predictions.
     pub convolutions: ConvolutionForm,
-    /// Instruction set of the CPU. Predictions on the same one are bitwise equal.
+    /// Instruction set of the CPU that fitted the network. Predictions with the same instruction set are bitwise equal.
     pub instructions: String,
-    /// GPU that trained the network. `None` for the CPU. Repeated training on a GPU gives other bits.
+    /// GPU that trained the network; `None` for the CPU. Repeated training on a GPU gives other bits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<String>,
 }

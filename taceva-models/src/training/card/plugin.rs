@@ -1,4 +1,4 @@
-//! Plugin of a model, in its card.
+//! Plugin of a model, as stored in its card.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{EstimatorFactory, ModelError};
@@ -8,9 +8,9 @@ use taceva_core::{EstimatorFactory, ModelError};
 pub struct PluginCard {
     /// Id of the plugin.
     pub id: String,
-    /// Key of its estimator, `id/word`.
+    /// Key of the plugin's estimator, `id/word`.
     pub key: String,
-    /// Digest of the plugin library, `sha256:…`. `None` if it was linked into the program.
+    /// Digest of the plugin library, `sha256:…`; `None` if the plugin was linked into the program.
     pub build: Option<String>,
 }
 

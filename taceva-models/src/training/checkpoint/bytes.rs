@@ -1,4 +1,4 @@
-//! Checkpoints as bytes: safetensors with metadata that identify the training.
+//! Checkpoints as bytes: the safetensors format, with metadata that identify the training run.
 
 use std::collections::BTreeMap;
 use std::io::{self, BufWriter, Write};
@@ -13,15 +13,15 @@ use super::identity::{Identity, Origin, add_numbers, hexadecimal};
 
 /// Key of the metadata.
 const KEY: &str = "taceva.checkpoint";
-/// Format version. Other versions are rejected, because they come from programs that sum in another order.
+/// Format version. Other versions are rejected, because they come from programs that sum in a different order.
 ///
-/// Version 3: convolutions have a form; before, all were direct.
+/// In version 3, convolutions have an algorithm. In earlier versions, all convolutions were direct.
 const FORMAT: &str = "3";
 
-/// Largest file: four times the largest model, for present weights, best weights and two moments.
+/// Size limit of a file: four times the largest model, for present weights, best weights and two moments.
 pub(super) const FILE_MAX: u64 = 1 << 30;
 
-/// Format of a checkpoint, which determines how the rest is read.
+/// Format of a checkpoint, read first because it determines how to read the rest.
 #[derive(Deserialize)]
 struct Format {
     format: String,
@@ -34,11 +34,11 @@ struct Card {
     format: String,
     of: Origin,
     summary: Summary,
-    /// Digest of the summary and of all tensors, sorted by name.
+    /// Digest of the summary and of all tensors, in the order of their names.
     digest: String,
 }
 
-/// Writes `checkpoint` of the training `identity` to `file`, tensor by tensor, to avoid a second copy in memory.
+/// Writes `checkpoint` of the training run `identity` to `file`, tensor by tensor, to avoid a second copy in memory.
 pub(super) fn write(
     identity: &Identity,
     checkpoint: &Checkpoint,
@@ -73,7 +73,7 @@ pub(super) fn write(
     out.flush()
 }
 
-/// Reads a checkpoint and its origin, or returns the fault of `bytes`.
+/// Reads a checkpoint and its origin. The error describes the fault of `bytes`.
 pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     if bytes.len() as u64 > FILE_MAX {
         return Err(format!("more than {FILE_MAX} bytes"));

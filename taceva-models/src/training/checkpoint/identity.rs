@@ -5,7 +5,7 @@ use sha2::{Digest, Sha256};
 use taceva_network::GpuKind;
 use taceva_network::{Architecture, Isa, Labels, Recipe, Samples, Summary};
 
-/// Identity of a training run: everything that its result depends on.
+/// Identity of a training run: all inputs on which its result depends.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Identity {
     architecture: Architecture,
@@ -18,9 +18,9 @@ pub(crate) struct Identity {
 pub(super) struct Origin {
     /// Digest of all labels and of the preprocessed pictures.
     samples: String,
-    /// True without fused multiply-add, which changes the last digits.
+    /// True if products are rounded because fused multiply-add is not available. This changes the last digits.
     rounds_products: bool,
-    /// Training device: `cpu`, or the kind of GPU, whose sums have no fixed order.
+    /// Training device: `cpu`, or the kind of GPU. GPUs sum in no fixed order.
     device: String,
 }
 
@@ -47,7 +47,7 @@ impl Identity {
         }
     }
 
-    /// Difference of a checkpoint from this training. `None` if there is none.
+    /// Name of the difference between a checkpoint and this training run; `None` if there is no difference.
     pub(super) fn differs_from(&self, of: &Origin, summary: &Summary) -> Option<&'static str> {
         if self.architecture != summary.architecture {
             Some("layers, channels or sizes of pictures")
@@ -90,7 +90,7 @@ fn add_samples(digest: &mut Sha256, samples: Samples<'_>) {
     add_numbers(digest, samples.pictures);
 }
 
-/// Adds the bytes of `numbers` in chunks of a few thousand values.
+/// Adds the bytes of `numbers` to the digest, in chunks of a few thousand values.
 pub(super) fn add_numbers(digest: &mut Sha256, numbers: &[f32]) {
     for numbers in numbers.chunks(1 << 14) {
         let bytes: Vec<u8> = numbers

@@ -19,15 +19,15 @@ pub(crate) struct Stored<'a> {
 pub(crate) type Load = fn(&Stored<'_>) -> Result<ModelRegressor, FormatError>;
 
 impl Stored<'_> {
-    /// Shape of the features.
+    /// Shape of the features that the model reads.
     pub(crate) fn shape(&self) -> FeatureShape {
         self.card.features.shape()
     }
 
-    /// Loads a regressor from the tensors by `load`. Wraps it in principal components if the file has any.
+    /// Loads a regressor from the tensors by `load`. Adds principal components if the file contains any.
     ///
     /// # Errors
-    /// [`FormatError`] of `load`, or for a tensor that belongs to neither.
+    /// [`FormatError`] of `load`, or for a tensor that belongs neither to the regressor nor to the components.
     pub(crate) fn on_components<M: FittedModel>(
         &self,
         load: impl FnOnce(&Tensors<'_>, Channels, FeatureShape) -> Result<M, FormatError>,

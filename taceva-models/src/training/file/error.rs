@@ -16,13 +16,13 @@ pub enum FormatError {
     /// The file is too large.
     #[error("{length} bytes, a model has at most {FILE_MAX}")]
     FileSize {
-        /// Length found, bytes.
+        /// Length found, in bytes.
         length: u64,
     },
     /// The header is too large.
     #[error("a header of {length} bytes, a model has at most {HEADER_MAX}")]
     HeaderSize {
-        /// Length found, bytes.
+        /// Length found, in bytes.
         length: u64,
     },
     /// The file is not a valid safetensors file.
@@ -39,7 +39,7 @@ pub enum FormatError {
         "the card contradicts itself: feature sizes out of range, or choices for other channels than it lists"
     )]
     Card,
-    /// The seal does not match: the file was changed.
+    /// The seal does not match, because the file was changed.
     #[error("the model: {0}")]
     Seal(#[from] SealError),
     /// This TacEva does not support the format version.
@@ -58,7 +58,7 @@ pub enum FormatError {
         /// Version of TacEva that wrote the file.
         taceva: String,
     },
-    /// This TacEva does not have the model.
+    /// This TacEva does not include the model.
     #[error("fitted by `{model}`, which this TacEva does not have", model = taceva_core::shown(model))]
     NoModel {
         /// Name of the model.
@@ -77,7 +77,7 @@ pub enum FormatError {
     NoPlugin {
         /// Id of the plugin.
         id: String,
-        /// Key of its estimator.
+        /// Key of the plugin's estimator.
         key: String,
     },
     /// The program was built without the library of the model.

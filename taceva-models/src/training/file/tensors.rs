@@ -1,16 +1,16 @@
-//! Tensors of a model file, written in the order of their names and read by name, type and shape.
+//! Tensors of a model file. They are written in the order of their names, and read by name, type and shape.
 
 use safetensors::tensor::{Dtype, SafeTensors, TensorView};
 
 use crate::training::file::error::FormatError;
 
-/// Directions of variation of the training features.
+/// Name of the tensor with the principal directions of the training features.
 pub(crate) const DIRECTIONS: &str = "distance.directions";
-/// Mean of the training features.
+/// Name of the tensor with the mean of the training features.
 pub(crate) const MEAN: &str = "distance.mean";
-/// Standard deviations of the training features along the directions.
+/// Name of the tensor with the standard deviations of the training features along the directions.
 pub(crate) const DEVIATIONS: &str = "distance.deviations";
-/// Tensors of the training distance.
+/// Names of the tensors of the training distance.
 pub(crate) const DISTANCE: [&str; 3] = [DIRECTIONS, MEAN, DEVIATIONS];
 
 /// A tensor as stored in a file.
@@ -48,7 +48,7 @@ impl Raw {
     }
 }
 
-/// Tensors of a file to read.
+/// Tensors of a file that is being read.
 pub(crate) struct Tensors<'a>(pub(crate) SafeTensors<'a>);
 
 impl<'a> Tensors<'a> {
@@ -56,7 +56,7 @@ impl<'a> Tensors<'a> {
         self.0.tensor(name).is_ok()
     }
 
-    /// Rejects every tensor outside `known`, except those of the training distance, which are read separately.
+    /// Rejects every tensor outside `known`. Tensors of the training distance are allowed, because they are read separately.
     pub(crate) fn only(&self, known: &[&str]) -> Result<(), FormatError> {
         let mut names = self.0.names().into_iter();
         match names.find(|name| !known.contains(name) && !DISTANCE.contains(name)) {
@@ -67,7 +67,7 @@ impl<'a> Tensors<'a> {
         }
     }
 
-    /// First dimension of the tensor `name`.
+    /// Size of the first dimension of the tensor `name`.
     pub(crate) fn rows(&self, name: &'static str) -> Result<usize, FormatError> {
         let tensor = self.0.tensor(name);
         let tensor = tensor.map_err(|_| FormatError::Missing { name })?;

@@ -1,12 +1,12 @@
-//! Kernel positions that overlap the picture. The border is zero, so skipping it changes no bit. Tiny pictures are mostly border, so the saved work
-//! outweighs the shorter runs.
+//! Kernel positions that overlap the picture. The border is zero, so the result has the same bits if border positions are skipped. Tiny pictures are mostly
+//! border, so the saved work outweighs the shorter runs.
 
 use std::ops::Range;
 
 use crate::convolution::Convolution;
 use crate::picture::Picture;
 
-/// Largest side of a picture whose border is skipped, pixels. At 2 × 2, a 3 × 3 kernel overlaps the border with five of nine positions.
+/// Largest side of a picture whose border is skipped, in pixels. For 2 × 2 pixels, five of the nine positions of a 3 × 3 kernel are in the border.
 const SIDE: usize = 2;
 
 /// True if the border of `picture` is skipped.
@@ -14,7 +14,7 @@ pub(super) fn is_left_out(picture: Picture) -> bool {
     picture.height.max(picture.width) <= SIDE
 }
 
-/// Output positions along one side and the kernel positions that they read.
+/// Output positions along one side, and the kernel positions that these outputs read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Reach {
     pub(super) positions: Range<usize>,
@@ -22,7 +22,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// All `positions` outputs with all kernel positions.
+    /// Single reach of all `positions` outputs with all kernel positions.
     pub(super) fn all(convolution: Convolution, positions: usize) -> Reach {
         Reach {
             positions: 0..positions,
@@ -31,7 +31,7 @@ impl Reach {
     }
 }
 
-/// One reach per output position, limited to kernel positions inside a picture of `length` pixels along this side.
+/// One reach per output position. Contains only kernel positions inside a picture of `length` pixels along this side.
 pub(super) fn reaches(convolution: Convolution, positions: usize, length: usize) -> Vec<Reach> {
     let padding = convolution.padding();
     let reach = |position: usize| {

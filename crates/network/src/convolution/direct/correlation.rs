@@ -1,4 +1,4 @@
-//! Kernel shared by the forward pass and the input gradient: sums of runs of pixels times rows of weights.
+//! Inner loop of the forward pass and of the input gradient: sums of runs of pixels times rows of weights.
 
 use std::ops::Range;
 
@@ -7,40 +7,40 @@ use crate::convolution::ending::{Finish, Start, SumRule};
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Bytes of weights that fit into the second-level cache beside their pixels.
+/// Size of weights that fit into the second-level cache together with their pixels, in bytes.
 const WEIGHTS_AT_ONCE: usize = 700 << 10;
 
-/// A run of consecutive input values and the rows of weights that multiply it.
+/// A run of consecutive input values, and the rows of weights that multiply these values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Tap {
-    /// Offset of the run from the start of a pixel's kernel.
+    /// Offset of the run from the first value that the kernel reads.
     pub(crate) offset: usize,
-    /// First row of weights.
+    /// Index of the first row of weights.
     pub(crate) row: usize,
 }
 
 /// Memory layout of the outputs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum OutputLayout {
-    /// Pictures of `image` values each. The buffer begins `skipped` values into the first one.
+    /// Pictures of `image` values each. The buffer begins `skipped` values after the start of the first picture.
     Pictures { image: usize, skipped: usize },
-    /// Only the pixels of `range`, contiguous, `channels` values each.
+    /// Only the pixels of `range`, contiguous, with `channels` values each.
     Packed { channels: usize },
 }
 
-/// output[pixel, channel] = finish(start + Σ over taps, run: input · weights).
+/// Computes output[pixel, channel] = finish(start + Σ over taps and runs: input · weights).
 pub(crate) struct Correlation<'a> {
     /// Offsets of each pixel of a picture in input and output.
     pub(crate) pixels: &'a Pixels,
-    /// Pixels to write, counted over all pictures.
+    /// Pixels to compute, counted over all pictures.
     pub(crate) range: Range<usize>,
-    /// Pictures of `input_image` values each.
+    /// Input pictures of `input_image` values each.
     pub(crate) input: &'a [f32],
     pub(crate) input_image: usize,
     pub(crate) taps: &'a [Tap],
-    /// Values in the run of each tap.
+    /// Number of values in the run of each tap.
     pub(crate) run: usize,
-    /// `[panels, rows, PANEL]`.
+    /// Weights, shape `[panels, rows, PANEL]`.
     pub(crate) weights: &'a [f32],
     pub(crate) rows: usize,
     pub(crate) output: &'a mut [f32],
@@ -48,7 +48,7 @@ pub(crate) struct Correlation<'a> {
     pub(crate) rule: SumRule<'a>,
 }
 
-/// Part of a correlation computed in one pass over the pixels.
+/// Part of a correlation that is computed in one pass over the pixels.
 #[derive(Clone, Copy)]
 struct Round<'a> {
     taps: &'a [Tap],
@@ -57,9 +57,9 @@ struct Round<'a> {
     is_last: bool,
 }
 
-/// True if the weights of `rows` rows exceed the cache share for machines with wide tiles.
+/// True if `rows` rows of weights exceed their share of the cache, for machines with wide tiles.
 ///
-/// Computed for at most four panels on every machine, so that the division of work depends only on shapes.
+/// Assumes at most four panels on every machine, so that the division of work depends only on shapes.
 pub(crate) fn are_weights_many(rows: usize, panels: usize) -> bool {
     rows * panels.min(4) * PANEL * size_of::<f32>() > WEIGHTS_AT_ONCE
 }
@@ -155,7 +155,7 @@ impl Correlation<'_> {
         tile.store(self.output, outputs, PANEL);
     }
 
-    /// Prefetches the outputs of these sums, and the end of each pixel's last run for the next sums. Both loads finish during this summation.
+    /// Prefetches the outputs of these sums, and the end of each pixel's last run for the next sums. Both loads complete during the present summation.
     #[inline(always)]
     fn prefetch<V: Vector, const ROWS: usize, const VECTORS: usize>(
         &self,
@@ -177,7 +177,7 @@ impl Correlation<'_> {
         }
     }
 
-    /// Offsets of pixel `position`, counted over all pictures, in input and output.
+    /// Offsets of the pixel `position`, counted over all pictures, in input and output.
     #[inline(always)]
     fn place(&self, position: usize) -> (usize, usize) {
         let image = position / self.pixels.len();

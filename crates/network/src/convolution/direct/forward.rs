@@ -1,4 +1,4 @@
-//! Forward pass of the direct form.
+//! Forward pass of the direct algorithm.
 
 use std::ops::Range;
 
@@ -17,19 +17,19 @@ use crate::planes::Layout;
 use crate::simd::Pixels;
 use crate::team;
 
-/// Pixels per task of a thread: enough to amortise reading the weights.
+/// Number of pixels per task of a thread. It is large enough to amortise reading the weights.
 const PIXELS_AT_ONCE: usize = 384;
 
-/// Minimum number of pictures for which the border is skipped: the rows of a tile of sums.
+/// Minimum number of pictures for which the border is skipped. It equals the number of rows in a tile of sums.
 const IMAGES_WORTH_CLASSES: usize = 6;
 
 /// Maximum number of pixels of a tile of sums.
 pub(super) const ROWS: usize = 6;
 
-/// Forward pass, prepared for pictures of one layout.
+/// Forward pass, prepared for pictures of one memory layout.
 #[derive(Clone, Debug)]
 pub(crate) struct Forward {
-    /// One class of all pixels.
+    /// Class that contains all pixels.
     whole: Class,
     /// Classes of pixels without the border; empty if the border is not skipped.
     apart: Vec<Class>,
@@ -45,7 +45,7 @@ pub(super) struct Class {
 }
 
 impl Forward {
-    /// Pass of `convolution` from pictures of layout `input` to pictures of layout `output`.
+    /// Prepares the pass of `convolution` from pictures of layout `input` to pictures of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> Forward {
         let (height, width) = (output.picture.height, output.picture.width);
         let [down, across] = [height, width].map(|side| Reach::all(convolution, side));
@@ -66,8 +66,8 @@ impl Forward {
         }
     }
 
-    /// Classes to compute for `images` pictures. Each class reads the weights again, which pays off for enough pixels. Only zeros
-    /// are skipped, so outputs do not depend on this choice.
+    /// Classes to compute for `images` pictures. Each class reads the weights again, which is efficient for a sufficient number of pixels. Only zeros are
+    /// skipped, so outputs do not depend on this choice.
     fn classes(&self, images: usize) -> &[Class] {
         if self.apart.is_empty() || images < IMAGES_WORTH_CLASSES {
             std::slice::from_ref(&self.whole)
@@ -76,7 +76,7 @@ impl Forward {
         }
     }
 
-    /// Work of one picture with `panels` output panels, to be divided among threads.
+    /// Size of the work for one picture with `panels` output panels, for its division among threads.
     pub(in crate::convolution) fn outputs(&self, panels: usize) -> Outputs {
         Outputs {
             pixels: self.whole.pixels.len(),
@@ -87,7 +87,8 @@ impl Forward {
         }
     }
 
-    /// Runs the pass into the first pictures of `output`. `see` receives each picture's item of `each`, and its output while still in cache.
+    /// Runs the pass and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. It receives the item of
+    /// `each` for this picture, and the output.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,
@@ -191,7 +192,7 @@ impl Class {
     }
 }
 
-/// Number of pictures of `pixels` pixels per task of a thread. Affects only the time, not the result.
+/// Number of pictures of `pixels` pixels per task of a thread. Affects only the run time, not the result.
 pub(super) fn images_at_once(pixels: usize, count: usize, are_weights_many: bool) -> usize {
     let share = count.div_ceil(rayon::current_num_threads()).max(1);
     if are_weights_many {

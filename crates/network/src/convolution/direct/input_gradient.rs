@@ -1,5 +1,5 @@
-//! Input gradient: correlation of the output gradient with exchanged weights, one for each class of pixels reached by the same
-//! kernel positions.
+//! Input gradient: correlation of the output gradient with exchanged weights. There is one correlation for each class of pixels reached by the same kernel
+//! positions.
 
 use rayon::prelude::*;
 
@@ -14,14 +14,14 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Pictures};
 use crate::simd::Pixels;
 
-/// Input-gradient pass, prepared for pictures of one layout.
+/// Input-gradient pass, prepared for pictures of one memory layout.
 #[derive(Clone, Debug)]
 pub(crate) struct InputGradient {
     classes: Vec<Class>,
     convolution: Convolution,
 }
 
-/// Input pixels reached by the same kernel positions. With stride 2: four classes by parity.
+/// Input pixels reached by the same kernel positions. With stride 2, there are four classes by parity of row and column.
 #[derive(Clone, Debug)]
 struct Class {
     pixels: Pixels,
@@ -29,9 +29,9 @@ struct Class {
 }
 
 impl InputGradient {
-    /// Pass from output gradients of layout `output` to input gradients of layout `input`.
+    /// Prepares the pass from output gradients of layout `output` to input gradients of layout `input`.
     ///
-    /// The border of `output` must be at least the padding.
+    /// The border of `output` must be at least as wide as the padding.
     pub(crate) fn new(convolution: Convolution, output: Layout, input: Layout) -> InputGradient {
         let stride = convolution.stride;
         let classes = (0..stride).flat_map(|y| (0..stride).map(move |x| (y, x)));
@@ -44,7 +44,7 @@ impl InputGradient {
         }
     }
 
-    /// Runs the pass on the first `count` pictures with exchanged weights.
+    /// Runs the pass on the first `count` pictures, with exchanged weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
@@ -97,8 +97,7 @@ impl InputGradient {
 }
 
 impl Class {
-    /// Classes of the input pixels at `first_y` + i · stride, `first_x` + j · stride. One class, or one for each pixel if the border
-    /// is skipped.
+    /// Classes of the input pixels at `first_y` + i · stride, `first_x` + j · stride. There is one class, or one for each pixel if the border is skipped.
     fn all_of(
         convolution: Convolution,
         output: Layout,

@@ -13,11 +13,11 @@ use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::team;
 
-/// One picture and its convolution.
+/// One picture and its convolution, to be divided among threads.
 #[derive(Clone, Copy)]
 pub(super) struct Divided<'a> {
     pub(super) class: &'a Class,
-    /// Rows of weights in each panel.
+    /// Number of rows of weights in each panel.
     pub(super) rows: usize,
     pub(super) input: &'a [f32],
     pub(super) weights: &'a [f32],
@@ -26,7 +26,7 @@ pub(super) struct Divided<'a> {
 }
 
 impl<'a> Divided<'a> {
-    /// Writes the output. `ending` returns the start and finish of the sums of a range of its values.
+    /// Computes and writes the output. `ending` returns start values and finish of the sums for a range of output values.
     pub(super) fn run(
         self,
         machine: Machine,
@@ -45,7 +45,7 @@ impl<'a> Divided<'a> {
         }
     }
 
-    /// Divides by pixels: each part writes one stretch of the output.
+    /// Divides the work by pixels. Each part writes one range of the output.
     fn by_pixels(
         self,
         machine: Machine,
@@ -77,7 +77,7 @@ impl<'a> Divided<'a> {
         });
     }
 
-    /// Divides by panels: each part writes its own buffer, and the buffers are gathered.
+    /// Divides the work by panels. Each part writes to its own buffer, and the buffers are then gathered.
     fn by_panels(
         self,
         machine: Machine,

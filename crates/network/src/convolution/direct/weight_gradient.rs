@@ -1,4 +1,4 @@
-//! Weight gradient: one row per input value, summed over pixels.
+//! Weight gradient: one row per input value, each summed over pixels.
 
 use rayon::prelude::*;
 
@@ -10,33 +10,33 @@ use crate::panel::PANEL;
 use crate::planes::{Layout, Planes};
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Bytes of output gradient processed at once, so that they stay in the second-level cache.
+/// Size of the output gradient processed at once, in bytes. It remains in the second-level cache.
 const GRADIENT_AT_ONCE: usize = 400 << 10;
 
-/// Rows of weights in one task.
+/// Number of rows of weights in one task.
 const ROWS_AT_ONCE: usize = 48;
 
-/// Weight-gradient pass, prepared for pictures of one layout.
+/// Weight-gradient pass, prepared for pictures of one memory layout.
 #[derive(Clone, Debug)]
 pub(crate) struct WeightGradient {
-    /// Pixels read by each kernel position, or one table of all pixels for each kernel row.
+    /// Pixels read by each kernel position. Alternatively, one table of all pixels for each kernel row.
     pixels: Vec<Pixels>,
     blocks: Vec<Block>,
     rows: usize,
 }
 
-/// Consecutive rows of weights for consecutive input values.
+/// Consecutive rows of weights, for consecutive input values.
 #[derive(Clone, Copy, Debug)]
 struct Block {
     /// Index into `WeightGradient::pixels`.
     pixels: usize,
-    /// Offset of the first row's input value from the start of a pixel's kernel.
+    /// Offset of the first row's input value from the first value that the kernel reads.
     offset: usize,
     rows: usize,
 }
 
 impl WeightGradient {
-    /// Weight-gradient pass for inputs of layout `input` and output gradients of layout `output`.
+    /// Prepares the pass for inputs of layout `input` and output gradients of layout `output`.
     pub(crate) fn new(convolution: Convolution, input: Layout, output: Layout) -> WeightGradient {
         let Convolution { inputs, kernel, .. } = convolution;
         let picture = output.picture;
@@ -79,7 +79,7 @@ impl WeightGradient {
     /// Runs the pass on the first `count` pictures.
     ///
     /// # Shapes
-    /// `into`: shape of the weights.
+    /// `into`: same shape as the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
@@ -111,7 +111,7 @@ impl WeightGradient {
         });
     }
 
-    /// Divides the gradient buffer into tasks: a block of rows of up to four panels each.
+    /// Divides the gradient buffer into tasks. A task is a block of rows of up to four panels.
     fn tasks<'a>(&self, into: &'a mut [f32]) -> Vec<Task<'a>> {
         let mut tasks = Vec::new();
         for (group, panels) in into.chunks_mut(4 * self.rows * PANEL).enumerate() {
@@ -136,9 +136,9 @@ impl WeightGradient {
 /// One block of rows of up to four panels.
 struct Task<'a> {
     block: Block,
-    /// First channel of the first panel.
+    /// Index of the first channel of the first panel.
     channel: usize,
-    /// `[block rows, PANEL]` each.
+    /// Gradient rows of each panel, shape `[block rows, PANEL]`.
     panels: Vec<&'a mut [f32]>,
 }
 
@@ -149,7 +149,7 @@ struct Sums<'a, 'b> {
     input_image: usize,
     gradient: &'a [f32],
     gradient_image: usize,
-    /// True if sums begin at zero instead of the values in `task`.
+    /// True if sums begin at zero, false if they continue from the values in `task`.
     is_first: bool,
     task: &'a mut Task<'b>,
 }

@@ -1,10 +1,10 @@
-//! Divides one picture among threads. Every division gives the same bits as the undivided pass, on every instruction set of the machine.
+//! Tests of the division of one picture among threads. Every division gives the same bits as the undivided pass, on every instruction set of the machine.
 
 use super::super::division::Division;
 use super::*;
 use crate::panel::PANEL;
 
-/// Convolution of `batch` pictures with odd sides.
+/// Test case of `batch` pictures with odd sides.
 fn case(
     channels: [usize; 2],
     [kernel, stride]: [usize; 2],

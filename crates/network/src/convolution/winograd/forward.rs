@@ -1,4 +1,4 @@
-//! Forward pass of Winograd's form.
+//! Forward pass of Winograd's algorithm.
 
 use std::ops::Range;
 
@@ -15,21 +15,21 @@ use crate::machine::Machine;
 use crate::planes::Layout;
 use crate::team;
 
-/// Forward pass, prepared for pictures of one layout.
+/// Forward pass, prepared for pictures of one memory layout.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Forward {
     products: Products,
 }
 
 impl Forward {
-    /// Pass from pictures of layout `input` to pictures of layout `output`.
+    /// Prepares the pass from pictures of layout `input` to pictures of layout `output`.
     pub(crate) fn new(input: Layout, output: Layout) -> Forward {
         Forward {
             products: Products::new(input, output),
         }
     }
 
-    /// Work of one picture, to be divided among threads.
+    /// Size of the work for one picture, for its division among threads.
     pub(in crate::convolution) fn outputs(&self) -> Outputs {
         self.products.outputs()
     }
@@ -39,7 +39,7 @@ impl Forward {
         self.products.transformed_len()
     }
 
-    /// Transforms weights into the start of `room` and returns that part.
+    /// Transforms the weights into the start of `room`, and returns the transformed weights.
     pub(crate) fn transform<'a>(
         &self,
         machine: Machine,
@@ -52,8 +52,8 @@ impl Forward {
         room
     }
 
-    /// Runs the pass with transformed weights into the first pictures of `output`. `see` receives each picture's item of
-    /// `each`, and its output while still in cache.
+    /// Runs the pass with transformed weights, and writes to the first pictures of `output`. `see` is called for each picture while its output is in cache. It
+    /// receives the item of `each` for this picture, and the output.
     pub(crate) fn run<E: Send>(
         &self,
         machine: Machine,

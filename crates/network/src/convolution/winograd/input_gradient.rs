@@ -1,5 +1,4 @@
-//! Input gradient: the forward pass applied to the output gradient, with inputs and outputs of the weights exchanged and
-//! kernels rotated by 180°.
+//! Input gradient: the forward pass applied to the output gradient. Inputs and outputs of the weights are exchanged, and kernels are rotated by 180°.
 
 use super::products::{Products, RunValues};
 use super::weights::to_points;
@@ -8,14 +7,14 @@ use crate::convolution::workspace::Rooms;
 use crate::machine::Machine;
 use crate::planes::{Layout, Pictures};
 
-/// Input-gradient pass, prepared for pictures of one layout.
+/// Input-gradient pass, prepared for pictures of one memory layout.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InputGradient {
     products: Products,
 }
 
 impl InputGradient {
-    /// Pass from output gradients of layout `output` to input gradients of layout `input`.
+    /// Prepares the pass from output gradients of layout `output` to input gradients of layout `input`.
     pub(crate) fn new(output: Layout, input: Layout) -> InputGradient {
         InputGradient {
             products: Products::new(output, input),

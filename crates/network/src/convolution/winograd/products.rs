@@ -1,4 +1,4 @@
-//! Products of tiles and transformed weights: the forward pass, and with exchanged weights the input gradient.
+//! Products of tiles and transformed weights. They compute the forward pass and, with exchanged weights, the input gradient.
 
 use std::ops::Range;
 
@@ -14,15 +14,15 @@ use crate::panel::PANEL;
 use crate::planes::Layout;
 use crate::simd::{Job, Tile, Vector};
 
-/// Tiles per step of a thread.
+/// Number of tiles per step of a thread.
 const TILES_AT_ONCE: usize = 32;
 
-/// Tiles per step if the weights exceed the cache; a step reads them once.
+/// Number of tiles per step if the weights exceed the cache. Each step reads the weights once.
 const TILES_AT_ONCE_OF_MANY_WEIGHTS: usize = 48;
 
-/// Channels per partial sum. Partial sums keep rounding errors from growing with channels: hundreds of terms in one row lose more digits than the
-/// transforms do. Errors are smallest if inner and outer sums have equally many terms. The count is therefore the square root of the channels, or the
-/// next larger power of two: 8 of 64, 16 of 128 and 256, 32 of 512.
+/// Number of channels per partial sum. Without partial sums, rounding errors would grow with the number of channels, and exceed those of the transforms. Errors
+/// are smallest if inner and outer sums have equally many terms. The count is therefore the square root of the number of channels, or the next larger power of
+/// two: 8 of 64, 16 of 128 and 256, 32 of 512.
 ///
 /// This count is the most exact of 4, 8, 16, 32 and all in each layer of a ResNet, to within a few hundredths. `tests/blocks.rs` prints and checks
 /// the errors against double precision. One count for all layers is less exact: 8 by a fifth at 512 channels, 16 by a twentieth at 64. Errors were
@@ -32,7 +32,7 @@ pub(super) const fn channels_at_once(channels: usize) -> usize {
     1 << channels.next_power_of_two().ilog2().div_ceil(2)
 }
 
-/// Bytes of transformed weights that fit into the cache.
+/// Size of transformed weights that fit into the cache, in bytes.
 const WEIGHTS_IN_CACHE: usize = 4 << 20;
 
 /// Number of tiles per step for `weights`.
@@ -45,30 +45,30 @@ pub(super) fn tiles_at_once(weights: &[f32]) -> usize {
     }
 }
 
-/// Tiles per stretch, at most about `most`: `total` divided into nearly equal stretches, rounded up to whole tiles of sums.
+/// Number of tiles per range, at most about `most`. Divides `total` into nearly equal ranges, rounded up to whole tiles of sums.
 pub(super) fn stretch(total: usize, most: usize) -> usize {
     total.div_ceil(total.div_ceil(most)).next_multiple_of(6)
 }
 
-/// Values that a run reads and writes.
+/// Values that a run of the pass reads and writes.
 pub(super) struct RunValues<'a> {
     pub(super) pictures: &'a [f32],
-    /// Weights written by [`to_points`](super::weights::to_points).
+    /// Weights that [`to_points`](super::weights::to_points) has written.
     pub(super) weights: &'a [f32],
     pub(super) output: &'a mut [f32],
 }
 
-/// Layouts of the input and output pictures.
+/// Products for one pair of memory layouts of input and output pictures.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Products {
     pub(super) input: Layout,
     pub(super) output: Layout,
-    /// Input channels per partial sum.
+    /// Number of input channels per partial sum.
     pub(super) channels_at_once: usize,
 }
 
 impl Products {
-    /// Products from pictures of layout `input` to pictures of layout `output`.
+    /// Prepares the products for pictures of layout `input` and outputs of layout `output`.
     pub(super) fn new(input: Layout, output: Layout) -> Products {
         Products {
             input,
@@ -82,8 +82,8 @@ impl Products {
         transformed_len(self.input.picture.channels, self.output.picture.channels)
     }
 
-    /// Writes the outputs of pictures. `ending` returns the start and finish of the sums of a range of values. `see` receives each picture's item of
-    /// `each`, and its output while still in cache.
+    /// Computes and writes the outputs of pictures. `ending` returns start values and finish of the sums for a range of values. `see` is called for each
+    /// picture while its output is in cache. It receives the item of `each` for this picture, and the output.
     pub(super) fn run<'a, E: Send>(
         &self,
         machine: Machine,
@@ -148,17 +148,17 @@ impl Products {
 /// Work of one thread on some pictures.
 pub(super) struct Group<'a> {
     pub(super) tiles: Tiles,
-    /// Tiles to write, counted over all the pictures.
+    /// Tiles to compute, counted over all the pictures.
     pub(super) range: Range<usize>,
     pub(super) at_once: usize,
-    /// Input and output channels.
+    /// Numbers of input and output channels.
     pub(super) channels: [usize; 2],
     pub(super) channels_at_once: usize,
     pub(super) pictures: PictureValues<'a>,
     pub(super) weights: &'a [f32],
     pub(super) output: OutputBuffer<'a>,
     pub(super) rule: SumRule<'a>,
-    /// `[point, tile, channel]` of inputs and of sums.
+    /// Buffers of inputs and of sums, each of shape `[point, tile, channel]`.
     pub(super) room: [&'a mut [f32]; 2],
 }
 

@@ -13,7 +13,7 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::team;
 
-/// One picture and its convolution.
+/// One picture and its convolution, to be divided among threads.
 #[derive(Clone, Copy)]
 pub(super) struct Divided<'a> {
     pub(super) products: Products,
@@ -31,7 +31,7 @@ struct Part<'a> {
 }
 
 impl Products {
-    /// Work of one picture, to be divided among threads.
+    /// Size of the work for one picture, for its division among threads.
     pub(super) fn outputs(&self) -> Outputs {
         let tiles = Tiles::of(self.output.picture);
         Outputs {
@@ -46,7 +46,7 @@ impl Products {
 }
 
 impl<'a> Divided<'a> {
-    /// Writes the output. `ending` returns the start and finish of the sums of a range of its values.
+    /// Computes and writes the output. `ending` returns start values and finish of the sums for a range of output values.
     pub(super) fn run(
         self,
         machine: Machine,
@@ -65,7 +65,7 @@ impl<'a> Divided<'a> {
         }
     }
 
-    /// Divides by rows of tiles.
+    /// Divides the work by rows of tiles.
     fn by_rows(
         self,
         machine: Machine,
@@ -104,7 +104,7 @@ impl<'a> Divided<'a> {
         team::divide(stretches, |part| self.part(machine, part, rooms));
     }
 
-    /// Divides the work by panels. Each part writes its own buffer, and the buffers are gathered.
+    /// Divides the work by panels. Each part writes to its own buffer, and the buffers are then gathered.
     fn by_panels(
         self,
         machine: Machine,

@@ -1,4 +1,4 @@
-//! Sums over tiles at each point. One task sums one point and a few panels, tile after tile.
+//! Sums over tiles at each point. One task computes the sums of one point and a few panels, tile after tile.
 
 use rayon::prelude::*;
 
@@ -9,26 +9,26 @@ use crate::machine::Machine;
 use crate::panel::PANEL;
 use crate::simd::{Job, Pixels, Tile, Vector};
 
-/// Tiles per piece.
+/// Number of tiles per piece.
 pub(super) const PIECE: usize = 16;
 
-/// Channel panels per task: the most that the widest machine sums at once.
+/// Number of channel panels per task. This is the greatest number that the widest machine sums at once.
 const PANELS_AT_ONCE: usize = 4;
 
-/// Transformed tiles in pieces of [`PIECE`] tiles.
+/// Transformed tiles, in pieces of [`PIECE`] tiles.
 pub(super) struct Pieces<'a> {
-    /// Input and output channels.
+    /// Numbers of input and output channels.
     channels: [usize; 2],
     values: &'a [f32],
-    /// Length of a piece, values.
+    /// Length of a piece, in values.
     piece: usize,
-    /// Offsets of the tiles of a full piece, and of a shorter last one.
+    /// Offsets of the tiles of a full piece, and of the last piece if it is shorter.
     whole: Pixels,
     rest: Pixels,
 }
 
 impl<'a> Pieces<'a> {
-    /// Pieces of `tiles` tiles.
+    /// Divides `tiles` tiles into pieces.
     pub(super) fn new(channels: [usize; 2], tiles: usize, values: &'a [f32]) -> Pieces<'a> {
         Pieces {
             channels,
@@ -39,7 +39,7 @@ impl<'a> Pieces<'a> {
         }
     }
 
-    /// Length of a piece, values.
+    /// Length of a piece, in values.
     pub(super) fn length(channels: [usize; 2]) -> usize {
         POINTS * (slab(PIECE, channels[0]) + slab(PIECE, channels[1]))
     }
@@ -47,7 +47,7 @@ impl<'a> Pieces<'a> {
     /// Adds the products of inputs and gradients to `sums`, or overwrites `sums` if `is_first`.
     ///
     /// # Shapes
-    /// `sums`: `[point, panel, input, PANEL]`, one unused panel after the inputs of each.
+    /// `sums`: `[point, panel, input, PANEL]`, with one unused panel after the inputs of each panel.
     pub(super) fn add(&self, machine: Machine, is_first: bool, sums: &mut [f32]) {
         let [read, written] = self.channels;
         let slab = slab(read, PANEL);
@@ -69,7 +69,7 @@ impl<'a> Pieces<'a> {
     }
 }
 
-/// Offsets of the channels of `tiles` tiles at a point.
+/// Offsets of the channels of `tiles` tiles at one point.
 fn pixels(tiles: usize, [read, written]: [usize; 2]) -> Pixels {
     let places = (0..tiles).map(|tile| (offset(tile * read), offset(tile * written)));
     Pixels::new(places.collect())
@@ -79,10 +79,10 @@ fn pixels(tiles: usize, [read, written]: [usize; 2]) -> Pixels {
 struct Sums<'a> {
     pieces: &'a Pieces<'a>,
     point: usize,
-    /// First channel of the first panel.
+    /// Index of the first channel of the first panel.
     channel: usize,
     is_first: bool,
-    /// Stride between panels, values.
+    /// Stride between panels, in values.
     slab: usize,
     sums: &'a mut [f32],
 }

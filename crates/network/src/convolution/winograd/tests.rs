@@ -1,4 +1,4 @@
-//! Accuracy of Winograd's passes for various inputs, and the convolutions that they support.
+//! Tests of the accuracy of Winograd's passes for various inputs, and of the convolutions that they support.
 
 mod blocks;
 
@@ -38,7 +38,7 @@ fn error(found: &[f32], expected: &[f64]) -> f64 {
     (differences.sum::<f64>() / squares).sqrt()
 }
 
-/// Errors of each pass, for the worst instruction set.
+/// Errors of each pass, the greatest of all instruction sets.
 fn errors(case: &Case, numbers: &Numbers) -> [f64; 3] {
     let expected = case.definition(numbers);
     let mut worst = [0.0_f64; 3];

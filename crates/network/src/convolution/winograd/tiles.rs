@@ -1,4 +1,4 @@
-//! Transforms tiles of pictures to their points, `[point, tile, channel]`, and back.
+//! Transforms tiles of pictures to points, shape `[point, tile, channel]`, and back.
 
 use std::ops::Range;
 
@@ -8,12 +8,12 @@ use crate::convolution::ending::{Finish, Start, SumRule};
 use crate::planes::Layout;
 use crate::simd::{Spaced, Vector};
 
-/// A range of the tiles of pictures of one layout.
+/// A range of tiles in pictures of one layout.
 #[derive(Clone)]
 pub(super) struct Stretch {
     pub(super) tiles: Tiles,
     pub(super) range: Range<usize>,
-    /// Stride between points, values.
+    /// Stride between points, in values.
     pub(super) slab: usize,
 }
 
@@ -24,11 +24,11 @@ pub(super) struct PictureValues<'a> {
     pub(super) layout: Layout,
 }
 
-/// Buffer of a part of output pictures.
+/// Buffer for a part of the output pictures.
 pub(super) struct OutputBuffer<'a> {
     pub(super) values: &'a mut [f32],
     pub(super) layout: Layout,
-    /// Number of values of the pictures before the buffer.
+    /// Number of picture values before the start of the buffer.
     pub(super) skipped: usize,
 }
 
@@ -36,7 +36,7 @@ impl Stretch {
     /// Writes the transformed inputs of the tiles.
     ///
     /// # Shapes
-    /// `pictures`: with a border of at least one pixel.
+    /// `pictures`: must have a border of at least one pixel.
     #[inline(always)]
     pub(super) fn read_inputs<V: Vector>(
         &self,
@@ -116,7 +116,7 @@ impl Stretch {
         }
     }
 
-    /// Writes the tiles of outputs from the sums at each point.
+    /// Computes the outputs of the tiles from the sums at each point, and writes them.
     #[inline(always)]
     pub(super) fn write_outputs<V: Vector>(
         &self,
@@ -162,7 +162,7 @@ impl Stretch {
         }
     }
 
-    /// Places of the six points of `row`, `start` values after the beginning of each.
+    /// Positions of the six points of `row`, with an offset of `start` values from the beginning of each point.
     #[inline(always)]
     fn row_of_points(&self, row: usize, start: usize) -> Spaced {
         Spaced {
@@ -173,7 +173,7 @@ impl Stretch {
     }
 }
 
-/// Sums of one row of a tile at `pixels`, from `channel` on, with start value and finish applied.
+/// Sums of one row of a tile at `pixels`, beginning with `channel`. Start value and finish have been applied.
 #[inline(always)]
 fn finished<V: Vector>(
     proof: V::Proof,

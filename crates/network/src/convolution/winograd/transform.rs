@@ -1,4 +1,4 @@
-//! Winograd transforms along one dimension. Points are 0, a, −a, b, −b and ∞ with a² = ½ and b² = 2, where polynomials are evaluated.
+//! Winograd transforms along one dimension. Polynomials are evaluated at the points 0, a, −a, b, −b and ∞ with a² = ½ and b² = 2.
 
 use super::{SIDE, TILE};
 use crate::simd::Vector;
@@ -13,25 +13,25 @@ const B2: f64 = 2.0;
 const AT_A: f64 = 1.0 / (2.0 * A2 * (A2 - B2));
 const AT_B: f64 = 1.0 / (2.0 * B2 * (B2 - A2));
 
-/// A constant in every lane.
+/// Vector with the same constant in every lane.
 #[inline(always)]
 fn constant<V: Vector>(proof: V::Proof, value: f64) -> V {
     V::constant(proof, single(value))
 }
 
-/// `vector` · `factor`.
+/// Product of `vector` and `factor`.
 #[inline(always)]
 fn times<V: Vector>(proof: V::Proof, vector: V, factor: f64) -> V {
     vector.times_plus(constant(proof, factor), V::zero(proof))
 }
 
-/// `vector` · `factor` + `addend`.
+/// Computes `vector` · `factor` + `addend`.
 #[inline(always)]
 fn times_plus<V: Vector>(proof: V::Proof, vector: V, factor: f64, addend: V) -> V {
     vector.times_plus(constant(proof, factor), addend)
 }
 
-/// Bᵀd: transforms the inputs of a tile.
+/// Transforms the inputs of a tile (Bᵀd).
 #[inline(always)]
 pub(super) fn input<V: Vector>(proof: V::Proof, d: [V; SIDE]) -> [V; SIDE] {
     let even_a = times_plus(proof, d[2], -B2, d[4]);
@@ -48,7 +48,7 @@ pub(super) fn input<V: Vector>(proof: V::Proof, d: [V; SIDE]) -> [V; SIDE] {
     ]
 }
 
-/// Aᵀm: transforms the sums at the points back to outputs.
+/// Transforms the sums at the points back to outputs (Aᵀm).
 #[inline(always)]
 pub(super) fn output<V: Vector>(proof: V::Proof, m: [V; SIDE]) -> [V; TILE] {
     let (even_a, odd_a) = (m[1].plus(m[2]), times_plus(proof, m[2], -1.0, m[1]));
@@ -61,7 +61,7 @@ pub(super) fn output<V: Vector>(proof: V::Proof, m: [V; SIDE]) -> [V; TILE] {
     ]
 }
 
-/// Ay: transforms the gradient of a tile of outputs to the gradient of the sums at the points.
+/// Transforms the gradient of a tile of outputs to the gradient of the sums at the points (Ay).
 #[inline(always)]
 pub(super) fn gradient<V: Vector>(proof: V::Proof, y: [V; TILE]) -> [V; SIDE] {
     let even_a = times_plus(proof, y[2], A2, y[0]);
@@ -78,7 +78,7 @@ pub(super) fn gradient<V: Vector>(proof: V::Proof, y: [V; TILE]) -> [V; SIDE] {
     ]
 }
 
-/// Gw: transforms a row of a kernel.
+/// Transforms a row of a kernel (Gw).
 #[inline(always)]
 pub(super) fn kernel<V: Vector>(proof: V::Proof, w: [V; 3]) -> [V; SIDE] {
     let even_a = times_plus(proof, w[2], A2 * AT_A, times(proof, w[0], AT_A));
@@ -93,7 +93,7 @@ pub(super) fn kernel<V: Vector>(proof: V::Proof, w: [V; 3]) -> [V; SIDE] {
     ]
 }
 
-/// Gᵀu: transforms the gradient at the points to the gradient of a row of a kernel.
+/// Transforms the gradient at the points to the gradient of a row of a kernel (Gᵀu).
 #[inline(always)]
 pub(super) fn kernel_gradient<V: Vector>(proof: V::Proof, u: [V; SIDE]) -> [V; 3] {
     let (even_a, odd_a) = (u[1].plus(u[2]), times_plus(proof, u[2], -1.0, u[1]));

@@ -1,7 +1,7 @@
-//! Weight gradient: products of transformed inputs and output gradients, summed over tiles at each point.
+//! Weight gradient: products of transformed inputs and transformed output gradients, summed over tiles at each point.
 //!
-//! Tiles are transformed piece by piece. One thread computes each sum, over one point and a few panels, tile after tile. No reduction is needed, and
-//! the order is the same for any number of threads.
+//! Tiles are transformed piece by piece. One thread computes each sum, for one point and a few panels, tile after tile. No reduction is needed, and the order
+//! is the same for any number of threads.
 
 use std::ops::Range;
 
@@ -19,10 +19,10 @@ use crate::simd::{Job, Vector};
 /// Minimum number of pieces in memory at once.
 const PIECES_AT_ONCE: usize = 4;
 
-/// Bytes of pieces in memory at once, if this allows more than [`PIECES_AT_ONCE`].
+/// Size of pieces in memory at once, in bytes, if this allows more than [`PIECES_AT_ONCE`] pieces.
 const BYTES_AT_ONCE: usize = 2 << 20;
 
-/// Weight-gradient pass, prepared for pictures of one layout.
+/// Weight-gradient pass, prepared for pictures of one memory layout.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WeightGradient {
     input: Layout,
@@ -30,7 +30,7 @@ pub(crate) struct WeightGradient {
 }
 
 impl WeightGradient {
-    /// Weight-gradient pass for inputs of layout `input` and output gradients of layout `output`.
+    /// Prepares the pass for inputs of layout `input` and output gradients of layout `output`.
     pub(crate) fn new(input: Layout, output: Layout) -> WeightGradient {
         WeightGradient { input, output }
     }
@@ -43,7 +43,7 @@ impl WeightGradient {
     /// Runs the pass on the first `count` pictures.
     ///
     /// # Shapes
-    /// `into`: shape of the weights.
+    /// `into`: same shape as the weights.
     pub(crate) fn run(
         &self,
         machine: Machine,
@@ -97,7 +97,7 @@ struct Piece<'a> {
     range: Range<usize>,
     pictures: PictureValues<'a>,
     gradients: PictureValues<'a>,
-    /// `[point, tile, channel]` of inputs, then of output gradients.
+    /// Buffer of inputs, then of output gradients, both of shape `[point, tile, channel]`.
     room: &'a mut [f32],
 }
 

@@ -1,4 +1,4 @@
-//! Transforms of kernels and of their gradients.
+//! Transforms of kernels, and of the gradients of kernels.
 
 use rayon::prelude::*;
 
@@ -12,10 +12,10 @@ use crate::simd::{Job, Spaced, Vector};
 const KERNEL: usize = 3;
 const TAPS: usize = KERNEL * KERNEL;
 
-/// Transforms weights for `inputs` channels. `turned` rotates each kernel by 180°.
+/// Transforms weights for `inputs` input channels. If `turned` is true, each kernel is rotated by 180°.
 ///
 /// # Shapes
-/// `weights`: `[panel, tap, input, PANEL]`; `into`: `[panel, point, input, PANEL]`, one unused panel after the inputs of each point.
+/// `weights`: `[panel, tap, input, PANEL]`. `into`: `[panel, point, input, PANEL]`, with one unused panel after the inputs of each point.
 pub(super) fn to_points(
     machine: Machine,
     weights: &[f32],
@@ -35,10 +35,10 @@ pub(super) fn to_points(
     });
 }
 
-/// Computes the gradient of weights for `inputs` channels from the gradient of transformed weights.
+/// Computes the gradient of weights for `inputs` input channels, from the gradient of transformed weights.
 ///
 /// # Shapes
-/// `transformed`: `[point, panel, input, PANEL]`, one unused panel after the inputs of each; `into`: `[panel, tap, input, PANEL]`.
+/// `transformed`: `[point, panel, input, PANEL]`, with one unused panel after the inputs of each panel. `into`: `[panel, tap, input, PANEL]`.
 pub(super) fn from_points(machine: Machine, transformed: &[f32], inputs: usize, into: &mut [f32]) {
     let panels = into.len() / (TAPS * inputs * PANEL);
     let gradients = into.par_chunks_mut(TAPS * inputs * PANEL);
@@ -52,10 +52,10 @@ pub(super) fn from_points(machine: Machine, transformed: &[f32], inputs: usize, 
     });
 }
 
-/// One panel of kernels.
+/// Task that transforms one panel of kernels.
 struct Kernels<'a> {
     weights: &'a [f32],
-    /// Values per kernel position.
+    /// Number of values per kernel position.
     width: usize,
     turned: bool,
     into: &'a mut [f32],
@@ -102,11 +102,11 @@ impl Job for Kernels<'_> {
     }
 }
 
-/// Gradient of one panel of kernels.
+/// Task that computes the gradient of one panel of kernels.
 struct KernelGradients<'a> {
-    /// Values from this panel at the first point on.
+    /// Gradient of transformed weights, beginning with this panel at the first point.
     transformed: &'a [f32],
-    /// Stride between points, values.
+    /// Stride between points, in values.
     stride: usize,
     width: usize,
     into: &'a mut [f32],

@@ -9,11 +9,11 @@ use super::Device;
 use crate::gpu::engine::begin;
 use crate::gpu::{GpuError, GpuKind};
 
-/// Requirements, for error messages.
+/// Requirements for a CUDA device, for error messages.
 const LOOKED_FOR: &str =
     "NVIDIA's driver (libcuda), its compiler NVRTC (libnvrtc of CUDA 11 or later) and a GPU";
 
-/// Finds the first device.
+/// Finds the first CUDA device.
 pub(crate) fn find() -> Result<Device, GpuError> {
     // cudarc panics if a library is missing, and offers no other check.
     let found = contained(|| {

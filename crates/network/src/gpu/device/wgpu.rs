@@ -13,10 +13,10 @@ use super::Device;
 use crate::gpu::engine::begin;
 use crate::gpu::{GpuError, GpuKind};
 
-/// Name of the device after burn has initialised it. Initialisation is allowed only once per process.
+/// Name of the device after burn has initialised it. burn allows only one initialisation per process.
 static READY: Mutex<Option<String>> = Mutex::new(None);
 
-/// Finds the first device.
+/// Finds the first wgpu device.
 pub(crate) fn find() -> Result<Device, GpuError> {
     let backend = AutoGraphicsApi::backend();
     let refuse = |found: String| GpuError::NotFound {
@@ -52,7 +52,7 @@ const fn looked_for(backend: Backend) -> &'static str {
     }
 }
 
-/// Name of the adapter that burn would choose, or the reason for none.
+/// Name of the adapter that burn would choose. The error is the reason why there is none.
 fn adapter(backend: Backend) -> Result<String, String> {
     let instance = Instance::new(InstanceDescriptor {
         backends: backend.into(),

@@ -12,13 +12,13 @@ use super::device_error;
 use super::predictor::LivePredictor;
 use super::streams::Counts;
 
-/// Length of the queue of frames.
+/// Capacity of the queue of frames.
 pub(super) const ROOM: usize = 8;
-/// Deadline of one call for a frame.
+/// Deadline for each call that requests a frame.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));
 /// Time without a complete frame after which the camera counts as failed.
 const PATIENCE: Duration = Duration::from_secs(3);
-/// Delay after a failed call.
+/// Delay before a failed call is retried.
 const REST: Duration = Duration::from_millis(5);
 
 /// A captured frame.
@@ -26,7 +26,7 @@ const REST: Duration = Duration::from_millis(5);
 pub(super) struct Taken {
     pub(super) frame: Frame,
     pub(super) stamp: Stamp,
-    /// Encoded file that the camera sent, if any.
+    /// Encoded file, if the camera sent one.
     pub(super) sent: Option<Vec<u8>>,
 }
 
@@ -36,15 +36,15 @@ pub(super) struct Camera<'a> {
     pub(super) driver: &'a DriverKey,
     pub(super) source: DriverSource,
     pub(super) counts: &'a Counts,
-    /// Predictor of frames, if any.
+    /// Predictor that receives the frames, if any.
     pub(super) predictor: Option<&'a LivePredictor<'a>>,
 }
 
 impl Camera<'_> {
-    /// Puts frames into `queue` until the capture ends.
+    /// Adds frames to `queue` until the capture ends.
     ///
     /// # Errors
-    /// The error that ended the frames.
+    /// The error that ended the stream of frames.
     pub(super) fn take(mut self, queue: &SyncSender<Taken>) -> Result<(), DriverError> {
         let info = self.sensor.frame_info();
         let mut last = None;
@@ -71,7 +71,7 @@ impl Camera<'_> {
         Ok(())
     }
 
-    /// Next frame; `None` if this call returned none.
+    /// Requests the next frame; `None` if this call returned no frame.
     fn next(
         &mut self,
         info: FrameInfo,
@@ -116,8 +116,8 @@ impl Camera<'_> {
         device_error(kind, self.driver, "capture a frame", why)
     }
 
-    /// Puts a frame into `queue`; returns false if the receiver is gone. A real device drops the frame if the queue is full; a bench or a recording
-    /// waits.
+    /// Adds a frame to `queue`. Returns false if the receiver no longer exists. If the queue is full, a frame of a real device is dropped, and a bench or a
+    /// recording waits.
     fn put(&self, queue: &SyncSender<Taken>, taken: Taken) -> bool {
         if self.source != DriverSource::Real {
             return queue.send(taken).is_ok();

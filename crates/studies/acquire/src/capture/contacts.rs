@@ -1,4 +1,4 @@
-//! Assignment of frames to contacts with the gel.
+//! Assigns frames to contacts with the gel.
 
 use taceva_dataset::Table;
 
@@ -7,9 +7,9 @@ const BEGINS_N: f64 = 0.1;
 /// Normal force below which a contact ends, in N.
 const ENDS_N: f64 = 0.05;
 
-/// Numbers the contacts of a capture: `rest-0` comes before the first contact, `hand-1`.
+/// Numbering of the contacts of a capture. `rest-0` is the time before the first contact, which is `hand-1`.
 ///
-/// A rest is no contact point. Its name keeps its frames on one side of the training/test split.
+/// A rest is not a contact point. Frames of one rest have the same name, so that a training/test split does not separate them.
 #[derive(Debug)]
 pub(super) struct Contacts {
     count: u64,
@@ -17,7 +17,7 @@ pub(super) struct Contacts {
 }
 
 impl Contacts {
-    /// Continues the numbering of `table`.
+    /// Creates a numbering that continues that of `table`.
     pub(super) fn after(table: &Table) -> Contacts {
         let names = table.point_id().iter().flatten();
         let numbers = names.filter_map(|name| name.strip_prefix("hand-")?.parse().ok());
@@ -27,12 +27,12 @@ impl Contacts {
         }
     }
 
-    /// Number of contacts begun.
+    /// Number of contacts that have begun.
     pub(super) fn count(&self) -> u64 {
         self.count
     }
 
-    /// Name of the contact or rest of a frame with the normal force `normal_n`; without a force, the name of the previous frame.
+    /// Name of the contact or rest of a frame with the normal force `normal_n`. Without a force, the name of the previous frame.
     pub(super) fn name(&mut self, normal_n: Option<f64>) -> String {
         match normal_n {
             Some(normal_n) if !self.is_touched && normal_n > BEGINS_N => {

@@ -24,36 +24,36 @@ use crate::instruments::{traced, warnings_today};
 use crate::presses::{HeldRigs, Opened, Turned, add_settings};
 use crate::scene::read_rig_file;
 
-/// Deadline of the start of a sensor and of its first frame.
+/// Deadline for the start of a sensor, and for its first frame.
 const FIRST: Duration = Duration::from_secs(5);
 
-/// Devices of a capture or a preview, checked but not open.
+/// Devices of a capture or a preview, checked but not opened.
 #[derive(Clone, Debug)]
 pub struct LiveSpec {
     sensor: Named,
     force: Option<Named>,
-    /// Axis of the transducer for each axis of the sensor, from the rig file.
+    /// Axes of the transducer that correspond to the axes of the sensor, from the rig file.
     axes: Option<SignedAxes>,
     is_emulated: bool,
 }
 
-/// A device by its selector.
+/// A device given by its selector.
 #[derive(Clone, Debug)]
 struct Named {
     selector: Selector,
-    /// Latency in the rig file, in ms.
+    /// Latency from the rig file, in ms.
     latency_ms: Option<f64>,
-    /// Certificate in the rig file.
+    /// Certificate from the rig file.
     certificate: Option<Certificate>,
-    /// Source of the selector, for messages: a command-line option or the rig file.
+    /// Origin of the selector, for messages: a command-line option or the rig file.
     by: String,
 }
 
 impl LiveSpec {
-    /// Reads the devices from selectors, or else from a rig file. The robot of the rig file is not used.
+    /// Reads the devices from selectors, or otherwise from a rig file. The robot in the rig file is not used.
     ///
     /// # Errors
-    /// [`AcquireError::Request`] if no sensor is named or a selector is invalid; [`AcquireError::Scene`] for an invalid rig file.
+    /// [`AcquireError::Request`] if no sensor is named or a selector is invalid. [`AcquireError::Scene`] for an invalid rig file.
     pub fn new(
         sensor: Option<&str>,
         force: Option<&str>,
@@ -110,7 +110,7 @@ impl LiveSpec {
         &self.sensor.selector
     }
 
-    /// Instruments of the labels: the transducer, and the sensor if it has a certificate.
+    /// Instruments that measure the labels: the transducer, and the sensor if it has a certificate.
     fn traceability(&self) -> Vec<Traceability> {
         let traced_as = |instrument, named: &Named| {
             let selector = named.selector.to_string();
@@ -123,7 +123,7 @@ impl LiveSpec {
         force.into_iter().chain(sensor).collect()
     }
 
-    /// Real devices, which only one command at a time may use.
+    /// Real devices, which only one command at a time can use.
     fn real(&self, drivers: &Drivers) -> BTreeMap<String, String> {
         let sensor = drivers.sensors.get(self.sensor.selector.driver());
         let is_real = |descriptor: &Descriptor| descriptor.source() == DriverSource::Real;
@@ -138,11 +138,11 @@ impl LiveSpec {
         real
     }
 
-    /// Opens the devices and locks the real ones.
+    /// Opens the devices, and locks those that are real.
     ///
     /// # Errors
-    /// [`AcquireError::OpenLive`] if a device does not open, [`AcquireError::RigTaken`] if another command holds one,
-    /// [`AcquireError::Request`] if sensor and transducer have different clocks.
+    /// [`AcquireError::OpenLive`] if a device does not open. [`AcquireError::RigTaken`] if another command uses a device. [`AcquireError::Request`] if sensor
+    /// and transducer have different clocks.
     pub fn open(&self, drivers: &Drivers) -> Result<LiveDevices, AcquireError> {
         let held = HeldRigs::take(&std::env::temp_dir(), self.real(drivers))?;
         let failed = |source: OpenError| AcquireError::OpenLive(Box::new(source));
@@ -202,7 +202,7 @@ impl LiveSpec {
     }
 }
 
-/// A device as written, before its selector is parsed.
+/// A device as the user wrote it, before its selector is parsed.
 struct Wanted {
     text: String,
     latency_ms: Option<f64>,
@@ -253,12 +253,12 @@ impl LiveDevices {
         force.is_some_and(|force| force.device.axes().contains(axis))
     }
 
-    /// Instruments of the labels, with their certificates.
+    /// Instruments that measure the labels, with their certificates.
     pub(super) fn traceability(&self) -> Vec<Traceability> {
         self.traceability.clone()
     }
 
-    /// Settings of the devices, read back. Those of the transducer begin with `force_`.
+    /// Settings that the devices report. Names of the transducer's settings begin with `force_`.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
         let mut settings = self.sensor.settings();
         if let Some(force) = &self.force {
@@ -267,14 +267,14 @@ impl LiveDevices {
         settings
     }
 
-    /// Exposure of a frame, in s; `None` if the camera does not state it.
+    /// Exposure time of a frame, in s; `None` if the camera does not state it.
     fn exposure_s(&self) -> Option<f64> {
         let settings = self.sensor.settings();
         let exposure_ms: f64 = settings.get("exposure_ms")?.parse().ok()?;
         Some(1e-3 * exposure_ms)
     }
 
-    /// Remarks of the transducer on its readings, and contradictions of the certificates, each with its remedy.
+    /// Warnings of the transducer about its readings, and contradictions of certificates. Each has its remedy.
     pub fn warnings(&self) -> Vec<String> {
         let force = self.force.as_ref();
         let mut warnings = force.map_or_else(Vec::new, |force| force.device.warnings());
@@ -282,19 +282,19 @@ impl LiveDevices {
         warnings
     }
 
-    /// True if a device is simulated or emulated, so that nothing is measured.
+    /// True if a device is simulated or emulated. The labels are then not measurements.
     pub fn is_simulated(&self) -> bool {
         // Opening rejects a simulated transducer.
         self.is_emulated || self.sensor_source == DriverSource::Simulated
     }
 
-    /// Starts the devices and zeroes the force.
+    /// Starts the devices, and sets the force zero.
     pub(super) fn begin(&mut self) -> Result<(), DriverError> {
         self.sensor.start(Deadline::after(FIRST))?;
         self.force.as_mut().map_or(Ok(()), Transducer::begin)
     }
 
-    /// First frame, taken without contact.
+    /// Captures the first frame, without contact.
     pub(super) fn untouched(&mut self) -> Result<Frame, DriverError> {
         let info = self.sensor.frame_info();
         let mut bytes = vec![0; info.byte_len().unwrap_or_default()];
@@ -311,7 +311,7 @@ impl LiveDevices {
         Frame::new(info, bytes).map_err(|error| internal(error.to_string()))
     }
 
-    /// Runs `act` on the streams while threads read the devices, then stops the devices. Also returns the failure of a device, if any.
+    /// Calls `act` with the streams while threads read the devices, and then stops the devices. Also returns the failure of a device, if any.
     pub(super) fn stream<T>(
         &mut self,
         predictor: Option<&LivePredictor<'_>>,
@@ -377,7 +377,7 @@ impl LiveDevices {
     }
 }
 
-/// Guard that ends the threads when it is dropped.
+/// Guard that ends the device threads when it is dropped.
 struct Over<'a> {
     counts: &'a Counts,
     interrupt: Option<Arc<dyn taceva_core::Interrupt>>,

@@ -1,4 +1,4 @@
-//! Labels frames with the wrench at their time.
+//! Labels frames with the wrench at the time of each frame.
 
 use std::collections::VecDeque;
 
@@ -11,16 +11,16 @@ use super::contacts::Contacts;
 use super::streams::Streams;
 use super::track::At;
 
-/// Greatest number of frames waiting for a later reading. Beyond it, the oldest frame is recorded without a force.
+/// Maximum number of frames that wait for a later reading. If there are more, the oldest frame is recorded without a force.
 const WAITING_MAX: usize = 64;
-/// Extra wait for a reading beyond the longest gap, in s: latency of links and threads.
+/// Additional wait for a reading after the longest allowed gap, in s. It allows for the latency of links and threads.
 const SLACK_S: f64 = 0.1;
 
-/// Frames waiting for their force.
+/// Frames that wait for their force.
 pub(super) struct Labels {
     channels: Channels,
     waiting: VecDeque<Taken>,
-    /// Number of samples made.
+    /// Number of samples created.
     frames: u64,
     lost: LostForces,
     has_ended: bool,
@@ -29,15 +29,15 @@ pub(super) struct Labels {
 /// Numbers of frames without a force, by cause.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct LostForces {
-    /// Frames before the first reading.
+    /// Number of frames before the first reading.
     pub(super) before: u64,
-    /// Frames between readings that are too far apart.
+    /// Number of frames between readings that are too far apart.
     pub(super) in_gaps: u64,
-    /// Frames after which no reading came in time.
+    /// Number of frames that were not followed by a reading in time.
     pub(super) late: u64,
 }
 
-/// A frame with the wrench at its time, if known.
+/// A frame with the wrench at its time; the wrench is `None` if unknown.
 pub(super) struct Labelled {
     taken: Taken,
     wrench: Option<Wrench>,
@@ -54,22 +54,22 @@ impl Labels {
         }
     }
 
-    /// Number of samples made so far.
+    /// Number of samples created so far.
     pub(super) fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Frames without a force so far, by cause.
+    /// Number of frames without a force so far, by cause.
     pub(super) fn lost(&self) -> LostForces {
         self.lost
     }
 
-    /// True if samples have no labels at all.
+    /// True if samples have no labels.
     pub(super) fn is_empty(&self) -> bool {
         self.channels.is_empty()
     }
 
-    /// Receives frames; returns false once the stream has ended and no frame waits.
+    /// Receives frames. Returns false if the stream has ended and no frame waits.
     pub(super) fn collect(&mut self, streams: &Streams<'_>) -> bool {
         if self.has_ended {
             return !self.waiting.is_empty();
@@ -89,7 +89,7 @@ impl Labels {
         true
     }
 
-    /// Oldest frame, once its force is known or cannot become known.
+    /// Returns the oldest frame if its force is known, or can no longer become known.
     pub(super) fn next(&mut self, streams: &Streams<'_>) -> Option<Labelled> {
         let stamp_s = self.waiting.front()?.stamp.valid_s;
         let wrench = match streams.track.map(|track| (track, track.at(stamp_s))) {
@@ -117,10 +117,10 @@ impl Labels {
         Some(Labelled { taken, wrench })
     }
 
-    /// Sample of a frame, and its time in s.
+    /// Creates the sample of a frame. Also returns its time, in s.
     ///
     /// # Errors
-    /// The error in the encoded file of the camera.
+    /// The error in the encoded file from the camera.
     pub(super) fn sample(
         &mut self,
         Labelled { taken, wrench }: Labelled,

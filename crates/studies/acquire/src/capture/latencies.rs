@@ -1,9 +1,9 @@
 //! Histogram of the latency of frames.
 
-/// Upper end of the histogram, in ms; longer times share the last bin.
+/// Upper end of the histogram, in ms. All longer times are in the last bin.
 const MOST_MS: usize = 2_000;
 
-/// Latencies between the stamp of a frame and its display, in bins of a millisecond.
+/// Histogram of latencies between the time stamp of a frame and its display, with bins of 1 ms.
 ///
 /// ```
 /// use taceva_acquire::Latencies;
@@ -17,7 +17,7 @@ const MOST_MS: usize = 2_000;
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Latencies {
-    /// Count for each bin of 1 ms; the last bin counts all longer times.
+    /// Count for each bin of 1 ms. The last bin counts all longer times.
     counts: Vec<u64>,
     total: u64,
 }
@@ -38,12 +38,12 @@ impl Latencies {
         self.total += 1;
     }
 
-    /// Number of latencies.
+    /// Number of latencies added.
     pub fn count(&self) -> u64 {
         self.total
     }
 
-    /// Least whole number of milliseconds that covers `share` (0 to 1) of the latencies; `None` without latencies, or beyond 2 s.
+    /// Least whole number of milliseconds that is not exceeded by `share` (0 to 1) of the latencies. `None` without latencies, or beyond 2 s.
     pub fn within_ms(&self, share: f64) -> Option<u64> {
         #[expect(clippy::cast_precision_loss, reason = "a count, far below 2^53")]
         let wanted = share * self.total as f64;

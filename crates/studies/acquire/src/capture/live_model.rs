@@ -8,7 +8,7 @@ use taceva_models::{Extractor, Model};
 
 use crate::error::AcquireError;
 
-/// A fitted model with its file, for a [`LivePredictor`](crate::LivePredictor).
+/// A fitted model and its file, for a [`LivePredictor`](crate::LivePredictor).
 #[derive(Clone, Debug)]
 pub struct LiveModel {
     model: Model,
@@ -17,10 +17,10 @@ pub struct LiveModel {
 }
 
 impl LiveModel {
-    /// Wraps the model read from `path` for camera frames.
+    /// Prepares the model read from `path` for camera frames.
     ///
     /// # Errors
-    /// [`AcquireError::Model`] if the model does not take frames, or predicts a constant.
+    /// [`AcquireError::Model`] if the model does not read frames, or predicts a constant.
     pub fn new(model: Model, path: &Path) -> Result<LiveModel, AcquireError> {
         let refused = |problem: String| AcquireError::Model {
             path: path.to_owned(),
@@ -53,27 +53,27 @@ impl LiveModel {
         &self.model.card().model
     }
 
-    /// Digest of its file.
+    /// Digest of the model file.
     pub fn digest(&self) -> Digest {
         self.digest
     }
 
-    /// Path of its file.
+    /// Path of the model file.
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Channels that it predicts.
+    /// Channels that the model predicts.
     pub fn channels(&self) -> &Channels {
         self.model.channels()
     }
 
-    /// True if it measures the distance of a frame from its training data.
+    /// True if the model computes the distance of a frame from its training data.
     pub fn knows_distance(&self) -> bool {
         self.model.feature_distance().is_some()
     }
 
-    /// True if it needs a reference frame without contact.
+    /// True if the model needs a contact-free reference frame.
     pub fn asks_for_reference(&self) -> bool {
         self.model.card().features.asks_for_reference().is_some()
     }
@@ -91,7 +91,7 @@ impl LiveModel {
         }
     }
 
-    /// Extractor of its features from frames.
+    /// Extractor of the model's features from frames.
     pub(super) fn extractor(
         &self,
         info: FrameInfo,

@@ -13,16 +13,16 @@ use taceva_models::FeatureDistance;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Prediction {
-    /// Stamp of the frame, in s, on the clock of frame stamps.
+    /// Time stamp of the frame, in s, on the clock of frame stamps.
     pub stamp_s: f64,
     /// Value of each channel of the model, in the unit of the channel.
     pub values: Vec<f64>,
-    /// Distance of the frame from the training data; the limit is 1. `None` if the model does not measure it.
+    /// Distance of the frame from the training data, with the limit 1; `None` if the model does not compute it.
     pub distance: Option<f64>,
 }
 
 impl Prediction {
-    /// Prediction of a frame with the stamp `stamp_s`, in s, without a distance.
+    /// Creates a prediction for a frame with the time stamp `stamp_s`, in s, without a distance.
     pub fn new(stamp_s: f64, values: Vec<f64>) -> Prediction {
         Prediction {
             stamp_s,
@@ -40,7 +40,7 @@ impl Prediction {
         }
     }
 
-    /// True if the frame is outside the training data; `None` if the model does not measure it.
+    /// True if the frame is outside the training data; `None` if the model does not compute the distance.
     pub fn is_outside(&self) -> Option<bool> {
         self.distance.map(FeatureDistance::is_outside)
     }

@@ -1,4 +1,4 @@
-//! Table of predictions beside a recording.
+//! Table of predictions, written beside a recording.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -8,7 +8,7 @@ use taceva_dataset::Table;
 
 use super::prediction::Prediction;
 
-/// Predictions in order of their computation.
+/// Predictions in the order in which they were computed.
 #[derive(Debug)]
 pub(super) struct PredictionTable {
     names: Vec<String>,
@@ -30,7 +30,7 @@ impl PredictionTable {
         self.predictions.push(prediction);
     }
 
-    /// CSV of the predictions of recorded frames, matched by stamp: `sample`, `t_s`, `distance`, and one column for each channel.
+    /// CSV text of the predictions of recorded frames, matched by time stamp. Columns are `sample`, `t_s`, `distance`, and one for each channel.
     pub(super) fn csv(&self, recorded: &Table) -> Vec<u8> {
         let rows = recorded.t_s().iter().zip(recorded.samples());
         let samples: BTreeMap<u64, &String> = rows
@@ -60,7 +60,7 @@ impl PredictionTable {
     }
 }
 
-/// Formats a CSV cell, with quotes if needed.
+/// Formats a CSV cell, with quotes if necessary.
 fn cell(text: &str) -> String {
     match text.contains([',', '"', '\n', '\r']) {
         true => format!("\"{}\"", text.replace('"', "\"\"")),

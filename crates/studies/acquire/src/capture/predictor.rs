@@ -1,4 +1,4 @@
-//! Thread that predicts the newest frame; older frames are dropped and counted.
+//! Thread that predicts the newest frame. Older frames are dropped and counted.
 
 #[cfg(test)]
 mod tests;
@@ -16,43 +16,43 @@ use super::prediction::Prediction;
 use super::prediction_table::PredictionTable;
 use crate::error::AcquireError;
 
-/// Interval between checks for the end.
+/// Interval between checks if the thread must end.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// Counts of the frames of a predictor.
+/// Counts of the frames that a predictor received.
 #[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct PredictionCounts {
-    /// Frames received.
+    /// Number of frames received.
     pub seen: u64,
-    /// Frames predicted.
+    /// Number of frames predicted.
     pub predicted: u64,
-    /// Frames dropped because a newer frame arrived while the model was busy.
+    /// Number of frames dropped because a newer frame arrived while the model was busy.
     pub dropped: u64,
-    /// Predicted frames outside the training data; `None` if the model does not measure it.
+    /// Number of predicted frames outside the training data; `None` if the model does not compute the distance.
     pub outside: Option<u64>,
-    /// Latencies from the stamp of each frame to its prediction; empty if another clock stamps the frames.
+    /// Latencies from the time stamp of each frame to its prediction. Empty if another clock stamps the frames.
     pub latencies: Latencies,
 }
 
-/// Callback for a prediction, its frame and the counts so far.
+/// Callback that receives a prediction, its frame and the counts so far.
 type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync);
 
-/// Predicts frames on its own thread. It holds only the newest frame and never blocks a capture.
+/// Predicts frames on its own thread. It stores only the newest frame, and never blocks a capture.
 pub struct LivePredictor<'a> {
     model: &'a LiveModel,
     heard: Heard<'a>,
-    /// Set once the reference frame is available, if the model needs one.
+    /// Feature extractor. If the model needs a reference frame, it is created when this frame is available.
     extractor: OnceLock<Extractor>,
     offered: Mutex<Offered>,
-    /// Notified when a frame arrives, when it is taken, and at the end.
+    /// Notified when a frame arrives, when a frame is taken for prediction, and at the end.
     changed: Condvar,
     counts: Mutex<PredictionCounts>,
     table: Option<Mutex<PredictionTable>>,
     failure: OnceLock<String>,
 }
 
-/// Newest frame, and the end flag.
+/// Newest frame, and the flag for the end.
 #[derive(Default)]
 struct Offered {
     newest: Option<Newest>,
@@ -62,12 +62,12 @@ struct Offered {
 struct Newest {
     frame: Frame,
     stamp_s: f64,
-    /// True if the stamp is from this machine's clock.
+    /// True if the time stamp is from the clock of this machine.
     is_timed: bool,
 }
 
 impl<'a> LivePredictor<'a> {
-    /// Creates a predictor with `model`. Its thread calls `heard` with each prediction, its frame and the counts.
+    /// Creates a predictor with `model`. Its thread calls `heard` with each prediction, the frame and the counts.
     pub fn new(
         model: &'a LiveModel,
         heard: &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync),
@@ -87,7 +87,7 @@ impl<'a> LivePredictor<'a> {
         }
     }
 
-    /// Stores every prediction for a table beside the recording.
+    /// Enables a table of all predictions, to be written beside the recording.
     #[must_use]
     pub fn with_table(self) -> LivePredictor<'a> {
         let table = PredictionTable::new(self.model.channels());
@@ -117,7 +117,7 @@ impl<'a> LivePredictor<'a> {
         self.table.as_ref().map(lock)
     }
 
-    /// Prepares for frames like `untouched`, which is also the reference frame if the model needs one.
+    /// Prepares for frames with the format of `untouched`. This frame is also the reference frame if the model needs one.
     pub(super) fn begin(
         &self,
         info: taceva_core::FrameInfo,
@@ -129,7 +129,8 @@ impl<'a> LivePredictor<'a> {
         Ok(())
     }
 
-    /// Passes `frame` with the stamp `stamp_s`, in s, to the thread. It replaces a waiting frame; a simulated or recorded source waits instead.
+    /// Passes `frame` with the time stamp `stamp_s`, in s, to the thread. The frame replaces a waiting frame of a real device. A simulated or recorded source
+    /// waits instead.
     pub(super) fn offer(&self, frame: &Frame, stamp_s: f64, source: DriverSource) {
         let is_timed = source == DriverSource::Real;
         let frame = frame.clone();
@@ -153,7 +154,7 @@ impl<'a> LivePredictor<'a> {
         counts.dropped += u64::from(older.is_some());
     }
 
-    /// Predicts frames until the [end](LivePredictor::end).
+    /// Predicts frames until [`end`](LivePredictor::end) is called.
     pub(super) fn run(&self) {
         let _over = Over(self);
         let Some(extractor) = self.extractor.get() else {
@@ -174,7 +175,7 @@ impl<'a> LivePredictor<'a> {
         }
     }
 
-    /// Ends the thread after the waiting frame.
+    /// Ends the thread after the prediction of the waiting frame.
     pub(super) fn end(&self) {
         lock(&self.offered).is_over = true;
         self.changed.notify_all();
@@ -243,7 +244,7 @@ impl<'a> LivePredictor<'a> {
     }
 }
 
-/// Guard that ends the predictor when its thread ends, so that no caller waits forever.
+/// Guard that ends the predictor when its thread ends. No caller then waits forever.
 struct Over<'p, 'a>(&'p LivePredictor<'a>);
 
 impl Drop for Over<'_, '_> {

@@ -7,10 +7,10 @@ use super::predictor::LivePredictor;
 use crate::error::AcquireError;
 use crate::viewer::Viewer;
 
-/// Shows `viewer` the frames and forces of `live` until it is cancelled. With a predictor, its callback receives the frames instead of the viewer.
+/// Shows the frames and forces of `live` in `viewer` until the preview is cancelled. With a predictor, its callback receives the frames instead of the viewer.
 ///
 /// # Errors
-/// [`AcquireError::Device`] if a device failed; [`AcquireError::Model`] if the model does not fit the frames, or failed.
+/// [`AcquireError::Device`] if a device fails. [`AcquireError::Model`] if the model cannot read the frames, or fails.
 pub fn preview(
     live: &mut LiveDevices,
     viewer: &dyn Viewer,

@@ -9,10 +9,10 @@ use taceva_dataset::StreamFacts;
 use super::camera::Taken;
 use super::track::Track;
 
-/// Longest wait for one frame.
+/// Maximum wait for one frame.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Shared counts of the device threads, with the flag that ends them.
+/// Counts that the device threads share, and the flag that ends these threads.
 #[derive(Debug, Default)]
 pub(super) struct Counts {
     is_over: AtomicBool,
@@ -37,7 +37,7 @@ impl Counts {
         self.is_over.store(true, Ordering::Release);
     }
 
-    /// Counts the sequence numbers missing between `last` and `number` as dropped frames; damaged frames are already counted.
+    /// Counts the sequence numbers missing between `last` and `number` as dropped frames. Damaged frames are already counted.
     pub(super) fn missed(&self, last: u64, number: u64) {
         let between = number.saturating_sub(last).saturating_sub(1);
         self.dropped.fetch_add(between, Ordering::AcqRel);
@@ -58,16 +58,16 @@ impl Counts {
     }
 }
 
-/// Streams of the devices.
+/// Streams of frames and readings from the devices.
 pub(super) struct Streams<'a> {
     pub(super) queue: Receiver<Taken>,
-    /// Readings, if there is a transducer.
+    /// Readings of the transducer, if there is one.
     pub(super) track: Option<&'a Track>,
     pub(super) counts: &'a Counts,
 }
 
 impl Streams<'_> {
-    /// Next frame, after a short wait; `Err` once the stream has ended.
+    /// Next frame, after a short wait; `Err` if the stream has ended.
     pub(super) fn next(&self) -> Result<Option<Taken>, Ended> {
         match self.queue.recv_timeout(LOOK) {
             Ok(taken) => Ok(Some(taken)),
@@ -93,12 +93,12 @@ impl Streams<'_> {
         self.counts.count_damaged();
     }
 
-    /// Lost frames so far.
+    /// Counts of lost frames so far.
     pub(super) fn facts(&self) -> StreamFacts {
         self.counts.facts()
     }
 }
 
-/// The stream of frames has ended.
+/// Error of a stream of frames that has ended.
 #[derive(Debug)]
 pub(super) struct Ended;

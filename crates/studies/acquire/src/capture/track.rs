@@ -1,4 +1,4 @@
-//! Recent readings of a transducer, interpolated at the time of a frame.
+//! Recent readings of a transducer, interpolated at the times of frames.
 
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -6,37 +6,38 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use taceva_core::Wrench;
 use taceva_protocol::wrench_between;
 
-/// Age at which readings are removed, in s; every frame arrives earlier.
+/// Age at which readings are removed, in s. Every frame arrives earlier.
 const KEPT_S: f64 = 5.0;
-/// Longest interpolated gap between readings: in periods, and at least this time, in s, since pauses of threads are no loss of the device.
+/// Maximum gap between readings for interpolation, in periods. The gap may always have a minimum length in s, because pauses of threads are not losses of the
+/// device.
 const PERIODS: f64 = 3.0;
 const GAP_S: f64 = 0.02;
 /// Factor on the period that allows for errors of clocks and rates.
 const TOLERANCE: f64 = 1.01;
 
-/// Readings ordered by time.
+/// Readings of the transducer, ordered by time.
 #[derive(Debug)]
 pub(super) struct Track {
-    /// Longest interpolated gap, in s.
+    /// Maximum gap for interpolation, in s.
     longest_s: f64,
     readings: Mutex<VecDeque<(f64, Wrench)>>,
 }
 
-/// Force at a time, as far as it is known.
+/// Force at a time, or the reason why it is unknown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum At {
     /// Interpolated between two readings.
     Known(Wrench),
-    /// Unknown: the readings around the time are too far apart.
+    /// Unknown, because the readings around this time are too far apart.
     Gap,
-    /// Unknown: no reading precedes the time.
+    /// Unknown, because no reading precedes this time.
     Before,
-    /// Not yet known: the next reading has not arrived.
+    /// Not known yet, because the next reading has not arrived.
     Early,
 }
 
 impl Track {
-    /// Empty track of a transducer with the period `period_s`, for frames that are exposed for `exposure_s`, if known.
+    /// Creates an empty track for a transducer with the period `period_s`, and frames with the exposure time `exposure_s`, if known.
     pub(super) fn new(period_s: f64, exposure_s: Option<f64>) -> Track {
         let periods_s = PERIODS * TOLERANCE * period_s;
         Track {
@@ -45,7 +46,7 @@ impl Track {
         }
     }
 
-    /// Adds a reading with the stamp `at_s`, in s; ignores a reading that is not later than the last.
+    /// Adds a reading with the time stamp `at_s`, in s. Ignores a reading that is not later than the last one.
     pub(super) fn push(&self, at_s: f64, wrench: Wrench) {
         let mut readings = self.readings();
         if readings.back().is_some_and(|(last_s, _)| *last_s >= at_s) {
@@ -65,7 +66,7 @@ impl Track {
         self.readings().back().map(|(_, wrench)| *wrench)
     }
 
-    /// Force at `at_s`.
+    /// Force at the time `at_s`, in s.
     pub(super) fn at(&self, at_s: f64) -> At {
         let readings = self.readings();
         let after = readings.partition_point(|(time_s, _)| *time_s < at_s);
@@ -83,7 +84,7 @@ impl Track {
         }
     }
 
-    /// Longest interpolated gap between readings, in s.
+    /// Maximum gap between readings for interpolation, in s.
     pub(super) fn longest_s(&self) -> f64 {
         self.longest_s
     }

@@ -11,17 +11,17 @@ use super::device_error;
 use super::streams::Counts;
 use super::track::Track;
 
-/// Deadline of one call for a reading.
+/// Deadline for each call that requests a reading.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));
 /// Time without a new reading after which the transducer counts as failed.
 const PATIENCE: Duration = Duration::from_secs(2);
-/// Deadline for setting the zero.
+/// Deadline for setting the force zero.
 const ZEROING: Deadline = Deadline::after(Duration::from_secs(6));
-/// Averaging time of the zero for a transducer without a tare.
+/// Averaging time of the force zero for a transducer without a tare function.
 const MEAN_OVER: Duration = Duration::from_millis(250);
-/// Delay after a failed call.
+/// Delay before a failed call is retried.
 const REST: Duration = Duration::from_millis(5);
-/// Force above which a hand presses, so that the load changes, N.
+/// Force above which a hand presses, in N. The load then changes continuously.
 const PRESSED_N: f64 = 0.1;
 
 /// A transducer, and the zero wrench that the host subtracts.
@@ -33,7 +33,7 @@ pub(super) struct Transducer {
 }
 
 impl Transducer {
-    /// Starts the readings and zeroes the present load.
+    /// Starts the readings, and sets the force zero at the present load.
     pub(super) fn begin(&mut self) -> Result<(), DriverError> {
         self.device.start(ZEROING)?;
         self.zero = Wrench::default();
@@ -58,16 +58,16 @@ impl Transducer {
         Ok(wrench(sum.map(|sum| sum / f64::from(count))))
     }
 
-    /// Period of the readings, in s; 50 Hz is assumed if no rate is stated.
+    /// Period of the readings, in s. A rate of 50 Hz is assumed if none is stated.
     pub(super) fn period_s(&self) -> f64 {
         const UNKNOWN_S: f64 = 0.02;
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)
     }
 
-    /// Puts readings into `track` until the capture ends. Skips readings that repeat although the load or the noise must change them.
+    /// Adds readings to `track` until the capture ends. Skips equal readings in cases where the load or the noise must change them.
     ///
     /// # Errors
-    /// The error that ended the readings: a lost device, a timeout, or a frozen signal.
+    /// The error that ended the stream of readings: a lost device, a timeout, or a frozen signal.
     pub(super) fn read(&mut self, track: &Track, counts: &Counts) -> Result<(), DriverError> {
         let mut last: Option<(Wrench, Option<u64>)> = None;
         let mut habit = Habit::default();
@@ -135,7 +135,7 @@ impl Transducer {
     }
 }
 
-/// Share of readings that differ from the reading before.
+/// Counts of the readings that differ from the previous reading.
 #[derive(Clone, Copy, Debug, Default)]
 struct Habit {
     changed: u32,
@@ -143,7 +143,7 @@ struct Habit {
 }
 
 impl Habit {
-    /// Least number of changes that show a habit.
+    /// Minimum number of changes from which noise is inferred.
     const LEAST: u32 = 10;
 
     fn count(&mut self, is_equal: bool) {
@@ -154,7 +154,7 @@ impl Habit {
         *counter = counter.saturating_add(1);
     }
 
-    /// True if most readings differ by their noise, so that equal readings are no measurements.
+    /// True if most readings differ by their noise. Equal readings are then not measurements.
     fn is_lively(self) -> bool {
         self.changed >= Self::LEAST && self.changed > self.equal
     }
@@ -179,7 +179,7 @@ mod waiting {
 
     use super::*;
 
-    /// Counts its readings, whose forces `loads` gives.
+    /// Test transducer that counts its readings. `loads` returns their forces.
     struct Scripted<F> {
         loads: F,
         read: u32,
@@ -199,7 +199,7 @@ mod waiting {
         }
     }
 
-    /// Reads `loads` for three seconds; returns the error that ended them.
+    /// Reads the forces `loads` for three seconds. Returns the error that ended the stream.
     fn read(facts: ForceFacts, loads: impl FnMut(u32) -> f64 + Send + 'static) -> Option<String> {
         let mut transducer = Transducer {
             device: Box::new(Scripted { loads, read: 0 }),

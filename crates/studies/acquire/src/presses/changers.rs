@@ -1,4 +1,4 @@
-//! Changers of a rig: opened from the rig file, called with a deadline, and checked by the name that they report.
+//! Changers of a rig: opened from the rig file and called with a deadline. Their result is checked by the name that they report.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
@@ -24,7 +24,7 @@ pub(super) struct OpenChanger {
 }
 
 impl OpenChanger {
-    /// Opens the changer `device` of `rig`; nothing moves.
+    /// Opens the changer `device` of `rig`. Nothing moves.
     pub(super) fn open(
         spec: &RigSpec,
         rig: &RigFile,
@@ -45,15 +45,15 @@ impl OpenChanger {
         }))
     }
 
-    /// True if it holds the item `name`.
+    /// True if the changer contains the item `name`.
     pub(super) fn holds(&self, name: &str) -> bool {
         self.changer.holds().iter().any(|held| held == name)
     }
 
-    /// Brings the item `name` into place; a cancellation interrupts the changer.
+    /// Brings the item `name` into place. A cancellation interrupts the changer.
     ///
     /// # Errors
-    /// [`DriverError`] of the changer, or of kind `DeviceFault` if it reports another item in place.
+    /// [`DriverError`] of the changer. An error of kind `DeviceFault` if the changer reports another item in place.
     pub(super) fn bring(
         &mut self,
         name: &str,
@@ -91,7 +91,7 @@ impl OpenChanger {
     }
 }
 
-/// Changer of specimens during a run.
+/// Changer that exchanges specimens during a run.
 pub(super) struct OfSpecimens {
     pub(super) changer: OpenChanger,
     pub(super) cancel: Cancel,
@@ -113,10 +113,10 @@ impl SpecimenChanger for OfSpecimens {
     }
 }
 
-/// Brings `unit` under the robot by a changer of units; `None` if no changer holds it.
+/// Brings `unit` under the robot by a changer of units; `None` if no changer contains the unit.
 ///
 /// # Errors
-/// As [`OpenChanger::open`] and [`OpenChanger::bring`].
+/// Errors of [`OpenChanger::open`] and [`OpenChanger::bring`].
 pub(super) fn bring_unit(
     spec: &RigSpec,
     rig: &RigFile,

@@ -1,4 +1,4 @@
-//! Content key of a simulated study: all inputs that determine its recording.
+//! Content key of a simulated study, computed from all inputs that determine its recording.
 
 use taceva_core::{ArgKind, Device, Registry};
 use taceva_drivers::Drivers;
@@ -7,14 +7,14 @@ use taceva_protocol::Setting;
 use crate::instruments;
 use crate::scene::{PlannedStudy, RigSpec, StudySource};
 
-/// Fields of a serialized plan that affect the scores but not the recording.
+/// Fields of a serialised plan that affect the scores but not the recording.
 const OF_SCORES: [&str; 4] = ["metrics", "fits", "skipped", "cost"];
 
 impl PlannedStudy {
-    /// Named parts of the key of its recording. `None` for an existing recording, for a real device, and for an argument that names a file, whose
-    /// content can change.
+    /// Named parts of the content key of the study's recording. `None` for an existing recording, for a real device, and for an argument that names a file,
+    /// because its content can change.
     ///
-    /// Opens no device: the arguments of simulated ones are in their selectors.
+    /// Opens no device, because the arguments of simulated devices are in their selectors.
     pub fn content_key(&self, drivers: &Drivers) -> Option<Vec<(&'static str, String)>> {
         let StudySource::Rig(rig) = &self.source else {
             return None;
@@ -46,7 +46,7 @@ impl PlannedStudy {
     }
 }
 
-/// Selector of a device, with the build of its driver if the driver is a plugin.
+/// Selector of a device, and the build of its driver if the driver is a plugin.
 #[derive(Debug)]
 #[expect(
     dead_code,

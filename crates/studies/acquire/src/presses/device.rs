@@ -1,4 +1,4 @@
-//! An open device with its descriptor.
+//! Opens devices and describes them.
 
 use taceva_core::{Descriptor, Device, DriverSource, Facts, Registry, Rig, SampleTiming};
 use taceva_drivers::{OpenError, Selector, open};
@@ -13,7 +13,7 @@ pub(crate) struct Opened<D: ?Sized> {
 }
 
 impl<D: Device + ?Sized> Opened<D> {
-    /// Opens the device of `selector`; the descriptor reflects the arguments of the selector.
+    /// Opens the device of `selector`. The descriptor reflects the arguments of the selector.
     pub(crate) fn open(
         registry: &Registry<D>,
         selector: Selector,
@@ -39,7 +39,7 @@ impl<D: ?Sized + 'static> Opened<D>
 where
     Late<D>: IntoDevice<D>,
 {
-    /// Corrects the stamps of the device by the `latency_ms` in its facts, if above 0, and checks the timing of its samples.
+    /// Corrects the time stamps of the device by `latency_ms` in its facts, if positive, and checks the timing of its samples.
     pub(crate) fn timely(
         self,
         is_emulated: bool,
@@ -56,7 +56,7 @@ where
     }
 }
 
-/// Timing checks of a real sensor or transducer. An emulated device shares processors with this program, so only its stamps are checked.
+/// Timing checks for a real sensor or transducer. An emulated device shares processors with this program, so only its time stamps are checked.
 fn timing(descriptor: &Descriptor, is_emulated: bool) -> Option<SampleTiming> {
     let rate = match descriptor.facts() {
         Facts::Sensor(facts) => facts.rate,
@@ -87,13 +87,13 @@ mod tests {
         format: PixelFormat::Gray8,
     };
 
-    /// A device whose samples take the given times.
+    /// Test device whose samples take the given times.
     struct Slow {
         delays: std::vec::IntoIter<Duration>,
     }
 
     impl Slow {
-        /// The device as its driver opens it.
+        /// Test device as its driver would open it.
         fn opened(
             source: DriverSource,
             rate: Hertz,
@@ -131,7 +131,7 @@ mod tests {
         }
     }
 
-    /// A camera whose clock jumps ahead by an hour once.
+    /// Test camera whose clock jumps ahead by an hour once.
     struct Jumping {
         frames: u32,
     }
@@ -166,7 +166,7 @@ mod tests {
         }
     }
 
-    /// Number of readings before the first error, and that error.
+    /// Number of readings before the first error, and this error.
     fn readings(device: &mut dyn ForceTransducer, count: usize) -> (usize, Option<DriverError>) {
         for number in 0..count {
             if let Err(error) = device.read(Deadline::PASSED) {
@@ -176,7 +176,7 @@ mod tests {
         (count, None)
     }
 
-    /// Readings that take more than ten periods of 200 Hz, or more on a busy machine.
+    /// Delays of `count` readings, each eleven periods of 200 Hz. Readings take even longer on a busy machine.
     fn eleven_periods(count: usize) -> Vec<Duration> {
         vec![Duration::from_millis(55); count]
     }

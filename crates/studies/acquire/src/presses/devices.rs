@@ -1,4 +1,4 @@
-//! Devices of a rig, opened for one unit of the sensor and lent to a run.
+//! Devices of a rig, opened for one unit of the sensor and used by a run.
 
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
@@ -22,7 +22,7 @@ use super::workshop::{Surroundings, Workshop};
 use crate::error::AcquireError;
 use crate::scene::{PlannedStudy, RigSpec, check_taught, open_switch};
 
-/// Deadline of the first pose of a robot.
+/// Deadline for the first pose of a robot.
 pub(super) const FIRST_POSE: Duration = Duration::from_secs(2);
 
 /// Open devices of a rig.
@@ -33,27 +33,27 @@ pub(super) struct OpenRig {
     lighting: Option<Box<dyn Lighting>>,
     pub(super) surroundings: Surroundings,
     pub(super) force_driver: DriverKey,
-    /// True for a rig in real time; guard threads watch it during motions.
+    /// True for a rig in real time. Guard threads then watch motions.
     is_real: bool,
-    /// Rig file of a real rig; a session begins by checking it.
+    /// Rig file of a real rig, which is checked at the start of a session.
     pub(super) rig_file: Option<Arc<RigFile>>,
     /// Enabling switch.
     pub(super) switch: Option<Arc<dyn EnablingSwitch>>,
 }
 
-/// A session at a rig: its workshop, its cancellation, and its state from earlier units.
+/// A session at a rig: its workshop, its cancellation, and state from earlier units.
 #[derive(Clone, Copy)]
 pub(super) struct Sitting<'a> {
     pub(super) workshop: Workshop<'a>,
     pub(super) cancel: &'a Cancel,
-    /// True once the operator has enabled the robot in this process.
+    /// True if the operator has enabled the robot in this process.
     pub(super) is_enabled: bool,
     /// Reference touches of earlier sessions of the recording.
     pub(super) touched: &'a [ReferenceTouch],
 }
 
 impl<'a> Sitting<'a> {
-    /// Creates a session without an enabled robot or earlier touches.
+    /// Creates a session before the robot is enabled, without earlier touches.
     pub(super) fn new(workshop: Workshop<'a>, cancel: &'a Cancel) -> Sitting<'a> {
         Sitting {
             workshop,
@@ -65,7 +65,7 @@ impl<'a> Sitting<'a> {
 }
 
 impl OpenRig {
-    /// Opens the devices of `rig` for `unit`, the switch and the sensor first.
+    /// Opens the devices of `rig` for `unit`. The switch and the sensor are opened first.
     pub(super) fn open(
         study: &PlannedStudy,
         rig: &RigSpec,
@@ -171,10 +171,10 @@ impl OpenRig {
         })
     }
 
-    /// Raises the tip of a real rig under a guard and halts it, before an operator reaches in; returns true if the tip moved.
+    /// Raises the tip of a real rig under a guard and halts it, so that an operator can reach in. Returns true if the tip moved.
     ///
     /// # Errors
-    /// As [`raise`](taceva_protocol::raise).
+    /// Errors of [`raise`](taceva_protocol::raise).
     pub(super) fn raise(&mut self, plan: &Plan, sitting: Sitting<'_>) -> Result<bool, RunError> {
         let Sitting {
             workshop, cancel, ..
@@ -215,10 +215,10 @@ impl OpenRig {
         })
     }
 
-    /// Makes the presses of `spec`, under a guard if the rig is real.
+    /// Makes the presses of `spec`. A guard is used if the rig is real.
     ///
     /// # Errors
-    /// As [`run`](taceva_protocol::run).
+    /// Errors of [`run`](taceva_protocol::run).
     pub(super) fn conduct(
         &mut self,
         spec: &RunSpec<'_>,
@@ -303,7 +303,7 @@ impl OpenRig {
     }
 }
 
-/// Latencies in a rig file, of robot, transducer and sensor, in ms.
+/// Latencies of robot, transducer and sensor in a rig file, in ms.
 pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
     let written = [
         rig.robot.as_ref().and_then(|robot| robot.latency_ms),
@@ -313,14 +313,14 @@ pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
     written.map(|latency| latency.map(|latency| latency.value))
 }
 
-/// Name of the robot of `rig` that the operator must enable; `None` if it is emulated or already enabled.
+/// Name of the robot of `rig` that the operator must enable; `None` if the robot is emulated or already enabled.
 pub(super) fn to_be_enabled(rig: &RigFile, is_enabled: bool) -> Option<&str> {
     let robot = rig.robot.as_ref();
     let named = robot.filter(|_| !rig.simulated && !is_enabled);
     named.map(|robot| key_of(&robot.driver.value))
 }
 
-/// Opens devices for one unit.
+/// Opener of devices for one unit.
 pub(super) struct Opener<'a> {
     pub(super) rig: &'a RigSpec,
     pub(super) unit: &'a str,
@@ -345,13 +345,13 @@ impl Opener<'_> {
 }
 
 impl RigSpec {
-    /// True if a device is simulated, so that recordings are not measurements.
+    /// True if a device is simulated. Recordings are then not measurements.
     pub(super) fn is_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .any(|source| source == DriverSource::Simulated)
     }
 
-    /// True if all devices are simulated, so that opening them only to read facts is safe.
+    /// True if all devices are simulated. They can then be opened safely only to read facts.
     pub(crate) fn is_only_simulated(&self, drivers: &Drivers) -> bool {
         self.sources(drivers)
             .all(|source| source == DriverSource::Simulated)
@@ -378,12 +378,12 @@ impl RigSpec {
     }
 }
 
-/// Key of a selector: the text before its arguments.
+/// Driver key of a selector: the text before its arguments.
 fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
 }
 
-/// Error for a robot without a clock that the program knows.
+/// Error for a robot whose clock is unknown to the program.
 fn without_clock(robot: &Selector) -> DriverError {
     let key: Result<DriverKey, _> = robot.driver().parse();
     let key = key.expect("it was opened by this key");

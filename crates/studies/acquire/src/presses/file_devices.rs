@@ -1,4 +1,4 @@
-//! Devices of a rig file without a scene, for setup and checks of a rig.
+//! Opens devices of a rig file without a scene, for setup and checks of a rig.
 
 use std::path::Path;
 
@@ -18,7 +18,7 @@ use crate::scene::{Refused, RigSpec, check_changers};
 /// An open device and its descriptor.
 type Described<D> = (Box<D>, Descriptor);
 
-/// Opens devices of a rig file.
+/// Opener of the devices in a rig file.
 pub(crate) struct FileOpener<'a> {
     rig: &'a RigFile,
     spec: RigSpec,
@@ -47,7 +47,7 @@ impl<'a> FileOpener<'a> {
         described.map(drop).map_err(|refused| self.refused(refused))
     }
 
-    /// Opens the changer `device` and returns the names of its items. Nothing moves.
+    /// Opens the changer `device`, and returns the names of its items. Nothing moves.
     ///
     /// # Errors
     /// [`AcquireError::OpenOfRig`] if the device does not open.
@@ -59,10 +59,10 @@ impl<'a> FileOpener<'a> {
         Ok(opened.map(|opened| opened.device.holds().to_vec()))
     }
 
-    /// Opens the lighting `device` and returns the names of its scenes. The light does not change.
+    /// Opens the lighting `device`, and returns the names of its scenes. The light does not change.
     ///
     /// # Errors
-    /// As [`held`](FileOpener::held).
+    /// Errors of [`held`](FileOpener::held).
     pub(crate) fn scenes(
         &self,
         device: Option<&Setting<String>>,
@@ -74,7 +74,7 @@ impl<'a> FileOpener<'a> {
     /// Opens the sensor.
     ///
     /// # Errors
-    /// As [`check`](FileOpener::check), and [`AcquireError::OpenOfRig`] if the device does not open.
+    /// Errors of [`check`](FileOpener::check). [`AcquireError::OpenOfRig`] if the device does not open.
     pub(crate) fn sensor(&self) -> Result<Option<Described<dyn Sensor>>, AcquireError> {
         let [_, _, latency_ms] = written_latencies_ms(self.rig);
         let sensor = self.open(&self.drivers.sensors, self.spec.sensor.as_ref())?;
@@ -88,7 +88,7 @@ impl<'a> FileOpener<'a> {
     /// Opens the force transducer, with readings in the frame of the sensor.
     ///
     /// # Errors
-    /// As [`sensor`](FileOpener::sensor).
+    /// Errors of [`sensor`](FileOpener::sensor).
     pub(crate) fn force(&self) -> Result<Option<Described<dyn ForceTransducer>>, AcquireError> {
         let [_, latency_ms, _] = written_latencies_ms(self.rig);
         let mounted = self.rig.force.as_ref();
@@ -108,7 +108,7 @@ impl<'a> FileOpener<'a> {
     /// Opens the robot, with poses in the frame of the sensor.
     ///
     /// # Errors
-    /// As [`sensor`](FileOpener::sensor).
+    /// Errors of [`sensor`](FileOpener::sensor).
     pub(crate) fn robot(&self) -> Result<Option<Described<dyn Robot>>, AcquireError> {
         let (Some((robot, descriptor)), Some(registered)) = (self.base_robot()?, &self.rig.robot)
         else {
@@ -124,7 +124,7 @@ impl<'a> FileOpener<'a> {
     /// Opens the robot, with poses in its base frame.
     ///
     /// # Errors
-    /// As [`sensor`](FileOpener::sensor).
+    /// Errors of [`sensor`](FileOpener::sensor).
     pub(crate) fn base_robot(&self) -> Result<Option<Described<dyn Robot>>, AcquireError> {
         let [latency_ms, ..] = written_latencies_ms(self.rig);
         let robot = self.open(&self.drivers.robots, self.spec.robot.as_ref())?;
@@ -144,7 +144,7 @@ impl<'a> FileOpener<'a> {
         self.opened(registry, device)
     }
 
-    /// Opens a device whose selector was checked before.
+    /// Opens a device whose selector was already checked.
     fn opened<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,

@@ -1,11 +1,11 @@
-//! Guard threads of a run on real devices. They detect an exceeded limit during a motion.
+//! Guard threads of a run on real devices. They detect limits that are exceeded during a motion.
 //!
 //! One thread owns the force transducer: it shows each reading to the [`Supervisor`] and stores it for the run. Another reads the pose of
 //! the robot, over a connection of its own if the robot has one, and the enabling switch. It also watches for missing readings and
 //! cancellation. Both halt through the supervisor, which alone decides.
 //!
-//! The threads have the priority of the process. On a busy machine a thread may wait for a tenth of a second; `chrt -f 10 taceva run …`
-//! reduces that to milliseconds.
+//! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
+//! milliseconds.
 
 mod mailbox;
 
@@ -25,26 +25,26 @@ use mailbox::{Listeners, Mailbox};
 /// Interval between readings of the robot; each reading waits for the next report. An interval of 10 ms, the period of an arm, would miss every
 /// second report. Detecting a frozen signal takes eight readings, each after a motion.
 const LOOK: Duration = Duration::from_millis(5);
-/// Deadline of one pose.
+/// Deadline for each pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 
-/// Devices under guard, with their cancellation.
+/// Guarded devices, and the cancellation of their run.
 pub(super) struct Guarded<'a> {
     pub(super) robot: &'a mut dyn Robot,
     pub(super) force: &'a mut dyn ForceTransducer,
-    /// Driver of the transducer.
+    /// Key of the transducer's driver.
     pub(super) driver: DriverKey,
     pub(super) limits: RigLimits,
     /// Enabling switch, if the rig has one.
     pub(super) switch: Option<&'a dyn EnablingSwitch>,
     pub(super) cancel: &'a Cancel,
     pub(super) progress: &'a dyn Progress,
-    /// Viewer of every force and pose, if any.
+    /// Viewer that receives every force and pose, if any.
     pub(super) viewer: Option<&'a dyn Viewer>,
 }
 
 impl Guarded<'_> {
-    /// Runs `conduct`, which moves the robot, while guard threads watch; they end with it.
+    /// Calls `conduct`, which moves the robot, while guard threads watch. The threads end when `conduct` returns.
     pub(super) fn conduct<T>(
         self,
         conduct: impl FnOnce(&mut dyn Robot, &mut dyn ForceTransducer, SharedSupervisor) -> T,
@@ -93,7 +93,7 @@ impl Guarded<'_> {
     }
 }
 
-/// Guard that sets a flag when it is dropped, to end a thread.
+/// Guard that sets a flag when it is dropped, which ends a thread.
 pub(super) struct Over<'a>(&'a AtomicBool);
 
 impl<'a> Over<'a> {
@@ -108,7 +108,7 @@ impl Drop for Over<'_> {
     }
 }
 
-/// Watches the robot, the switch, missing readings and cancellation.
+/// Watches for errors of the robot, the switch, missing readings and cancellation.
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     watch: Option<Arc<dyn RobotWatch>>,
@@ -131,7 +131,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// A first cancellation ends the motion in progress but not the retreat after it. A second one ends the retreat too.
+    /// Handles cancellation. The first ends the motion in progress, but not the retreat after it. The second also ends the retreat.
     fn obey(&mut self) {
         // Read first, so that a second request between both calls is seen.
         let is_insisted = self.progress.is_insisted();
@@ -146,7 +146,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Reads the switch; an unreadable switch counts as lost.
+    /// Reads the switch. A switch that cannot be read counts as released.
     fn feel(&mut self) {
         let Some(switch) = self.switch else {
             return;

@@ -1,4 +1,4 @@
-//! Wrappers that correct the stamps of devices by their latency, and check their rate and stamps.
+//! Wrappers that correct the time stamps of devices by their latency, and check rates and time stamps.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,7 +10,7 @@ use taceva_core::{
     RobotWatch, SampleTiming, Sensor, Speed, Stamp, Tare, Wrench,
 };
 
-/// A device whose stamps are later than the observation by a known latency. The timing of its samples is checked.
+/// A device whose time stamps are later than the observation by a known latency. The timing of its samples is checked.
 pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     driver: DriverKey,
@@ -19,7 +19,7 @@ pub(crate) struct Late<D: ?Sized> {
 }
 
 impl<D: ?Sized> Late<D> {
-    /// Wraps `device` of `driver`; its stamps are `latency_ms` ms late.
+    /// Wraps `device` of `driver`, whose time stamps are `latency_ms` ms late.
     pub(super) fn new(
         device: Box<D>,
         driver: DriverKey,
@@ -38,7 +38,7 @@ impl<D: ?Sized> Late<D> {
         true_stamp(stamp, self.latency_s)
     }
 
-    /// Checks the rate and the stamp of a sample that was requested at `asked`.
+    /// Checks the rate and the time stamp of a sample that was requested at `asked`.
     fn checked<T>(
         &mut self,
         doing: &'static str,
@@ -270,7 +270,7 @@ impl Sensor for Late<dyn Sensor> {
     }
 }
 
-/// Conversion of the wrapper to a boxed device.
+/// Converts the wrapper to a boxed device.
 pub(crate) trait IntoDevice<D: ?Sized> {
     fn boxed(self) -> Box<D>;
 }

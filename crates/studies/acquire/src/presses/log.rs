@@ -11,20 +11,20 @@ use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord, Sess
 use super::reduction::reduced;
 use super::session;
 
-/// Presses of a recording in progress.
+/// Log of the presses in a recording in progress.
 pub(super) struct RecordedPresses {
     recorder: Recorder,
-    /// Recorded presses that are repeated.
+    /// Recorded presses that will be repeated.
     relived: BTreeSet<ContentId>,
-    /// Row of each of their samples, by sample name.
+    /// Row number of each sample of these presses, by sample name.
     rows: BTreeMap<String, usize>,
     sessions: SessionTable,
-    /// Reduction of frames before they are recorded.
+    /// Reduction of frames before they are recorded; `None` to record full frames.
     reduction: Option<FrameReduction>,
 }
 
 impl RecordedPresses {
-    /// Continues `recorder` and `sessions`. `reduction` reduces frames; `None` keeps them whole.
+    /// Continues `recorder` and `sessions`. `reduction` reduces frames; `None` records full frames.
     pub(super) fn new(
         recorder: Recorder,
         sessions: SessionTable,
@@ -39,7 +39,7 @@ impl RecordedPresses {
         }
     }
 
-    /// Schedules recorded presses of `unit` to be repeated and compared, if a press at the same place is missing.
+    /// Schedules recorded presses of `unit` for repetition and comparison. A press is repeated if another press at the same place is missing.
     pub(super) fn relive(&mut self, plan: &Plan, unit: &str) {
         let of_unit = || plan.presses.iter().filter(|press| press.press.unit == unit);
         let is_recorded = |press: &&PlannedPress| self.has(press.id);
@@ -114,7 +114,7 @@ impl PressLog for RecordedPresses {
         Ok(())
     }
 
-    /// Stores the reference frame of the first unit; ignores later ones.
+    /// Stores the reference frame of the first unit. Later frames are ignored.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError> {
         if !self.recorder.has_reference() {
             match &self.reduction {

@@ -1,4 +1,4 @@
-//! Manual and automatic changes at a real rig, apart from the presses of one unit.
+//! Manual and automatic changes on a real rig, other than the presses of a unit.
 
 use std::collections::BTreeSet;
 use std::sync::PoisonError;
@@ -12,7 +12,7 @@ use super::devices::{OpenRig, Sitting};
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, PlannedStudy, RigSpec, StudySource, is_untaught};
 
-/// Changes on a real rig, by hand or by a changer.
+/// Changes on a real rig, made by hand or by a changer.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Changes {
     specimens: Vec<String>,
@@ -20,7 +20,7 @@ struct Changes {
     units: Vec<String>,
 }
 
-/// Contents of the changers of a rig; `None` without a changer.
+/// Items in the changers of a rig; `None` if there is no changer.
 #[derive(Clone, Debug, Default)]
 struct Held {
     specimens: Option<Vec<String>>,
@@ -32,7 +32,7 @@ fn is_held(held: Option<&Vec<String>>, name: &String) -> bool {
 }
 
 impl Changes {
-    /// Changes of a plan by hand and by changers: units in sequence, and specimens within a unit. A single specimen that stays mounted needs no
+    /// Changes of a plan by hand and by changers: the sequence of units, and the specimens within a unit. A single specimen that is always mounted needs no
     /// change by hand.
     fn of(plan: &Plan, is_lit_by_hand: bool, held: &Held) -> [Changes; 2] {
         let [mut by_hand, mut by_changer] = [Changes::default(), Changes::default()];
@@ -79,10 +79,10 @@ fn few(names: &[String]) -> String {
 }
 
 impl PlannedScene {
-    /// Rejects a scene on a real rig that needs an operator, before any device is opened. For unattended commands.
+    /// Rejects a scene on a real rig that needs an operator, before any device is opened. Used by unattended commands.
     ///
     /// # Errors
-    /// [`AcquireError::Request`], with the number of changes.
+    /// [`AcquireError::Request`] with the number of changes.
     pub fn check_unattended(&self, drivers: &Drivers) -> Result<(), AcquireError> {
         let real = self.studies.iter().filter(|study| match &study.source {
             StudySource::Rig(rig) => !rig.is_simulated(drivers),
@@ -160,7 +160,7 @@ impl PlannedStudy {
         changed.collect()
     }
 
-    /// Contents of the changers of the rig.
+    /// Items in the changers of the rig.
     fn held(&self, drivers: &Drivers) -> Held {
         let (Some(rig), StudySource::Rig(spec)) = (self.rig(), &self.source) else {
             return Held::default();
@@ -173,7 +173,7 @@ impl PlannedStudy {
         }
     }
 
-    /// True if the operator sets the light: the rig has no lighting, and its sensor has no scenes.
+    /// True if the operator sets the light, because the rig has no lighting and its sensor has no light scenes.
     fn is_lit_by_hand(&self, drivers: &Drivers) -> bool {
         let StudySource::Rig(rig) = &self.source else {
             return false;
@@ -184,21 +184,21 @@ impl PlannedStudy {
         })
     }
 
-    /// Rig file that names its devices, if any.
+    /// Rig file that names the study's devices, if any.
     pub fn rig(&self) -> Option<&RigFile> {
         self.study.rig.as_deref()
     }
 
-    /// True if its rig file still has the origin and axes of a new file; such a run is rejected.
+    /// True if the study's rig file still has the origin and axes of a new file. The run is rejected in this case.
     pub fn is_untaught(&self, drivers: &Drivers) -> bool {
         self.rig().is_some_and(|rig| is_untaught(rig, drivers))
     }
 }
 
-/// Puts `unit` under the robot by a changer that holds it, or by the operator if a real rig has several units. Returns false if the operator skips
-/// it.
+/// Puts `unit` under the robot, by a changer that contains it, or by the operator if a real rig has several units. Returns false if the operator skips the
+/// unit.
 ///
-/// The tip is raised first, for which the operator may have to enable the robot. No device is open during the change.
+/// The tip is raised before the change. The operator may have to enable the robot for this. No device is open during the change.
 pub(super) fn unit_is_there(
     study: &PlannedStudy,
     rig: &RigSpec,
@@ -254,7 +254,7 @@ pub(super) fn unit_is_there(
     }
 }
 
-/// Error for a changer that failed to put a unit in place while there is no operator.
+/// Error for a changer that could not put a unit in place, in a run without an operator.
 fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
     match error {
         OpenError::Device(error) => acquisition(plan, StopCause::Device(error)),
@@ -265,7 +265,7 @@ fn unchanged(plan: &Plan, error: OpenError) -> AcquireError {
     }
 }
 
-/// Error for a run that stopped with the tip clear of the gel.
+/// Error for a run that stopped while the tip did not touch the gel.
 pub(super) fn acquisition(plan: &Plan, cause: StopCause) -> AcquireError {
     let error = RunError {
         press: None,
@@ -283,7 +283,7 @@ pub(super) fn stopped(plan: &Plan, error: RunError) -> AcquireError {
     }
 }
 
-/// Number of skipped presses, if they are the only problem; returns other errors. Later units are pressed anyway.
+/// Number of skipped presses, if `error` reports nothing else. Returns any other error. Later units are pressed in either case.
 pub(super) fn presses_skipped(error: AcquireError) -> Result<usize, AcquireError> {
     match &error {
         AcquireError::Acquisition { source, .. } => match source.cause {

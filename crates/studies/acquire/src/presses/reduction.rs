@@ -1,4 +1,4 @@
-//! Frames of a recording: whole, or reduced to the size in the scene.
+//! Size of the frames in a recording: full, or reduced as the scene requires.
 
 use taceva_core::Sample;
 use taceva_models::{FeatureError, FrameReduction};
@@ -7,7 +7,7 @@ use super::OpenRig;
 use crate::error::AcquireError;
 use crate::scene::PlannedStudy;
 
-/// Reduction of the frames of `open` before they are recorded; `None` keeps them whole.
+/// Reduction of the frames of `open` before they are recorded; `None` to record full frames.
 ///
 /// # Errors
 /// [`AcquireError::Request`] if the open camera has smaller frames than the scene requires.
@@ -28,10 +28,10 @@ pub(super) fn reduction(
     Ok(Some(reduction))
 }
 
-/// Reduces the frames of `samples`. Their brightness stays that of the full frames.
+/// Reduces the frames of `samples`. The stored brightness is that of the full frames.
 ///
 /// # Errors
-/// [`FeatureError::Kind`] for a frame of another size or format than the camera states.
+/// [`FeatureError::Kind`] for a frame whose size or format differs from that stated by the camera.
 pub(super) fn reduced(
     samples: &[Sample],
     reduction: &FrameReduction,

@@ -1,4 +1,4 @@
-//! Devices of a rig file in the frame of the sensor: poses by the registration of the robot, wrenches by the axes of the transducer.
+//! Converts devices of a rig file to the frame of the sensor. Poses are converted by the registration of the robot, and wrenches by the axes of the transducer.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -10,15 +10,14 @@ use taceva_core::{
 use taceva_core::{Degree, Newton, NewtonMillimetre, Rotation};
 use taceva_protocol::{Registration, RigRobot, SignedAxes};
 
-/// A robot with poses in the frame of the sensor, over a driver in the base frame of the robot.
+/// A robot with poses in the frame of the sensor. The wrapped driver uses the base frame of the robot.
 pub(super) struct Registered {
     registration: Registration,
     robot: Box<dyn Robot>,
 }
 
 impl Registered {
-    /// Wraps `robot` with the registration of `registered`. If the registration has no rotation of the tool, reads it from the robot within
-    /// `deadline`.
+    /// Wraps `robot` with the registration of `registered`. If the registration lacks the rotation of the tool, the robot is asked for it within `deadline`.
     ///
     /// # Errors
     /// [`DriverError`] if the robot reports no pose.
@@ -229,7 +228,7 @@ mod tests {
 
     use super::*;
 
-    /// A robot at its last target, in its base frame.
+    /// Test robot that is at its last target, in its base frame.
     struct Arm(Pose);
 
     struct Rests;
@@ -264,7 +263,7 @@ mod tests {
         }
     }
 
-    /// A transducer with six different components.
+    /// Test transducer with six different components.
     struct Loaded;
 
     impl ForceTransducer for Loaded {

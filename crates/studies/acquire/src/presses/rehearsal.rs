@@ -1,4 +1,4 @@
-//! Rehearsal: visits every place of a scene above the gel, under the guard of a run. Nothing is pressed or recorded.
+//! Rehearsal of a scene. The tip visits every place above the gel, under the guard of a run. Nothing is pressed or recorded.
 
 use taceva_core::{Frame, Millimetre, SinkError};
 use taceva_protocol::{Cancel, ContentId, Event, Mode, PressLog, PressRecord, RunError, RunSpec};
@@ -9,13 +9,13 @@ use super::workshop::Workshop;
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// Height of a rehearsal above the travel height, in mm. A smaller error of the origin does not touch the gel.
+/// Height of a rehearsal above the travel height, in mm. With a smaller error of the origin, the tip does not touch the gel.
 pub const AIR_MM: f64 = 10.0;
 
-/// Visits every place of `scene` at [`AIR_MM`] above the travel height; returns the number of places.
+/// Visits every place of `scene` at [`AIR_MM`] above the travel height. Returns the number of places.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, the tip touched something, or the run was cancelled.
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device fails, the tip touches something, or the run is cancelled.
 pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<usize, AcquireError> {
     if workshop.operator.is_none() {
         scene.check_unattended(workshop.drivers)?;

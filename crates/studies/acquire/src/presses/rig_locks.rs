@@ -1,4 +1,4 @@
-//! Locks on the devices of a rig. They end with the process, however it exits.
+//! Locks on the devices of a rig. The operating system releases them when the process ends, however it ends.
 
 use std::collections::BTreeMap;
 use std::fs::{File, OpenOptions, TryLockError};
@@ -10,7 +10,7 @@ use taceva_protocol::{ContentId, RigFile};
 use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
-/// Locked devices of rig files; dropping this releases them.
+/// Locked devices of rig files. Dropping this value releases the locks.
 #[derive(Debug)]
 pub struct HeldRigs {
     // Open files hold the locks.
@@ -24,7 +24,7 @@ impl PlannedScene {
     /// therefore exclude each other. The files are empty and never removed.
     ///
     /// # Errors
-    /// [`AcquireError::RigTaken`] if another process holds a device; [`AcquireError::RigLock`] if a lock cannot be acquired.
+    /// [`AcquireError::RigTaken`] if another process uses a device. [`AcquireError::RigLock`] if a lock cannot be acquired.
     pub fn hold_rigs(&self) -> Result<HeldRigs, AcquireError> {
         self.hold_rigs_in(&std::env::temp_dir())
     }
@@ -52,7 +52,7 @@ impl HeldRigs {
     /// Locks every device of `rig` for its setup.
     ///
     /// # Errors
-    /// As [`PlannedScene::hold_rigs`].
+    /// Errors of [`PlannedScene::hold_rigs`].
     pub fn of_file(rig: &RigFile) -> Result<HeldRigs, AcquireError> {
         let drivers = [
             rig.sensor.as_ref().map(|sensor| &sensor.driver),
@@ -86,7 +86,7 @@ impl HeldRigs {
     }
 }
 
-/// Path of the lock of a device. Ignores blanks and the order of arguments.
+/// Path of the lock file of a device. Blanks and the order of arguments have no effect.
 fn lock_path(folder: &Path, device: &str) -> PathBuf {
     let (driver, arguments) = device.split_once(':').unwrap_or((device, ""));
     let mut words: Vec<&str> = arguments.split(';').map(str::trim).collect();

@@ -1,4 +1,4 @@
-//! Start time of each press of a unit, a function of the press number alone.
+//! Start time of each press of a unit. It depends only on the number of the press.
 
 use std::time::Duration;
 
@@ -10,9 +10,9 @@ pub(super) struct Schedule {
     slot: Duration,
 }
 
-/// Time for travel, the search for contact and the retreat.
+/// Time allowed for travel, the search for contact and the retreat.
 const WAY: Duration = Duration::from_secs(240);
-/// Time for a waypoint: motion, rest and frame.
+/// Time allowed for a waypoint: motion, rest and frame.
 const WAYPOINT: Duration = Duration::from_secs(2);
 
 impl Schedule {
@@ -24,7 +24,7 @@ impl Schedule {
         }
     }
 
-    /// Start of press `number`, counted from 1.
+    /// Start time of press `number`, counted from 1.
     pub(super) fn begins(&self, number: usize) -> Duration {
         let number = u32::try_from(number).unwrap_or(u32::MAX);
         self.slot.saturating_mul(number)

@@ -53,7 +53,7 @@ pub(super) fn touches(sessions: &[Session], plan: &Plan) -> Vec<ReferenceTouch> 
     touches.collect()
 }
 
-/// Id of the current boot of this machine, on Linux; empty elsewhere. Stamps of two boots have different clocks.
+/// Id of the present boot of this machine, on Linux; empty on other systems. Time stamps of two boots have different clocks.
 fn boot_id() -> String {
     let read = fs::read_to_string("/proc/sys/kernel/random/boot_id");
     read.map_or_else(|_| String::new(), |text| text.trim().to_owned())

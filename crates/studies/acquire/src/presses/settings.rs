@@ -1,4 +1,4 @@
-//! Settings of the devices of a rig, with names that differ by device, and remarks on its readings.
+//! Settings of the devices of a rig, with a prefix for each device, and warnings of the devices about their readings.
 
 use std::collections::BTreeMap;
 use std::sync::PoisonError;
@@ -8,7 +8,7 @@ use super::workshop::Workshop;
 use crate::instruments;
 
 impl OpenRig {
-    /// Settings of the devices, read back. Those of the transducer and of the robot begin with `force_` and `robot_`.
+    /// Settings that the devices report. Names of the transducer's and the robot's settings begin with `force_` and `robot_`.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
         let sensor = self.sensor.as_ref();
         let mut settings = sensor.map(|sensor| sensor.settings()).unwrap_or_default();
@@ -17,8 +17,8 @@ impl OpenRig {
         settings
     }
 
-    /// Shows the operator, if any, the remarks of the devices and the contradictions of certificates. Leaves out those in `shown`, and adds the
-    /// others to it.
+    /// Shows the operator, if any, the warnings of the devices and the contradictions of certificates. Messages in `shown` are omitted, and the others are
+    /// added to `shown`.
     pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
         let Some(operator) = workshop.operator else {
             return;
@@ -38,7 +38,7 @@ impl OpenRig {
     }
 }
 
-/// Adds the settings of a device to those of its rig; their names begin with `kind`: `force_serial`.
+/// Adds the settings of a device to those of its rig, with names that begin with `kind`, such as `force_serial`.
 pub(crate) fn add_settings(
     all: &mut BTreeMap<String, String>,
     kind: &str,

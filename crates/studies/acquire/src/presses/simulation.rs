@@ -1,4 +1,4 @@
-//! Check that a scene uses only the simulated bench.
+//! Checks that a scene uses only the simulated bench.
 
 use taceva_core::shown;
 use taceva_drivers::Drivers;
@@ -7,10 +7,10 @@ use crate::error::AcquireError;
 use crate::scene::{PlannedScene, StudySource};
 
 impl PlannedScene {
-    /// Rejects a scene that does not press on the simulated bench, for unattended acquisition. Opens no device.
+    /// Rejects a scene that does not press on the simulated bench. Used by unattended acquisition; opens no device.
     ///
     /// # Errors
-    /// [`AcquireError::Request`] for a study with a real device, and for a study of a recording, which acquires nothing.
+    /// [`AcquireError::Request`] for a study with a real device, and for a study of an existing recording, which acquires nothing.
     pub fn check_simulated(&self, drivers: &Drivers) -> Result<(), AcquireError> {
         for study in &self.studies {
             let problem = match &study.source {

@@ -1,4 +1,4 @@
-//! Taps on the rig of a rig file. Threads record every device while the tip moves down and up under the guard of a run.
+//! Taps on the rig of a rig file. Threads record every device while the tip moves down and up, under the guard of a run.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -19,17 +19,17 @@ use crate::error::AcquireError;
 use crate::scene::{PlannedStudy, StudySource};
 
 const START: Deadline = Deadline::after(Duration::from_secs(2));
-/// Deadline of one pose and of one frame, after which the call is retried.
+/// Deadline for each pose and each frame. A call that misses it is retried.
 const POSE: Deadline = Deadline::after(Duration::from_millis(50));
 const FRAME: Deadline = Deadline::after(Duration::from_millis(200));
 /// Delay before a failing device is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
 
-/// Taps the gel on the rig of `study` and returns the recorded taps, with true if the robot reports an emulation. Does not make the presses of the
-/// study.
+/// Taps the gel on the rig of `study`, and returns the recorded taps. Also returns true if the robot reports an emulation. The presses of the study are not
+/// made.
 ///
 /// # Errors
-/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device failed, the rig contradicts its file, or the run was cancelled.
+/// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device fails, the rig contradicts its file, or the run is cancelled.
 pub(crate) fn tap_study(
     study: &PlannedStudy,
     workshop: Workshop<'_>,
@@ -151,7 +151,7 @@ impl OpenRig {
     }
 }
 
-/// Recording of the tap in progress, if any.
+/// Shared recording of the tap in progress; `None` between taps.
 #[derive(Clone, Default)]
 struct Ears(Arc<Mutex<Option<TapHeard>>>);
 
@@ -228,7 +228,7 @@ fn hear_frames(
     Ok(())
 }
 
-/// A transducer whose readings are also recorded.
+/// A transducer whose readings are also recorded in the tap.
 struct Overheard<'a> {
     force: &'a mut dyn ForceTransducer,
     ears: Ears,

@@ -9,7 +9,7 @@ use taceva_core::{
 
 use crate::viewer::Viewer;
 
-/// A sensor and the viewer of its frames.
+/// A sensor, and the viewer that receives its frames.
 pub(super) struct Seen {
     sensor: Box<dyn Sensor>,
     viewer: Arc<dyn Viewer>,

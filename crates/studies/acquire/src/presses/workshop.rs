@@ -1,4 +1,4 @@
-//! Environment of presses, apart from the devices: drivers, clocks and changers of specimens.
+//! Environment of presses other than devices: drivers, clocks and changers of specimens.
 
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -11,25 +11,25 @@ use crate::viewer::Viewer;
 
 /// Parts of a rig other than its devices.
 pub struct Surroundings {
-    /// Clock that stamps its devices.
+    /// Clock that stamps the samples of the devices.
     pub clock: Box<dyn Timekeeper>,
-    /// Changer of specimens; `None` if a single specimen serves every press.
+    /// Changer of specimens; `None` if all presses use a single specimen.
     pub specimens: Option<Box<dyn SpecimenChanger>>,
-    /// Callback for each press, called before the tip moves there.
+    /// Callback for each press, called before the tip moves to the place of the press.
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// Name of the gel in the recording.
     pub gel: Option<String>,
     /// Simulated bench, if the rig is one. Its clock also stamps a sensor of another bench.
     pub bench: Option<Arc<dyn SimulatedBench>>,
-    /// True if the gel is new in every process and changes with each press within one.
+    /// True if the gel is new in every process, and changes with each press of a process.
     ///
-    /// After an interruption, a run on such a rig repeats the recorded presses at a place. It compares them with the recording and does not record
-    /// them twice.
+    /// On such a rig, an interrupted run repeats the recorded presses at a place when it resumes. It compares them with the recording, and does not record them
+    /// twice.
     pub begins_anew: bool,
 }
 
 impl Surroundings {
-    /// Surroundings of a real rig: the monotonic clock of the machine, which cannot be set, and a gel with a lasting history.
+    /// Surroundings of a real rig: the monotonic clock of the machine, which cannot be set, and a gel that keeps its history.
     pub fn real() -> Surroundings {
         Surroundings {
             clock: Box::new(MachineTime),
@@ -42,7 +42,7 @@ impl Surroundings {
     }
 }
 
-/// The monotonic clock of the machine.
+/// Monotonic clock of the machine.
 struct MachineTime;
 
 impl Timekeeper for MachineTime {
@@ -55,31 +55,31 @@ impl Timekeeper for MachineTime {
     }
 }
 
-/// A press that comes next.
+/// The next press.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Upcoming {
     /// Id of the press.
     pub press: ContentId,
-    /// Start on the clock of the rig, with ample time for every press. On a rig with a settable clock, presses get the same times with and without
+    /// Start time on the clock of the rig, with sufficient time for every press. On a rig with a settable clock, presses have the same times with and without
     /// interruption.
     pub begins: Duration,
 }
 
-/// Callback that returns the surroundings of a simulated rig, from the selector of its robot; `None` if its clock is unknown. A real robot has
+/// Callback that returns the surroundings of a simulated rig from the selector of its robot; `None` if the clock of the robot is unknown. A real robot has
 /// [`Surroundings::real`].
 pub type SurroundingsOf<'a> = &'a (dyn Fn(&Selector, &mut Rig) -> Option<Surroundings> + Sync);
 
 /// Environment of presses.
 #[derive(Clone, Copy)]
 pub struct Workshop<'a> {
-    /// The drivers of the program.
+    /// Drivers of the program.
     pub drivers: &'a Drivers,
     /// Surroundings of simulated rigs.
     pub surroundings: SurroundingsOf<'a>,
-    /// Receives progress, and may cancel the run.
+    /// Observer that receives progress, and can cancel the run.
     pub progress: &'a dyn Progress,
-    /// Operator for manual steps on a real rig. With `None`, a scene that needs one is rejected before any device is opened.
+    /// Operator for manual steps on a real rig. If `None`, a scene that needs an operator is rejected before any device is opened.
     pub operator: Option<&'a Mutex<dyn Operator + Send>>,
-    /// Viewer, if any. A simulated bench shows frames and presses; a real rig also shows force and tip.
+    /// Viewer, if any. It receives frames and presses of a simulated bench, and also force and tip pose of a real rig.
     pub viewer: Option<&'a Arc<dyn Viewer>>,
 }

@@ -1,4 +1,4 @@
-//! Certificates of a rig file: compared with the devices and with today, and their files looked for.
+//! Checks the certificates of a rig file: compares them with the devices and with today's date, and searches for their files.
 
 use std::fs::File;
 use std::io::ErrorKind;
@@ -13,7 +13,7 @@ use super::problem::RigProblem;
 use crate::instruments::{faults_today, kept, of_rig, remedy};
 
 impl RigCheck {
-    /// Compares the certificates of `rig` with the serial numbers in the settings and with today, and looks for their files.
+    /// Compares the certificates of `rig` with the serial numbers in the settings and with today's date. Also searches for the files of the certificates.
     pub(super) fn look_at_certificates(&mut self, rig: &RigFile) {
         let instruments = kept(of_rig(rig), Source::Recorded, &self.settings);
         for fault in faults_today(&instruments) {
@@ -36,7 +36,7 @@ impl RigCheck {
     }
 }
 
-/// Problem of the certificate's file in `folder`; `None` if the file agrees or none is named.
+/// Problem of the certificate's file in `folder`; `None` if the file agrees or the rig file names none.
 fn file_problem(
     folder: &Path,
     instrument: Instrument,

@@ -1,4 +1,4 @@
-//! `rig check`: rate, gaps and noise of each device of a rig, and the stop time of its robot.
+//! `rig check`: measures rate, gaps and noise of each device of a rig, and the stop time of its robot.
 
 use std::time::Duration;
 
@@ -16,31 +16,31 @@ use crate::presses::{FileOpener, add_settings};
 use crate::scene::{check_switch, is_untaught, open_switch};
 
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-/// Motion during which the robot is halted: straight up, away from the gel, in mm, and its speed, in mm/s.
+/// Motion that is halted, straight upward and away from the gel: its length, in mm, and its speed, in mm/s.
 const WAY_MM: f64 = 5.0;
 const WAY_MM_S: f64 = 5.0;
-/// Duration of the hold that ends the check of the enabling switch, and longest wait for the hold.
+/// Duration for which the enabling switch must be held to end its check, and maximum wait for the hold.
 const HELD: Duration = Duration::from_secs(1);
 const HOLD_PATIENCE_S: f64 = 10.0;
 /// Interval between readings of the switch while the robot moves.
 const FEEL: Duration = Duration::from_millis(5);
-/// Delay of the halt after the start of the motion.
+/// Delay from the start of the motion to the halt.
 const INTO: Duration = Duration::from_millis(300);
-/// Age of readings that interrupts a press: in periods, and the least value in ms.
+/// Age of readings at which a press is aborted: in periods, and the least value in ms.
 const STALE_PERIODS: f64 = 3.0;
 const STALE_MS: f64 = 50.0;
-/// Least ratio of the stated noise to the measured noise.
+/// Minimum ratio of the stated noise to the measured noise.
 const NOISE_PART: f64 = 0.5;
 
-/// Result of a check.
+/// Result of checking a rig.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigCheck {
-    /// True if the devices are emulated, as the rig file states or the robot reports.
+    /// True if the devices are emulated, as the rig file or the robot states.
     pub simulated: bool,
-    /// Force transducer at rest; noise in N.
+    /// Readings of the force transducer at rest, with noise in N.
     pub force: Option<Stream>,
-    /// Pose of the robot at rest; noise in mm.
+    /// Poses of the robot at rest, with noise in mm.
     pub robot: Option<Stream>,
     /// Frames of the sensor.
     pub sensor: Option<Stream>,
@@ -48,15 +48,15 @@ pub struct RigCheck {
     pub switch: Option<SwitchCheck>,
     /// Changers and lighting that the rig file names and that opened.
     pub changers: Vec<Stock>,
-    /// Halt of the robot in motion; `None` if it was left out.
+    /// Halt of the robot in motion; `None` if the halt was skipped.
     pub halt: Option<HaltTrip>,
     /// Reason why the halt was skipped; `None` if it was timed.
     pub halt_left_out: Option<String>,
-    /// Settings of the devices, read back; those of the transducer and of the robot begin with `force_` and `robot_`.
+    /// Settings that the devices report. Names of the transducer's and the robot's settings begin with `force_` and `robot_`.
     pub settings: std::collections::BTreeMap<String, String>,
-    /// Remarks of the devices on their readings and contradictions of certificates, with their remedies.
+    /// Warnings of the devices about their readings, and contradictions of certificates. Each has its remedy.
     pub warnings: Vec<String>,
-    /// Problems that would reject or stop a run, and devices that failed.
+    /// Problems that would reject or stop a run, including devices that failed.
     pub problems: Vec<RigProblem>,
 }
 
@@ -64,18 +64,18 @@ pub struct RigCheck {
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct HaltTrip {
-    /// Time until the halt was acknowledged, in ms.
+    /// Time from the halt to its acknowledgement, in ms.
     pub acknowledged_ms: f64,
-    /// Time until the motion had ended, in ms.
+    /// Time from the halt to the end of the motion, in ms.
     pub ended_ms: f64,
-    /// Height at which it stopped above its start, in mm.
+    /// Height above the start at which the robot stopped, in mm.
     pub left_mm: f64,
 }
 
-/// Measures the devices of `rig`. Halts its robot once during an upward motion, if `operator` allows it or the rig is emulated.
+/// Measures the devices of `rig`. Halts the robot once during an upward motion, if `operator` allows it or the rig is emulated.
 ///
-/// Tries every device; a device that fails becomes a problem. Nothing moves if the robot, the force transducer or the enabling switch failed, or if
-/// the tip is not above the gel according to the file.
+/// Tests every device. A failed device is reported as a problem. Nothing moves if the robot, the force transducer or the enabling switch failed, or if the tip
+/// is not above the gel according to the file.
 ///
 /// # Errors
 /// [`AcquireError::Scene`] with the line of an invalid rig file, before a device is opened.
@@ -177,7 +177,7 @@ impl RigCheck {
         }
     }
 
-    /// Value of a step of `device`; a failure becomes a problem and gives `None`.
+    /// Result of a step for `device`. A failure is recorded as a problem, and gives `None`.
     fn of<T>(&mut self, device: &'static str, tried: Result<T, impl ToString>) -> Option<T> {
         match tried {
             Ok(done) => Some(done),
@@ -189,7 +189,7 @@ impl RigCheck {
         }
     }
 
-    /// Reason why the robot must not move: failed devices, or a wrong origin that may turn up into down.
+    /// Reason why the robot must not move: a failed device, or a wrong origin with which an upward motion could go down.
     fn obstacle(&self) -> Option<String> {
         let failed = self.problems.iter().filter(|problem| problem.is_failure());
         let failed: Vec<&str> = failed
@@ -215,7 +215,7 @@ impl RigCheck {
         }
     }
 
-    /// Stores the readings of the force transducer that `descriptor` describes.
+    /// Records the readings of the force transducer that `descriptor` describes.
     fn hear_force(&mut self, heard: Stream, descriptor: &Descriptor) {
         let facts = descriptor.force();
         let period_ms = facts
@@ -246,7 +246,7 @@ impl RigCheck {
         }
     }
 
-    /// Checks the enabling switch; asks the operator, if any, to hold it.
+    /// Checks the enabling switch. Asks the operator, if any, to hold the switch.
     fn feel(
         &mut self,
         switch: &dyn EnablingSwitch,
@@ -267,7 +267,7 @@ impl RigCheck {
         Ok(())
     }
 
-    /// Halts the robot during an upward motion. Nothing moves while the enabling switch, if any, is released.
+    /// Halts the robot during an upward motion. Nothing moves while an enabling switch is released.
     fn halt_on_its_way(
         &mut self,
         robot: &mut dyn Robot,

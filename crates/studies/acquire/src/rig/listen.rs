@@ -1,4 +1,4 @@
-//! Listens to each device of a rig for a while.
+//! Records the readings of each device of a rig for some time.
 
 use std::time::Duration;
 
@@ -16,14 +16,14 @@ const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(100));
 /// Interval between readings of the pose.
 const LOOK: Duration = Duration::from_millis(10);
 
-/// Error of an open device, with its remedy.
+/// Message for an error of an open device, with its remedy.
 pub(super) fn without_answer(error: DriverError) -> String {
     format!(
         "{error}; check its cable and power, and whether another program uses it, then run `taceva rig check` again"
     )
 }
 
-/// Calls `hear` until the measurement ends.
+/// Calls `hear` repeatedly until the measurement ends.
 fn listen(
     mut hear: impl FnMut(&mut Listener) -> Result<(), DriverError>,
 ) -> Result<Stream, DriverError> {

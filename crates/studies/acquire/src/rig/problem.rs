@@ -2,42 +2,42 @@
 
 use std::fmt;
 
-/// Longest allowed time from a halt to a robot at rest, in ms; plans require the same of a stated stop time.
+/// Maximum time from a halt to a robot at rest, in ms. Plans have the same limit for a stated stop time.
 pub(super) const HALT_MS: f64 = 50.0;
 
 /// Problems of a rig that would reject or stop a run, with their remedies.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub enum RigProblem {
-    /// A device did not open, or failed while it was read.
+    /// A device did not open, or reading it failed.
     Failed {
-        /// `force`, `robot`, `sensor`, `switch`, `specimen`, `unit` or `light`.
+        /// Name of the device: `force`, `robot`, `sensor`, `switch`, `specimen`, `unit` or `light`.
         device: &'static str,
-        /// Failure and its remedy.
+        /// Description of the failure and its remedy.
         why: String,
     },
-    /// The certificate of a device is of another serial number than the device reports.
+    /// The serial number in the certificate of a device differs from the one that the device reports.
     Certificate {
-        /// `force`, `robot` or `sensor`.
+        /// Name of the device: `force`, `robot` or `sensor`.
         device: &'static str,
-        /// Contradiction and its remedy.
+        /// Description of the contradiction and its remedy.
         why: String,
     },
     /// A device gave no readings.
     Unheard {
-        /// `force`, `robot` or `sensor`.
+        /// Name of the device: `force`, `robot` or `sensor`.
         device: &'static str,
     },
-    /// Gaps between force readings would interrupt presses.
+    /// Gaps between force readings would abort presses.
     Gaps {
         /// Longest gap, in ms.
         gap_ms: f64,
-        /// Longest allowed gap, in ms.
+        /// Maximum allowed gap, in ms.
         allowed_ms: f64,
     },
     /// The measured noise is more than twice the noise that the driver states.
     Noise {
-        /// `force` or `robot`.
+        /// Name of the device: `force` or `robot`.
         device: &'static str,
         /// Measured noise, in N or mm.
         measured: f64,
@@ -46,19 +46,19 @@ pub enum RigProblem {
     },
     /// The file still has the origin and axes of a new file.
     Untaught,
-    /// The tip is inside the gel according to the file.
+    /// According to the rig file, the tip is inside the gel.
     InGel {
         /// Depth of the tip, in mm.
         depth_mm: f64,
     },
-    /// The robot stops too late.
+    /// The robot takes too long to stop.
     SlowHalt {
-        /// Time until the motion had ended, in ms.
+        /// Time from the halt to the end of the motion, in ms.
         ended_ms: f64,
     },
     /// The robot did not stop.
     NotHalted,
-    /// The enabling switch was never read as held, although the operator was asked to hold it.
+    /// The enabling switch was never reported as held, although the operator was asked to hold it.
     Unheld,
 }
 
@@ -106,7 +106,7 @@ impl fmt::Display for RigProblem {
 }
 
 impl RigProblem {
-    /// Device of the problem, with the names of [`RigProblem::Failed`]; `None` for a problem of the halt.
+    /// Device of the problem, with the names in [`RigProblem::Failed`]; `None` for a problem of the halt.
     pub fn device(&self) -> Option<&'static str> {
         match self {
             RigProblem::Failed { device, .. }

@@ -1,28 +1,28 @@
-//! Specimens, units and light scenes of a rig, as its opened devices report them.
+//! Specimens, units and light scenes of a rig, as the opened devices report them.
 
 use taceva_protocol::RigFile;
 
 use crate::error::AcquireError;
 use crate::presses::FileOpener;
 
-/// Names of what an open changer or lighting of a rig holds. It is made by [`check_rig`](super::check_rig).
+/// Names of the items in an open changer, or of the scenes of a lighting. Created by [`check_rig`](super::check_rig).
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Stock {
-    /// Key under `[changers]`: `specimen`, `unit` or `light`.
+    /// Key in the table `[changers]`: `specimen`, `unit` or `light`.
     pub key: &'static str,
-    /// Names of its items or light scenes.
+    /// Names of the items or light scenes.
     pub holds: Vec<String>,
 }
 
-/// Stock of a device that was opened or not.
+/// Result of opening a changer or lighting.
 pub(super) struct TriedStock {
     pub(super) key: &'static str,
-    /// Names of its items; `None` if the rig file names no such device.
+    /// Names of the items; `None` if the rig file names no such device. The error is that of opening it.
     pub(super) holds: Result<Option<Vec<String>>, AcquireError>,
 }
 
-/// Opens the changers of `rig` and its lighting, one after the other. Nothing moves.
+/// Opens the changers of `rig` and its lighting, one after another. Nothing moves.
 pub(super) fn take_stock(rig: &RigFile, opener: &FileOpener<'_>) -> [TriedStock; 3] {
     let changers = &rig.changers;
     let tried = |key, holds| TriedStock { key, holds };

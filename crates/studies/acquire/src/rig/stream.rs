@@ -3,22 +3,22 @@
 /// Statistics of the readings of a device.
 ///
 /// # Units
-/// ms and Hz; `noise` in the unit of the reading.
+/// Times in ms, rates in Hz, and `noise` in the unit of the reading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Stream {
     /// Number of readings.
     pub count: usize,
-    /// Readings per second; 0 for fewer than two readings.
+    /// Number of readings per second; 0 for fewer than two readings.
     pub rate_hz: f64,
-    /// Longest gap between readings by their stamps, in ms.
+    /// Longest gap between the time stamps of readings, in ms.
     pub gap_ms: f64,
-    /// Greatest age of a reading on arrival, by its stamp, in ms.
+    /// Greatest age of a reading on arrival, by its time stamp, in ms.
     pub late_ms: f64,
-    /// Greatest standard deviation among the components, in the unit of the reading; `None` for a device without numeric readings.
+    /// Greatest standard deviation of any component, in the unit of the reading; `None` for a device without numeric readings.
     pub noise: Option<f64>,
-    /// Number of readings lost on their way, as the driver counts them; `None` if it does not. A reading that a newer one overtook on this
-    /// host is not lost.
+    /// Number of readings lost in transmission, as the driver counts them; `None` if it does not count them. A reading that this host replaced by a newer one
+    /// is not lost.
     pub lost: Option<u64>,
 }
 
@@ -32,7 +32,7 @@ pub(super) struct Listener {
 }
 
 impl Listener {
-    /// Adds a reading with the stamp `valid_s` that arrived at `now_s`.
+    /// Adds a reading with the time stamp `valid_s` that arrived at `now_s`, both in s.
     pub(super) fn hear(&mut self, valid_s: f64, now_s: f64) {
         self.valid_s.push(valid_s);
         self.late_s = self.late_s.max(now_s - valid_s);
@@ -49,7 +49,7 @@ impl Listener {
         }
     }
 
-    /// Mean of each component, and the standard error of that of the last; `None` without values.
+    /// Mean of each component, and the standard error of the last component's mean; `None` without values.
     pub(super) fn mean(&self) -> Option<([f64; 3], f64)> {
         let (count, mean, squares) = self.spread.as_ref()?;
         let variance = squares[2] / (count - 1.0).max(1.0);

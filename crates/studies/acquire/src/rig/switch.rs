@@ -1,28 +1,28 @@
-//! Check of an enabling switch: whether it reports a hold, and its response time.
+//! Check of an enabling switch: its reports of a hold, and its response time.
 
 use std::time::Duration;
 
 use taceva_core::{DriverError, EnablingSwitch};
 use taceva_drivers::MonotonicClock;
 
-/// Interval between readings, the same as in a run.
+/// Interval between readings, equal to that in a run.
 const LOOK: Duration = Duration::from_millis(10);
 
 /// Statistics of an enabling switch that is read every 10 ms.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct SwitchCheck {
-    /// Number of readings.
+    /// Number of readings of the switch.
     pub looks: u32,
-    /// Number of readings that found it held.
+    /// Number of readings that reported a held switch.
     pub held: u32,
-    /// Number of presses and releases between readings.
+    /// Number of presses and releases detected between readings.
     pub changes: u32,
-    /// Longest response time of a reading, in ms. Excludes the delay of the device itself.
+    /// Longest response time of a reading, in ms. The delay within the device is not included.
     pub longest_ms: f64,
 }
 
-/// Reads `switch` until it has been held for the duration `held`, at most for `patience`.
+/// Reads `switch` until it has been held for the duration `held`, for at most the time `patience`.
 pub(super) fn look_at(
     switch: &dyn EnablingSwitch,
     held: Duration,
@@ -57,7 +57,7 @@ mod tests {
 
     use super::*;
 
-    /// A switch that is held from the fourth reading on, except at the seventh.
+    /// Test switch that is held from the fourth reading on, except at the seventh.
     struct Foot(AtomicU32);
 
     impl EnablingSwitch for Foot {

@@ -1,4 +1,4 @@
-//! `rig tap`: taps the gel at one place and writes the latency of each device into the rig file.
+//! `rig tap`: taps the gel at one place, and determines the latency of each device for the rig file.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use crate::error::AcquireError;
 use crate::presses::{Workshop, tap_study, written_latencies_ms};
 use crate::scene::{Overrides, PlannedScene, SceneText, StudySource};
 
-/// Scene for taps: limits, speeds and the start of a session. Its footprint is the middle of the gel.
+/// Scene for taps: limits, speeds and the start of a session. The footprint is in the middle of the gel.
 const SCENE: &str = r#"
 scene_version = 1
 name = "tap"
@@ -27,19 +27,19 @@ points = 1
 indentations = 1
 "#;
 
-/// Result of taps on a rig.
+/// Result of tapping on a rig.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigTap {
-    /// True if the devices are emulated, as the rig file states or the robot reports.
+    /// True if the devices are emulated, as the rig file or the robot states.
     pub simulated: bool,
-    /// Number of taps with a clear edge of every device.
+    /// Number of taps with a clear edge in the readings of every device.
     pub taps: usize,
-    /// Reasons of the taps without, at most a quarter of all.
+    /// Reasons why other taps lack a clear edge. At most a quarter of all taps are dropped.
     pub dropped: Vec<String>,
-    /// Number of these that were late, at most a fifth of all: they would lengthen the latency.
+    /// Number of dropped taps that were late, at most a fifth of all taps. They would increase the measured latency.
     pub late: usize,
-    /// Previous latencies of robot, transducer and sensor, in ms, from the rig file or else from the drivers.
+    /// Previous latencies of robot, transducer and sensor, in ms, from the rig file, or otherwise from the drivers.
     pub before_ms: [f64; 3],
     /// Remaining delay of the transducer relative to the robot.
     pub force: Latency,
@@ -47,17 +47,16 @@ pub struct RigTap {
     pub sensor: Latency,
     /// Latencies for the rig file.
     pub latencies: RigLatencies,
-    /// Text of the rig file with these latencies; `None` if it must be edited by hand.
+    /// Text of the rig file with these latencies; `None` if the user must edit the file.
     #[serde(skip)]
     pub text: Option<String>,
 }
 
-/// Taps the gel on the rig of the file at `path`. Does not write the file.
+/// Taps the gel on the rig of the file at `path`. The file is not written.
 ///
 /// # Errors
 /// [`AcquireError::Scene`] with the line of the rig file if it lacks a robot, a transducer, a sensor or limits. [`AcquireError::Open`] and
-/// [`AcquireError::Acquisition`] if a device failed or the rig contradicts its file. [`AcquireError::Taps`] with the reason if the taps give no
-/// latency.
+/// [`AcquireError::Acquisition`] if a device fails or the rig contradicts its file. [`AcquireError::Taps`] if the taps do not determine the latency.
 pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireError> {
     let rig = super::read_rig(path)?;
     check_devices(&rig)?;

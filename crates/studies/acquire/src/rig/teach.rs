@@ -1,4 +1,4 @@
-//! `rig teach`: the operator jogs the robot to three places, from which the origin and axes of the rig file are computed.
+//! `rig teach`: the operator jogs the robot to three places, which determine the origin and axes in the rig file.
 
 use std::time::Duration;
 
@@ -11,15 +11,15 @@ use taceva_protocol::{
 use crate::error::AcquireError;
 use crate::presses::FileOpener;
 
-/// Deadline of one pose.
+/// Deadline for each pose.
 const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 
-/// Asks `operator` to jog the robot of `rig` to three places. Returns the frame, and the text of the rig file with this frame. The program moves
-/// nothing.
+/// Asks `operator` to jog the robot of `rig` to three places. Returns the frame that they define, and the text of the rig file with this frame. The program
+/// does not move the robot.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of the rig file if it names no robot or the places define no frame; [`AcquireError::OpenOfRig`]
-/// and [`AcquireError::Device`] if the robot does not answer; [`AcquireError::Request`] if the operator stopped.
+/// [`AcquireError::Scene`] with the line of the rig file if it names no robot or the places define no frame. [`AcquireError::OpenOfRig`] and
+/// [`AcquireError::Device`] if the robot does not respond. [`AcquireError::Request`] if the operator stopped.
 pub fn teach_rig(
     rig: &RigFile,
     drivers: &Drivers,
@@ -47,7 +47,7 @@ pub fn teach_rig(
     Ok((taught, text))
 }
 
-/// Pose of the robot after the operator has jogged it.
+/// Pose of the robot after the operator has jogged the robot.
 fn stood(
     robot: &mut dyn Robot,
     spot: Spot,

@@ -1,4 +1,4 @@
-//! `rig check --weight`: a known weight on the force transducer, compared with m·g.
+//! `rig check --weight`: compares the force of a known weight on the transducer with m·g.
 
 use std::time::Duration;
 
@@ -16,13 +16,14 @@ const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(100));
 /// Standard acceleration of free fall, in m/s².
 const FREE_FALL_M_S2: f64 = 9.80665;
-/// Part of the weight by which the change may differ: its own tolerance, a tilt of 10 degrees, and the calibration.
+/// Allowed difference between the measured change and the weight, as a share of the weight. It includes the weight's tolerance, a tilt of 10 degrees, and the
+/// calibration.
 const DIFFERENCE: f64 = 0.03;
-/// Greatest part of the weight that noise and steps may hide.
+/// Maximum share of the weight that noise and resolution may hide.
 const HIDDEN: f64 = 0.1;
-/// Relative difference of a factor from that of a mistaken unit.
+/// Maximum relative difference at which a factor is attributed to a wrong unit.
 const NEAR: f64 = 0.05;
-/// Units that are mistaken for newtons, each with its newtons.
+/// Units that are often mistaken for newtons, each with its value in N.
 static UNITS: [(f64, &str); 4] = [
     (4.448_222, "pounds-force (lbf)"),
     (FREE_FALL_M_S2, "kilograms-force (kgf)"),
@@ -30,31 +31,31 @@ static UNITS: [(f64, &str); 4] = [
     (1e-3, "millinewtons (mN)"),
 ];
 
-/// Result of a known weight on the transducer of a rig.
+/// Result of hanging a known weight on the transducer of a rig.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
 pub struct RigWeight {
     /// True if the devices are emulated, as the rig file states.
     pub simulated: bool,
-    /// Comparison for the rig file.
+    /// Comparison to store in the rig file.
     pub weighing: Weighing,
     /// Change of the force along x, y and z of the sensor, in N.
     pub change_n: [f64; 3],
-    /// Size of the change of Fz over the weight.
+    /// Ratio of the change of Fz to the weight, as absolute values.
     pub factor: f64,
-    /// Contradiction, with its remedy; `None` if the change agrees with the weight.
+    /// Description of the contradiction and its remedy; `None` if the change agrees with the weight.
     pub problem: Option<String>,
-    /// Text of the rig file with the comparison; `None` with a problem, or if it must be edited by hand.
+    /// Text of the rig file with the comparison; `None` if there is a problem, or if the user must edit the file.
     #[serde(skip)]
     pub text: Option<String>,
 }
 
-/// Asks `operator` to take every load off the transducer of `rig` and to hang `mass_g` on it. Compares the change of Fz with its weight. Moves
-/// nothing and does not write the file.
+/// Asks `operator` to remove every load from the transducer of `rig`, and to hang `mass_g` on it. Compares the change of Fz with the weight. Nothing moves, and
+/// the file is not written.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] with the line of a rig file that is invalid or has no transducer. [`AcquireError::OpenOfRig`],
-/// [`AcquireError::Device`] and [`AcquireError::Request`] if it fails or the operator stopped.
+/// [`AcquireError::Scene`] with the line of a rig file that is invalid or has no transducer. [`AcquireError::OpenOfRig`] and [`AcquireError::Device`] if the
+/// transducer fails. [`AcquireError::Request`] if the operator stopped.
 pub fn weigh_rig(
     rig: &RigFile,
     drivers: &Drivers,
@@ -82,7 +83,8 @@ pub fn weigh_rig(
     })
 }
 
-/// Compares a weight, with readings for `lasts` before and after it is hung. Returns the comparison and the change along each axis.
+/// Compares a weight with its force. Readings last for the time `lasts`, before and after the weight is hung. Returns the comparison and the change along each
+/// axis.
 fn weigh(
     force: &mut dyn ForceTransducer,
     operator: &mut dyn Operator,
@@ -112,7 +114,7 @@ fn weigh(
     Ok((weighing, change_n))
 }
 
-/// Mean force of `lasts` after a pause, and the standard error of Fz.
+/// Mean force over the time `lasts` after a pause, and the standard error of Fz.
 fn resting(
     force: &mut dyn ForceTransducer,
     lasts: Duration,
@@ -137,7 +139,7 @@ fn resting(
     })
 }
 
-/// Contradiction of a comparison, with its remedy.
+/// Description of a contradiction in the comparison, with its remedy; `None` if there is none.
 fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
     let Weighing {
         mass_g,
@@ -189,7 +191,7 @@ mod tests {
 
     use super::*;
 
-    /// A transducer whose readings are the weight in grams that hangs on it times `n_per_g`.
+    /// Test transducer. Its readings are the mass in grams that hangs on it, multiplied by `n_per_g`.
     struct Scale<'a> {
         hung_g: &'a AtomicU32,
         n_per_g: [f64; 3],
@@ -215,7 +217,7 @@ mod tests {
         }
     }
 
-    /// A person who hangs the weight that a question names.
+    /// Test operator who hangs the weight that a question names.
     struct Person<'a>(&'a AtomicU32);
 
     impl Operator for Person<'_> {
@@ -230,7 +232,7 @@ mod tests {
         }
     }
 
-    /// Result of 100 g on such a transducer.
+    /// Result of hanging 100 g on a transducer with the factors `n_per_g`.
     fn weighed(n_per_g: [f64; 3]) -> (Weighing, Option<String>) {
         let hung_g = AtomicU32::new(0);
         let mut scale = Scale {

@@ -12,13 +12,13 @@ use crate::error::AcquireError;
 pub struct Overrides {
     /// Seed of all random draws of the scene.
     pub seed: Option<u64>,
-    /// Rig file whose devices replace those of every study that presses. Its path is relative to the working folder.
+    /// Rig file whose devices replace those of every study that presses. A relative path refers to the working directory.
     pub rig: Option<PathBuf>,
-    /// Model of every study; it replaces the scene's model and its settings.
+    /// Model of every study. It replaces the scene's model and that model's settings.
     pub model: Option<String>,
-    /// Settings of the model, as `key=value`; other settings of the scene stay.
+    /// Settings of the model, as `key=value`. Other settings of the scene are kept.
     pub set: Vec<String>,
-    /// Seeds of repeated fits of the models; presses, split and scored samples do not change.
+    /// Seeds of repeated fits of the models. Presses, split and scored samples do not change.
     pub seeds: Vec<u64>,
 }
 

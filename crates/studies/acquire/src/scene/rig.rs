@@ -9,7 +9,7 @@ use taceva_core::{
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
 
-/// Byte offset in the scene, and the problem there.
+/// Byte offset in the scene, and the problem at this offset.
 pub(crate) type Refused = (Option<usize>, SceneProblem);
 
 /// Devices of a study, by name.
@@ -19,7 +19,7 @@ pub(crate) struct RigSpec {
     pub(crate) robot: Option<Setting<String>>,
     pub(crate) force: Option<Setting<String>>,
     pub(crate) lighting: Option<Setting<String>>,
-    /// True if the changers are opened too.
+    /// True if the changers are also opened.
     pub(crate) changes: bool,
     seed: u64,
     /// Base folder of relative paths.
@@ -27,7 +27,7 @@ pub(crate) struct RigSpec {
 }
 
 impl RigSpec {
-    /// Only robot and transducer, to exchange the sensor.
+    /// Returns the robot and the transducer without the sensor, to exchange the sensor.
     pub(crate) fn without_sensor(&self) -> RigSpec {
         RigSpec {
             sensor: None,
@@ -53,7 +53,7 @@ impl RigSpec {
         }
     }
 
-    /// Devices of a rig file, without a scene; `folder` is the base of relative paths.
+    /// Devices of a rig file without a scene. Relative paths refer to `folder`.
     pub(crate) fn of_file(rig: &RigFile, folder: &Path) -> RigSpec {
         let sensor = rig.sensor.as_ref();
         let robot = rig.robot.as_ref();
@@ -97,7 +97,7 @@ impl RigSpec {
         })
     }
 
-    /// Selector of `device` for `unit`: the written one, plus seed and unit if its driver takes them and the scene does not set them.
+    /// Selector of `device` for `unit`. It is the written selector, with seed and unit added if the driver accepts them and the scene does not set them.
     pub(crate) fn selector<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
@@ -150,7 +150,7 @@ impl RigSpec {
         Ok(described.and_then(|described| Some(described.changer()?.holds.clone())))
     }
 
-    /// Descriptor of `device` with its arguments. Opens nothing.
+    /// Descriptor of `device` for its arguments. Opens no device.
     pub(crate) fn describe<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
@@ -190,8 +190,8 @@ pub(crate) fn check_drivers(scene: &Scene, drivers: &Drivers) -> Result<(), Scen
     scene.check_drivers(&known)
 }
 
-/// Rejects an `enable` that names no enabling switch, with the line of the rig file, and a switch in place of a device. Also rejects a simulated
-/// robot, because no switch can be held in simulated time. Opens nothing.
+/// Rejects an `enable` that does not name an enabling switch, with the line of the rig file. Rejects a switch that is named as another device. Also rejects a
+/// simulated robot, because a switch cannot be held in simulated time. Opens no device.
 pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     check_places(rig, drivers)?;
     let Some(operator) = &rig.operator else {
@@ -215,7 +215,7 @@ pub(crate) fn check_switch(rig: &RigFile, drivers: &Drivers) -> Result<(), Scene
     Ok(())
 }
 
-/// Rejects an enabling switch in place of the robot, the force transducer or the sensor of `rig`.
+/// Rejects an enabling switch that is named as the robot, the force transducer or the sensor of `rig`.
 fn check_places(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let robot = rig.robot.as_ref().map(|robot| &robot.driver);
     let force = rig.force.as_ref().map(|force| &force.driver);
@@ -235,8 +235,8 @@ fn check_places(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Rejects an invalid or empty changer of `rig`, with the line of the rig file. Rejects every changer if the robot is simulated, because its bench
-/// makes all changes. Opens nothing.
+/// Rejects an invalid or empty changer of `rig`, with the line of the rig file. Rejects every changer if the robot is simulated, because its bench makes all
+/// changes. Opens no device.
 pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
     let spec = RigSpec::of_file(rig, folder);
@@ -280,7 +280,7 @@ pub(crate) fn is_untaught(rig: &RigFile, drivers: &Drivers) -> bool {
         && robot.axes.value.to_string() == r#"["x", "y", "z"]"#
 }
 
-/// Rejects a robot with the origin and axes of a new file, which would not move to the gel. Opens nothing.
+/// Rejects a robot with the origin and axes of a new file, because the robot would not move to the gel. Opens no device.
 pub(crate) fn check_taught(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     match &rig.robot {
         Some(robot) if is_untaught(rig, drivers) => {

@@ -1,4 +1,4 @@
-//! Text of a scene with its location, to report lines and to resolve relative paths.
+//! Text of a scene and its location, used to report lines and resolve relative paths.
 
 use std::fs::File;
 use std::io::{ErrorKind, Read};
@@ -9,12 +9,12 @@ use taceva_protocol::{BuiltinScene, GREATEST_SCENE, RigFile, SceneError, ScenePr
 
 use crate::error::AcquireError;
 
-/// A scene as written.
+/// A scene as the user wrote it.
 #[derive(Clone, Debug)]
 pub struct SceneText {
-    /// Name for errors: the path of the file, or the name of a built-in scene.
+    /// Name for errors: path of the file, or name of a built-in scene.
     pub name: String,
-    /// TOML text.
+    /// Text in TOML format.
     pub text: String,
     /// Base folder of relative paths.
     pub folder: PathBuf,
@@ -33,7 +33,7 @@ impl SceneText {
     /// Reads the scene in the file at `path`.
     ///
     /// # Errors
-    /// [`AcquireError::Scene`] if it cannot be read.
+    /// [`AcquireError::Scene`] if the file cannot be read.
     pub fn read(path: &Path) -> Result<SceneText, AcquireError> {
         let name = path.display().to_string();
         let text = read_text(path, "scene")?;
@@ -41,7 +41,7 @@ impl SceneText {
         Ok(SceneText { name, text, folder })
     }
 
-    /// Error for `problem` at the line of the byte offset `at`.
+    /// Error for `problem`, at the line that contains the byte offset `at`.
     pub fn error(&self, at: Option<usize>, problem: SceneProblem) -> AcquireError {
         let line = at.map(|at| {
             let before = self.text.bytes().take(at);
@@ -58,7 +58,7 @@ impl SceneText {
 /// Reads the rig file at `path`.
 ///
 /// # Errors
-/// [`AcquireError::Scene`] if it cannot be read or is invalid.
+/// [`AcquireError::Scene`] if the file cannot be read or is invalid.
 pub(crate) fn read_rig_file(path: &Path) -> Result<RigFile, AcquireError> {
     let text = read_text(path, "rig")?;
     Ok(RigFile::parse(&path.display().to_string(), &text)?)

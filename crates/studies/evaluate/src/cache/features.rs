@@ -1,4 +1,4 @@
-//! Features of frames and signals, stored for other models. Beyond a total size, the oldest are removed.
+//! Stores features of frames and signals, for reuse by other models. If the total size exceeds a limit, the oldest features are removed.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -18,7 +18,7 @@ use crate::error::EvaluateError;
 
 /// Size limit of all stored features, in bytes.
 const ALL_MAX: u64 = 2 << 30;
-/// Interval at which a waiting task checks whether another has finished.
+/// Interval at which a waiting task checks if another task has finished.
 const LOOK_EVERY: Duration = Duration::from_millis(50);
 /// Size limit of one set of features, in bytes.
 pub(crate) const ONE_MAX: u64 = ALL_MAX / 4;
@@ -30,8 +30,8 @@ pub(super) struct Memory {
 }
 
 impl Cache {
-    /// Features of `rows`, which are all rows of `dataset` that a fold may need. Computes them with `make` unless they are in memory, and keeps them
-    /// there.
+    /// Features of `rows`, which are all rows of `dataset` that a fold may need. Computes them with `make` unless they are in memory, and stores them in
+    /// memory.
     pub(crate) fn whole_features(
         &self,
         dataset: &Dataset,
@@ -52,12 +52,12 @@ impl Cache {
         Ok(made)
     }
 
-    /// True if features of whole recordings stay in memory, so that even large ones are computed once.
+    /// True if features of whole recordings are stored in memory. Even large features are then computed only once.
     pub(crate) fn is_in_memory(&self) -> bool {
         self.memory.is_some()
     }
 
-    /// Features of `rows` of `dataset` by `extractor`: the stored ones, or the result of `make`, which is then stored.
+    /// Features of `rows` of `dataset` by `extractor`. Returns stored features if there are any. Otherwise calls `make` and stores the result.
     ///
     /// Features depend on frames and the reference frame, or on signals and the signals at rest. The digest of a dataset covers all of these.
     pub(crate) fn features(
@@ -98,7 +98,8 @@ impl Cache {
 }
 
 impl Cache {
-    /// Waits until no other task computes the result of `key`. Without a claim, as in a read-only folder, the result may be computed twice.
+    /// Waits until no other task is computing the result of `key`. Returns `None` if no claim is possible, as in a read-only folder. The result may then be
+    /// computed twice.
     fn turn(&self, key: &Key) -> Option<Claim> {
         let partial = self.partial();
         fs::create_dir_all(&partial).ok()?;
@@ -131,7 +132,7 @@ fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key
         .finish()
 }
 
-/// Removes the least recently used files of `folder` until the rest totals at most `most` bytes.
+/// Removes the least recently used files of `folder` until the total size of the others is at most `most` bytes.
 fn trim(folder: &Path, most: u64) -> io::Result<()> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {
@@ -151,8 +152,8 @@ fn trim(folder: &Path, most: u64) -> io::Result<()> {
     Ok(())
 }
 
-/// Height, width and depth as 32-bit numbers, then the features as in memory, all little-endian. Reads and writes in blocks, so that memory holds the
-/// matrix once.
+/// The format is height, width and depth as 32-bit numbers, then the features as in memory, all little-endian. Features are read and written in blocks, so that
+/// memory contains the matrix only once.
 impl Kept for Features {
     fn to_kept(&self) -> Option<impl Read> {
         let FeatureShape {
@@ -205,7 +206,7 @@ impl Kept for Features {
     }
 }
 
-/// Bytes read at a time.
+/// Number of bytes read at a time.
 const BLOCK: usize = 1 << 16;
 
 /// Converts numbers to bytes, one block at a time.

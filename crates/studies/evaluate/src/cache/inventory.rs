@@ -1,4 +1,4 @@
-//! Entries in a cache folder, and the choice of entries to remove.
+//! Lists the entries in a cache folder, and chooses entries to remove.
 
 use std::fs::{self, Metadata};
 use std::io;
@@ -13,45 +13,45 @@ use super::{ABANDONED, LAYOUT, PARTIAL, remove};
 /// Number of digits of a key.
 const DIGITS: usize = 64;
 
-/// An entry: the result of one stage, or a partial entry of a stopped run.
+/// An entry: the result of a stage, or a partial entry of a stopped run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CacheEntry {
-    /// The stage of the result; `None` for a partial entry.
+    /// Stage of the result; `None` for a partial entry.
     pub stage: Option<CachedStage>,
-    /// The digits of its key, or the name of a partial entry.
+    /// Hexadecimal digits of the key, or name of a partial entry.
     pub name: String,
     /// Path of the entry.
     pub path: PathBuf,
-    /// Size in bytes.
+    /// Size of the entry, in bytes.
     pub bytes: u64,
-    /// Number of bytes that removing it frees; excludes files shared with the folder of a run.
+    /// Number of bytes that are freed by removing the entry. Excludes files shared with the folder of a run.
     pub own_bytes: u64,
-    /// Number of files.
+    /// Number of files in the entry.
     pub files: u64,
     /// Time of creation or last use.
     pub used: SystemTime,
 }
 
 impl CacheEntry {
-    /// Name of its kind: the name of the stage, or `partial`.
+    /// Kind of the entry: name of the stage, or `partial`.
     pub fn kind(&self) -> &'static str {
         self.stage.map_or(PARTIAL, CachedStage::name)
     }
 
-    /// Time since the last use; zero for a time in the future.
+    /// Time since the last use; zero if the last use is in the future.
     pub fn age(&self, now: SystemTime) -> Duration {
         now.duration_since(self.used).unwrap_or_default()
     }
 }
 
-/// Rules for removal.
+/// Rules for removing entries.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Pruning {
-    /// Results of only these stages; empty for all.
+    /// Stages whose results are removed; empty for all stages.
     pub stages: Vec<CachedStage>,
-    /// Removes entries that were not used for longer than this.
+    /// Age limit. Entries that were not used for longer than this are removed.
     pub older_than: Option<Duration>,
-    /// Removes the least recently used entries until the total is at most this many bytes.
+    /// Size limit in bytes. The least recently used entries are removed until the total is at most this limit.
     pub keep: Option<u64>,
 }
 
@@ -138,7 +138,7 @@ impl Sum {
     }
 }
 
-/// True if a file has another hard link, which keeps its content.
+/// True if a file has another hard link. Removing the file then frees no space.
 fn is_shared(facts: &Metadata) -> bool {
     #[cfg(unix)]
     let links = std::os::unix::fs::MetadataExt::nlink(facts);
@@ -150,9 +150,9 @@ fn is_shared(facts: &Metadata) -> bool {
     links > 1
 }
 
-/// Entries that `pruning` removes at the time `now`: first those that are too old, then those beyond the size limit.
+/// Entries that `pruning` removes at the time `now`. Entries that are too old come first, followed by those beyond the size limit.
 ///
-/// Partial entries are removed once no run can still be writing them, whatever the rules.
+/// Partial entries are removed, whatever the rules, if they are so old that no run can still be writing them.
 pub fn pruned<'a>(
     entries: &'a [CacheEntry],
     pruning: &Pruning,
@@ -188,10 +188,10 @@ pub fn pruned<'a>(
     going
 }
 
-/// Removes `entry` from the cache in `folder`. A concurrent run finds either the whole entry or none.
+/// Removes `entry` from the cache in `folder`. A concurrent run finds either the whole entry or no entry.
 ///
 /// # Errors
-/// If it cannot be moved away or removed.
+/// If the entry cannot be renamed or removed.
 pub fn remove_entry(folder: &Path, entry: &CacheEntry) -> io::Result<()> {
     if entry.stage.is_none() {
         return remove(&entry.path);
@@ -214,7 +214,7 @@ mod tests {
 
     const HOUR: Duration = Duration::from_secs(3600);
 
-    /// A cache with a file of `bytes` bytes for each stage and age, in hours.
+    /// Test cache with a file of `bytes` bytes for each stage and age, in hours.
     fn cache(kept: &[(CachedStage, u64, usize)]) -> (tempfile::TempDir, Vec<CacheEntry>) {
         let folder = tempfile::tempdir().expect("a folder");
         for (number, (stage, hours, bytes)) in kept.iter().enumerate() {

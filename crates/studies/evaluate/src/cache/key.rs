@@ -1,4 +1,4 @@
-//! Key of a result of a stage: the digest of all its inputs.
+//! Key of a stage's result: the digest of all its inputs.
 
 use std::fmt::{self, Debug};
 
@@ -9,15 +9,15 @@ use taceva_dataset::Digest;
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
 pub enum CachedStage {
-    /// The presses of a study: a recording.
+    /// Acquisition of the presses of a study. The result is a recording.
     Acquire,
-    /// The features of the frames of a recording.
+    /// Computation of the features of a recording's frames.
     Features,
-    /// The fitted model.
+    /// Fit of the model.
     Fit,
-    /// Predictions of the presses that the model was not fitted on.
+    /// Prediction of the presses that the model was not fitted on.
     Predict,
-    /// Spacings predicted for presses on gratings.
+    /// Prediction of spacings for presses on gratings.
     Classify,
 }
 
@@ -31,7 +31,7 @@ impl CachedStage {
         CachedStage::Classify,
     ];
 
-    /// Name in files and folders.
+    /// Name of the stage in files and folders.
     pub const fn name(self) -> &'static str {
         match self {
             CachedStage::Acquire => "acquire",
@@ -42,7 +42,7 @@ impl CachedStage {
         }
     }
 
-    /// Version of the result; incremented when the same inputs give another result within one version of this program.
+    /// Version of the stage's result. It must be incremented if the same inputs give another result within one version of this program.
     const fn version(self) -> u32 {
         match self {
             // 2: the recording states how its presses ended.
@@ -62,7 +62,7 @@ impl CachedStage {
     }
 }
 
-/// The key of a stage's result.
+/// Key of a stage's result.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub struct Key {
     stage: CachedStage,
@@ -70,7 +70,7 @@ pub struct Key {
 }
 
 impl Key {
-    /// Starts the key of a result of `stage`; add its parts next.
+    /// Starts the key of a result of `stage`. The caller then adds the parts of the key.
     pub fn of(stage: CachedStage) -> KeyBuilder {
         let builder = KeyBuilder {
             stage,
@@ -82,12 +82,12 @@ impl Key {
             .part("taceva", env!("CARGO_PKG_VERSION"))
     }
 
-    /// The stage of the result.
+    /// Stage of the result.
     pub fn stage(&self) -> CachedStage {
         self.stage
     }
 
-    /// The 64 digits that name its entry.
+    /// The 64 hexadecimal digits that name the entry.
     pub fn digits(&self) -> String {
         let bytes = self.digest.as_bytes().iter();
         bytes.map(|byte| format!("{byte:02x}")).collect()
@@ -100,7 +100,7 @@ impl fmt::Display for Key {
     }
 }
 
-/// Parts of a key, each with its name and length, so that different sequences of parts never give the same key.
+/// Builder of a key. Parts are added with their name and length, so that different sequences of parts never give the same key.
 pub struct KeyBuilder {
     stage: CachedStage,
     parts: Vec<u8>,
@@ -116,12 +116,12 @@ impl KeyBuilder {
         self
     }
 
-    /// Adds a part in its `Debug` form. That form names every field, so a field added later becomes part of the key automatically.
+    /// Adds a part in its `Debug` form. This form names every field, so a field that is added to the type later becomes part of the key.
     pub fn whole(self, name: &str, part: &impl Debug) -> KeyBuilder {
         self.part(name, &format!("{part:?}"))
     }
 
-    /// The key of all parts.
+    /// Computes the key of all parts.
     pub fn finish(self) -> Key {
         Key {
             stage: self.stage,

@@ -1,8 +1,8 @@
-//! Recordings in the folders of runs: the cache stores their paths and keeps no copy.
+//! Recordings in the folders of runs. The cache stores their paths and no copies.
 //!
-//! A note lists the folders that hold one recording, the latest first. Each line also has the digest of the header, because the folder may hold
-//! another recording by now. Another run links the files of the first folder with an unchanged recording. If there is none, the presses are made
-//! again from the seed, with the same bytes.
+//! A note lists the folders that contain one recording, the latest first. Each line also has the digest of the header, because the folder may have been
+//! overwritten with another recording. Another run links the files of the first folder with an unchanged recording. If there is none, the presses are repeated
+//! from the seed, with the same bytes.
 
 use std::fs;
 use std::io;
@@ -18,7 +18,8 @@ use super::{Cache, Key, remove};
 const PLACES: usize = 8;
 
 impl Cache {
-    /// Links the recording noted under `key` to `place`, which must not exist; `None` if no folder still holds it unchanged.
+    /// Links to `place`, which must not exist, the files of the recording noted under `key`. Returns `None` if no noted folder contains the unchanged
+    /// recording.
     pub(super) fn take_recording(&self, key: &Key, place: &Path) -> Option<Dataset> {
         let folder = TemporaryFolder::create(parent_of(place), STAGED).ok()?;
         let beside = folder.path().join("recording");
@@ -57,7 +58,7 @@ impl Cache {
         None
     }
 
-    /// Notes under `key` that the closed recording is at `place`.
+    /// Notes under `key` that `place` contains the closed recording.
     pub(super) fn keep_recording(&self, key: &Key, place: &Path) {
         let Ok(place) = place.canonicalize() else {
             return;
@@ -85,7 +86,7 @@ impl Cache {
         self.put_anew(key, lines.as_bytes());
     }
 
-    /// The folders noted under `key`.
+    /// Folders that are noted under `key`.
     fn held(&self, key: &Key) -> Vec<Held> {
         let text = fs::read_to_string(self.entry(key)).unwrap_or_default();
         let read = |line: &str| {
@@ -99,10 +100,10 @@ impl Cache {
     }
 }
 
-/// A folder that holds a recording.
+/// A folder that contained a recording when it was noted.
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
-    /// Digest of the bytes of its header.
+    /// Digest of the bytes of the recording's header.
     header: Digest,
     folder: PathBuf,
 }
@@ -112,7 +113,7 @@ fn header_digest(folder: &Path) -> Option<Digest> {
     Some(Digest::of(&header))
 }
 
-/// Checks the recording at `path`: header and table on opening, and every frame by its digest. The error is a message for the user.
+/// Checks the recording at `path`: opening checks header and table, then every frame is checked by its digest. The error is a message for the user.
 ///
 /// Without this check, only a later stage would find a damaged frame, too late to repeat the press.
 fn check(path: &Path) -> Result<(), String> {

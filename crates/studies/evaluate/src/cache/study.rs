@@ -10,29 +10,29 @@ use super::{Cache, CachedStage, Key};
 /// A stage of a study, and whether its result was reused.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct StageRecord {
-    /// The study.
+    /// Name of the study.
     pub study: String,
-    /// The stage.
+    /// Stage of the run.
     pub stage: CachedStage,
-    /// The digest of all inputs of its result.
+    /// Digest of all inputs of the stage's result.
     pub key: String,
     /// True if the result was found in the cache.
     pub reused: bool,
 }
 
-/// View of the cache for one study; without a cache, every stage is computed.
+/// View of the cache for one study. Without a cache, every stage is computed.
 #[derive(Clone, Copy)]
 pub struct StudyCache<'a> {
-    /// The cache, if there is one.
+    /// Cache to use; `None` to compute every stage.
     pub cache: Option<&'a Cache>,
-    /// The number of the study, from 0.
+    /// Number of the study, counted from 0.
     pub number: usize,
-    /// The name of the study.
+    /// Name of the study.
     pub study: &'a str,
 }
 
 impl StudyCache<'_> {
-    /// The value stored under `key`, or else the result of `make`, which is then stored.
+    /// Returns the value stored under `key`. If there is none, calls `make` and stores the result.
     pub fn value<T: Kept, E>(self, key: &Key, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         let Some(cache) = self.cache else {
             return make();
@@ -47,7 +47,7 @@ impl StudyCache<'_> {
         Ok(value)
     }
 
-    /// The recording at `place`. If nothing is there, links the one stored under `key`, or else stores the result of `make`.
+    /// Returns the recording at `place`. If there is none, links the one stored under `key`. Otherwise calls `make` and stores its result.
     pub fn recording<E>(
         self,
         key: &Key,

@@ -1,4 +1,4 @@
-//! Folders of files that are linked rather than copied.
+//! Links folders of files instead of copying them.
 
 use std::fs::{self, File};
 use std::io;
@@ -6,12 +6,12 @@ use std::path::Path;
 
 use taceva_files::sync_folder;
 
-/// Size in bytes below which files are copied. Linking small files saves nothing, and an edit in one folder does not change the other.
+/// Size in bytes below which files are copied. Linking small files saves no space, and copies can be edited independently.
 const LINKED: u64 = 1 << 16;
 
-/// Creates the folder `to` with all files of `from`: large ones linked, or copied if the file system rejects links.
+/// Creates the folder `to` with all files of `from`. Large files are linked, or copied if the file system rejects links.
 ///
-/// Names in it are durable on return. Its files are as durable as those of `from`.
+/// File names in `to` are durable on return. File contents are as durable as those of `from`.
 pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {
     fs::create_dir(to)?;
     for entry in fs::read_dir(from)? {
@@ -27,7 +27,7 @@ pub(super) fn link(from: &Path, to: &Path) -> io::Result<()> {
     sync_folder(to)
 }
 
-/// Removes the file or the folder at `path`, if there is one.
+/// Removes the file or folder at `path`, if it exists.
 pub fn remove(path: &Path) -> io::Result<()> {
     let removed = match fs::symlink_metadata(path) {
         Ok(found) if found.is_dir() => fs::remove_dir_all(path),

@@ -1,4 +1,4 @@
-//! Small stored results, one file each. The first line is the digest of the rest.
+//! Small stored results, one per file. The first line is the digest of the remaining content.
 
 use std::fs::File;
 use std::io::{self, BufReader, Cursor, Read, Seek, SeekFrom, Write};
@@ -11,14 +11,14 @@ use super::{Cache, Key};
 
 /// A result that can be stored in a file.
 pub trait Kept: Sized {
-    /// A new reader of the stored form; `None` if the value cannot be stored.
+    /// Returns a reader of the stored form; `None` if the value cannot be stored.
     fn to_kept(&self) -> Option<impl Read>;
 
-    /// Value from `length` stored bytes; `None` if they do not contain such a value.
+    /// Parses a value from `length` stored bytes; `None` if they do not contain such a value.
     fn from_kept(bytes: impl Read, length: usize) -> Option<Self>;
 }
 
-/// A model of a plugin is not stored, because only its plugin can load it.
+/// A model of a plugin is not stored, because only the plugin can load it.
 impl Kept for Model {
     fn to_kept(&self) -> Option<impl Read> {
         let is_of_plugin = self.card().plugin.is_some();
@@ -31,7 +31,7 @@ impl Kept for Model {
     }
 }
 
-/// For each row, a byte that is 1 if there is a value, then the bits of the value.
+/// The format has a byte for each row, which is 1 if there is a value, and then the bits of the value.
 impl Kept for Column {
     fn to_kept(&self) -> Option<impl Read> {
         let rows = (0..self.len()).map(|row| self.get(row));
@@ -63,11 +63,11 @@ fn all_of(mut bytes: impl Read, length: usize) -> Option<Vec<u8>> {
     Some(all)
 }
 
-/// Length of the first line, in bytes: the digest and the line end.
+/// Length of the first line, in bytes. The line consists of the digest and the line end.
 const FIRST_LINE: usize = 72;
 
 impl Cache {
-    /// The result stored under `key`; `None` if there is none or its bytes have changed.
+    /// Returns the result stored under `key`; `None` if there is none or its bytes have changed.
     pub(super) fn take_value<T: Kept>(&self, key: &Key) -> Option<T> {
         let entry = self.entry(key);
         let file = match File::open(&entry) {
@@ -103,7 +103,7 @@ impl Cache {
     }
 }
 
-/// Value in a file, if the rest of the file has the digest in the first line.
+/// Reads the value in a file; `None` unless the digest in the first line matches the remaining content.
 fn taken<T: Kept>(mut file: &File) -> io::Result<Option<T>> {
     let length = usize::try_from(file.metadata()?.len()).unwrap_or(usize::MAX);
     let Some(length) = length.checked_sub(FIRST_LINE) else {
@@ -120,7 +120,7 @@ fn taken<T: Kept>(mut file: &File) -> io::Result<Option<T>> {
     Ok(T::from_kept(BufReader::new(file), length))
 }
 
-/// True if the entry or its folder does not exist.
+/// True if the error means that the entry or its folder does not exist.
 fn is_absent(error: &io::Error) -> bool {
     matches!(
         error.kind(),
@@ -135,7 +135,7 @@ mod tests {
     use super::super::CachedStage;
     use super::*;
 
-    /// Numbers, one of which is absent.
+    /// Test column with one undefined value.
     fn numbers() -> Column {
         let mut column = Column::default();
         for value in [Some(0.1), None, Some(-0.0), Some(1e300)] {

@@ -1,4 +1,4 @@
-//! Predictions of a model that the caller holds, scored by the same rules as built-in models.
+//! Scores predictions of a caller's own model, by the same rules as those of built-in models.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -16,12 +16,12 @@ use crate::predict::{self, Predictor, Target};
 use crate::rows::{DataPart, Divided, Need, chosen_channels, require_samples, usable};
 use taceva_results::ModelProvenance;
 
-/// Digest and training data of a model that only the caller has.
+/// Digest and training data of a model that is unknown to this program.
 const UNKNOWN: &str = "unknown";
 
-/// Rows for a model of the caller: the rows to learn from, and the rows to score.
+/// Rows for a caller's own model: rows for the fit, and rows to score.
 ///
-/// [`score`](GivenRows::score) scores the predictions of the model.
+/// [`score`](GivenRows::score) computes the scores of the model's predictions.
 #[derive(Debug)]
 pub struct GivenRows {
     channels: Channels,
@@ -34,31 +34,31 @@ pub struct GivenRows {
     is_unbounded: bool,
 }
 
-/// Choice of rows for a model of the caller.
+/// Choice of rows for a caller's own model.
 #[derive(Clone, Debug, Default)]
 pub struct GivenRequest {
     /// Channels by name; empty for all.
     pub channels: Vec<String>,
-    /// True if the model is fitted on the training part now.
+    /// True if the caller fits the model on the training part now.
     pub learns: bool,
-    /// Split in text form. For a model that does not learn now, the split of its fit; `None` if unknown.
+    /// Split in text form. For a model that was fitted before, the split of its fit; `None` if unknown.
     pub split: Option<String>,
-    /// The seed of the split.
+    /// Seed of the split.
     pub seed: u64,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
     /// True if the model reads frames.
     pub reads_frames: bool,
-    /// True if predictions of a model that learns now are scored without clipping to the bounds of its labels.
+    /// True to score predictions of a model fitted now without clipping to the bounds of its labels.
     pub is_unbounded: bool,
 }
 
-/// Name and settings of a model of the caller.
+/// Name and settings of a caller's own model.
 #[derive(Clone, Debug, Default)]
 pub struct GivenModel {
-    /// Name, such as `sklearn.linear_model.Ridge`.
+    /// Name of the model, such as `sklearn.linear_model.Ridge`.
     pub name: String,
-    /// Settings by name, including those of its features.
+    /// Settings of the model by name, including settings of its features.
     pub settings: BTreeMap<String, String>,
 }
 
@@ -66,7 +66,7 @@ impl GivenRows {
     /// Divides `dataset` by the split of `request`.
     ///
     /// # Errors
-    /// [`EvaluateError`] for an unknown channel, a split that cannot be made, or a part without samples.
+    /// [`EvaluateError`] for an unknown channel, an impossible split, or a part without samples.
     pub fn new(dataset: &Dataset, request: &GivenRequest) -> Result<GivenRows, EvaluateError> {
         require_samples(dataset)?;
         let channels = chosen_channels(dataset, &request.channels)?;
@@ -101,12 +101,12 @@ impl GivenRows {
         })
     }
 
-    /// The predicted channels.
+    /// Channels to predict.
     pub fn channels(&self) -> &Channels {
         &self.channels
     }
 
-    /// Rows to learn from, ascending, each with a label of every channel; empty for a model that does not learn now.
+    /// Rows for the fit, ascending, each with a label of every channel. Empty for a model that was fitted before.
     pub fn train(&self) -> &[usize] {
         &self.train
     }
@@ -116,10 +116,10 @@ impl GivenRows {
         &self.target.rows
     }
 
-    /// Labels of the rows to learn from.
+    /// Labels of the rows for the fit.
     ///
     /// # Shapes
-    /// `[rows, channels]`, row after row.
+    /// `[rows, channels]`, row by row.
     pub fn labels(&self, dataset: &Dataset) -> Vec<f64> {
         let table = dataset.table();
         let positions = self.channels.iter();
@@ -133,10 +133,10 @@ impl GivenRows {
         labels.collect()
     }
 
-    /// Scores of `predictions` for the rows to predict. Predictions of a model that learnt here are clipped to the bounds of its labels, as for
-    /// built-in models. Its skill is measured against the mean of its labels. The training data of any other model is unknown, and a note states so.
+    /// Scores of `predictions` for the rows to predict. Predictions of a model fitted now are clipped to the bounds of its labels, as for built-in models. Its
+    /// skill is relative to the mean of its labels. The training data of any other model is unknown, and a note states this.
     ///
-    /// # Shapes
+    /// `predictions`: `[rows, channels]`, row by row.
     /// `predictions` are `[rows, channels]`, row after row.
     ///
     /// # Errors

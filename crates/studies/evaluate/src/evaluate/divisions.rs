@@ -1,4 +1,4 @@
-//! Divisions of a cross-validation, for a caller that fits the models.
+//! Divisions of a cross-validation, for a caller that fits its own models.
 
 use taceva_core::shown;
 use taceva_dataset::Dataset;
@@ -12,7 +12,7 @@ use crate::rows::Divided;
 /// part of one division.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] for a split that makes one division; [`EvaluateError::Split`] if the split is invalid, or has more folds than groups.
+/// [`EvaluateError::Request`] for a split with a single division. [`EvaluateError::Split`] if the split is invalid, or has more folds than groups.
 pub fn fold_divisions(
     dataset: &Dataset,
     split: &str,
@@ -28,8 +28,8 @@ pub fn fold_divisions(
     Ok(folds.into_divisions())
 }
 
-/// Samples that [`evaluate`](crate::evaluate) scores if no split is named and its default is a cross-validation: the test part of the division. `None`
-/// if the default makes one division.
+/// Samples that [`evaluate`](crate::evaluate) scores if no split is named and the default is a cross-validation: the test part of the division. `None` if the
+/// default is a single division.
 ///
 /// # Errors
 /// [`EvaluateError::Split`] if the default split cannot be made.

@@ -1,4 +1,4 @@
-//! Progress of one fold, with the name of the fold before each stage.
+//! Progress of one fold, in which each stage follows the name of the fold.
 
 use taceva_core::Progress;
 
@@ -9,7 +9,7 @@ pub(super) struct FoldProgress<'a> {
 }
 
 impl<'a> FoldProgress<'a> {
-    /// Reports `model` and `fold`, such as `fold 2 of 5`, as a stage of its own. Plain progress lines then always name the fold.
+    /// Reports `model` and `fold`, such as `fold 2 of 5`, as a separate stage. Plain progress lines then always name the fold.
     pub(super) fn of(progress: &'a dyn Progress, model: &str, fold: String) -> FoldProgress<'a> {
         progress.begin(&format!("fit {model}, {fold}"), None);
         progress.end();
@@ -46,7 +46,7 @@ mod tests {
 
     use super::*;
 
-    /// Stores the stages that it receives.
+    /// Test observer that stores the stages it receives.
     #[derive(Default)]
     struct Kept(Mutex<Vec<String>>);
 

@@ -1,4 +1,4 @@
-//! Cross-validation: a model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
+//! Cross-validation. A model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
 
 mod common_model;
 mod default_split;
@@ -28,21 +28,21 @@ use default_split::default_split;
 /// Divisions that together test every sample.
 pub(crate) struct Folds<'a> {
     dataset: &'a Dataset,
-    /// Division of all folds together.
+    /// Division that combines the test parts of all folds.
     whole: Divided,
     folds: Vec<Fold>,
-    /// Group of every row of the dataset, if groups are of several samples; the empty text for a row without one.
+    /// Group of every row of the dataset, if groups have several samples; the empty text for a row without a group.
     groups: Option<Vec<String>>,
     are_recordings: bool,
 }
 
-/// One division.
+/// Division of one fold.
 struct Fold {
     name: String,
     divided: Divided,
 }
 
-/// Folds that `request` names, or the default folds for few groups. `None` if it names a part or a split with one division.
+/// Folds that `request` names, or the default folds for few groups. `None` if `request` names a part, or a split with a single division.
 ///
 /// # Errors
 /// [`EvaluateError::Split`] if there is only one recording, if there are fewer groups than folds, or if the split is invalid.
@@ -61,7 +61,7 @@ pub(crate) fn of<'a>(
 /// Default folds of a recording with few groups; `None` for any other.
 ///
 /// # Errors
-/// As [`of`].
+/// Errors of [`of`].
 pub(crate) fn by_default(dataset: &Dataset, seed: u64) -> Result<Option<Folds<'_>>, EvaluateError> {
     match default_split(dataset)? {
         Some(spec) => of_spec(dataset, seed, spec),
@@ -72,7 +72,7 @@ pub(crate) fn by_default(dataset: &Dataset, seed: u64) -> Result<Option<Folds<'_
 /// Folds of the cross-validation that `request` names; `None` if it names none.
 ///
 /// # Errors
-/// As [`of`].
+/// Errors of [`of`].
 pub(crate) fn asked<'a>(
     dataset: &'a Dataset,
     request: &FitRequest,
@@ -85,10 +85,10 @@ pub(crate) fn asked<'a>(
     }
 }
 
-/// Folds of `spec`; `None` if it makes one division.
+/// Folds of `spec`; `None` if `spec` is a single division.
 ///
 /// # Errors
-/// As [`of`].
+/// Errors of [`of`].
 pub(crate) fn of_spec<'a>(
     dataset: &'a Dataset,
     seed: u64,
@@ -236,12 +236,12 @@ impl<'a> Folds<'a> {
         })
     }
 
-    /// Group of every row of the dataset that is left out as a whole; `None` for single samples and for recordings.
+    /// Group of every row of the dataset, if whole groups are left out; `None` for single samples and for recordings.
     pub(crate) fn groups(&self) -> Option<&[String]> {
         self.groups.as_deref()
     }
 
-    /// Division of all folds together: every sample of a group is in its test part.
+    /// Division that combines all folds: every sample of a group is in its test part.
     pub(crate) fn into_whole(self) -> Divided {
         self.whole
     }
@@ -276,7 +276,7 @@ impl<'a> Folds<'a> {
         }
     }
 
-    /// Adds the fit to the plan, once for all folds.
+    /// Adds the fit to the plan. It is added once for all folds.
     pub(super) fn explain(&self, plan: &mut Plan) {
         let count = self.folds.len();
         let what = match self.are_recordings {
@@ -289,7 +289,7 @@ impl<'a> Folds<'a> {
         );
     }
 
-    /// Fit of the first fold.
+    /// Plan of the fit of the first fold.
     pub(crate) fn first(&self, request: &FitRequest) -> Result<FitPlan<'a>, EvaluateError> {
         self.plan(request, &self.folds[0])
     }

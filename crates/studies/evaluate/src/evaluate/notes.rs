@@ -34,7 +34,7 @@ impl Target {
         .collect()
     }
 
-    /// Frames of the test part that are byte-identical to a frame of the training part.
+    /// Note on frames of the test part that are byte-identical to a frame of the training part.
     fn copies(&self, dataset: &Dataset) -> Option<Note> {
         let divided = self.divided.as_ref()?;
         if self.part != DataPart::Test {
@@ -51,7 +51,7 @@ impl Target {
     }
 }
 
-/// Note on a fit from before rows were added, so that the parts now exceed the fitted rows.
+/// Note on a fit before rows were added. The parts then contain more rows than those of the fit.
 fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     let mut stages = dataset.header().stages();
     let (_, rows) = stages.find(|(digest, _)| digest.to_string() == fitted_on)?;
@@ -59,7 +59,7 @@ fn fitted_before(dataset: &Dataset, fitted_on: &str) -> Option<Note> {
     (rows < now).then_some(Note::FittedBefore { rows, now })
 }
 
-/// Note on too few groups, or contact points `points`, for any interval.
+/// Note if there are too few groups, or contact points `points`, for any interval.
 pub(super) fn few_clusters(
     dataset: &Dataset,
     target: &Target,
@@ -94,7 +94,7 @@ pub(super) fn few_clusters(
     })
 }
 
-/// Note on groups of the split within larger groups, which another column names.
+/// Note if the groups of the split are within larger groups, which another column names.
 pub(super) fn within(dataset: &Dataset, target: &Target) -> Option<Note> {
     let divided = target.divided.as_ref()?;
     let (column, has_parts) = match &divided.spec.kind {
@@ -150,7 +150,7 @@ pub(super) fn within(dataset: &Dataset, target: &Target) -> Option<Note> {
     found.next()
 }
 
-/// Number of distinct names among `names`, without empty ones.
+/// Number of distinct names in `names`. Empty names are not counted.
 fn distinct<'a>(names: impl IntoIterator<Item = &'a String>) -> usize {
     let names = names.into_iter().filter(|name| !name.is_empty());
     names.collect::<BTreeSet<_>>().len()

@@ -1,4 +1,4 @@
-//! Rows that each metric reads: metrics of predictions read unseen samples, metrics of the truth alone read all samples.
+//! Rows that each metric reads. Metrics of predictions read unseen samples, and metrics of only the truth read all samples.
 
 use std::num::NonZeroUsize;
 use std::ops::Range;
@@ -15,18 +15,18 @@ use crate::predict::{Predicted, truth};
 /// Metrics of a plan, grouped by the rows that they read.
 pub(super) struct Passes<'a> {
     plan: &'a MetricPlan,
-    /// Group of every row, if intervals are by group.
+    /// Group of every row, for intervals by group; `None` for other intervals.
     groups: Option<&'a [String]>,
     /// Metrics that compare clipped predictions with the truth.
     of_predictions: Vec<&'static Metric>,
     /// Metrics that compare unclipped predictions with the truth.
     of_unbounded: Vec<&'static Metric>,
-    /// Metrics of the truth alone.
+    /// Metrics that read only the truth.
     of_truth: Vec<&'static Metric>,
 }
 
 impl<'a> Passes<'a> {
-    /// Assigns the metrics of `plan` to passes; if a part was requested, every metric reads that part.
+    /// Assigns the metrics of `plan` to passes. If a part was requested, every metric reads this part.
     pub(super) fn new(
         plan: &'a MetricPlan,
         groups: Option<&'a [String]>,
@@ -47,7 +47,7 @@ impl<'a> Passes<'a> {
         }
     }
 
-    /// Accumulates `predicted`, the rows `rows` of `dataset`, and all other rows for metrics of the truth alone.
+    /// Accumulates `predicted`, which are the rows `rows` of `dataset`. For metrics of only the truth, also accumulates all other rows.
     pub(super) fn run(
         &self,
         dataset: &Dataset,
@@ -92,7 +92,7 @@ impl<'a> Passes<'a> {
         Ok(total)
     }
 
-    /// Scores of the predictions of one recording, at the positions `own` of `rows`. Its contact points are the clusters of intervals.
+    /// Scores of the predictions of one recording, whose indices in `rows` are `own`. Intervals use its contact points as clusters.
     pub(super) fn of_recording(
         &self,
         dataset: &Dataset,

@@ -12,7 +12,7 @@ use crate::plan::Plan;
 use crate::predict::Target;
 use crate::rows::{DataPart, Divided};
 
-/// Steps of [`evaluate`](super::evaluate). Reads no frame.
+/// Computes the steps of [`evaluate`](super::evaluate) without reading frames.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid.

@@ -13,19 +13,19 @@ use taceva_results::EvaluationReport;
 /// Request of an evaluation.
 #[derive(Debug)]
 pub struct EvaluateRequest {
-    /// The model, fitted or to be fitted.
+    /// The model, already fitted or to be fitted.
     pub model: ModelChoice,
     /// Names of metrics and of groups of metrics.
     pub metrics: Vec<String>,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
-    /// Facts of the sensor beyond the header of the dataset.
+    /// Facts of the sensor that complement the header of the dataset.
     pub sensor: Option<SensorFile>,
-    /// True if the caller states that samples are independent. Each sample then counts as one contact point in intervals.
+    /// True if the caller states that samples are independent. For intervals, each sample then counts as one contact point.
     pub is_independent: bool,
 }
 
-/// The request without its model.
+/// Request of an evaluation, without its model.
 #[derive(Clone, Copy)]
 pub struct Asked<'a> {
     pub(super) metrics: &'a [String],
@@ -35,7 +35,7 @@ pub struct Asked<'a> {
 }
 
 impl EvaluateRequest {
-    /// The request without its model.
+    /// Returns the request without its model.
     pub fn asked(&self) -> Asked<'_> {
         Asked {
             metrics: &self.metrics,
@@ -60,22 +60,22 @@ impl EvaluateRequest {
     }
 }
 
-/// The model: to be fitted, or already fitted.
+/// The model of an evaluation: to be fitted, or already fitted.
 #[derive(Debug)]
 pub enum ModelChoice {
-    /// Fitted on the training part first.
+    /// A model to be fitted on the training part.
     Fit(FitRequest),
-    /// Fitted before.
+    /// A model that is already fitted.
     Fitted(Box<Model>),
 }
 
-/// A finished evaluation.
+/// Result of an evaluation.
 #[derive(Debug)]
 pub struct Evaluated {
     /// Scores and their provenance.
     pub report: EvaluationReport,
     /// State that can be merged with the states of other recordings.
     pub state: StateFile,
-    /// Division of the dataset; `None` if it was not divided.
+    /// Record of the division of the dataset; `None` if it was not divided.
     pub manifest: Option<SplitManifest>,
 }

@@ -1,4 +1,4 @@
-//! Scores of predictions, with their provenance.
+//! Scores of predictions, and their provenance.
 
 use std::num::NonZeroUsize;
 
@@ -25,7 +25,7 @@ use crate::sensor_facts;
 use crate::skill::with_skill;
 use crate::subject;
 
-/// The requested metrics, with the facts of `dataset`.
+/// The requested metrics that can be computed, given the facts of `dataset`.
 pub(super) fn metrics(
     dataset: &Dataset,
     channels: &Channels,
@@ -37,17 +37,17 @@ pub(super) fn metrics(
     Ok(MetricPlan::new(&with_skill(wanted), channels.clone(), available).with_facts(facts))
 }
 
-/// Description of the model behind a result, or of several models.
+/// Description of the model, or of several models, behind a result.
 pub struct Behind {
     pub(super) model: ModelProvenance,
     /// Notes on the model.
     pub(super) notes: Vec<Note>,
-    /// The fit, if it was made for this result.
+    /// Facts of the fit, if the model was fitted for this result.
     pub(super) fit: FitFacts,
 }
 
 impl Behind {
-    /// Card of `model` in the form of a report.
+    /// Description of `model` from its card, in the form of a report.
     ///
     /// # Errors
     /// [`EvaluateError::ModelFormat`] for a model that cannot be written to a file.
@@ -60,7 +60,7 @@ impl Behind {
     }
 }
 
-/// The scores of predictions, with their provenance.
+/// Scores predictions, and adds their provenance.
 pub fn score(
     dataset: &Dataset,
     asked: Asked<'_>,

@@ -4,17 +4,17 @@ use taceva_core::{Field, Frame, FrameInfo, Input, InputInfo, SignalInfo, Signals
 use taceva_dataset::{Dataset, DatasetError};
 use taceva_models::{FeatureSpec, RecordedFrames};
 
-/// The frames or the signals of a recording, with the reference without contact if requested.
+/// The frames or signals of a recording, with the contact-free reference if requested.
 pub(crate) enum Sight {
     Frames(FrameInfo, Option<Frame>),
     Signals(SignalInfo, Option<Signals>),
 }
 
 impl Sight {
-    /// Frames or signals of `dataset` that `spec` needs; otherwise the name of the missing input.
+    /// Selects the frames or signals of `dataset` that `spec` needs. If this input is missing, returns its name.
     ///
     /// # Errors
-    /// Errors of reading the reference without contact.
+    /// Errors of reading the contact-free reference.
     pub(crate) fn of(
         dataset: &Dataset,
         spec: &FeatureSpec,
@@ -43,7 +43,7 @@ impl Sight {
         }
     }
 
-    /// Reference without contact, if requested and known.
+    /// Contact-free reference, if requested and known.
     pub(crate) fn reference(&self) -> Option<Input<'_>> {
         match self {
             Sight::Frames(_, reference) => reference.as_ref().map(Input::from),
@@ -52,7 +52,7 @@ impl Sight {
     }
 }
 
-/// Facts of the frames of `dataset` that features depend on. For joined recordings, all must have a reference without contact.
+/// Facts of the frames of `dataset` that affect features. Joined recordings have a reference only if every recording has a contact-free reference.
 pub(crate) fn recorded_frames(dataset: &Dataset) -> Option<RecordedFrames> {
     let (frame, _) = kinds(dataset);
     let has_reference = |own: &Dataset| {
@@ -69,7 +69,7 @@ pub(crate) fn recorded_frames(dataset: &Dataset) -> Option<RecordedFrames> {
     })
 }
 
-/// Frames and signals of `dataset`, if present.
+/// Kinds of the frames and signals of `dataset`, if present.
 pub(crate) fn kinds(dataset: &Dataset) -> (Option<FrameInfo>, Option<SignalInfo>) {
     let header = dataset.header();
     let frame = header.frames.as_ref().map(|frames| frames.info);

@@ -1,4 +1,4 @@
-//! Features of some rows, for a model of the caller.
+//! Features of some rows, for a caller's own model.
 
 use taceva_core::Features;
 use taceva_dataset::Dataset;
@@ -11,13 +11,13 @@ use crate::work::Work;
 /// Features of some rows, with their specification.
 #[derive(Debug)]
 pub struct FeatureTable {
-    /// `[rows, height, width, depth]`.
+    /// Features, shape `[rows, height, width, depth]`.
     pub features: Features,
-    /// Kind of features of each frame or signal.
+    /// Specification of the features of each frame or signal.
     pub spec: FeatureSpec,
 }
 
-/// Features of `rows` by `settings`, in that order, as input of a model chosen by name. The default is 32×32 gray.
+/// Features of `rows` by `settings`, in this order. They equal the input of a model chosen by name. The default is 32×32 gray.
 ///
 /// # Errors
 /// [`EvaluateError`] for an unknown setting of features, for rows without a frame or without signals, and if the dataset cannot be read.

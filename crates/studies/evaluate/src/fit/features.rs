@@ -10,14 +10,14 @@ use crate::error::EvaluateError;
 use crate::features::kinds;
 use crate::work::Work;
 
-/// One in this many groups is left out.
+/// Divisor of the number of groups: one group in this many is left out.
 const LEFT_OUT_OF: usize = 3;
-/// Least number of left-out contact points for an estimate of the spread. With fewer, neighbouring samples form groups.
+/// Minimum number of left-out contact points for an estimate of the spread. With fewer points, neighbouring samples form groups.
 const POINTS_LEAST: usize = 3;
 /// Number of groups of neighbouring samples if no contact point is known.
 const RUNS: usize = 10;
 
-/// The training part in two: positions to learn from, and positions to score with their independent groups.
+/// Division of the training part: positions for the fit, and positions to score with their independent groups.
 struct Parts {
     learnt: Vec<usize>,
     left_out: Vec<usize>,
@@ -25,9 +25,9 @@ struct Parts {
 }
 
 impl FitPlan<'_> {
-    /// Tries features, the simplest first, and chooses some. Grids finer than the default are tried only if the default improved the loss.
+    /// Tries features, the simplest first, and chooses one specification. Grids finer than the default are tried only if the default improved the loss.
     ///
-    /// Reports features that allow no model, with the reason. Fails only if all fail.
+    /// Features for which no model can be fitted are reported with the reason. Returns an error only if this is the case for all features.
     pub(super) fn choose_features(
         &mut self,
         open: OpenFeatures,
@@ -95,7 +95,7 @@ impl FitPlan<'_> {
         self.losses(&model, &left_out, parts)
     }
 
-    /// Leaves out every third contact point or group, or the last third of the samples if there are too few points.
+    /// Leaves out every third contact point or group. If there are too few points, leaves out the last third of the samples.
     fn parts(&self) -> Result<Parts, EvaluateError> {
         let samples = self.train.len();
         if samples < RUNS * LEFT_OUT_OF {
@@ -140,10 +140,10 @@ impl FitPlan<'_> {
     }
 }
 
-/// Squared error of each sample relative to the variance of `all` labels, averaged over the channels that vary.
+/// Squared error of each sample relative to the variance of `all` labels, averaged over the varying channels.
 ///
 /// # Shapes
-/// Arguments `[samples, channels]`; result `[samples]`.
+/// Arguments are `[samples, channels]`. Returns `[samples]`.
 fn losses(found: &[f64], labels: &[f64], all: &[f64], channels: usize) -> Vec<f64> {
     let mut losses = vec![0.0; labels.len() / channels];
     let mut varying = 0.0_f64;
@@ -168,7 +168,7 @@ fn losses(found: &[f64], labels: &[f64], all: &[f64], channels: usize) -> Vec<f6
     losses
 }
 
-/// True if the error comes from the tried features, not from the recording or from a cancellation.
+/// True if the tried features caused the error, as opposed to the recording or a cancellation.
 fn is_own(error: &EvaluateError) -> bool {
     match error {
         EvaluateError::Model(error) => error.kind() != ErrorKind::Interrupted,

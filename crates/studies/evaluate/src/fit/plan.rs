@@ -1,4 +1,4 @@
-//! Plan of a fit on a dataset: its channels, its rows, and the frames it will read.
+//! Plan of a fit on a dataset: its channels, its rows, and the frames that it will decode.
 
 use taceva_core::{Channels, counted};
 use taceva_dataset::Dataset;
@@ -19,23 +19,23 @@ pub struct FitPlan<'a> {
     pub(super) dataset: &'a Dataset,
     pub(super) model: ChosenModel,
     pub(super) estimator: Box<dyn ModelEstimator>,
-    /// Settings as typed.
+    /// Settings as the user typed them.
     pub(super) settings: ModelSettings,
-    /// Settings of the model alone.
+    /// Settings of the model only.
     pub(super) of_model: ModelSettings,
     pub(super) features: FeatureSpec,
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that the model also reads.
+    /// Finer features that the model also reads, if any.
     pub closer: Option<FeatureSpec>,
-    /// The predicted channels.
+    /// Channels to predict.
     pub channels: Channels,
-    /// The division of the rows.
+    /// Division of the rows.
     pub divided: Divided,
-    /// Rows to learn from.
+    /// Rows for the fit.
     pub train: Vec<usize>,
-    /// Rows to choose settings by.
+    /// Rows for choosing settings.
     pub validation: Vec<usize>,
-    /// Group of every row of the dataset, left out as a whole to choose settings; `None` for contact points.
+    /// Group of every row of the dataset. Whole groups are left out to choose settings; `None` to leave out contact points.
     pub(super) groups: Option<Vec<String>>,
     pub(super) left_out: usize,
 }
@@ -132,12 +132,12 @@ impl<'a> FitPlan<'a> {
         self.model.reads_features() && self.features.channels.is_none()
     }
 
-    /// Features of frames or signals. If some settings are still to be chosen, the preferred ones of the model.
+    /// Features of frames or signals. If some settings are still to be chosen, the preferred features of the model.
     pub fn features(&self) -> FeatureSpec {
         self.features
     }
 
-    /// Number of kinds of features; every frame is decoded once for each.
+    /// Number of kinds of features. Every frame is decoded once for each kind.
     pub(crate) fn passes(&self) -> u64 {
         if self.closer.is_some() { 2 } else { 1 }
     }
@@ -186,12 +186,12 @@ impl<'a> FitPlan<'a> {
         );
     }
 
-    /// Leaves out whole `groups` to choose settings; one name for every row of the dataset.
+    /// Sets groups that are left out as a whole to choose settings. `groups` contains one name for every row of the dataset.
     pub(crate) fn leave_out_groups(&mut self, groups: &[String]) {
         self.groups = Some(groups.to_vec());
     }
 
-    /// Stores checkpoints of a long training in `checkpoints`, and resumes from an existing one.
+    /// Stores checkpoints of a long training in `checkpoints`, and resumes from an existing checkpoint.
     pub fn keep_checkpoints(&mut self, checkpoints: Checkpoints) {
         self.estimator.keep_checkpoints(checkpoints);
     }

@@ -10,7 +10,7 @@ use crate::error::EvaluateError;
 /// Request of a fit.
 #[derive(Clone, Debug)]
 pub struct FitRequest {
-    /// The model.
+    /// Model to fit.
     pub model: ChosenModel,
     /// Settings of the features and of the model.
     pub settings: ModelSettings,
@@ -18,12 +18,12 @@ pub struct FitRequest {
     pub channels: Vec<String>,
     /// Split in text form; `None` for the default split.
     pub split: Option<String>,
-    /// The seed of all random draws.
+    /// Seed of all random draws.
     pub seed: u64,
 }
 
 impl FitRequest {
-    /// Checks its model and settings; reads no data.
+    /// Checks the model and its settings without reading data.
     ///
     /// # Errors
     /// [`EvaluateError`] for an unknown model or setting.
@@ -31,7 +31,7 @@ impl FitRequest {
         Recipe::of(self).map(drop)
     }
 
-    /// The same request with `seed` for the random draws of the model. The division does not change.
+    /// Returns the request with `seed` for the random draws of the model. The division does not change.
     pub fn with_seed(self, seed: u64) -> Result<FitRequest, EvaluateError> {
         const SEED: &str = "seed";
         if !self.model.setting_keys().contains(&SEED) {
@@ -58,16 +58,16 @@ pub struct Recipe {
     pub(super) features: FeatureSpec,
     /// Feature settings that depend on the frames of the recording.
     pub(super) by_recording: FeaturesByRecording,
-    /// Settings without those that depend on the frames.
+    /// Settings other than those that depend on the frames.
     pub(super) asked: ModelSettings,
-    /// Feature settings that the fit chooses.
+    /// Feature settings that the fit will choose.
     pub(super) open: Option<OpenFeatures>,
-    /// Finer features that some candidate models read, and their settings that depend on the frames.
+    /// Finer features that some candidate models read, and the settings of these that depend on the frames.
     pub(super) closer: Option<(FeatureSpec, FeaturesByRecording)>,
 }
 
 impl Recipe {
-    /// Grid cells of a frame that the model reads, along x and y. `None` if it reads no frames, or if the frames or a choice decide.
+    /// Grid cells of a frame that the model reads, along x and y. `None` if the model reads no frames, or if the grid depends on the frames or on a choice.
     pub fn cells(&self) -> Option<[u32; 2]> {
         let FeatureSpec {
             kinds,

@@ -15,7 +15,7 @@ use crate::note::Note;
 use crate::recordings;
 use crate::work::Work;
 
-/// Features of the training part, then of the validation part, with their specification and input.
+/// Features of the training part, followed by those of the validation part, with their specification and input.
 pub(super) struct Seen {
     spec: FeatureSpec,
     pub(super) features: Features,
@@ -51,7 +51,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// Features by `spec` of the frames or signals of the training part, then of the validation part.
+    /// Features by `spec` of the frames or signals of the training part, followed by those of the validation part.
     pub(super) fn see(&self, spec: FeatureSpec, work: Work<'_>) -> Result<Seen, EvaluateError> {
         // Always both parts, because stored features are found by their rows.
         let rows = [&self.train[..], &self.validation].concat();
@@ -75,7 +75,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// Fits a model on the features `seen` and on the finer ones, at `positions` of the training part and on the validation part.
+    /// Fits a model on the features `seen` and on the finer features. Reads the samples at `positions` of the training part, and the validation part.
     pub(super) fn learn(
         &self,
         estimator: &dyn ModelEstimator,
@@ -120,7 +120,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// Number of the group, or of the contact point, of each row; `None` if a row has no contact point.
+    /// Number of the group, or of the contact point, of each row; `None` if a row has neither.
     pub(super) fn groups_of(&self, rows: &[usize]) -> Option<Vec<u32>> {
         let points = self.dataset.table().point_id();
         let name = |row: usize| match &self.groups {
@@ -156,7 +156,7 @@ impl FitPlan<'_> {
             .collect()
     }
 
-    /// Input that the card states for a model that reads none.
+    /// Input that the card states for a model that reads no input.
     fn any_input(&self, spec: FeatureSpec) -> InputInfo {
         let unseen = FrameInfo {
             width: 1,

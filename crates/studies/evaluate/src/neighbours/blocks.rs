@@ -6,7 +6,7 @@ use super::most_alike;
 use super::sequence::Sequence;
 use crate::recordings;
 
-/// Least and greatest number of blocks in a recording with enough samples.
+/// Minimum and maximum number of blocks in a recording with enough samples.
 const BLOCKS: [usize; 2] = [10, 40];
 
 /// Blocks of time: consecutive samples.
@@ -14,7 +14,7 @@ const BLOCKS: [usize; 2] = [10, 40];
 pub(crate) struct Blocks {
     /// Name of the block of each row.
     pub(crate) names: Vec<String>,
-    /// Position of each row in time, in samples.
+    /// Position of each row in time, counted in samples.
     pub(crate) places: Vec<usize>,
     /// Number of samples left out between blocks of different parts.
     pub(crate) gap: usize,
@@ -23,8 +23,8 @@ pub(crate) struct Blocks {
 }
 
 impl Blocks {
-    /// Blocks of `rows` of `dataset`, if possible at least twice as long as samples resemble each other; `None` if there are too few samples. Added
-    /// rows form their own blocks, so that earlier blocks do not change.
+    /// Blocks of `rows` of `dataset`, if possible at least twice as long as the lag over which samples resemble each other. `None` if there are too few
+    /// samples. Added rows form their own blocks, so that earlier blocks do not change.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Option<Blocks> {
         if rows.len() < BLOCKS[0] {
             return None;
@@ -75,14 +75,14 @@ impl Blocks {
 /// Blocks of a section of rows, by number.
 #[derive(Debug)]
 struct NumberedBlocks {
-    /// Block number of each row, from 0.
+    /// Block number of each row, counted from 0.
     numbers: Vec<usize>,
     places: Vec<usize>,
     gap: usize,
     count: usize,
 }
 
-/// Blocks of the `rows` rows of `sequence`, which resemble each other for `lag` samples; `None` if there are too few.
+/// Blocks of the `rows` rows of `sequence`, whose samples resemble each other over `lag` samples. `None` if there are too few samples.
 fn numbered(sequence: &Sequence, rows: usize, lag: usize) -> Option<NumberedBlocks> {
     let [least, most] = BLOCKS;
     let longest = rows / least;

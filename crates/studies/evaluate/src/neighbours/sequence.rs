@@ -1,4 +1,4 @@
-//! Order of rows in which neighbours may resemble each other.
+//! Order of rows that defines which rows are neighbours.
 
 use taceva_dataset::Dataset;
 
@@ -19,8 +19,8 @@ pub(super) struct Sequence {
 }
 
 impl Sequence {
-    /// Orders `rows` of `dataset`, as positions among them. A segment begins where time goes back, as between clips. If time goes back in many
-    /// places, the table is unordered, and rows are sorted by time.
+    /// Orders `rows` of `dataset`, as indices into `rows`. A new segment begins if the time decreases, as between clips. If the time decreases in many places,
+    /// the table is unordered, and rows are sorted by time.
     pub(super) fn of(dataset: &Dataset, rows: &[usize]) -> Sequence {
         let names = recordings::names(dataset, rows);
         let table = dataset.table();
@@ -54,7 +54,7 @@ impl Sequence {
         }
     }
 
-    /// Pairs of positions `lag` samples apart in one segment.
+    /// Pairs of positions that are `lag` samples apart in one segment.
     pub(super) fn pairs(&self, lag: usize) -> impl Iterator<Item = [usize; 2]> {
         self.segments.iter().flat_map(move |segment| {
             let later = segment.iter().skip(lag);
@@ -62,14 +62,14 @@ impl Sequence {
         })
     }
 
-    /// Resemblance of samples to the samples `lag` positions later, with the number of pairs.
+    /// Resemblance of samples to the samples `lag` positions later, and the number of pairs.
     pub(super) fn resemblance(&self, ranks: &[Option<f64>], lag: usize) -> Option<(f64, usize)> {
         let pairs = self.pairs(lag);
         let both = pairs.filter_map(|[one, other]| Some([ranks[one]?, ranks[other]?]));
         resemblance(both)
     }
 
-    /// Least number of samples after which the ranks hardly resemble each other.
+    /// Minimum lag, in samples, at which the ranks hardly resemble each other.
     pub(super) fn lag(&self, ranks: &[Option<f64>]) -> usize {
         let farthest = (ranks.len() / FARTHEST).max(1);
         let mut lag = 1;

@@ -1,4 +1,4 @@
-//! Detection limit of the normal force, verified by light presses or not.
+//! Detection limit of the normal force, and its verification by light presses.
 
 use std::fmt;
 
@@ -10,21 +10,21 @@ use taceva_results::{Score, Value};
 pub enum Detection {
     /// A limit, and the light presses that verify it.
     Verified {
-        /// The limit, in N.
+        /// Detection limit, in N.
         limit_n: f64,
-        /// Least and greatest true force of the presses, in N.
+        /// Least and greatest true force of the light presses, in N.
         forces_n: [f64; 2],
-        /// Samples of the presses: of one press there may be several.
+        /// Number of samples of the light presses. One press may have several samples.
         samples: u64,
-        /// The places that they pressed.
+        /// Number of places at which the light presses were made.
         places: u64,
     },
-    /// Only the noise of untouched frames, with the reason why light presses give no limit.
+    /// Only the noise of untouched frames is known, with the reason why light presses give no limit.
     Unverified(Option<String>),
 }
 
 impl Detection {
-    /// Evidence in `scores`; `None` without a noise of untouched frames.
+    /// Evidence in `scores`; `None` without a score for the noise of untouched frames.
     pub(crate) fn of(scores: &[Score]) -> Option<Detection> {
         let has_noise = |score: &Score| {
             score.metric == "noise_equivalent_force" && score.value.number().is_some()

@@ -9,38 +9,38 @@ use taceva_results::OPTIMISTIC;
 /// Order that defines neighbouring samples.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SampleOrder {
-    /// Order of times.
+    /// Order by time.
     Time,
-    /// Order of rows in the table.
+    /// Order of the rows in the table.
     Table,
 }
 
 /// Findings on neighbouring samples that resemble each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Neighbours {
-    /// The channel whose neighbours resemble each other most.
+    /// Name of the channel whose neighbours resemble each other most.
     pub channel: String,
-    /// One minus the mean squared rank difference of neighbours over that of random pairs: 0 if independent, 1 if equal.
+    /// One minus the mean squared rank difference of neighbours over that of random pairs. It is 0 for independent and 1 for equal neighbours.
     pub resemblance: f64,
-    /// Number of samples after which two hardly resemble each other.
+    /// Number of samples after which two samples hardly resemble each other.
     pub lag: usize,
     /// Order that defines neighbours.
     pub order: SampleOrder,
-    /// The column whose values are groups of neighbours; `None` for blocks of time.
+    /// Column whose values are groups of neighbours; `None` for blocks of time.
     pub column: Option<String>,
 }
 
 /// Division of neighbouring samples that resemble each other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Division {
-    /// Blocks of time stay together.
+    /// Blocks of time are not separated.
     Blocks {
-        /// Their number.
+        /// Number of blocks.
         count: usize,
-        /// Samples that are left out between blocks of different parts.
+        /// Number of samples left out between blocks of different parts.
         gap: usize,
     },
-    /// Samples with one value of this column stay together.
+    /// Samples with the same value in this column are not separated.
     Column(String),
     /// Neighbours are separated, as the caller requested, although many tested samples have a neighbour in the training part.
     Separated {
@@ -54,11 +54,11 @@ pub enum Division {
 /// Reasons to treat samples as independent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Independence {
-    /// The caller stated it.
+    /// The caller states that samples are independent.
     Stated,
     /// Points are not named, and neighbours do not resemble each other.
     Found {
-        /// True if the labels hold places.
+        /// True if the labels contain positions.
         has_places: bool,
     },
 }

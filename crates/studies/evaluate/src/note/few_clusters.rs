@@ -1,4 +1,4 @@
-//! Clusters of scored samples, too few for any interval.
+//! Note on too few clusters for any interval.
 
 use std::fmt;
 
@@ -6,17 +6,17 @@ use taceva_core::{counted, shown};
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{FoldGroups, FoldSpec};
 
-/// Scored contact points or groups, too few for any interval. `Display` gives the sentence, with a remedy that can work.
+/// Numbers of contact points or groups, too few for any interval. `Display` writes the sentence, with a remedy that applies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct FewClusters {
-    /// The groups that an interval would leave out.
+    /// Groups that an interval would leave out.
     pub by: FoldGroups,
     /// Number of groups with scored samples.
     pub scored: usize,
     /// Number of groups in the dataset.
     pub all: usize,
-    /// True if intervals would be over contact points, were these named.
+    /// True if intervals would use contact points as clusters, if these were named.
     pub takes_points: bool,
 }
 

@@ -7,7 +7,7 @@ use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
 
-/// Number of recordings below which an interval by recording states that number. With few degrees of freedom, Student's t makes it wide.
+/// Number of recordings below which the note states the number. With few degrees of freedom, Student's t widens the interval.
 const CLUSTERS_MANY: usize = 10;
 
 impl fmt::Display for Note {
@@ -273,7 +273,7 @@ fn clusters(
     Ok(())
 }
 
-/// Columns of unit 1, each with a remedy: for instance, `Fz_N` may mean `Fz`.
+/// Writes columns of unit 1, each with a remedy. For instance, `Fz_N` may mean `Fz`.
 fn unit_of_one(names: &[String], f: &mut fmt::Formatter<'_>) -> fmt::Result {
     for (at, name) in names.iter().enumerate() {
         let separator = if at == 0 { "" } else { "; " };

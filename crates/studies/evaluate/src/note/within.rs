@@ -6,8 +6,8 @@ use taceva_core::shown;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{FoldGroups, FoldSpec};
 
-/// Groups of a split, such as grasps, within larger groups, such as objects. `Display` gives the sentence, with the split that leaves out the
-/// larger groups.
+/// Groups of a split, such as grasps, that are within larger groups, such as objects. `Display` writes the sentence, with the split that leaves out the larger
+/// groups.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Within {
@@ -15,7 +15,7 @@ pub struct Within {
     pub column: String,
     /// Column of the larger groups.
     pub within: String,
-    /// Number of groups of the split that share their larger group with others.
+    /// Number of groups of the split that have other groups in the same larger group.
     pub shared: usize,
     /// Number of groups of the split.
     pub of: usize,

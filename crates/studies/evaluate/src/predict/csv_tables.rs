@@ -9,7 +9,7 @@ use super::Predicted;
 use crate::rows::DISTANCE;
 
 impl Predicted {
-    /// Writes the predictions: `sample`, one column for each channel, and `distance` if known.
+    /// Writes the predictions: `sample`, one column for each channel, and `distance` if it is known.
     ///
     /// # Errors
     /// Errors of `out`.
@@ -17,7 +17,7 @@ impl Predicted {
         self.write(&self.prediction, false, self.distance(), out)
     }
 
-    /// Writes the unclipped predictions in the format of [`write_predictions`](Predicted::write_predictions). `score` computes robustness from them.
+    /// Writes the unclipped predictions, in the format of [`write_predictions`](Predicted::write_predictions). `score` needs them to compute robustness.
     ///
     /// # Errors
     /// Errors of `out`.
@@ -25,7 +25,7 @@ impl Predicted {
         self.write(&self.unbounded, false, self.distance(), out)
     }
 
-    /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model gives none.
+    /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model predicts none.
     ///
     /// # Errors
     /// Errors of `out`.
@@ -36,8 +36,8 @@ impl Predicted {
         }
     }
 
-    /// Writes the truth of the same samples: `sample`, `point_id` or the group in its place, other known fields (`scene`, `repeat`, `phase`
-    /// and the like), and one column for each channel.
+    /// Writes the truth of the same samples. Columns are `sample`, `point_id` or the group in its place, other known fields (`scene`, `repeat`, `phase` and the
+    /// like), and one for each channel.
     ///
     /// # Errors
     /// Errors of `out`.

@@ -17,7 +17,7 @@ pub struct AtBound {
     pub channel: Channel,
     /// The bound, in the unit of the channel.
     pub bound: f64,
-    /// Number of predictions at it.
+    /// Number of predictions equal to the bound.
     pub count: usize,
 }
 
@@ -31,26 +31,26 @@ pub struct Predicted {
     /// Other fields of the rows, by column name.
     pub(super) beside: Vec<(&'static str, Vec<Option<String>>)>,
     pub(super) truth: Vec<Column>,
-    /// Clipped to the bounds of the model.
+    /// Predictions that were clipped to the bounds of the model.
     pub(super) prediction: Vec<Column>,
-    /// Not clipped to the bounds of the model.
+    /// Predictions that were not clipped.
     pub(super) unbounded: Vec<Column>,
-    /// Standard deviation of each prediction, if the model gives one.
+    /// Standard deviation of each prediction, if the model predicts it.
     pub(super) deviation: Option<Vec<Column>>,
-    /// Distance of each frame from the training part, if requested and known; 1 at the limit.
+    /// Distance of each frame from the training part, if requested and known. The limit is 1.
     pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
-    /// Best constant predictions by channel, as far as the model knows them.
+    /// Best constant predictions by channel, if the model states them.
     pub(super) constants: BTreeMap<String, f64>,
-    /// Frames decoded for the predictions.
+    /// Number of frames decoded for the predictions.
     pub frames_decoded: u64,
     /// Number of rows of the part that could not be predicted.
     pub left_out: usize,
 }
 
 impl Predicted {
-    /// Appends the predictions of `other`, made by another model; drops the constants.
+    /// Appends the predictions of `other`, made by another model. The constants are discarded.
     ///
     /// # Errors
     /// [`EvaluateError::Unsuited`] if the channels differ.
@@ -102,7 +102,7 @@ impl Predicted {
         Ok(self)
     }
 
-    /// Predictions of `rows` sorted by row, in the order of the recording, with the sorted rows.
+    /// Sorts the predictions of `rows` by row, the order of the recording. Also returns the sorted rows.
     pub(crate) fn in_order_of(self, rows: Vec<usize>) -> (Vec<usize>, Predicted) {
         let mut order: Vec<usize> = (0..rows.len()).collect();
         order.sort_by_key(|at| rows[*at]);
@@ -140,7 +140,7 @@ impl Predicted {
         (order.iter().map(|&at| rows[at]).collect(), predicted)
     }
 
-    /// Name of the part of the dataset.
+    /// Name of the predicted part of the dataset.
     pub fn part(&self) -> &'static str {
         self.part.name()
     }
@@ -155,7 +155,7 @@ impl Predicted {
         &self.channels
     }
 
-    /// Note on the shares of predictions that the bounds of the model changed, by channel; `None` if there are none.
+    /// Note on the shares of predictions that the bounds of the model changed, by channel; `None` if no prediction was changed.
     pub fn beyond(&self) -> Option<Note> {
         let shares = self.bounded(0..self.rows());
         let channels = self.channels.iter();
@@ -180,7 +180,7 @@ impl Predicted {
         bounded
     }
 
-    /// Best constant predictions by channel, as far as the model knows them.
+    /// Best constant predictions by channel, if the model states them.
     pub fn constants(&self) -> &BTreeMap<String, f64> {
         &self.constants
     }
@@ -190,7 +190,7 @@ impl Predicted {
         &self.truth
     }
 
-    /// Predictions within the bounds of the model.
+    /// Predictions, clipped to the bounds of the model.
     pub fn prediction(&self) -> &[Column] {
         &self.prediction
     }
@@ -200,7 +200,7 @@ impl Predicted {
         &self.unbounded
     }
 
-    /// The standard deviations of the predictions, if the model gives them.
+    /// Standard deviations of the predictions, if the model predicts them.
     pub fn deviation(&self) -> Option<&[Column]> {
         self.deviation.as_deref()
     }
@@ -210,13 +210,13 @@ impl Predicted {
         self.distance.as_deref()
     }
 
-    /// Number of frames further than 1 from the training part, if the distance is known.
+    /// Number of frames whose distance from the training part exceeds 1, if the distance is known.
     pub fn outside(&self) -> Option<usize> {
         let distance = self.distance()?;
         Some(distance.iter().filter(|distance| **distance > 1.0).count())
     }
 
-    /// Predictions at each bound of the model, by channel and bound; empty if none was clipped.
+    /// Number of predictions at each bound of the model, by channel and bound. Empty if no prediction was clipped.
     pub fn at_bounds(&self) -> Vec<AtBound> {
         let mut found: Vec<AtBound> = Vec::new();
         let columns = self.prediction.iter().zip(&self.beyond);

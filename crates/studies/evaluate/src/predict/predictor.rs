@@ -1,25 +1,25 @@
-//! Facts of the source of predictions: a built-in model, or a model of the caller.
+//! Facts about the source of predictions: a built-in model, or a caller's own model.
 
 use std::collections::BTreeMap;
 
 use taceva_core::Channels;
 use taceva_models::{LabelBounds, Model};
 
-/// Facts of the source of predictions.
+/// Facts about the source of predictions.
 #[derive(Debug)]
 pub struct Predictor {
-    /// The channels.
+    /// Predicted channels.
     pub channels: Channels,
-    /// Bounds from the training labels, as far as known.
+    /// Bounds computed from the training labels, if known.
     pub bounds: LabelBounds,
-    /// Best constant predictions by channel, as far as known.
+    /// Best constant predictions by channel, if known.
     pub constants: BTreeMap<String, f64>,
-    /// True if frames are read.
+    /// True if the model reads frames.
     pub reads_frames: bool,
 }
 
 impl Predictor {
-    /// Facts of a fitted model.
+    /// Facts about a fitted model.
     pub fn of(model: &Model) -> Predictor {
         Predictor {
             channels: model.channels().clone(),

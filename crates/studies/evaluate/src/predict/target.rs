@@ -7,7 +7,7 @@ use taceva_models::Model;
 use crate::error::EvaluateError;
 use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 
-/// Rejects frames of a view other than that of the model. The predictions would look plausible.
+/// Rejects frames of a view other than that of the model, because the predictions would look plausible.
 fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let fitted_on = model.card().provenance.view.as_deref();
     match (fitted_on, dataset.view()) {
@@ -23,18 +23,18 @@ fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
 /// Rows to predict, and their division.
 #[derive(Debug)]
 pub struct Target {
-    /// The part.
+    /// Part of the dataset.
     pub part: DataPart,
-    /// The rows, ascending.
+    /// Rows to predict, ascending.
     pub rows: Vec<usize>,
-    /// The division, if there is one.
+    /// Division of the dataset, if there is one.
     pub divided: Option<Divided>,
     /// Number of rows of the part that lack the input of the model.
     pub left_out: usize,
 }
 
 impl Target {
-    /// Target of a fitted model. On the dataset of its fit, repeats its own split.
+    /// Target of a fitted model. On the dataset of the model's fit, the division of the fit is repeated.
     pub fn new(
         dataset: &Dataset,
         model: &Model,
@@ -46,7 +46,7 @@ impl Target {
         Target::of(dataset, divided, part, model.reads_frames())
     }
 
-    /// Rows of `part` of a division, or of the whole dataset.
+    /// Target of the rows of `part` of a division, or of the whole dataset.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] for a part without rows.

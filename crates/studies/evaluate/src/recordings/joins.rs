@@ -1,9 +1,9 @@
-//! Joins of tables by an import, in words.
+//! Describes the joins of tables by an import.
 
 use taceva_core::{counted, shown};
 use taceva_dataset::{Header, MappedJoin};
 
-/// Each join of the import of a recording, with the number of its rows that no sample uses.
+/// Describes each join in the import of a recording, with the number of rows that no sample uses.
 pub(super) fn of(header: &Header) -> impl Iterator<Item = String> + '_ {
     header.joins.iter().map(|join| {
         let unused = header.left_out.joined_rows.get(&join.name);
@@ -14,7 +14,7 @@ pub(super) fn of(header: &Header) -> impl Iterator<Item = String> + '_ {
     })
 }
 
-/// `table ft joined by its time stamp: linear between two rows, at most 100 ms away, with a lag of 12.5 ms`
+/// Describes a join: `table ft joined by its time stamp: linear between two rows, at most 100 ms away, with a lag of 12.5 ms`.
 fn words(join: &MappedJoin) -> String {
     let column = join.column.as_deref().unwrap_or_default();
     let by = match join.by.as_str() {

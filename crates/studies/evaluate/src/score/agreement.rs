@@ -1,4 +1,4 @@
-//! Agreement of paired rows: both tables must have the same values in shared columns.
+//! Checks paired rows: both tables must have the same values in shared columns.
 
 use taceva_core::{Field, shown};
 use taceva_import::CsvTable;
@@ -7,7 +7,7 @@ use super::row_key::{KeyPair, RowKeys, in_words, key_of};
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Fields on which both tables must agree: the row and its surroundings.
+/// Fields on which both tables must agree. They describe the row and its conditions.
 const FIELDS: [Field; 7] = [
     Field::Point,
     Field::FrameDigest,
@@ -18,10 +18,10 @@ const FIELDS: [Field; 7] = [
     Field::Phase,
 ];
 
-/// Least tolerance between two stamps of one row, in s. Stamps may be rounded to milliseconds; none is trusted below a microsecond.
+/// Minimum tolerance between two time stamps of one row, in s. Stamps may be rounded to milliseconds, and are not reliable below a microsecond.
 const LEAST_S: f64 = 1e-6;
 
-/// Number of decimals below which a stamp does not count as rounded.
+/// Minimum number of decimals for which a stamp counts as rounded.
 const LEAST_DECIMALS: usize = 3;
 
 /// A column of both tables in which paired rows must agree.
@@ -35,11 +35,11 @@ pub(super) struct Agreement {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// A key: the same text in both tables; not missing in only one.
+    /// A key. Both tables must have the same text, or both none.
     Key,
-    /// A text; an empty cell matches any.
+    /// A text. An empty cell agrees with any text.
     Word,
-    /// A time in s, compared with the smaller number of decimals of both.
+    /// A time in s, compared to the smaller number of decimals of both stamps.
     Stamp,
 }
 
@@ -147,7 +147,8 @@ impl Agreement {
     }
 }
 
-/// True if two stamps may be one time written with different numbers of decimals. The parser reports a stamp that is not a number.
+/// True if two stamps may be the same time, written with different numbers of decimals. A stamp that is not a number counts as equal here, and is reported by
+/// the parser.
 fn is_same_time(one: &str, other: &str) -> bool {
     let (Ok(first), Ok(second)) = (one.parse::<f64>(), other.parse::<f64>()) else {
         return true;

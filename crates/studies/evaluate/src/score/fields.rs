@@ -5,7 +5,7 @@ use taceva_import::CsvTable;
 
 use crate::error::EvaluateError;
 
-/// Columns of a table that are no channels, besides row keys.
+/// Columns of a table that are not channels, besides row keys.
 pub(super) const NOT_CHANNELS: [&str; 13] = [
     "point_id",
     "scene",
@@ -22,7 +22,7 @@ pub(super) const NOT_CHANNELS: [&str; 13] = [
     "frame_sha256",
 ];
 
-/// Fields that either table may have; the truth is searched first.
+/// Fields that either table may contain. The truth is searched first.
 const OF_EITHER: [Field; 10] = [
     Field::Point,
     Field::DepthStep,
@@ -36,7 +36,7 @@ const OF_EITHER: [Field; 10] = [
     Field::FrameDigest,
 ];
 
-/// Column of the grating spacing: the actual one in the truth, the predicted one in the predictions.
+/// Column of the grating spacing. The truth contains the actual spacing, and the predictions contain the predicted spacing.
 const SPACING: &str = "spacing_mm";
 
 /// Location of a field.
@@ -48,7 +48,7 @@ pub(super) struct Place {
     pub(super) column: usize,
 }
 
-/// Locations of all fields that one of the tables has.
+/// Locations of all fields that either table contains.
 pub(super) fn places(truth: &CsvTable, prediction: &CsvTable) -> Result<Vec<Place>, EvaluateError> {
     let mut places = Vec::new();
     let mut state = |field, in_truth, name: &str| -> Result<(), EvaluateError> {
@@ -77,13 +77,13 @@ pub(super) fn places(truth: &CsvTable, prediction: &CsvTable) -> Result<Vec<Plac
     Ok(places)
 }
 
-/// The fields that are present.
+/// Set of the fields that have a location.
 pub(super) fn stated(places: &[Place]) -> FieldSet {
     let fields = places.iter().map(|place| place.field);
     FieldSet::EMPTY.with(Field::Truth).with(Field::Prediction) | fields.collect()
 }
 
-/// Names in some rows of a column; an empty cell is `None`.
+/// Names in some rows of a column; `None` for an empty cell.
 ///
 /// # Errors
 /// [`EvaluateError`] with the cell if the field has a fixed list of names and the name is not in it.
@@ -112,10 +112,10 @@ pub(super) fn labels(
     Ok(labels)
 }
 
-/// Numbers in some rows of a column of counts or spacings; an empty cell is absent.
+/// Numbers in some rows of a column of counts or spacings. An empty cell is undefined.
 ///
 /// # Errors
-/// [`EvaluateError`] with the cell if it is neither a whole number from 0 nor a length.
+/// [`EvaluateError`] with the cell if it is neither a nonnegative whole number nor a length.
 pub(super) fn exact_numbers(
     table: &CsvTable,
     field: Field,

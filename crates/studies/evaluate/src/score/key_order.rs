@@ -1,4 +1,4 @@
-//! Order of keys in rows that are read block by block. If both tables have the same ascending keys, rows are paired by number.
+//! Order of keys in rows that are read block by block. If the keys ascend and are equal in both tables, rows are paired by number.
 
 use std::sync::{Mutex, PoisonError};
 
@@ -7,7 +7,7 @@ use taceva_import::CsvTable;
 use super::key_parts::by_length;
 use super::row_key::{KeyPair, key_of};
 
-/// Keys of both tables in the blocks read so far; blocks may come in any order.
+/// Keys of both tables in the blocks read so far. Blocks may be added in any order.
 #[derive(Debug)]
 pub(super) struct KeyOrder {
     /// Key columns in the truth and in the predictions.
@@ -17,7 +17,7 @@ pub(super) struct KeyOrder {
 }
 
 impl KeyOrder {
-    /// Order of `key` in two tables with these headers; `None` if one of them lacks it.
+    /// Order of `key` in two tables with these headers; `None` if a table lacks the key.
     pub(super) fn of([truth, prediction]: [&CsvTable; 2], key: &KeyPair) -> Option<KeyOrder> {
         Some(KeyOrder {
             columns: [
@@ -28,7 +28,7 @@ impl KeyOrder {
         })
     }
 
-    /// True if the keys of a block ascend and are the same in both tables, which have equal numbers of rows.
+    /// True if the keys of a block ascend and are equal in both tables, and the blocks have equal numbers of rows.
     pub(super) fn is_kept_in(&self, number: u64, [truth, prediction]: [&CsvTable; 2]) -> bool {
         let rows = 0..truth.rows();
         let keys = truth.text_in(self.columns[0], rows.clone()).map(key_of);
@@ -48,7 +48,7 @@ impl KeyOrder {
         true
     }
 
-    /// True if the keys of all blocks ascend from block to block, so that none repeats.
+    /// True if the keys also ascend from block to block, so that no key repeats.
     pub(super) fn ascends(self) -> bool {
         let ends = self.ends.into_inner();
         let mut ends = ends.unwrap_or_else(PoisonError::into_inner);
@@ -74,7 +74,7 @@ mod tests {
         }
     }
 
-    /// True if the order is kept in blocks that are read in this order.
+    /// Test helper: true if keys ascend in blocks that are added in this order.
     fn is_kept(blocks: &[(u64, &[&str])]) -> bool {
         let header = table(&[]);
         let order = KeyOrder::of([&header, &header], &id()).expect("keys");

@@ -11,26 +11,26 @@ use super::table_parts::{Reader, TableParts};
 use super::tables;
 use crate::error::EvaluateError;
 
-/// Location of the predictions for the rows of a shard.
+/// Location of the predictions that belong to the rows of a shard.
 pub(super) enum Found {
-    /// In the rows with the same numbers.
+    /// The predictions are in the rows with the same numbers.
     InOrder,
-    /// In this table, which begins at the first row of the shard.
+    /// The predictions are in this table, whose first row belongs to the first row of the shard.
     Gathered(CsvTable),
 }
 
-/// Both tables and their key.
+/// Tables of truth and predictions, and the key that pairs their rows.
 pub(super) struct ByKey<'a> {
     pub(super) key: &'a KeyPair,
     pub(super) truth: &'a TableParts,
     pub(super) prediction: &'a TableParts,
-    /// Reader of the wanted columns of the prediction.
+    /// Reader of the predictions, restricted to the needed columns.
     pub(super) reader: &'a Reader<'a>,
 }
 
 impl ByKey<'_> {
-    /// Finds the predictions of the rows in `own`. If both tables have the same ascending keys, reads only these rows. Otherwise scans both tables
-    /// and sorts the predictions of the shard into its order.
+    /// Finds the predictions for the rows in `own`. If both tables have the same ascending keys, reads only these rows. Otherwise scans both tables, and sorts
+    /// the predictions in the order of the shard.
     ///
     /// # Errors
     /// [`EvaluateError::Tables`] for a key that is empty, repeats, or is missing in one of the tables.
@@ -135,7 +135,7 @@ impl ByKey<'_> {
             .collect()
     }
 
-    /// True if both tables have the same ascending keys in `own`. Includes the row before, so that no key repeats.
+    /// True if both tables have the same ascending keys in `own`. The row before is included, so that no key repeats.
     fn is_in_order(
         &self,
         own: &Range<u64>,
@@ -168,7 +168,7 @@ impl ByKey<'_> {
         Ok(true)
     }
 
-    /// Predictions in these rows, in that order.
+    /// Predictions in the rows `rows`, in this order.
     fn gathered(&self, rows: &[u64]) -> Result<CsvTable, EvaluateError> {
         let header = self.reader.header()?;
         let mut positions: Vec<usize> = (0..rows.len()).collect();
@@ -196,7 +196,7 @@ impl ByKey<'_> {
     }
 }
 
-/// Compares by length, then by text: numeric order for whole numbers, a fixed order for other texts.
+/// Compares by length, then by text. This is the numeric order for whole numbers, and a fixed order for other texts.
 pub(super) fn by_length(one: &str, other: &str) -> Ordering {
     one.len().cmp(&other.len()).then_with(|| one.cmp(other))
 }

@@ -9,10 +9,10 @@ use super::whole_columns::WholeColumns;
 use super::{ScorePlan, ScoreRequest, tables};
 use crate::error::EvaluateError;
 
-/// Least number of rows for which equal sets of distinct whole numbers are unlikely to be chance.
+/// Minimum number of rows for which equal sets of distinct whole numbers are unlikely to be accidental.
 const LEAST_ROWS: u64 = 5;
 
-/// Channels other than the six without a declared unit.
+/// Channels without a declared unit, except the six standard channels.
 pub(super) fn doubtful<'a>(
     request: &'a ScoreRequest,
     plan: &'a ScorePlan,
@@ -23,10 +23,10 @@ pub(super) fn doubtful<'a>(
     })
 }
 
-/// Rejects tables with a column that is probably a key and would be scored.
+/// Rejects tables with a column that is probably a key and would be scored as a channel.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`] with the column.
+/// [`EvaluateError::Tables`] with the name of the column.
 pub(super) fn check(
     request: &ScoreRequest,
     plan: &ScorePlan,
@@ -69,7 +69,7 @@ fn refused(request: &ScoreRequest, problem: String) -> EvaluateError {
     }
 }
 
-/// First text of a column, if its first cells are not numbers in both tables.
+/// First text in a column, if the column's first cells are not numbers in both tables.
 fn text_of_both(
     name: &str,
     tables: [&dyn WholeColumns; 2],
@@ -92,7 +92,7 @@ fn text_of_both(
     Ok(found)
 }
 
-/// True if a column holds the same distinct whole numbers in both tables.
+/// True if a column contains the same distinct whole numbers in both tables.
 fn counts_rows_of_both(name: &str, tables: [&dyn WholeColumns; 2]) -> Result<bool, EvaluateError> {
     let mut sets = Vec::new();
     for table in tables {

@@ -7,10 +7,10 @@ use super::{ScorePlan, ScoreRequest};
 use crate::error::EvaluateError;
 use crate::note::Note;
 
-/// Rounding of values in radians, to three decimals.
+/// Rounding error of values in radians with three decimals.
 const ROUNDED_RAD: f64 = 1e-3;
 
-/// A note on each angle without a stated unit whose values all lie within one period in radians.
+/// Notes on angles without a stated unit whose values are all within one period in radians.
 ///
 /// # Errors
 /// [`EvaluateError`] if a table cannot be read.

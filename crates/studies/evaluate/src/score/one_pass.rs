@@ -1,5 +1,5 @@
-//! Reads two tables once, side by side. Memory holds a few thousand rows of each. They stay in the cache of a core while they are digested, split,
-//! parsed and scored.
+//! Reads two tables once, side by side. Memory contains only a few thousand rows of each table. These rows remain in the cache of a core while they are
+//! digested, split, parsed and scored.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -23,9 +23,9 @@ use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
 use crate::row_ledger::Taken;
 
-/// Scores the tables of `request` in one pass, to the same bytes as [`Scoring`](super::Scoring). Returns `None` if that is impossible: keys that do
-/// not ascend alike in both tables, quoted cells, Parquet, possible key columns, angles that may be in radians, and any error. [`Scoring`](super::Scoring) then reads the tables
-/// again and reports the error.
+/// Scores the tables of `request` in one pass. The result has the same bytes as that of [`Scoring`](super::Scoring). Returns `None` if a single pass is
+/// impossible: for unequal or unsorted keys, quoted cells, Parquet, possible key columns, angles that may be in radians, and any error.
+/// [`Scoring`](super::Scoring) then reads the tables again and reports the error.
 ///
 /// # Errors
 /// [`EvaluateError`] if `progress` was cancelled.
@@ -104,13 +104,13 @@ struct Pass<'a> {
     blocks: AtomicU64,
     /// Number of scored rows.
     rows: AtomicU64,
-    /// True once a thread has found a reason to end the pass.
+    /// True if a thread has found a reason to end the pass.
     is_over: AtomicBool,
     progress: &'a dyn Progress,
 }
 
 impl Pass<'_> {
-    /// Sums of all rows; `None` without rows, or if one pass is impossible. Sums are exact, so the number of threads does not matter.
+    /// Sums of all rows; `None` without rows, or if a single pass is impossible. Sums are exact, so the number of threads has no effect.
     fn evaluate(&self, threads: usize) -> Result<Option<Evaluator>, EvaluateError> {
         let evaluators = each_part((0..threads).collect(), |_| {
             let found = self.batches();
@@ -130,7 +130,7 @@ impl Pass<'_> {
         Ok(has_rows.then_some(total))
     }
 
-    /// Scores batches until the tables end; `None` if one cannot be scored.
+    /// Scores batches until the tables end; `None` if a batch cannot be scored.
     fn batches(&self) -> Result<Option<Evaluator>, EvaluateError> {
         let block = |stream: &Mutex<CsvStream>| lock(stream).block();
         let mut pair = [block(&self.truth), block(&self.prediction)];
@@ -156,7 +156,7 @@ impl Pass<'_> {
         Ok(Some(evaluator))
     }
 
-    /// Reads the next block of both tables and returns its number; `None` if it cannot be read, or one table has more rows.
+    /// Reads the next block of both tables and returns its number; `None` if the block cannot be read, or if one table has more rows.
     fn next(&self, [of_truth, of_prediction]: &mut [CsvTable; 2]) -> Option<u64> {
         let mut truth = lock(&self.truth);
         let number = self.blocks.fetch_add(1, Ordering::Relaxed);
@@ -219,7 +219,7 @@ mod tests {
 
     const ROWS: usize = 2 * BATCH_ROWS + 100;
 
-    /// A table of two channels after the columns `front`, with the `cells` of each row; `off` scales its errors.
+    /// Test table of two channels after the columns `front`, with the `cells` of each row. `off` scales the errors of the table.
     fn table(front: &str, cells: impl Fn(usize) -> String, off: f64) -> String {
         let mut text = format!("{front}Px,Fz\n");
         for row in 0..ROWS {

@@ -1,4 +1,4 @@
-//! Rows of a Parquet table as text, part by part. Cells are formatted as in CSV, so that both are parsed and rejected alike.
+//! Reads rows of a Parquet table as text, part by part. Cells are formatted as in CSV, so that both formats are parsed and rejected alike.
 
 use std::fs::File;
 use std::io::{Read, Seek, SeekFrom};
@@ -13,7 +13,7 @@ use crate::error::EvaluateError;
 /// First and last bytes of every Parquet file.
 const MARK: &[u8; 4] = b"PAR1";
 
-/// True if the file at `path` begins and ends with the Parquet magic bytes. False if it cannot be read; the reader then reports the error.
+/// True if the file at `path` begins and ends with the Parquet magic bytes. False if the file cannot be read; the reader then reports the error.
 pub(super) fn is_parquet(path: &Path) -> bool {
     if !path.is_file() {
         return false;
@@ -28,10 +28,10 @@ pub(super) fn is_parquet(path: &Path) -> bool {
     marks.is_ok_and(|marks| marks == [*MARK; 2])
 }
 
-/// The given columns of some rows.
+/// Reads the selected columns of some rows.
 ///
 /// # Errors
-/// [`EvaluateError::Parquet`]; [`EvaluateError::Table`] for more text than fits into one part.
+/// [`EvaluateError::Parquet`] if the file cannot be read. [`EvaluateError::Table`] for more text than one part can contain.
 pub(super) fn read(
     table: &ParquetTable,
     names: &[String],

@@ -22,15 +22,15 @@ use taceva_core::Unit;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Period {
     number: f64,
-    /// True for a multiple of π, as in `2pi`.
+    /// True for a multiple of π, such as `2pi`.
     is_of_pi: bool,
 }
 
-/// Greatest difference of a period in radians from whole degrees, in degrees. It allows for three decimals.
+/// Greatest allowed difference between a period in radians and whole degrees, in degrees. It allows for rounding to three decimals.
 const ROUNDED_DEG: f64 = 0.03;
 
 impl Period {
-    /// Unit that the name of a column or a multiple of π states.
+    /// Unit that the name of a column, or a multiple of π, implies; `None` if neither implies a unit.
     pub(super) fn stated_unit(self, name: &str) -> Option<Unit> {
         let by_name = [("_rad", Unit::Radian), ("_deg", Unit::Degree)];
         let by_name = by_name.iter().find(|(end, _)| name.ends_with(end));
@@ -42,7 +42,7 @@ impl Period {
     /// Period of the column `name` in `unit`, in whole degrees.
     ///
     /// # Errors
-    /// A message with the remedy if the period does not fit the unit, or is not a whole number of degrees.
+    /// A message with the remedy, if the period does not match the unit, or is not a whole number of degrees.
     pub fn degrees(self, name: &str, unit: Unit) -> Result<u16, String> {
         let of_radians = match self.is_of_pi {
             true => self.number * 180.0,
@@ -91,7 +91,7 @@ impl Period {
 }
 
 impl From<u16> for Period {
-    /// A period of `number` degrees or radians.
+    /// Creates a period of `number`, in the unit of its column.
     fn from(number: u16) -> Period {
         Period {
             number: f64::from(number),

@@ -1,4 +1,4 @@
-//! Scores of two tables by the plan of a state, which is how they were scored.
+//! Scores two tables by the plan of a state that was computed from them.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -15,12 +15,10 @@ use crate::error::EvaluateError;
 use crate::recount::Recount;
 use crate::state_file::ReadState;
 
-/// Scores of the tables `truth` and `prediction` by the plan of `state`. `key` is the one that the caller chose when they
-/// were scored, if any.
+/// Scores the tables `truth` and `prediction` by the plan of `state`. `key` is the key that the caller chose in the original scoring, if any.
 ///
 /// # Errors
-/// [`EvaluateError::State`] for a state that was summed from other tables; else as
-/// [`Scoring::read`](super::Scoring::read).
+/// [`EvaluateError::State`] for a state that was summed from other tables. Otherwise errors of [`Scoring::read`](super::Scoring::read).
 pub fn recount_tables(
     state: &ReadState,
     truth: &Path,

@@ -6,7 +6,7 @@ use taceva_import::CsvTable;
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Column names of a row key; the first is the one that this program writes. The empty name belongs to an unnamed index.
+/// Column names that identify a row key. The first is the name that this program writes. The empty name is that of an unnamed index.
 pub(super) const KEY_NAMES: [&str; 5] = ["sample", "id", "sample_id", "index", ""];
 
 /// Choice of the row key that pairs two tables.
@@ -50,17 +50,17 @@ impl KeyPair {
     }
 }
 
-/// Row keys that two tables share, in the order of trial.
+/// Row keys that both tables have, in the order in which they are tried.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct RowKeys {
     /// Keys that may pair rows; empty if rows are paired by order.
     pub(super) pairs: Vec<KeyPair>,
-    /// True if the caller chose the pairing, so that other keys are not compared.
+    /// True if the caller chose the pairing. Other keys are then not compared.
     is_chosen: bool,
 }
 
 impl RowKeys {
-    /// Keys of two tables with these headers; columns with a declared unit are channels.
+    /// Keys of two tables with these headers. Columns with a declared unit are channels.
     ///
     /// # Errors
     /// [`EvaluateError`] if one of the tables lacks the column that `chosen` names.
@@ -108,25 +108,25 @@ impl RowKeys {
         })
     }
 
-    /// True if rows are paired by a key.
+    /// True if there is a key that may pair rows.
     pub(super) fn are_there(&self) -> bool {
         !self.pairs.is_empty()
     }
 
-    /// Names of the columns that hold keys in the truth or in the predictions.
+    /// Names of the columns that contain keys in the truth or in the predictions.
     pub(super) fn names(&self) -> impl Iterator<Item = &str> {
         self.pairs
             .iter()
             .flat_map(|pair| [pair.truth.as_str(), pair.prediction.as_str()])
     }
 
-    /// Key columns that must agree in every pair of rows: keys that did not pair them, unless the caller chose the pairing.
+    /// Key columns that must agree in every pair of rows. These are the keys that did not pair the rows; there are none if the caller chose the pairing.
     pub(super) fn others(&self, by: Option<&KeyPair>) -> impl Iterator<Item = &KeyPair> {
         let pairs = self.pairs.iter().filter(|_| !self.is_chosen);
         pairs.filter(move |pair| Some(*pair) != by)
     }
 
-    /// The method of pairing: by `pair`, or by order.
+    /// Method of pairing: by the key `pair`, or by order.
     pub(super) fn paired_by(&self, pair: Option<&KeyPair>) -> PairedBy {
         match pair {
             Some(KeyPair { truth, prediction }) => PairedBy::Key {
@@ -139,7 +139,7 @@ impl RowKeys {
     }
 }
 
-/// Name of a row key for messages.
+/// Description of a row key, for messages.
 pub(super) fn in_words(name: &str) -> String {
     match name {
         "" => "unnamed column".to_owned(),
@@ -147,7 +147,7 @@ pub(super) fn in_words(name: &str) -> String {
     }
 }
 
-/// Normal form of a key for comparison: a whole number written as a decimal equals that number.
+/// Normal form of a key for comparison: a whole number written with decimals equals this number.
 pub(super) fn key_of(cell: &str) -> &str {
     match cell.strip_suffix(".0") {
         Some(whole) if is_whole(whole) => whole,
@@ -155,13 +155,13 @@ pub(super) fn key_of(cell: &str) -> &str {
     }
 }
 
-/// True if the text is a whole number, with or without a sign.
+/// True if `text` is a whole number, with or without a sign.
 pub(super) fn is_whole(text: &str) -> bool {
     let digits = text.strip_prefix('-').unwrap_or(text);
     !digits.is_empty() && digits.bytes().all(|byte| byte.is_ascii_digit())
 }
 
-/// The key among `known` that differs from `key` only in blanks or case.
+/// Key among `known` that differs from `key` only in blanks or case.
 pub(super) fn nearly<'a>(key: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let bare = |text: &str| -> String {
         let letters = text.chars().filter(|letter| !letter.is_whitespace());

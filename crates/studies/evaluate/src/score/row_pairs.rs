@@ -1,4 +1,4 @@
-//! Paired rows of both tables, parsed during scoring. Memory never holds a whole column.
+//! Paired rows of both tables, parsed while they are scored. Memory never contains a whole column.
 
 use std::ops::Range;
 
@@ -24,14 +24,14 @@ pub(super) struct PairedRows<'a> {
     channels: Vec<[usize; 2]>,
     /// Locations of the fields that metrics read.
     places: Vec<Place>,
-    /// Column of the truth that names samples, if each is a cluster.
+    /// Column of the truth that names samples, if each sample is a cluster.
     names: Option<usize>,
     matching: &'a Matching,
     allow_invalid: bool,
 }
 
 impl<'a> PairedRows<'a> {
-    /// Pairs the rows of the truth with those of the predictions by `pairing`, with the columns that `plan` reads.
+    /// Pairs the rows of the truth with those of the predictions by `pairing`. Selects the columns that `plan` reads.
     pub(super) fn new(
         [truth, prediction]: [&'a CsvTable; 2],
         pairing: &'a Pairing,
@@ -81,7 +81,7 @@ impl<'a> PairedRows<'a> {
         }?)
     }
 
-    /// Rows of the truth, each with the values of its prediction.
+    /// Rows of the truth, each with the values of the paired prediction.
     fn side_by_side(
         &self,
         plan: &MetricPlan,

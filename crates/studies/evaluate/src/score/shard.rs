@@ -4,7 +4,7 @@ use std::fmt;
 use std::ops::Range;
 use std::str::FromStr;
 
-/// One of several shards of the rows of a table. Together they contain each row once, in order.
+/// One of several shards of the rows of a table. Together, all shards contain each row once, in order.
 ///
 /// ```
 /// use taceva_evaluate::Shard;
@@ -36,7 +36,7 @@ impl Shard {
     /// All rows.
     pub const WHOLE: Shard = Shard { number: 1, of: 1 };
 
-    /// Shard `number`, from 1, of `of` shards.
+    /// Creates shard `number`, counted from 1, of `of` shards.
     ///
     /// # Errors
     /// [`ShardError`] if `of` is 0, or `number` is not in 1 to `of`.
@@ -53,12 +53,12 @@ impl Shard {
         })
     }
 
-    /// True if it is the only shard.
+    /// True if this is the only shard.
     pub fn is_whole(self) -> bool {
         self.of == 1
     }
 
-    /// The range of the shard in a table of `rows` rows; may be empty if there are more shards than rows.
+    /// Range of the shard's rows in a table of `rows` rows. Empty for some shards if there are more shards than rows.
     pub fn rows(self, rows: u64) -> Range<u64> {
         let before = |number: u32| {
             let before = u128::from(rows) * u128::from(number) / u128::from(self.of);

@@ -1,4 +1,4 @@
-//! Scores of tables of any length, shard by shard. Memory holds a part of the rows at a time.
+//! Scores tables of any length, shard by shard. Memory contains only a part of the rows at a time.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -31,7 +31,7 @@ use crate::note::Note;
 use crate::plan::Plan;
 use crate::row_ledger::Taken;
 
-/// Two tables of any length, scanned once for the positions of their rows. Other processes can use a stored scan.
+/// Two tables of any length, scanned once for the positions of their rows. The scan can be stored for other processes.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScoreTables {
@@ -79,7 +79,7 @@ impl ScoreTables {
         }
     }
 
-    /// The same tables; scans them again if a file has changed.
+    /// Returns the tables; scans them again if a file has changed.
     ///
     /// # Errors
     /// [`EvaluateError::Tables`] if the content of a file has changed.
@@ -90,7 +90,7 @@ impl ScoreTables {
         })
     }
 
-    /// True if the tables of `request` are read in parts: one is Parquet, or exceeds the text limit.
+    /// True if the tables of `request` are read in parts, because one is Parquet or exceeds the text limit.
     pub fn are_in_parts(request: &ScoreRequest) -> bool {
         let is_long = |path: &Path| {
             let facts = fs::metadata(path);
@@ -111,7 +111,7 @@ impl ScoreTables {
         [self.truth.digest(), self.prediction.digest()]
     }
 
-    /// Checks channels, units, metrics and the sensor. Reads no cells.
+    /// Checks channels, units, metrics and the sensor without reading cells.
     ///
     /// # Errors
     /// [`EvaluateError`] for the first failed check.
@@ -119,10 +119,10 @@ impl ScoreTables {
         self.understood(request).map(drop)
     }
 
-    /// Steps of [`score`](ScoreTables::score).
+    /// Steps that [`score`](ScoreTables::score) will execute.
     ///
     /// # Errors
-    /// As [`check`](ScoreTables::check).
+    /// Errors of [`check`](ScoreTables::check).
     pub fn plan(&self, request: &ScoreRequest, shard: Shard) -> Result<Plan, EvaluateError> {
         let understood = self.understood(request)?;
         let mut plan = Plan {
@@ -164,7 +164,7 @@ impl ScoreTables {
     /// Scores the rows of `shard`. The states of all shards merge to the same scores and state as one run over all rows.
     ///
     /// # Errors
-    /// [`EvaluateError`] at the first non-finite cell, unless allowed; for a key that repeats or is missing in one table.
+    /// [`EvaluateError`] at the first non-finite cell, unless such cells are allowed. Also for a key that repeats or is missing in one table.
     pub fn score(
         &self,
         request: &ScoreRequest,
@@ -233,7 +233,7 @@ impl ScoreTables {
         })
     }
 
-    /// Predictions of the rows in `own`, by the first key that pairs them.
+    /// Predictions of the rows in `own`, found by the first key that pairs the rows.
     fn paired(
         &self,
         understood: &Understood<'_>,

@@ -22,7 +22,7 @@ pub(super) struct TableParts {
     stamp: Stamp,
     digest: Digest,
     rows: u64,
-    /// Row positions in a CSV file; a Parquet file stores its own.
+    /// Row positions in a CSV file; `None` for a Parquet file, which contains its own.
     csv: Option<CsvParts>,
 }
 
@@ -31,7 +31,7 @@ pub(super) struct TableParts {
 #[serde(deny_unknown_fields)]
 struct Stamp {
     bytes: u64,
-    /// Nanoseconds since 1970; `None` if the file system does not record it.
+    /// Modification time in nanoseconds since 1970; `None` if the file system does not record it.
     changed_ns: Option<u64>,
 }
 
@@ -39,7 +39,7 @@ impl TableParts {
     /// Scans the file at `path` once.
     ///
     /// # Errors
-    /// [`EvaluateError`] if it is not a table, or cannot be read.
+    /// [`EvaluateError`] if the file is not a table, or cannot be read.
     pub(super) fn scan(path: &Path) -> Result<TableParts, EvaluateError> {
         let io = |error| read_error(path, error);
         if !parquet_parts::is_parquet(path) {
@@ -65,10 +65,10 @@ impl TableParts {
         })
     }
 
-    /// The same table; scans it again if its file has changed.
+    /// Returns the table; scans its file again if it has changed.
     ///
     /// # Errors
-    /// [`EvaluateError::Tables`] if its content has changed.
+    /// [`EvaluateError::Tables`] if the content of the file has changed.
     pub(super) fn again(self) -> Result<TableParts, EvaluateError> {
         let stamp = Stamp::of(&self.path).map_err(|error| read_error(&self.path, error))?;
         if stamp == self.stamp && stamp.changed_ns.is_some() {
@@ -102,7 +102,7 @@ impl TableParts {
     /// Reader of the table.
     ///
     /// # Errors
-    /// [`EvaluateError`] if it cannot be opened.
+    /// [`EvaluateError`] if the file cannot be opened.
     pub(super) fn reader(&self) -> Result<Reader<'_>, EvaluateError> {
         match &self.csv {
             Some(parts) => Ok(Reader::Csv(parts)),
@@ -127,7 +127,7 @@ impl Stamp {
     }
 }
 
-/// Reader of parts of a table; reads only the selected columns of a Parquet table.
+/// Reader of parts of a table. From a Parquet table, it reads only the selected columns.
 #[derive(Debug)]
 pub(super) enum Reader<'a> {
     Csv(&'a CsvParts),
@@ -135,7 +135,7 @@ pub(super) enum Reader<'a> {
 }
 
 impl Reader<'_> {
-    /// The names of all columns, as a table without rows.
+    /// Names of all columns, as a table without rows.
     pub(super) fn header(&self) -> Result<CsvTable, EvaluateError> {
         match self {
             Reader::Csv(parts) => Ok(parts.header()?),
@@ -143,7 +143,7 @@ impl Reader<'_> {
         }
     }
 
-    /// The same reader, which reads only the columns of a Parquet table that `is_wanted` selects. This saves time.
+    /// Restricts the reader to the columns that `is_wanted` selects, if the table is Parquet. This saves time.
     pub(super) fn with_columns(self, is_wanted: impl Fn(&str) -> bool) -> Self {
         match self {
             Reader::Parquet(table, mut names) => {
@@ -154,7 +154,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Rows of a part, [`CsvParts::ROWS`] each.
+    /// Reads the rows of a part, which has [`CsvParts::ROWS`] rows.
     pub(super) fn read(&self, part: u64) -> Result<CsvTable, EvaluateError> {
         match self {
             Reader::Csv(parts) => Ok(parts.read(usize::try_from(part).unwrap_or(usize::MAX))?),
@@ -171,7 +171,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Moves `error` from the rows of a part to its place in the file.
+    /// Converts the location in `error` from the part to the file.
     pub(super) fn placed(&self, error: EvaluateError, part: u64) -> EvaluateError {
         match (self, error) {
             (Reader::Parquet(table, _), EvaluateError::Table(error)) => {

@@ -1,4 +1,4 @@
-//! The two tables of a score: read, reduced to common channels, and paired row by row.
+//! The two tables to score: read, reduced to common channels, and paired row by row.
 
 use std::collections::{BTreeMap, HashMap};
 use std::num::NonZeroUsize;
@@ -18,16 +18,16 @@ use crate::error::EvaluateError;
 use crate::note::Note;
 use crate::rows::DISTANCE;
 
-/// Pairing of rows.
+/// Pairing of the rows of two tables.
 #[derive(Debug)]
 pub(super) enum Pairing {
-    /// The first row with the first.
+    /// Rows with equal numbers are paired.
     ByOrder,
-    /// For each row of the truth, the index of its row of the prediction.
+    /// For each row of the truth, the index of the paired row of the predictions.
     ByKey(Vec<usize>),
 }
 
-/// Reads the table at `path`, CSV or Parquet, on `jobs` threads, with the digest of its content.
+/// Reads the table at `path`, CSV or Parquet, on `jobs` threads. Also returns the digest of its content.
 ///
 /// ```
 /// # let folder = tempfile::tempdir()?;
@@ -39,7 +39,7 @@ pub(super) enum Pairing {
 /// ```
 ///
 /// # Errors
-/// [`EvaluateError`] if it is not a table, or cannot be read.
+/// [`EvaluateError`] if the file is not a table, or cannot be read.
 pub fn read_table(path: &Path, jobs: NonZeroUsize) -> Result<(CsvTable, Digest), EvaluateError> {
     if parquet_parts::is_parquet(path) {
         let parts = TableParts::scan(path)?;
@@ -50,15 +50,15 @@ pub fn read_table(path: &Path, jobs: NonZeroUsize) -> Result<(CsvTable, Digest),
     Ok((table, digest))
 }
 
-/// Reads both tables with their digests, in parallel if two threads are allowed.
+/// Reads both tables and their digests, in parallel if two threads are allowed.
 ///
-/// Both take about equally long, so this divides the work better than threads within each.
+/// Reading takes about equally long for both tables. One thread for each table is therefore more efficient than several threads within a table.
 pub(super) fn read_both(request: &ScoreRequest) -> Result<[(CsvTable, Digest); 2], EvaluateError> {
     let share = NonZeroUsize::new(request.jobs.get() / 2).unwrap_or(NonZeroUsize::MIN);
     both_at_once(request, |path| read_table(path, share))
 }
 
-/// Both tables by `read`, in parallel if two threads are allowed.
+/// Reads both tables by `read`, in parallel if two threads are allowed.
 pub(super) fn both_at_once<T: Send>(
     request: &ScoreRequest,
     read: impl Fn(&Path) -> Result<T, EvaluateError> + Sync,
@@ -98,7 +98,7 @@ pub(super) fn check_rows(table: &CsvTable) -> Result<(), EvaluateError> {
     check_some(table.path(), table.rows() as u64)
 }
 
-/// As [`check_rows`], for a table that is read in parts.
+/// Like [`check_rows`], for a table that is read in parts.
 ///
 /// # Errors
 /// [`EvaluateError::Tables`] for a table without rows.
@@ -112,13 +112,13 @@ pub(super) fn check_some(path: &Path, rows: u64) -> Result<(), EvaluateError> {
     }
 }
 
-/// Common name of both tables: their digests, separated by a space.
+/// Name of the pair of tables: both digests, separated by a space.
 pub(super) fn input_of(digests: &BTreeMap<String, String>) -> String {
     let digests: Vec<&str> = digests.values().map(String::as_str).collect();
     digests.join(" ")
 }
 
-/// Channels of the predictions. The truth must have each of them, and none of the six that the predictions lack.
+/// Channels of the predictions. The truth must have each of them, and no standard channel that the predictions lack.
 pub(super) fn channels(
     truth: &CsvTable,
     prediction: &CsvTable,
@@ -191,7 +191,7 @@ pub(super) fn channels(
     Channels::new(found).map_err(|error| wrong(prediction, error.to_string()))
 }
 
-/// Note on the `channels` with unit 1 because no unit is stated.
+/// Note on the `channels` that have unit 1 because no unit is stated.
 pub(super) fn unit_of_one(request: &ScoreRequest, channels: &Channels) -> Option<Note> {
     let is_six = |name: &str| Channel::SIX.iter().any(|channel| channel.name() == name);
     let names = channels.iter().map(Channel::name);
@@ -200,17 +200,17 @@ pub(super) fn unit_of_one(request: &ScoreRequest, channels: &Channels) -> Option
     (!names.is_empty()).then_some(Note::UnitOfOne(names))
 }
 
-/// True if the unit of the column `name` is declared, so that it is a channel.
+/// True if the unit of the column `name` is declared, which makes the column a channel.
 pub(super) fn is_declared(request: &ScoreRequest, name: &str) -> bool {
     let units = request.units.iter().map(|(known, _)| known);
     let periods = request.periods.iter().map(|(known, _)| known);
     units.chain(periods).any(|known| known == name)
 }
 
-/// Pairs the rows by the first of `keys` that pairs all of them, else by order; returns that key.
+/// Pairs the rows by the first of `keys` that pairs all rows, otherwise by order. Also returns this key.
 ///
 /// # Errors
-/// [`EvaluateError::Tables`] for a key that is empty, repeats, or is in only one table; without a key, for different numbers of rows.
+/// [`EvaluateError::Tables`] for a key that is empty, repeats, or is in only one table. Without a key, for different numbers of rows.
 pub(super) fn pair<'a>(
     truth: &CsvTable,
     prediction: &CsvTable,
@@ -242,7 +242,7 @@ pub(super) fn pair<'a>(
     Ok((Pairing::ByOrder, None))
 }
 
-/// Row number of each key; a key is a non-empty text and occurs once.
+/// Row number of each key. Rejects keys that are empty or repeat.
 fn rows_by_key<'a>(
     table: &'a CsvTable,
     name: &str,

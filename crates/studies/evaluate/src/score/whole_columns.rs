@@ -1,4 +1,4 @@
-//! Cells of whole columns, of a table in memory or read part by part.
+//! Visits the cells of whole columns, in a table in memory or read part by part.
 
 use taceva_import::{CsvParts, CsvTable};
 
@@ -10,7 +10,7 @@ pub(super) trait WholeColumns {
     /// Passes the cells of the column `name` to `visit` until it returns false.
     ///
     /// # Errors
-    /// [`EvaluateError`] if there is no such column, or it cannot be read.
+    /// [`EvaluateError`] if there is no such column, or if the column cannot be read.
     fn visit(&self, name: &str, visit: &mut dyn FnMut(&str) -> bool) -> Result<(), EvaluateError>;
 }
 
@@ -29,7 +29,7 @@ pub(super) struct Parts<'a> {
 }
 
 impl<'a> Parts<'a> {
-    /// The parts of a table with `rows` rows.
+    /// Creates a view of a table with `rows` rows.
     pub(super) fn new(reader: &'a Reader<'a>, rows: u64) -> Parts<'a> {
         Parts {
             reader,

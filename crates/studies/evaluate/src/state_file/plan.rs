@@ -11,7 +11,7 @@ use taceva_metrics::{ClusteredBy, MetricPlan, SensorFacts, Settings, catalogue};
 
 use crate::error::EvaluateError;
 
-/// A plan in its file form.
+/// A plan of metrics as written in a file.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct WrittenPlan {
@@ -32,16 +32,16 @@ pub(crate) struct WrittenPlan {
     gate_n: f64,
     smoothing_window: u32,
     resolution_tolerance_nm: i64,
-    /// Constant predictions for the skill by channel, if they are known and equal in all states.
+    /// Constant predictions for the skill, by channel. Absent if they are unknown or differ between states.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub(crate) constants: BTreeMap<String, f64>,
-    /// True if recordings, instead of contact points, are the clusters of intervals.
+    /// True if the clusters of intervals are recordings instead of contact points.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_recording: bool,
     /// True if groups of samples, such as blocks of time, are the clusters.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     by_group: bool,
-    /// True if single samples are the clusters.
+    /// True if the clusters are single samples.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     independent: bool,
 }

@@ -11,30 +11,30 @@ use crate::text::{SceneError, SceneProblem};
 pub struct Signals {
     /// Noise of the reported pose: one standard deviation per axis, in mm.
     pub pose_noise_mm: f64,
-    /// Noise of the force at rest: one standard deviation, in N; 0 if none is stated.
+    /// Noise of the force at rest: one standard deviation, in N; 0 if the transducer states none.
     pub force_noise_n: f64,
     /// Greatest age of a reading that counts as current, in s.
     pub stale_s: f64,
-    /// True if bit-equal readings after a motion mean a frozen signal, even with new sequence numbers. False if the steps of the transducer are as
-    /// coarse as its noise; then only a repeated sequence number means a frozen signal.
+    /// True if bit-equal readings after a motion mean a frozen signal, even with new sequence numbers. False if the resolution of the transducer is as coarse
+    /// as its noise. Then only a repeated sequence number means a frozen signal.
     pub equality_is_frozen: bool,
-    /// True if the host zeroes the force by a mean over 0.25 s. The transducer then sets its own zero only once a session.
+    /// True if the host zeroes the force by a mean over 0.25 s. The transducer then sets its own zero only once per session.
     pub host_zero: bool,
 }
 
 /// Least allowed age of a reading, in s: three periods of a 60 Hz transducer.
 pub const STALE_S: f64 = 0.05;
-/// Number of readings that a slower transducer may miss in a row.
+/// Number of consecutive readings that a slower transducer may miss.
 const STALE_READINGS: f64 = 3.0;
-/// Greatest travel of the tip in contact while readings grow stale, in mm.
+/// Maximum travel of the tip in contact before readings count as stale, in mm.
 const BLIND_MM: f64 = 0.25;
 
-/// Number of standard deviations of the force that a threshold in the air must exceed.
+/// Factor on the noise of the force, in standard deviations, that a threshold in the air must exceed.
 const AIR_NOISES: f64 = 5.0;
-/// Number of standard deviations of a suggested threshold: the zero and slow drift have noise too.
+/// Factor on the noise for a suggested threshold, in standard deviations. It also covers the noise of the zero, and slow drift.
 const CALM_NOISES: f64 = 10.0;
 
-/// `threshold_N` to write instead of `threshold_n`, in N, if the force has the noise `noise_n`. `None` if 5 times the noise is at most `threshold_n`.
+/// Suggested `threshold_N`, in N, for a force with the noise `noise_n`. `None` if `threshold_n` is at least 5 times the noise.
 pub fn calm_threshold_n(noise_n: f64, threshold_n: f64) -> Option<f64> {
     let calm_n = (CALM_NOISES * noise_n * 100.0).ceil() / 100.0;
     (AIR_NOISES * noise_n > threshold_n).then_some(calm_n)
@@ -58,12 +58,12 @@ impl Signals {
         *self == Signals::default()
     }
 
-    /// Tolerance of a reported pose along each axis, in mm. A pose this close to its target has arrived.
+    /// Tolerance of a reported pose along each axis, in mm. A tip this close to its target has arrived.
     pub(crate) fn slack_mm(&self) -> f64 {
         3.0 * self.pose_noise_mm
     }
 
-    /// Least force out of contact that exceeds the noise, in N.
+    /// Least force in the air that exceeds the noise, in N.
     pub(crate) fn air_n(&self) -> f64 {
         AIR_NOISES * self.force_noise_n
     }
@@ -113,7 +113,7 @@ impl Signals {
     }
 }
 
-/// Rejects a rig with two clocks: the clock of a simulated bench and the clock of the machine.
+/// Rejects a rig with two clocks: that of a simulated bench and that of the machine.
 ///
 /// A real sensor may join a bench. Its frames are then stamped on arrival, and the recording counts as simulated.
 fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {
@@ -140,13 +140,13 @@ fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneErr
     Err(study.device_text(scene).error(at, problem))
 }
 
-/// Longest time from an exceeded limit to a tip at rest, in ms: one period of the transducer, latency of the link, sending of the halt, and stop time
-/// of the arm.
+/// Maximum time from an exceeded limit to a tip at rest, in ms. It includes one period of the transducer, the latency of the link, sending of the halt, and the
+/// stop time of the arm.
 const HALT_MS: f64 = 50.0;
-/// Part of [`HALT_MS`] for link and sending, in ms.
+/// Part of [`HALT_MS`] for the link and for sending, in ms.
 const SEND_MS: f64 = 2.0;
 
-/// Rejects a robot whose stop time is too long for a guard.
+/// Rejects a robot that takes too long to stop for a guard.
 fn stops_in_time(
     scene: &Scene,
     study: &Study,
@@ -175,7 +175,7 @@ fn stops_in_time(
     Err(study.device_text(scene).error(at, problem))
 }
 
-/// Stated pose noise. By default the repeatability of a real arm, and zero for a simulated one.
+/// Pose noise that the robot states. The default is the repeatability for a real arm, and zero for a simulated one.
 fn pose_noise_mm(robot: &Descriptor) -> f64 {
     let Some(facts) = robot.robot() else {
         return 0.0;

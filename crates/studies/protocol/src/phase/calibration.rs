@@ -1,4 +1,4 @@
-//! Presses for fitting and testing a model: points all over the surface, each at several depths, first straight and then sheared.
+//! Presses for fitting and testing a model: points all over the surface, each pressed to several depths, first straight and then sheared.
 
 use taceva_core::Phase;
 
@@ -6,7 +6,7 @@ use super::{DepthPart, PhaseInputs, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// One press at each point. Its depths increase, each drawn from its own part of the range.
+/// One press for each point. Its depths increase, and each depth is drawn from its own part of the range.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Calibration);
     let spec = &inputs.protocol.calibration;

@@ -10,7 +10,7 @@ use crate::scene::spacings;
 /// Half a turn, in thousandths of a degree. Lines and dots look the same after it.
 const HALF_TURN: i64 = 180_000;
 
-/// Presses board by board, because boards are changed by hand.
+/// Presses ordered by board, because an operator changes boards by hand.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Gratings);
     let spec = &inputs.protocol.gratings;
@@ -45,7 +45,7 @@ pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
         .collect()
 }
 
-/// `fraction` of `depth`, to the nearest nanometre.
+/// Product of `fraction` and `depth`, rounded to whole nanometres.
 pub(crate) fn fraction_of(depth: Nanometre, fraction: f64) -> Nanometre {
     Nanometre::from_millimetres(depth.to_millimetres() * fraction)
         .expect("a fraction of a length is a length")

@@ -1,4 +1,4 @@
-//! Frames above the gel without contact; their stamps give the frame rate.
+//! Frames above the gel without contact. Their time stamps give the frame rate.
 
 use taceva_core::Nanometre;
 

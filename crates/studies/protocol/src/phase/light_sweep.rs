@@ -1,9 +1,9 @@
-//! First held-out presses, repeated in every light scene. In the light scene of calibration, they are the held-out presses themselves.
+//! First held-out presses, repeated in every light scene. The held-out presses themselves are those in the light scene of calibration.
 
 use super::{PhaseInputs, spatial};
 use crate::press::Press;
 
-/// Presses for each light scene in turn, because a light needs time to settle; empty if the light cannot be set.
+/// Presses ordered by light scene, because a light needs time to settle; empty if the light cannot be set.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let points = u64::from(inputs.protocol.lighting.points.value);
     let lights = inputs.lights.iter();

@@ -1,4 +1,4 @@
-//! Repeated presses at the same points, for the spread of equal presses.
+//! Repeated presses at the same points, to measure the spread of equal presses.
 
 use taceva_core::{Nanometre, Phase};
 
@@ -6,7 +6,7 @@ use super::{PhaseInputs, nanometres, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// Presses at each point, trial by trial, to every depth. With markers, a trial ends with a shear at the greatest depth.
+/// Presses to every depth at each point, trial by trial. If the gel has markers, a trial ends with a shear at the greatest depth.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Repeatability);
     let spec = &inputs.protocol.repeatability;

@@ -1,4 +1,4 @@
-//! Held-out presses all over the surface, unseen by every model, for an error map.
+//! Held-out presses all over the surface, for an error map. No model is fitted on them.
 
 use taceva_core::Phase;
 
@@ -6,7 +6,7 @@ use super::{DepthPart, PhaseInputs, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// One press at each point at its own depth, first straight and then sheared.
+/// One press for each point, to its own depth, first straight and then sheared.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     (0..u64::from(inputs.protocol.spatial.points.value))
         .map(|point| press(inputs, point))

@@ -4,7 +4,7 @@ use super::PhaseInputs;
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
 
-/// Presses unit by unit, because units are changed by hand.
+/// Presses ordered by unit, because an operator changes units by hand.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::SurfaceMap);
     let points = u64::from(inputs.protocol.surface.points.value);

@@ -1,4 +1,4 @@
-//! Pass 2: finds the metrics that apply to this sensor, for all or some channels.
+//! Pass 2: selects the metrics that apply to this sensor, for all or some channels.
 
 use taceva_core::{Field, SkipReason};
 
@@ -23,7 +23,7 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     collected
 }
 
-/// Reason why `metric` has no value; `None` if it applies.
+/// Reason why `metric` cannot be computed; `None` if it applies.
 fn obstacle(
     metric: &PlannedMetric,
     collected: &Collected,
@@ -82,7 +82,7 @@ fn obstacle(
     None
 }
 
-/// Drops shear channels from metrics of repeated predictions if the gel has no markers, because its frames do not show shear (TacEva 2025).
+/// Removes shear channels from metrics of repeated predictions if the gel has no markers, because its frames do not show shear (TacEva 2025).
 fn narrow_shear(metric: &mut PlannedMetric, collected: &mut Collected, facts: &StudyFacts<'_>) {
     let reads_repeats =
         metric.phase == PhaseKind::Repeatability && metric.fields.contains(Field::Prediction);

@@ -9,7 +9,7 @@ use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::text::SceneProblem;
 
-/// Greatest number of presses in a plan; at ten seconds each, they take four months.
+/// Maximum number of presses in a plan. At ten seconds each, they take four months.
 const GREATEST_PRESSES: u64 = 1_000_000;
 
 /// Rejects a protocol with too many presses before any is drawn.
@@ -30,7 +30,7 @@ pub(super) fn is_drawable(facts: &StudyFacts<'_>) -> Result<(), SceneProblem> {
     })
 }
 
-/// Accepts `collected` if every need is met, press ids are unique, and all presses are within the limits and the surface.
+/// Accepts `collected` if every need is fulfilled, press ids are unique, and all presses are within the limits and the surface.
 pub(super) fn pass(
     collected: Collected,
     facts: &StudyFacts<'_>,

@@ -9,7 +9,7 @@ use crate::phase_kind::PhaseKind;
 use crate::press::Press;
 use crate::reason::{PlanReason, PlanSkip, Subject};
 
-/// Requirements of a metric: those of the catalogue, and the phase that fulfils them.
+/// Requirements of a metric: those in the catalogue, and the phase that fulfils them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct MetricNeeds {
     pub(crate) id: String,
@@ -73,9 +73,9 @@ fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
 pub struct PlannedMetric {
     /// Id in the catalogue.
     pub id: String,
-    /// Channels of the truth for which, or from which, it is computed.
+    /// Channels of the truth for which, or from which, the metric is computed.
     pub channels: Vec<String>,
-    /// Phase for its computation. For a recording, all samples with the fields that it reads.
+    /// Phase whose presses the metric uses. For a recording, the metric uses all samples with the fields that it reads.
     pub phase: PhaseKind,
     pub(crate) fields: FieldSet,
     pub(crate) required: Vec<String>,
@@ -87,9 +87,9 @@ pub struct PlannedMetric {
 pub struct PlannedPress {
     /// Digest of the press.
     pub id: ContentId,
-    /// The press itself.
+    /// Place, specimen and motion of the press.
     pub press: Press,
-    /// Phases that need it, in order.
+    /// Phases that need the press, in order.
     pub phases: Vec<PhaseKind>,
     /// True if frames are captured.
     pub frames: bool,
@@ -100,11 +100,11 @@ pub struct PlannedPress {
 pub struct Fit {
     /// Predicted field: labels, or the spacing of a grating.
     pub field: Field,
-    /// Phase whose presses it is fitted on.
+    /// Phase whose presses the model is fitted on.
     pub phase: PhaseKind,
 }
 
-/// A plan in progress: complete at first, smaller after each pass.
+/// A plan in progress. It is complete at first, and becomes smaller with each pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Collected {
     pub(crate) metrics: Vec<PlannedMetric>,
@@ -123,7 +123,7 @@ pub(crate) const CHANNELS: [&str; 7] = ["Px", "Py", "Pz", "Fx", "Fy", "Fz", SURF
 pub(crate) const SURFACE: &str = "surface_z";
 
 impl Collected {
-    /// Collects all metrics, presses, fields and models.
+    /// Collects all metrics, presses, fields and models of a study.
     pub(crate) fn everything(metrics: &[MetricNeeds], facts: &StudyFacts<'_>) -> Collected {
         let channels = facts.all_channels();
         let metrics = metrics.iter().map(|needs| PlannedMetric {
@@ -172,12 +172,12 @@ impl Collected {
         }
     }
 
-    /// Stores `subject` as skipped for `reason`.
+    /// Records that `subject` is skipped for `reason`.
     pub(crate) fn skip(&mut self, subject: Subject, reason: PlanReason) {
         self.skipped.push(PlanSkip { subject, reason });
     }
 
-    /// Reason why `subject` was skipped; `None` if it was not.
+    /// Reason why `subject` was skipped; `None` if it is in the plan.
     pub(crate) fn reason_of(&self, subject: &Subject) -> Option<&PlanReason> {
         self.skipped
             .iter()
@@ -185,7 +185,7 @@ impl Collected {
             .map(|skip| &skip.reason)
     }
 
-    /// True if a kept metric or model of phase `kind` reads frames.
+    /// True if a planned metric or model of phase `kind` reads frames.
     pub(crate) fn looks_at_pictures(&self, kind: PhaseKind) -> bool {
         // The idle phase measures the timing of frames.
         if kind == PhaseKind::Idle {

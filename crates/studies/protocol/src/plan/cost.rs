@@ -1,4 +1,4 @@
-//! Pass 7: estimates the cost of a plan, for information only.
+//! Pass 7: estimates the cost of a plan. The estimate does not change the plan.
 
 use taceva_core::{FrameInfo, Nanometre};
 
@@ -22,7 +22,7 @@ pub struct Cost {
     pub minutes: f64,
 }
 
-/// Assumed frame rate, in frames per second: just below the slowest sensor of the TacEva study.
+/// Frame rate assumed if none is stated, in frames per second. It is just below that of the slowest sensor in the TacEva study.
 const UNKNOWN_RATE: f64 = 24.0;
 /// Duration of reading force and pose after a segment, in s.
 const LOOK_S: f64 = 0.005;
@@ -125,8 +125,8 @@ mod tests {
     use crate::scene::Scene;
     use crate::source::SourceInfo;
 
-    /// Duration of a press, in s. The tip starts 5 mm away and moves at 2 mm/s in contact and 8 mm/s in the air. The clearance is 1 mm and segments
-    /// are 1/8 mm. A rest takes 0.5 s, a frame 0.25 s.
+    /// Duration of a press, in s. The test press starts 5 mm away, and moves at 2 mm/s in contact and 8 mm/s in the air. The clearance is 1 mm and segments are
+    /// 1/8 mm. A rest takes 0.5 s, a frame 0.25 s.
     fn seconds(motion: Motion, frames: bool) -> f64 {
         let mut scene = Scene::parse("small", SMALL).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));

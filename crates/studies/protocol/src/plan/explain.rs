@@ -70,7 +70,7 @@ impl fmt::Display for Plan {
     }
 }
 
-/// Metric that is added to every study with predictions.
+/// Id of the metric that is added to every study with predictions.
 const SKILL: &str = "skill";
 
 impl Plan {
@@ -109,7 +109,7 @@ fn joined<T: fmt::Display>(items: &[T]) -> String {
     words.join(", ")
 }
 
-/// Groups skipped items of one kind and reason on one line; omits metrics that were not requested.
+/// Skipped items of one kind with the same reason, combined in one line. Metrics that were not requested are omitted.
 fn grouped(skipped: &[PlanSkip]) -> Vec<(String, &PlanReason)> {
     let mut lines: Vec<(&Subject, String, &PlanReason)> = Vec::new();
     let news = skipped
@@ -139,7 +139,7 @@ fn grouped(skipped: &[PlanSkip]) -> Vec<(String, &PlanReason)> {
         .collect()
 }
 
-/// Schema `taceva.plan/1`.
+/// Serialises the plan with the schema `taceva.plan/1`.
 impl Serialize for Plan {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let named =

@@ -9,7 +9,7 @@ use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 use taceva_core::Specimen;
 
-/// Merges equal presses and sorts the rest.
+/// Merges equal presses and sorts the resulting list.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     let mut places: BTreeMap<ContentId, usize> = BTreeMap::new();
     let mut shared: BTreeMap<(PhaseKind, PhaseKind), usize> = BTreeMap::new();

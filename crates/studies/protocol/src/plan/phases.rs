@@ -1,4 +1,4 @@
-//! Pass 3: removes phases and models that no kept metric needs.
+//! Pass 3: removes phases and models that no planned metric needs.
 
 use taceva_core::SkipReason;
 

@@ -1,4 +1,4 @@
-//! Pass 1: finds the source of each channel and field. Removes those without a source; the reason is the chain of missing sources.
+//! Pass 1: finds the source of each channel and field. Removes channels and fields without a source. The recorded reason is the chain of missing sources.
 
 use taceva_core::{Field, SkipReason};
 
@@ -27,7 +27,7 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     collected
 }
 
-/// Missing device that would measure `channel`; `None` if it is measured.
+/// Missing device that would measure `channel`; `None` if the channel is measured.
 fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
     let FieldSource::Rig { robot, force, .. } = facts.field_source else {
         return None;
@@ -39,7 +39,7 @@ fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
     }
 }
 
-/// Reason why `field` has no source; `None` if it has one.
+/// Reason why `field` has no source; `None` if the field has one.
 fn field_reason(field: Field, collected: &Collected, facts: &StudyFacts<'_>) -> Option<PlanReason> {
     let cause = match &facts.field_source {
         FieldSource::Rig { sensor, robot, .. } => match field {

@@ -51,11 +51,11 @@ pub(crate) struct StudyFacts<'a> {
     pub(crate) lights: Vec<String>,
     /// Requested metrics; `None` for all.
     pub(crate) wanted: Option<Vec<&'static str>>,
-    /// Inputs for drawing presses; `None` if nothing is pressed.
+    /// Inputs for drawing presses; `None` if the study makes no presses.
     pub(crate) phase_inputs: Option<PhaseInputs<'a>>,
     pub(crate) limits: Option<RigLimits>,
     pub(crate) frame: Option<FrameInfo>,
-    /// Frame size in storage; `None` keeps frames whole.
+    /// Size of stored frames; `None` stores full frames.
     pub(crate) kept_frames: Option<FrameSize>,
     pub(crate) footprint: Option<Footprint>,
     /// Frame rate, in frames per second.
@@ -71,7 +71,7 @@ impl StudyFacts<'_> {
         }
     }
 
-    /// Channels that presses of `kind` can give: the surface map gives a height, other phases a depth.
+    /// Channels that presses of phase `kind` can measure. The surface map measures a height, and other phases measure a depth.
     pub(crate) fn channels_on(&self, kind: PhaseKind) -> Vec<String> {
         let mut channels = self.all_channels();
         if !self.is_recording() {
@@ -85,7 +85,7 @@ impl StudyFacts<'_> {
         channels
     }
 
-    /// Reason why `fact` is unknown; `None` if it is known.
+    /// Reason why `fact` is unknown; `None` if the fact is known.
     pub(crate) fn absent(&self, fact: Fact) -> Option<SkipReason> {
         let depth_max = self.footprint.and_then(|footprint| footprint.depth_max());
         let (known, name) = match fact {
@@ -205,7 +205,7 @@ impl<'a> Gather<'a> {
         })
     }
 
-    /// Size of stored frames, if the sensor frames can be reduced to it. If the sensor does not state its frame size, the check happens after it is
+    /// Size of stored frames, if frames of the sensor can be reduced to it. If the sensor does not state its frame size, the check follows after the sensor is
     /// opened.
     fn kept_frames(&self, frame: Option<FrameInfo>) -> Result<Option<FrameSize>, SceneError> {
         let Some(kept) = self.study.frames else {
@@ -266,7 +266,7 @@ impl<'a> Gather<'a> {
         }
     }
 
-    /// Ids of the requested metrics; parsing has checked their names.
+    /// Ids of the requested metrics. Their names were checked during parsing.
     fn wanted(&self) -> Option<Vec<&'static str>> {
         let want = self.scene.metrics.want.as_ref()?;
         let names = want.iter().map(|name| name.value.as_str());
@@ -279,7 +279,7 @@ impl<'a> Gather<'a> {
     }
 }
 
-/// Light scenes to visit, the one of calibration first.
+/// Light scenes to use, that of calibration first.
 pub(crate) fn lights(
     scene: &Scene,
     study: &Study,
@@ -347,7 +347,7 @@ fn whole_nanometres_within(millimetres: f64) -> Nanometre {
     }
 }
 
-/// Fields of each press that the protocol itself determines.
+/// Fields of a press that the protocol itself determines.
 pub(crate) const OF_THE_PROTOCOL: [Field; 6] = [
     Field::Point,
     Field::DepthStep,

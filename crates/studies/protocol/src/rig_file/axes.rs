@@ -4,7 +4,7 @@ use std::fmt;
 
 use taceva_core::{Axes, Axis};
 
-/// Signed axis of a device for each axis of the sensor: a rotation by right angles.
+/// Rotation by right angles from a device to the sensor: a signed axis of the device for each axis of the sensor.
 ///
 /// ```
 /// use taceva_protocol::SignedAxes;
@@ -19,14 +19,14 @@ pub struct SignedAxes([Along; 3]);
 /// One axis of the device, with its sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Along {
-    /// 0 for x, 1 for y, 2 for z.
+    /// Index of the axis: 0 for x, 1 for y, 2 for z.
     pub(crate) axis: usize,
-    /// 1 or −1.
+    /// Sign of the axis: 1 or −1.
     pub(crate) sign: f64,
 }
 
 impl Along {
-    /// The positive direction of `axis`.
+    /// Positive direction of `axis`.
     pub(crate) fn positive(axis: usize) -> Along {
         Along { axis, sign: 1.0 }
     }
@@ -83,7 +83,7 @@ impl SignedAxes {
         device
     }
 
-    /// Components in the sensor frame that a transducer with the components `device` measures.
+    /// Components in the sensor frame that a transducer measures, if it measures the components `device` in its own frame.
     pub fn measured(self, device: Axes) -> Axes {
         let [forces, torques] = [
             [Axis::Fx, Axis::Fy, Axis::Fz],
@@ -100,8 +100,8 @@ impl SignedAxes {
         measured
     }
 
-    /// Corrects these axes from three forces along x, y and z of the sensor. `felt` holds the axis and sign (1 or −1) that these axes report for
-    /// each. `None` if the result is not right-handed.
+    /// Corrects these axes by three forces along x, y and z of the sensor. `felt` contains the axis and sign (1 or −1) that these axes report for each force.
+    /// `None` if the result is not right-handed.
     pub(crate) fn as_felt(self, felt: [Along; 3]) -> Option<SignedAxes> {
         let along = felt.map(|felt| Along {
             axis: self.0[felt.axis].axis,
@@ -111,7 +111,7 @@ impl SignedAxes {
         (axes.determinant() > 0.5).then_some(axes)
     }
 
-    /// Determinant: 1 for right-handed axes, −1 for left-handed ones, 0 for a repeated axis.
+    /// Determinant: 1 for right-handed axes, −1 for left-handed axes, 0 for a repeated axis.
     fn determinant(self) -> f64 {
         let [x, y, z] = [0, 1, 2].map(|axis| {
             let mut row = [0.0; 3];

@@ -1,4 +1,4 @@
-//! Certificate of an instrument in a rig file. Its errors name the line of their key.
+//! Certificate of an instrument in a rig file. Errors name the line of the certificate's key.
 
 use std::collections::BTreeMap;
 

@@ -10,7 +10,7 @@ use crate::text::{SceneError, SceneProblem, Setting, Text};
 const USUAL_CHANGE_S: f64 = 60.0;
 const GREATEST_CHANGE_S: f64 = 3_600.0;
 
-/// Changers of a rig. The operator makes all other changes.
+/// Changers of a rig. The operator makes changes for which there is no changer.
 ///
 /// ```
 /// use taceva_protocol::RigFile;

@@ -15,7 +15,7 @@ pub struct Latency {
     pub spread_ms: f64,
 }
 
-/// Latencies of the devices of a rig, in ms, rounded to 0.1 ms: delays between an observation and its stamp.
+/// Latencies of the devices of a rig, in ms, rounded to 0.1 ms. A latency is the delay between an observation and its time stamp.
 ///
 /// ```
 /// use taceva_protocol::{RigFile, RigLatencies};
@@ -37,10 +37,10 @@ pub struct RigLatencies {
 }
 
 impl RigLatencies {
-    /// Computes the latencies from taps. `before` holds the latencies of robot, transducer and sensor that already correct the stamps. `force` and
+    /// Computes the latencies from taps. `before` contains the latencies of robot, transducer and sensor that already correct the time stamps. `force` and
     /// `sensor` are the remaining delays relative to the robot.
     ///
-    /// Taps measure only differences, so the robot keeps its latency. If another latency is below 0 by more than its error, all three are shifted
+    /// Taps measure only differences, so the latency of the robot is not changed. If another latency is below 0 by more than its error, all three are shifted
     /// until the least is 0.
     pub fn measured(before: [f64; 3], force: &Latency, sensor: &Latency) -> RigLatencies {
         let [robot_ms, force_ms, sensor_ms] = before;
@@ -62,7 +62,7 @@ impl RigLatencies {
 }
 
 impl RigFile {
-    /// Text of the file with `latencies`, otherwise unchanged. `None` if a device is missing, or its table cannot take a line after `driver`.
+    /// Text of the file with `latencies`, otherwise unchanged. `None` if a device is missing, or if no line can be inserted after `driver` in its table.
     pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
         let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
         let mut written = vec![
@@ -113,7 +113,7 @@ impl RigFile {
     }
 }
 
-/// Replaces a latency, or inserts it on a line after the driver.
+/// Replaces a latency, or inserts it in a line after the driver.
 fn put(
     text: &mut String,
     driver: &Setting<String>,
@@ -131,7 +131,7 @@ fn put(
     insert_after(text, driver.at()?, &format!("latency_ms = {latency_ms:?}"))
 }
 
-/// Inserts `line` after the line of the byte offset `from`.
+/// Inserts `line` after the line that contains the byte offset `from`.
 pub(super) fn insert_after(text: &mut String, from: usize, line: &str) -> Option<()> {
     let end = text
         .get(from..)?

@@ -54,7 +54,7 @@ impl Registration {
         )
     }
 
-    /// Robot target for the pose `tip` in the sensor frame.
+    /// Target of the robot for the pose `tip` in the sensor frame.
     pub fn to_base(&self, tip: &Pose) -> Pose {
         let turn = self.turn_to_base(&matrix(&tip.rotation));
         let place = self.axes.to_device(coordinates(&tip.position));
@@ -86,7 +86,7 @@ fn coordinates(point: &Point) -> [f64; 3] {
     [point.x.0, point.y.0, point.z.0]
 }
 
-/// Pose at `place` with rotation `turn`; its angles are on the branch nearest to `near`.
+/// Pose at `place` with rotation `turn`. Its angles are those nearest to `near`.
 fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     let [x, y, z] = [x, y, z].map(Millimetre);
     Pose {
@@ -96,7 +96,7 @@ fn pose([x, y, z]: [f64; 3], turn: &Matrix, near: &Rotation) -> Pose {
     .on_grid()
 }
 
-/// Rz·Ry·Rx: rotations about the fixed x, then y, then z.
+/// Rotation matrix Rz·Ry·Rx: rotations about the fixed x, then y, then z.
 fn matrix(rotation: &Rotation) -> Matrix {
     let [x, y, z] = [rotation.x, rotation.y, rotation.z].map(|angle| angle.0.to_radians());
     let ((sx, cx), (sy, cy), (sz, cz)) = (x.sin_cos(), y.sin_cos(), z.sin_cos());
@@ -107,7 +107,7 @@ fn matrix(rotation: &Rotation) -> Matrix {
     ]
 }
 
-/// Angles of a rotation. At y = ±90°, x and z share an axis, and x is taken from `near`.
+/// Angles of a rotation matrix. At y = ±90°, x and z share an axis, and x is then copied from `near`.
 fn rotation(turn: &Matrix, near: &Rotation) -> Rotation {
     let level = turn[0][0].hypot(turn[1][0]);
     let y = (-turn[2][0]).atan2(level).to_degrees();

@@ -1,4 +1,4 @@
-//! The sensor of a rig, and the facts of its gel that no camera states.
+//! The sensor of a rig, and facts about its gel that no camera states.
 
 use serde::Deserialize;
 use taceva_core::{Certificate, Instrument};

@@ -1,4 +1,4 @@
-//! Registration of a robot from three places to which an operator jogs it.
+//! Registration of a robot, computed from three places to which an operator jogs it.
 
 use taceva_core::{Point, Pose};
 
@@ -41,9 +41,9 @@ pub struct Jogged {
 pub struct Taught {
     /// `origin_mm` of the rig file.
     pub origin_mm: [f64; 3],
-    /// `axes` of its robot.
+    /// `axes` of the robot in the rig file.
     pub axes: SignedAxes,
-    /// Distance of the end of the worse jog from its axis, in mm.
+    /// Distance between the end of a jog and its axis, in mm. It is that of the worse jog.
     pub residual_mm: f64,
 }
 
@@ -91,7 +91,7 @@ impl Jogged {
     /// Checks the jog along x before the robot is jogged along y.
     ///
     /// # Errors
-    /// [`TeachError`] if it is too short, askew or turned.
+    /// [`TeachError`] if the jog is too short, not along an axis, or rotated.
     pub fn check_x(middle: &Pose, along_x: &Pose) -> Result<(), TeachError> {
         way(middle, along_x, 'x').map(drop)
     }

@@ -1,4 +1,4 @@
-//! A known weight on the transducer of a rig, and its entry in the rig file.
+//! Comparison of the transducer of a rig with a known weight, and its entry in the rig file.
 
 use serde::{Deserialize, Serialize};
 use taceva_core::Date;
@@ -7,7 +7,7 @@ use super::latency::insert_after;
 use super::{Check, RigFile};
 use crate::text::{SceneError, Setting};
 
-/// Comparison of the change of Fz under a known weight with m·g, as a rig file keeps it. It gets no further field.
+/// Comparison of the change of Fz under a known weight with m·g, as stored in a rig file. It gets no further field.
 ///
 /// ```
 /// use taceva_protocol::{RigFile, Weighing};
@@ -25,16 +25,16 @@ use crate::text::{SceneError, Setting};
 pub struct Weighing {
     /// Mass of the weight, in g.
     pub mass_g: f64,
-    /// Its weight, in N.
+    /// Weight m·g, in N.
     #[serde(rename = "expected_N")]
     pub expected_n: f64,
-    /// Size of the change of Fz, in N.
+    /// Absolute change of Fz, in N.
     #[serde(rename = "measured_N")]
     pub measured_n: f64,
     /// Greatest accepted difference, in N.
     #[serde(rename = "tolerance_N")]
     pub tolerance_n: f64,
-    /// UTC day of the weighing.
+    /// Day of the comparison, in UTC.
     pub on: Date,
 }
 
@@ -44,7 +44,7 @@ impl Weighing {
         (self.measured_n - self.expected_n).abs() <= self.tolerance_n
     }
 
-    /// The line of a rig file.
+    /// Entry of the comparison as a line of a rig file.
     fn line(&self) -> String {
         let Weighing {
             mass_g,
@@ -76,7 +76,7 @@ impl Check<'_> {
 }
 
 impl RigFile {
-    /// Text of the file with `weighing`, otherwise unchanged. `None` without a transducer, or if its table cannot take a line after `driver`.
+    /// Text of the file with `weighing`, otherwise unchanged. `None` without a transducer, or if no line can be inserted after `driver` in its table.
     pub fn with_weighing(&self, weighing: &Weighing) -> Option<String> {
         let force = self.force.as_ref()?;
         let line = weighing.line();

@@ -1,8 +1,8 @@
-//! Interpolation of force and pose to the time of a frame. The three are read one after the other.
+//! Interpolates force and pose to the time of a frame, because the three are read one after another.
 
 use taceva_core::{Degree, Millimetre, Newton, NewtonMillimetre, Point, Pose, Rotation, Wrench};
 
-/// Force and pose of one reading.
+/// Force and pose that were read together.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Look {
     pub(crate) wrench: Wrench,
@@ -20,7 +20,7 @@ impl Look {
     }
 }
 
-/// Force and pose at `at_s`, interpolated between two readings; outside their times, the nearer reading.
+/// Force and pose at `at_s`, interpolated between two readings. Outside the interval between them, the nearer reading.
 pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) {
     let wrench = Mix::new(before.wrench_s, after.wrench_s, at_s);
     let pose = Mix::new(before.pose_s, after.pose_s, at_s);
@@ -30,7 +30,7 @@ pub(crate) fn between(before: &Look, after: &Look, at_s: f64) -> (Wrench, Pose) 
     )
 }
 
-/// Force at `at_s`, interpolated between two readings, each with its time in s; outside their times, the nearer reading.
+/// Force at `at_s`, interpolated between two readings, each with its time in s. Outside the interval between them, the nearer reading.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench};
@@ -43,11 +43,11 @@ pub fn wrench_between(before: (&Wrench, f64), after: (&Wrench, f64), at_s: f64) 
     Mix::new(before.1, after.1, at_s).wrench(before.0, after.0)
 }
 
-/// Weight of the later value.
+/// Weight of the later value in an interpolation.
 struct Mix(f64);
 
 impl Mix {
-    /// Counts whole nanoseconds, as clocks do, so that the time of day does not change the last bits.
+    /// Computes the weight in whole nanoseconds, as clocks do. The time of day then does not change the last bits.
     fn new(before_s: f64, after_s: f64, at_s: f64) -> Mix {
         let [span_ns, part_ns] = [after_s, at_s].map(|time_s| ((time_s - before_s) * 1e9).round());
         if span_ns > 0.0 {
@@ -57,7 +57,7 @@ impl Mix {
         }
     }
 
-    /// Interpolates; returns the exact value at both ends.
+    /// Interpolated value. At both ends, it is exactly the given value.
     fn of(&self, before: f64, after: f64) -> f64 {
         before * (1.0 - self.0) + after * self.0
     }
@@ -70,7 +70,7 @@ impl Mix {
         Wrench { force, torque }
     }
 
-    /// Interpolates poses of a resting tip, whose angles change by less than a turn.
+    /// Interpolated pose of a tip at rest, whose angles change by less than a turn.
     fn pose(&self, before: &Pose, after: &Pose) -> Pose {
         let (from, to) = (&before.position, &after.position);
         let (from_turn, to_turn) = (&before.rotation, &after.rotation);

@@ -1,4 +1,4 @@
-//! Workspace of the tip. The box is convex, so a straight line between two of its places stays inside.
+//! Workspace of the tip. The box is convex, so a straight line between two of its places is inside.
 
 use taceva_core::{Footprint, Nanometre, Pose};
 

@@ -1,4 +1,4 @@
-//! Manual steps of a press. The robot stands still while the operator is asked.
+//! Manual steps of a press. The robot is halted while the operator is asked.
 
 use taceva_core::Fault;
 
@@ -51,8 +51,7 @@ impl Run<'_> {
             .any(|question| self.skipped.contains(question))
     }
 
-    /// Asks the operator for clearance after a skipped step, before anything moves. An operator who skips a step has not confirmed that hands are out
-    /// of reach, and the robot is still halted.
+    /// Asks the operator for clearance after a skipped step, before the next motion. Until then hands may be within reach, and the robot remains halted.
     fn ask_to_go_on(&mut self, planned: &PlannedPress) -> Result<(), RunError> {
         let specimen = planned.press.specimen;
         let is_changed = self.mounted != Some(specimen) && self.is_held_by_changer(specimen);
@@ -68,7 +67,7 @@ impl Run<'_> {
         }
     }
 
-    /// Manual steps before `planned`; empty without an operator.
+    /// Manual steps needed before `planned`; empty without an operator.
     fn needed_by_hand(&mut self, planned: &PlannedPress) -> Vec<Question> {
         let press = &planned.press;
         let has_lighting = self.lighting.is_some()
@@ -128,7 +127,7 @@ impl Run<'_> {
         Ok(answer)
     }
 
-    /// Continues after a robot fault: the operator acknowledges it at the robot, then the tip leaves the gel.
+    /// Continues after a fault of the robot. The operator acknowledges the fault at the robot, and then the tip leaves the gel.
     pub(super) fn go_on_after(&mut self, fault: Fault, error: RunError) -> Result<(), RunError> {
         let Some(operator) = &mut self.operator else {
             return Err(error);
@@ -156,7 +155,7 @@ mod tests {
     use crate::run::time::Cancel;
     use crate::run::{Controls, Devices, Left, Mode, RunSpec};
 
-    /// Stores the height of the tip and the state of the halt at each question, and moves the tip by hand to a height, if any.
+    /// Test operator. Records the height of the tip and the state of the halt at each question, and may move the tip by hand to a height.
     struct Person(Rig, Answer, Vec<(f64, bool)>, Option<f64>);
 
     impl Operator for Person {

@@ -1,4 +1,4 @@
-//! Captures frames of the resting tip.
+//! Captures frames while the tip rests.
 
 mod cycle;
 mod freeze;
@@ -18,7 +18,7 @@ use moment::Moment;
 const FRAME_TRIES: u32 = 10;
 /// Deadline for one frame.
 const FRAME_DEADLINE: Deadline = Deadline::after(Duration::from_secs(1));
-/// Greatest lead of a frame over the run clock, in s; a greater lead means another clock.
+/// Maximum time by which a frame may be ahead of the run clock, in s. A greater difference means that another clock stamps the frames.
 const AHEAD_S: f64 = 0.001;
 
 /// A sensor that captures frames.
@@ -35,12 +35,12 @@ impl<'a> Camera<'a> {
         }
     }
 
-    /// Notes that the tip left the gel since the last frame.
+    /// Records that the tip has left the gel since the last frame.
     pub(super) fn leave(&mut self) {
         self.freeze.leave();
     }
 
-    /// First frame taken at or after `from_s`. Fails if it repeats the frame before although the force changed.
+    /// First frame captured at or after `from_s`. Fails if the frame is equal to the previous one although the force changed.
     pub(super) fn frame(
         &mut self,
         from_s: f64,
@@ -81,7 +81,7 @@ impl<'a> Camera<'a> {
     }
 }
 
-/// True if a frame was taken between `from_s` and now.
+/// True if a frame was captured between `from_s` and now.
 fn is_news(stamp: &Stamp, from_s: f64, now_s: f64) -> bool {
     (from_s..=now_s + AHEAD_S).contains(&stamp.valid_s)
 }

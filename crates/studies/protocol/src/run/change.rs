@@ -1,4 +1,4 @@
-//! Mounting by a moving changer. The robot is halted away from the gel meanwhile.
+//! Mounts specimens by a changer that moves. The robot is halted away from the gel during the change.
 
 use std::time::Duration;
 
@@ -19,11 +19,11 @@ enum Unmounted {
 }
 
 impl Run<'_> {
-    /// Mounts the specimen of `planned` by the changer, if the changer holds it and must move. If the changer fails and an operator is present,
-    /// returns the reason; the changer is not used again.
+    /// Mounts the specimen of `planned` by the changer, if the changer contains it and must move. If the changer fails and an operator is present, returns the
+    /// reason, and the changer is not used again.
     ///
     /// # Errors
-    /// [`RunError`] without an operator if the changer fails or does not hold the specimen. The robot is halted above the gel.
+    /// [`RunError`] without an operator if the changer fails or does not contain the specimen. The robot is halted above the gel.
     pub(super) fn change(&mut self, planned: &PlannedPress) -> Result<Option<String>, RunError> {
         let specimen = planned.press.specimen;
         let Some(patience) = self
@@ -65,7 +65,7 @@ impl Run<'_> {
         }
     }
 
-    /// True if a changer holds `specimen`.
+    /// True if a changer contains `specimen`.
     pub(super) fn is_held_by_changer(&self, specimen: Specimen) -> bool {
         let changer = self.specimens.as_ref();
         changer.is_some_and(|changer| changer.holds(specimen))
@@ -88,7 +88,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Stores the mounted specimen and resets zero and surface height.
+    /// Records the mounted specimen, and resets the zero and the surface height.
     pub(super) fn has_mounted(&mut self, specimen: Specimen) {
         self.mounted = Some(specimen);
         // Another specimen changes the load on the transducer.

@@ -15,14 +15,14 @@ use crate::plan::Plan;
 /// Repeatability of the poses that arms report at rest, in mm.
 const REPEATED_MM: f64 = 0.1;
 
-/// Raises the tip straight to the travel height if it is lower, and halts the robot there, clear of hands. Returns true if it moved.
+/// Raises the tip straight to the travel height if it is lower. Halts the robot there, out of reach of hands. Returns true if the tip moved.
 ///
 /// If `robot` is a name, the operator enables that robot before it moves. A tip that is high enough is only halted. `supervisor` watches this robot
 /// and receives every force reading, as under [`run_guarded`](super::run_guarded). With an enabling switch, nothing moves until the switch is held,
 /// for up to `patience_s`.
 ///
 /// # Errors
-/// [`RunError`], as [`run`](super::run).
+/// [`RunError`] for the causes of [`run`](super::run).
 pub fn raise(
     plan: &Plan,
     arm: &mut dyn Robot,
@@ -98,7 +98,7 @@ pub(super) fn enable(
     }
 }
 
-/// Error before any motion: the tip stayed in place.
+/// Error before any motion. The tip has not moved.
 fn unmoved(cause: StopCause) -> RunError {
     RunError {
         press: None,
@@ -118,7 +118,7 @@ impl Tip<'_> {
         self.here().position.z.0 <= REPEATED_MM - self.pace.clearance_mm
     }
 
-    /// Halts the robot, which stands clear of the gel, until an explicit release.
+    /// Halts the robot, which is away from the gel, until it is explicitly released.
     pub(super) fn hold(&mut self) -> Step<()> {
         self.robot.halt()?;
         self.stands_clear = true;

@@ -1,4 +1,4 @@
-//! Height from which the depths of a press count, and its standard uncertainty.
+//! Height relative to which the depths of a press are measured, and its standard uncertainty.
 
 use std::fmt;
 
@@ -6,13 +6,13 @@ use taceva_core::Millimetre;
 
 use super::surface_fit::{DepthForce, surface};
 
-/// Height from which the depths of a press count.
+/// Height relative to which the depths of a press are measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct DepthZero {
-    /// Height of the gel in the sensor's frame, positive into the gel; that of the first contact if no surface is fitted.
+    /// Height of the gel in the sensor frame, positive into the gel. If no surface is fitted, the height of the first contact.
     pub height: Millimetre,
-    /// Standard uncertainty of the height, or the reason for its absence.
+    /// Standard uncertainty of the height, or the reason why it is unknown.
     pub uncertainty: Result<Millimetre, ZeroUnknown>,
 }
 
@@ -25,16 +25,16 @@ pub struct DepthZero {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ZeroUnknown {
-    /// Depths count from the first contact, as by default.
+    /// Depths are measured from the first contact, which is the default.
     CountedFromContact,
-    /// Too few readings before and in contact.
+    /// There are too few readings before and in contact.
     FewReadings {
-        /// Their number.
+        /// Number of readings.
         readings: usize,
     },
-    /// No reading without contact near the gel.
+    /// There is no reading without contact near the gel.
     NoneWithoutContact,
-    /// The force does not rise with depth by more than its noise.
+    /// The force does not increase with depth by more than its noise.
     NoRise,
 }
 

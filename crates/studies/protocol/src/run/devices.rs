@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use taceva_core::{Deadline, DriverError, ForceTransducer, Lighting, Robot, Sensor, Specimen};
 
-/// Borrowed devices of a run. The run starts and stops them.
+/// Borrowed devices of a run, which starts and stops them.
 pub struct Devices<'a> {
     /// Robot with the specimen.
     pub robot: &'a mut dyn Robot,
@@ -14,24 +14,24 @@ pub struct Devices<'a> {
     pub sensor: Option<&'a mut dyn Sensor>,
     /// Lighting; `None` if the sensor sets the light.
     pub lighting: Option<&'a mut dyn Lighting>,
-    /// Changer of specimens; `None` if one specimen serves the whole run.
+    /// Changer of specimens; `None` if the whole run uses one specimen.
     pub specimens: Option<&'a mut dyn SpecimenChanger>,
 }
 
 /// Changer of the specimen on the robot: a tool changer, a simulated bench, or an operator.
 pub trait SpecimenChanger {
-    /// Mounts `specimen` unrotated, and returns once it is ready to press. The tip is far from the gel.
+    /// Mounts `specimen` without rotation, and returns when it is ready to press. The tip is far from the gel.
     ///
     /// # Errors
     /// [`DriverError`] if the specimen is missing or was not mounted in time.
     fn mount(&mut self, specimen: Specimen, deadline: Deadline) -> Result<(), DriverError>;
 
-    /// True if the changer holds `specimen`; the operator mounts others.
+    /// True if the changer contains `specimen`. The operator mounts other specimens.
     fn holds(&self, _specimen: Specimen) -> bool {
         true
     }
 
-    /// Longest duration of a mount, while the robot is halted. `None` for a changer without moving parts, such as a simulated bench.
+    /// Maximum duration of a change, during which the robot is halted. `None` for a changer without moving parts, such as a simulated bench.
     fn patience(&self) -> Option<Duration> {
         None
     }

@@ -13,16 +13,16 @@ use crate::content_id::ContentId;
 /// Interval between readings of the switch.
 const LOOK: Duration = Duration::from_millis(20);
 
-/// Operator for the enabling switch, with the longest wait.
+/// Operator for the enabling switch, and the maximum wait.
 pub(super) struct Attendant<'c> {
     pub(super) operator: Option<&'c mut dyn Operator>,
     pub(super) events: &'c mut dyn FnMut(&Event),
-    /// Longest wait, in s; unused on a rig without a switch.
+    /// Maximum wait, in s. Ignored on a rig without a switch.
     pub(super) patience_s: f64,
 }
 
 impl Tip<'_> {
-    /// Waits until the enabling switch is held, at most `patience_s`. Returns at once without a switch.
+    /// Waits until the enabling switch is held, for at most `patience_s`. Returns immediately if the rig has no switch.
     pub(super) fn wait_until_held(&mut self, attendant: &mut Attendant<'_>) -> Step<()> {
         let withheld = |tip: &Tip<'_>| tip.supervisor.lock().withheld();
         if withheld(self).is_none() {
@@ -47,8 +47,8 @@ impl Tip<'_> {
         }
     }
 
-    /// Error that ends a run, after the tip was raised above the gel. The tip moves only while the enabling switch is held. Each release leads to
-    /// another wait and attempt.
+    /// Error that ends a run, after the tip was raised above the gel. The tip moves only while the enabling switch is held. After each release, the wait and
+    /// the attempt are repeated.
     pub(super) fn abandoned(&mut self, cause: StopCause, mut attendant: Attendant<'_>) -> RunError {
         if let StopCause::Tripped(trip) = cause {
             (attendant.events)(&Event::Halted(trip));
@@ -102,7 +102,7 @@ impl Tip<'_> {
 }
 
 impl Run<'_> {
-    /// As [`Tip::wait_until_held`].
+    /// Like [`Tip::wait_until_held`], for the tip of this run.
     pub(super) fn wait_until_held(&mut self) -> Step<()> {
         let mut attendant = Attendant {
             operator: match &mut self.operator {

@@ -1,4 +1,4 @@
-//! Causes that stop a run, and the place of the tip.
+//! Causes that stop a run, and the place of the tip after the stop.
 
 use std::fmt;
 
@@ -10,10 +10,10 @@ use super::shear_way::ShearFault;
 use crate::content_id::ContentId;
 use crate::text::SceneError;
 
-/// A run that stopped early. All finished presses are durable, and the same call resumes it.
+/// Error of a run that stopped early. All finished presses are safely stored, and the same call resumes the run.
 #[derive(Debug)]
 pub struct RunError {
-    /// Unfinished press, if one had begun. It is repeated from its start.
+    /// Unfinished press, if one had begun. It will be repeated from its start.
     pub press: Option<ContentId>,
     /// Cause.
     pub cause: StopCause,
@@ -28,7 +28,7 @@ pub enum StopCause {
     /// The run was cancelled.
     #[error("stopped on request")]
     Cancelled,
-    /// Presses are missing because the operator skipped a step; all others are made.
+    /// Presses are missing because the operator skipped a step. All other presses are finished.
     #[error(
         "{} {} left because the operator skipped a step that {}: resume the same run",
         counted(*presses, "press"),
@@ -45,7 +45,7 @@ pub enum StopCause {
     /// The supervisor halted the robot for a reason other than a limit of the gel.
     #[error("halted: {0}")]
     Tripped(Trip),
-    /// A press could not be made durable.
+    /// A press could not be safely stored.
     #[error("cannot record the press: {0}")]
     Log(SinkError),
     /// No valid frame of the resting tip was captured.
@@ -56,38 +56,38 @@ pub enum StopCause {
         /// Last error of the sensor; `None` if it returned only outdated frames.
         last: Option<String>,
     },
-    /// A frame repeats the one before to the last bit although the force changed.
+    /// A frame is bit-equal to the previous one although the force changed.
     #[error(
         "frames equal earlier ones bit for bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
     )]
     FrozenFrame,
-    /// A motion would leave the workspace. It was not made.
+    /// A motion would leave the workspace. It was not started.
     #[error("a motion to {place} would leave the workspace of the plan")]
     Workspace {
-        /// The target, in mm.
+        /// Target of the motion, in mm.
         place: String,
     },
     /// The rig contradicts its rig file.
     #[error("{0}")]
     Rig(Box<SceneError>),
-    /// The guard reacts so late that a limit would be exceeded too far.
+    /// The guard responds too late, so that the tip would travel too far beyond a limit.
     #[error(
         "force readings arrive up to {reaction_ms:.0} ms late on this machine, and the tip travels {overshoot_mm:.3} mm in that time: expected at most {greatest_mm:.3} mm (30 % of the allowed depth); stop other programs, run with `chrt -f 10 taceva run …`, or lower `speed_mm_s` of the scene to {speed_mm_s:.2}"
     )]
     SlowGuard {
-        /// Time from a limit to the halt, in ms: the 99.9th percentile.
+        /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile.
         reaction_ms: f64,
-        /// Travel of the tip until it rests, in mm.
+        /// Travel of the tip until it is at rest, in mm.
         overshoot_mm: f64,
         /// Greatest allowed travel, in mm.
         greatest_mm: f64,
         /// Greatest allowed speed in contact, in mm/s.
         speed_mm_s: f64,
     },
-    /// Force or frames did not respond as a gel should in the gentle touch before the first press.
+    /// In the gentle touch before the first press, force or frames did not respond as expected of a gel.
     #[error("{0}")]
     Touch(TouchFault),
-    /// The shear force of a press changed against the tangential way of the tip, unlike in the gentle touch.
+    /// In a press, the shear force changed against the tangential displacement of the tip, unlike in the gentle touch.
     #[error("{0}")]
     Shear(ShearFault),
     /// The enabling switch was not held within the wait of the rig file.
@@ -95,16 +95,16 @@ pub enum StopCause {
         "the enabling switch was not held within {patience_s} s: hold it and continue with `--resume`; `patience_s` of [operator] sets this wait"
     )]
     Unheld {
-        /// Wait, in s.
+        /// Maximum wait, in s.
         patience_s: f64,
     },
-    /// The plan needs something that the run lacks.
+    /// The plan needs an item that the run lacks.
     #[error("the plan needs {0}")]
     Missing(String),
 }
 
 impl StopCause {
-    /// True if force, pose or frames did not arrive in time, or a frame was an old one, so that the press can be repeated.
+    /// True if force, pose or frames did not arrive in time, or a frame was outdated. The press can then be repeated.
     pub fn is_silence(&self) -> bool {
         matches!(
             self,
@@ -123,12 +123,12 @@ impl StopCause {
         )
     }
 
-    /// True if the enabling switch was released; the press is repeated once it is held.
+    /// True if the enabling switch was released. The press is repeated when the switch is held again.
     pub fn is_release(&self) -> bool {
         matches!(self, StopCause::Tripped(Trip::Released))
     }
 
-    /// Fault with which a device stopped itself. The operator acknowledges it at the device before anything moves again.
+    /// Fault with which a device stopped itself. The operator must acknowledge it at the device before anything moves again.
     pub fn fault(&self) -> Option<Fault> {
         match self {
             StopCause::Device(error) => error.fault(),
@@ -145,11 +145,11 @@ fn of_last(last: &Option<String>) -> String {
 /// Place of the tip after a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Left {
-    /// Unchanged: nothing moved.
+    /// Unchanged, because nothing moved.
     Untouched,
     /// Above the gel.
     Clear,
-    /// Halted in place, because the force could not be trusted or the robot did not obey.
+    /// Halted in place, because the force was unreliable or the robot did not execute commands.
     InPlace,
 }
 

@@ -24,9 +24,9 @@ pub enum Event {
     Skipped(ContentId),
     /// A press begins.
     Approaching {
-        /// The press.
+        /// Id of the press.
         press: ContentId,
-        /// Number of the press among those of this unit, from 1.
+        /// Number of the press among those of this unit, counted from 1.
         number: usize,
     },
     /// The gel was touched.
@@ -34,35 +34,35 @@ pub enum Event {
         /// Height of the contact in the sensor frame, in mm, positive into the gel.
         height: Millimetre,
     },
-    /// A frame was lost, damaged or of another clock, so another one is captured. A frame from before the contact is only replaced.
+    /// A frame was lost, damaged or stamped by another clock, so another frame is captured. A frame captured before the contact is replaced without this event.
     FrameRetried,
-    /// A frame repeated the one before to the last bit although the force changed. Its press is broken off.
+    /// A frame was bit-equal to the previous one although the force changed. Its press is aborted.
     FrameFrozen,
     /// A sample was taken.
     Sampled {
-        /// Number of the sample in the press, from 0.
+        /// Number of the sample in the press, counted from 0.
         number: usize,
     },
     /// The supervisor halted the robot.
     Halted(Trip),
-    /// The force was lost while a question stands, with the cause and the remedy.
+    /// The force was lost while the operator is asked a question. Contains the cause and the remedy.
     ForceLost(String),
     /// The tip left the gel after a halt.
     Retracted,
-    /// The enabling switch is not held. Nothing moves until it is.
+    /// The enabling switch is not held. Nothing moves until the operator holds it.
     Unheld,
-    /// A press was interrupted by stale signals or a released enabling switch. It is repeated from its start.
+    /// Stale signals or a released enabling switch interrupted a press. It is repeated from its start.
     Redone {
-        /// The press.
+        /// Id of the press.
         press: ContentId,
         /// Number of interruptions of this press.
         times: u32,
     },
     /// A press is finished and durable.
     Finished {
-        /// The press.
+        /// Id of the press.
         press: ContentId,
-        /// Outcome.
+        /// Outcome of the press.
         outcome: PressOutcome,
     },
     /// A rehearsal visited a place in the air.

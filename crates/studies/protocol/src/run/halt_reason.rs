@@ -13,35 +13,35 @@ use taceva_core::Limit;
 pub enum Trip {
     /// The depth exceeds its limit.
     Depth {
-        /// Depth from the first contact.
+        /// Depth measured from the first contact.
         depth_mm: f64,
-        /// The limit.
+        /// Greatest allowed depth.
         limit_mm: f64,
     },
-    /// The normal force exceeds its limit, pressing or pulling.
+    /// The normal force exceeds its limit, in pressing or pulling.
     NormalForce {
-        /// The force.
+        /// Normal force.
         force_n: f64,
-        /// The limit.
+        /// Greatest allowed normal force.
         limit_n: f64,
     },
     /// The shear force exceeds its limit.
     ShearForce {
         /// Magnitude of the shear force.
         force_n: f64,
-        /// The limit.
+        /// Greatest allowed shear force.
         limit_n: f64,
     },
     /// A force occurs out of contact.
     UnexpectedContact {
-        /// The force.
+        /// Force out of contact.
         force_n: f64,
-        /// True if the threshold of motions in the air is exceeded. False if the limit of the normal force is, as the tip leaves the gel.
+        /// True if the force exceeds the threshold of motions in the air. False if it exceeds the limit of the normal force while the tip leaves the gel.
         is_in_air: bool,
     },
-    /// The force rises faster than with any gel.
+    /// The force increases faster than any gel allows.
     ForceRate {
-        /// The rate.
+        /// Rate of the force.
         rate_n_s: f64,
     },
     /// The transducer is saturated, so the true force is unknown.
@@ -51,7 +51,7 @@ pub enum Trip {
     },
     /// A reading is not finite.
     NotFinite,
-    /// Readings are bit-equal although the tip moved.
+    /// Readings are bit-equal although the tip has moved.
     Frozen {
         /// Number of equal readings.
         readings: u32,
@@ -78,7 +78,7 @@ pub enum Trip {
 }
 
 impl Trip {
-    /// Limit of the gel that was reached with healthy signals: the press ends, and the run continues. `None` for other reasons.
+    /// Limit of the gel that was reached with healthy signals. The press ends, and the run continues. `None` for other reasons.
     pub fn limit(self) -> Option<Limit> {
         match self {
             Trip::Depth { .. } => Some(Limit::Depth),

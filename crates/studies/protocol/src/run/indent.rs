@@ -1,4 +1,4 @@
-//! Waypoints of a press, and the remaining ones after a limit of the gel.
+//! Visits the waypoints of a press, and the remaining ones after a limit of the gel was reached.
 
 use taceva_core::{Limit, Nanometre, Phase, PressOutcome};
 
@@ -10,14 +10,14 @@ use super::tip::{Step, Tip};
 use crate::plan::PlannedPress;
 use crate::press::Waypoint;
 
-/// Greatest number of draw-backs at one waypoint, each at least one segment long. Noise at the limit needs one or two.
+/// Maximum number of draw-backs at one waypoint, each at least one segment long. Noise at the limit needs one or two.
 const DRAW_BACKS: u32 = 32;
 
 impl Run<'_> {
-    /// Visits the waypoints, whose depths count from `height_mm`.
+    /// Visits the waypoints. Their depths are measured from `height_mm`.
     ///
-    /// If a limit of the gel stops the tip, the tip draws back until it may rest and takes the sample of that waypoint there. Deeper waypoints are
-    /// skipped. Waypoints of the unloading are visited from that depth.
+    /// If a limit of the gel stops the tip, the tip draws back until it may rest, and the sample of this waypoint is recorded there. Deeper waypoints are
+    /// skipped. Waypoints of the unloading phase are visited from this depth.
     pub(super) fn indent(
         &mut self,
         planned: &PlannedPress,
@@ -55,7 +55,7 @@ impl Run<'_> {
         Ok(ended_by.map_or(PressOutcome::Complete, PressOutcome::Limited))
     }
 
-    /// Moves to a waypoint, unless a limit was reached there, and takes its sample.
+    /// Moves to a waypoint, unless a limit was reached there, and records its sample.
     fn visit(&mut self, planned: &PlannedPress, spot: Spot, gathered: &mut Gathered) -> Step<()> {
         let press = &planned.press;
         let waypoint = usize::try_from(spot.number)
@@ -70,7 +70,7 @@ impl Run<'_> {
         self.sample(planned, spot, rested, gathered)
     }
 
-    /// Limit of the gel that stopped the tip, reported as an event; any other cause is returned as an error.
+    /// Limit of the gel that stopped the tip, after it was reported as an event. Any other cause is returned as an error.
     pub(super) fn limit_of(&mut self, cause: StopCause) -> Step<Limit> {
         let StopCause::Tripped(trip) = cause else {
             return Err(cause);
@@ -80,7 +80,7 @@ impl Run<'_> {
         Ok(limit)
     }
 
-    /// Takes the sample of an unreachable waypoint as close to it as the tip may rest. Returns the depth there, in mm.
+    /// Records the sample of an unreachable waypoint as close to the waypoint as the tip may rest. Returns the depth there, in mm.
     fn visit_at_limit(
         &mut self,
         planned: &PlannedPress,
@@ -105,13 +105,13 @@ impl Run<'_> {
 enum Visit {
     /// Skip the waypoint.
     Not,
-    /// Turning point: take the sample at the reached depth.
+    /// Turning point: record the sample at the depth that was reached.
     WhereItIs,
     /// Visit the waypoint.
     Waypoint,
 }
 
-/// Treatment of the waypoint at `place` after a limit stopped the tip at `reached_mm`.
+/// Treatment of the waypoint with index `place`, after a limit stopped the tip at `reached_mm`.
 fn after_limit(waypoints: &[Waypoint], place: usize, reached_mm: f64) -> Visit {
     let is_on_way_out = |waypoint: &Waypoint| waypoint.phase == Phase::Unload;
     let is_deeper = |depth: Nanometre| depth.to_millimetres() > reached_mm;

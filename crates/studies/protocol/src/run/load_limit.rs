@@ -1,8 +1,8 @@
-//! Limits of a gel, and the length of the next stride from its measured stiffness.
+//! Limits of a gel, and the length of the next motion computed from its measured stiffness.
 
 use taceva_core::Wrench;
 
-/// Part of the greatest depth that a tip without contact may travel at once without exceeding a limit.
+/// Part of the greatest depth that a tip may travel in one motion before it detects contact, without exceeding a limit.
 const UNFELT_PART: f64 = 0.125;
 /// Multiple of the measured depth up to which the stiffness of a gel is extrapolated.
 const KNOWN_DEPTHS: f64 = 2.0;
@@ -20,7 +20,7 @@ pub(super) struct Bearing {
     pub(super) threshold_n: f64,
 }
 
-/// Last measured force, in N.
+/// Last measured force and its depth.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Felt {
     pub(super) normal_n: f64,
@@ -38,7 +38,7 @@ impl Felt {
 }
 
 impl Bearing {
-    /// Longest inward or sideways stride of the tip at `depth_mm` under the force `felt`, in mm.
+    /// Longest inward or sideways motion of the tip from `depth_mm` under the force `felt`, in mm.
     pub(super) fn room_mm(&self, depth_mm: f64, felt: &Felt) -> f64 {
         let normal_n = felt.normal_n.abs().max(self.threshold_n);
         let stiffness_n_mm = STIFFER * normal_n / depth_mm.max(0.0);
@@ -48,7 +48,7 @@ impl Bearing {
         by_force_mm.min(by_depth_mm).max(0.0)
     }
 
-    /// Longest stride of the tip without contact, in mm.
+    /// Longest motion of the tip before contact is detected, in mm.
     pub(super) fn unfelt_mm(&self) -> f64 {
         UNFELT_PART * self.depth_max_mm
     }

@@ -1,4 +1,4 @@
-//! Log of finished presses. It makes new ones durable.
+//! Log of finished presses, which stores new ones safely.
 
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
@@ -6,28 +6,27 @@ use super::depth_zero::DepthZero;
 use super::reference_touch::SessionRecord;
 use crate::content_id::ContentId;
 
-/// A record of finished presses that outlives the process.
+/// Record of finished presses that remains after the process ends.
 pub trait PressLog {
     /// True if `press` was appended, in this run or an earlier one.
     fn is_finished(&self, press: ContentId) -> bool;
 
-    /// Appends a complete press and returns once it is durable. After an interruption, the log has all of it or nothing.
+    /// Appends a complete press, and returns when it is safely stored. After an interruption, the log contains all of the press or nothing.
     ///
     /// # Errors
-    /// Any failure to make it durable. The run then stops, and the press counts as not made.
+    /// Any failure to store the press safely. The run then stops, and the press counts as not finished.
     fn append(&mut self, record: &PressRecord) -> Result<(), SinkError>;
 
-    /// Stores a reference frame without contact, in the reference light. It precedes the first press with frames of each unit, and is repeated with
-    /// that press.
+    /// Stores a contact-free reference frame in the reference light. It precedes the first press with frames of each unit, and is repeated with this press.
     ///
     /// # Errors
-    /// Any failure to make it durable. The run then stops.
+    /// Any failure to store the frame safely. The run then stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
     /// Stores the record of a session's start, before its first press. Only runs with a rig file have sessions.
     ///
     /// # Errors
-    /// Any failure to make it durable. The run then stops.
+    /// Any failure to store the record safely. The run then stops.
     fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {
         let _ = record;
         Ok(())
@@ -39,11 +38,11 @@ pub trait PressLog {
 pub struct PressRecord {
     /// Id of the press.
     pub press: ContentId,
-    /// Outcome.
+    /// Outcome of the press.
     pub outcome: PressOutcome,
-    /// Height from which depths count; `None` for a press that does not indent or has no contact.
+    /// Height relative to which depths are measured; `None` for a press that does not indent or has no contact.
     pub zero: Option<DepthZero>,
-    /// Samples in order, named `<press>/<number>` by waypoint or picture. Waypoints that a limited press skipped have no sample.
+    /// Samples in order, named `<press>/<number>` by waypoint or frame. Waypoints that a limited press skipped have no sample.
     ///
     /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the zero of the press. `surface_z` is the height of the felt surface in
     /// the sensor's frame, positive into the gel. A press gives one of the two. A sample that a limit stopped before its waypoint names the limit and

@@ -1,4 +1,4 @@
-//! Frame, pose and force of one moment.
+//! Frame, pose and force at one moment.
 
 use taceva_core::{Frame, Pose, Stamp, Wrench};
 

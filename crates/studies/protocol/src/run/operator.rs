@@ -6,22 +6,22 @@ use taceva_core::{Fault, Specimen};
 
 use super::time::Cancel;
 
-/// Operator at a terminal or on a page. Nothing moves until the answer, which has no deadline.
+/// Operator at a terminal or on a page. Nothing moves before the answer, which has no deadline.
 pub trait Operator {
     /// Asks `question` and waits for the answer; returns [`Answer::Stop`] soon after `cancel` was cancelled.
     fn ask(&mut self, question: &Question, cancel: &Cancel) -> Answer;
 
-    /// Shows that the enabling switch must be held within `patience_s`. Returns at once; does nothing by default.
+    /// Asks the operator to hold the enabling switch within `patience_s`, in s. Returns immediately; does nothing by default.
     fn call_to_hold(&mut self, _patience_s: f64) {}
 
-    /// Shows a remark of a device on valid readings, with its remedy. Returns at once; does nothing by default.
+    /// Shows a warning of a device about valid readings, with its remedy. Returns immediately; does nothing by default.
     fn warn(&mut self, _warning: &str) {}
 
-    /// Shows a finding of the session, such as the stiffness of the gel. Returns at once; does nothing by default.
+    /// Shows a finding of the session, such as the stiffness of the gel. Returns immediately; does nothing by default.
     fn note(&mut self, _finding: &str) {}
 }
 
-/// Questions to the operator. [`Display`](fmt::Display) formats them.
+/// Questions to the operator. [`Display`](fmt::Display) writes their text.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Question {
@@ -38,9 +38,9 @@ pub enum Question {
     Unit(String),
     /// Set this light scene.
     Light(String),
-    /// Check and acknowledge this fault at the robot. The robot moves again afterwards.
+    /// Check and acknowledge this fault at the robot. The robot then moves again.
     Acknowledge(Fault),
-    /// Take every load off the force transducer.
+    /// Remove every load from the force transducer.
     Unload,
     /// Hang a weight of this mass, in g, on the force transducer.
     Hang {
@@ -49,14 +49,14 @@ pub enum Question {
     },
     /// Jog the tip to this place with the controls of the robot.
     Jog(Spot),
-    /// Do this step by hand, because the changer failed.
+    /// Do this step by hand instead of the changer, because the changer failed.
     Instead {
         /// The step: [`Mount`](Question::Mount) or [`Unit`](Question::Unit).
         of_changer: Box<Question>,
         /// Reason of the failure.
         why: String,
     },
-    /// Take all hands out of reach. After a skipped step, the robot continues with presses that need no operator.
+    /// Remove all hands from the reach of the robot. After a skipped step, the robot continues with presses that need no operator.
     GoOn,
     /// Continue although the touch differs from that of an earlier session of this recording.
     Resume(ChangedTouch),
@@ -67,16 +67,16 @@ pub enum Question {
 pub enum Spot {
     /// Middle of the gel.
     Middle,
-    /// Along x of the sensor from the middle.
+    /// Place displaced from the middle along x of the sensor.
     AlongX,
-    /// Along y of the sensor from the middle.
+    /// Place displaced from the middle along y of the sensor.
     AlongY,
 }
 
-/// Difference between a touch and the touch of an earlier session.
+/// Difference between a touch and that of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChangedTouch {
-    /// Change of the height of the gel, in mm; positive means deeper.
+    /// Change of the height of the gel, in mm. Positive values mean a deeper gel.
     pub height_mm: f64,
     /// Relative change of the force at equal depth.
     pub force_part: f64,
@@ -89,9 +89,9 @@ pub struct ChangedTouch {
 /// Answers of the operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Done, and all hands are out of reach.
+    /// The step is done, and all hands are out of reach.
     Done,
-    /// Not possible now. The run skips presses that need it.
+    /// The step is not possible now. The run skips presses that need it.
     Skip,
     /// Stop the run.
     Stop,

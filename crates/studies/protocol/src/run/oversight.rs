@@ -5,7 +5,7 @@ use super::supervisor::SharedSupervisor;
 
 /// Guard of a run on a robot that threads watch.
 ///
-/// `supervisor` watches the robot of the run. One thread of the caller passes it every force reading, another one passes poses during motions. The
+/// `supervisor` watches the robot of the run. One thread of the caller passes every force reading to it, and another thread passes poses during motions. The
 /// transducer of the run only returns readings of the first thread.
 pub struct Oversight<'a> {
     pub(super) supervisor: SharedSupervisor,
@@ -25,8 +25,8 @@ impl<'a> Oversight<'a> {
 
     /// Adds a session on the rig of a rig file, with the patience of that file.
     ///
-    /// Before the first press, the operator enables the robot, and the tip passes through the air and touches the gel gently. The touch is compared
-    /// with the rig file and with earlier sessions of the recording.
+    /// Before the first press, the operator enables the robot. The tip then moves through the air and touches the gel gently. The touch is compared with the
+    /// rig file and with earlier sessions of the recording.
     #[must_use]
     pub fn with_session(self, session: SessionSpec<'a>) -> Oversight<'a> {
         Oversight {
@@ -36,7 +36,7 @@ impl<'a> Oversight<'a> {
         }
     }
 
-    /// Sets the longest wait for a held enabling switch, in s.
+    /// Sets the maximum wait for the enabling switch to be held, in s.
     #[must_use]
     pub fn with_patience_s(self, patience_s: f64) -> Oversight<'a> {
         Oversight { patience_s, ..self }

@@ -17,7 +17,7 @@ use crate::press::Motion;
 use crate::scene::DepthOrigin;
 
 impl Run<'_> {
-    /// Makes one press, from the height of travel and back. Stores a picture without contact in `untouched` before, if given.
+    /// Makes one press, starting and ending at the travel height. If `untouched` is given, first stores a contact-free frame in it.
     pub(super) fn acquire(
         &mut self,
         planned: &PlannedPress,

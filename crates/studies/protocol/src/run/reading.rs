@@ -14,9 +14,9 @@ use super::tip::{DEADLINE, Step, Tip, is_silent};
 
 /// Deadline of one reading. Reading is retried until the supervisor finds the force stale.
 pub(super) const READ_DEADLINE: Duration = Duration::from_millis(20);
-/// Delay before the next reading after an outdated one.
+/// Delay before the next reading after an outdated reading.
 const LATE_REST: Duration = Duration::from_millis(1);
-/// Greatest number of readings without a current one, in case the clock stops.
+/// Maximum number of attempts without a current reading. This limit ends the loop if the clock stops.
 const READ_TRIES: u32 = 64;
 
 impl Tip<'_> {
@@ -57,10 +57,10 @@ impl Tip<'_> {
         })
     }
 
-    /// Reads a force measured after this call.
+    /// Reads a force that was measured after this call.
     ///
-    /// The tip rests meanwhile, so late links and filters cost time but no travel. Readings from before the end of the last motion only go to the
-    /// supervisor; then the next one is read.
+    /// The tip rests during the reading, so slow links and filters cost time but no travel. Readings from before the end of the last motion are only passed to
+    /// the supervisor, and the next one is read.
     pub(super) fn read_force(&mut self) -> Step<Reading> {
         let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {
@@ -115,11 +115,11 @@ impl Tip<'_> {
 /// A reading of the transducer.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reading {
-    /// Force as reported, before the zero of the host is subtracted.
+    /// Force as the transducer reports it, before the zero of the host is subtracted.
     pub(super) said: Wrench,
     /// Time of the measurement, in s.
     pub(super) valid_s: f64,
-    /// Sequence number, if the transducer gives one.
+    /// Sequence number; `None` if the transducer gives none.
     number: Option<u64>,
 }
 

@@ -10,7 +10,7 @@ use crate::rig_file::RigFile;
 /// Inputs of a session.
 #[derive(Clone, Debug)]
 pub struct SessionSpec<'a> {
-    /// The rig.
+    /// Rig file of the rig.
     pub rig: &'a RigFile,
     /// Name of the robot that the operator must enable; `None` for an emulated robot.
     pub robot: Option<&'a str>,
@@ -29,28 +29,28 @@ pub struct ReferenceTouch {
     pub height_mm: f64,
     /// Depth of the touch below that height, in mm.
     pub depth_mm: f64,
-    /// Normal force at that depth, in N.
+    /// Normal force at depth `depth_mm`, in N.
     pub force_n: f64,
     /// Standard uncertainty of the height, in mm.
     pub height_u_mm: f64,
-    /// Standard uncertainty of the force at that depth, in N, with that of the depth.
+    /// Standard uncertainty of the force, in N, including that of the depth.
     pub force_u_n: f64,
 }
 
 impl ReferenceTouch {
-    /// Greatest apparent displacement of the gel between two sessions, in mm; arms repeat to about 0.1 mm.
+    /// Maximum apparent displacement of the gel between two sessions, in mm. Arms repeat to about 0.1 mm.
     const HEIGHT_MM: f64 = 0.1;
     /// Greatest relative change of the stiffness.
     const FORCE_PART: f64 = 0.1;
     /// Coverage factor of the uncertainty of a change.
     const COVERAGE: f64 = 2.0;
 
-    /// Force by depth, in N/mm.
+    /// Ratio of force to depth, in N/mm.
     pub fn stiffness_n_mm(&self) -> f64 {
         self.force_n / self.depth_mm
     }
 
-    /// Line for the operator: the stiffness, beside that of the `earlier` touch.
+    /// Message for the operator: the stiffness, and that of the `earlier` touch.
     pub(super) fn line(&self, earlier: Option<&ReferenceTouch>) -> String {
         let stiffness = self.stiffness_n_mm();
         let beside = match earlier {
@@ -69,7 +69,7 @@ impl ReferenceTouch {
         )
     }
 
-    /// Change since the `earlier` touch; `None` if within the repeatability of arms and gels, or within the uncertainty of both touches.
+    /// Change since the `earlier` touch. `None` if it is within the repeatability of arms and gels, or within the uncertainty of both touches.
     pub(super) fn changed_since(&self, earlier: &ReferenceTouch) -> Option<ChangedTouch> {
         let part = |touch: &ReferenceTouch| touch.force_u_n / touch.force_n;
         let changed = ChangedTouch {
@@ -85,20 +85,20 @@ impl ReferenceTouch {
     }
 }
 
-/// Start of a session.
+/// Record of the start of a session.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SessionRecord {
     /// Reference touch.
     pub touch: ReferenceTouch,
     /// Force reported without contact.
     pub zero: Wrench,
-    /// True for each push, to +x and to +y, that was measured with the sign of the rig file.
+    /// True for each push, to +x and to +y, whose force had the sign stated by the rig file.
     pub pushes_felt: [bool; 2],
-    /// True if the frames changed in contact and only then; false without frames.
+    /// True if the frames changed in contact, and not otherwise; false without frames.
     pub picture_changed: bool,
     /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile.
     pub reaction_ms: f64,
-    /// Travel of the tip from an exceeded limit until it rests, in mm.
+    /// Travel of the tip from an exceeded limit until the tip is at rest, in mm.
     pub overshoot_mm: f64,
 }
 
@@ -106,7 +106,7 @@ pub struct SessionRecord {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum TouchFault {
-    /// The force did not rise to the target within half of the allowed depth.
+    /// The force did not reach the target within half of the allowed depth.
     Weak {
         /// Force, in N.
         force_n: f64,
@@ -127,7 +127,7 @@ pub enum TouchFault {
         /// Greatest change in the air, in the same steps.
         in_air: f64,
     },
-    /// The frames stay changed after the tip has left the gel.
+    /// The frames remain changed after the tip has left the gel.
     Stays {
         /// Greatest change of a part of the frame in contact, in steps of an 8-bit pixel.
         in_contact: f64,

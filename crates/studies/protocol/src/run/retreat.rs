@@ -1,4 +1,4 @@
-//! Retreat from the gel: after a press, after a halt, and after a fault once signals can be trusted again.
+//! Retreat from the gel: after a press, after a halt, and after a fault if the signals are reliable again.
 
 use std::time::Duration;
 
@@ -14,7 +14,7 @@ const RECOVERY_TRIES: u32 = 10;
 const RECOVERY_REST: Duration = Duration::from_millis(20);
 
 impl Tip<'_> {
-    /// Retreats along the approach path under supervision, to the travel height above the target.
+    /// Retreats along the path of the approach, under supervision, to the travel height above the target.
     pub(super) fn retreat(&mut self) -> Step<()> {
         self.turn_back()?;
         let Point { x, y, z } = self.target.position;
@@ -35,8 +35,8 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// After a halt at a limit: moves straight up by segments until the tip may rest, at most to the height of the first contact. Then
-    /// resumes the supervision of the press, whose depths count from `height_mm`.
+    /// Used after a halt at a limit. Moves straight up by segments until the tip may rest, at most to the height of the first contact. Then resumes the
+    /// supervision of the press, with depths measured from `height_mm`.
     pub(super) fn draw_back(&mut self, height_mm: f64) -> Step<()> {
         self.turn_back()?;
         let contact_mm = self.contact_mm.unwrap_or(height_mm);
@@ -59,7 +59,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Ends a halt, and supervises that the force does not rise above its present value.
+    /// Ends a halt. The supervisor then checks that the force does not exceed its present value.
     fn turn_back(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;
@@ -68,7 +68,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// After a fault: leaves the gel once force and pose can be trusted, else stays halted. Returns true if the tip is in the air.
+    /// Leaves the gel after a fault, if force and pose are reliable; otherwise the robot remains halted. Returns true if the tip is in the air.
     pub(super) fn abandon(&mut self) -> bool {
         let _ = self.robot.halt();
         if self.robot_failed {

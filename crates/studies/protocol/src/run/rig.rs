@@ -24,10 +24,10 @@ pub(super) const SEGMENT_MM: f64 = 0.125;
 pub(super) const CONTACT_MM_S: f64 = 4.0;
 pub(super) const TRAVEL_MM_S: f64 = 16.0;
 
-/// Force in N from the number of the reading and the height of the tip; `None` is a timeout.
+/// Function that returns the force in N for the number of the reading and the height of the tip; `None` for a timeout.
 type Force = Box<dyn FnMut(u32, f64) -> Option<f64> + Send>;
 
-/// A live transducer without contact; no two readings are equal.
+/// Force of a live transducer without contact. No two readings are equal.
 pub(super) fn nothing(question: u32, _: f64) -> Option<f64> {
     Some(f64::from(question) * 1e-6)
 }
@@ -45,7 +45,7 @@ pub(super) struct State {
     pub(super) halted: bool,
     /// True if the robot reports motions that it does not make.
     pub(super) stuck: bool,
-    /// Number of attempts to clear a halt that time out.
+    /// Number of attempts to clear a halt that will time out.
     pub(super) unheard: u32,
     /// Height in mm of an obstacle that a guard thread reports once to this supervisor.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,
@@ -201,7 +201,7 @@ impl Timekeeper for Rig {
     }
 }
 
-/// Pseudo-random numbers of a seed.
+/// Pseudo-random numbers from a seed.
 pub(super) struct Draws(u64);
 
 impl Draws {
@@ -219,7 +219,7 @@ impl Draws {
         f64::from(high) / f64::from(u32::MAX)
     }
 
-    /// A normally distributed number, nearly: the sum of twelve even ones.
+    /// A nearly normally distributed number: the sum of twelve uniform ones.
     pub(super) fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.fraction()).sum::<f64>() - 6.0
     }

@@ -30,17 +30,17 @@ impl Spot {
     }
 }
 
-/// Samples of a press so far, and its zero.
+/// Samples of a press so far, and the zero of the press.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
-    /// Height from which its depths count.
+    /// Height relative to which the depths of the press are measured.
     pub(super) zero: Option<DepthZero>,
     /// Last waypoint that was reached, with its shear force.
     pub(super) sheared: Option<Sheared>,
     pub(super) samples: Vec<Sample>,
 }
 
-/// Sample at `spot`; channels without a measurement are absent.
+/// Sample at `spot`. Channels that were not measured are undefined.
 pub(super) fn sample(
     planned: &PlannedPress,
     spot: Spot,

@@ -1,7 +1,7 @@
-//! Search for the first contact by steps, each followed by rest, so that the gel is found in its resting state.
+//! Search for the first contact in steps. The tip rests after each step, so that the gel is detected in its resting state.
 //!
-//! Once felt, a gel begins at a similar height elsewhere. Guard threads allow one motion through the steps that end well above it, and halt
-//! it at a collision. This saves the rest after each step. The remaining steps have the same heights as in a search without guard.
+//! After the first contact, the gel is expected at a similar height elsewhere. With guard threads, one motion replaces the steps that end well above this
+//! height, and the guard halts it at a collision. This saves the rest after each step. The remaining steps have the same heights as in a search without guard.
 //!
 //! The readings near the contact are kept, because depths may count from a surface that is fitted to them. Without guard threads they lie a
 //! segment apart. With them the strides are longer, so the tip repeats the last steps segment by segment if a metric reads depths.
@@ -23,7 +23,7 @@ const FITTED_STEPS: f64 = 6.0;
 /// Number of steps that a guarded tip repeats segment by segment.
 const PASSED_AGAIN_STEPS: f64 = 2.0;
 
-/// First contact of a press.
+/// First contact of a press, with the readings of the search.
 #[derive(Clone, Debug)]
 pub(super) struct Contact {
     /// First reading in contact.
@@ -33,7 +33,7 @@ pub(super) struct Contact {
 }
 
 impl Tip<'_> {
-    /// Descends until the gel is felt at the end of a step. Returns the first contact; `None` at the end of the search.
+    /// Descends until a contact is detected at the end of a step. Returns the first contact; `None` if the search ends without contact.
     pub(super) fn search(&mut self) -> Step<Option<Contact>> {
         let (look, readings) = self.recorded(Vec::new(), Self::search_by_steps)?;
         Ok(look.map(|look| Contact { look, readings }))
@@ -41,7 +41,7 @@ impl Tip<'_> {
 
     /// Returns the zero height of the depths of a press, after its first contact. The depth limit counts from this height from now on.
     ///
-    /// A guarded tip repeats the last steps if `is_depth_read`.
+    /// If `is_depth_read`, a guarded tip repeats the last steps segment by segment.
     pub(super) fn depth_zero(&mut self, contact: Contact, is_depth_read: bool) -> Step<DepthZero> {
         let contact_mm = contact.look.pose.position.z.0;
         let readings = match self.is_guarded && is_depth_read {
@@ -55,7 +55,7 @@ impl Tip<'_> {
         Ok(zero)
     }
 
-    /// Adds every reading of `act` to `readings`.
+    /// Calls `act`, and adds every reading made in the call to `readings`.
     fn recorded<T>(
         &mut self,
         readings: Vec<DepthForce>,
@@ -104,14 +104,14 @@ impl Tip<'_> {
         Ok(None)
     }
 
-    /// Updates the highest known height of the gel.
+    /// Updates the greatest known height of the gel with a contact at `height_mm`.
     pub(super) fn is_felt_at(&mut self, height_mm: f64) {
         let highest_mm = self.surface_mm.unwrap_or(height_mm);
         self.surface_mm = Some(height_mm.min(highest_mm));
     }
 
-    /// Descends from `start_mm` in one motion through all steps that end well above the known gel. Returns their number. After an
-    /// unexpected contact the tip retreats and the search makes every step.
+    /// Descends from `start_mm` in one motion that replaces all steps ending well above the known gel. Returns the number of these steps. After an unexpected
+    /// contact, the tip retreats and the search makes every step.
     fn pass_air(&mut self, start_mm: f64) -> Step<u32> {
         let Some(surface_mm) = self.surface_mm.filter(|_| self.is_guarded) else {
             return Ok(0);
@@ -164,7 +164,7 @@ mod tests {
     use super::*;
     use crate::run::rig::{CONTACT_MM, Draws, Motion, Rig, with_tip};
 
-    /// A gel that pushes back below its surface; readings differ.
+    /// Test gel that pushes back below its surface. No two readings are equal.
     fn over_a_gel() -> Rig {
         Rig::new(-2.0, |question, height_mm| {
             let pressed_mm = (height_mm - CONTACT_MM).max(0.0);
@@ -233,7 +233,7 @@ mod tests {
 
     /// Zero of a press on a gel of 2 N/mm, read with 4 mN of noise in segments of 15 µm, and the stage after it.
     ///
-    /// The seed draws where the steps meet the gel, as over a tilted one.
+    /// The seed determines where the steps meet the gel, as over a tilted gel.
     fn zero_of(seed: u32, is_guarded: bool) -> (DepthZero, MotionStage) {
         let seed = u64::from(seed);
         let start_mm = -2.0 + 0.1 * Draws::new(seed).fraction();

@@ -37,7 +37,7 @@ pub(super) struct Run<'a> {
     pub(super) patience_s: f64,
     /// Steps that the operator skipped.
     pub(super) skipped: Vec<Question>,
-    /// True from a skipped step until the operator confirms that hands are out of reach.
+    /// True after a skipped step, until the operator confirms that hands are out of reach.
     pub(super) is_reach_unknown: bool,
     /// True if the gentle touch measured pushes along x and y with the axes of the rig file.
     pub(super) is_shear_known: bool,
@@ -237,8 +237,8 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Makes one press. After stale signals or a release, repeats the press from its start, if the tip was raised above the gel. Does the same after
-    /// a fault that the operator acknowledged.
+    /// Makes one press. After stale signals or a release, repeats the press from its start if the tip was raised above the gel. Does the same after a fault
+    /// that the operator acknowledged.
     fn acquire_patiently(
         &mut self,
         planned: &PlannedPress,
@@ -279,7 +279,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Visits one place in the air; repeats the visit after a released switch.
+    /// Visits one place in the air. Repeats the visit after a released switch.
     fn rehearse_patiently(
         &mut self,
         planned: &PlannedPress,

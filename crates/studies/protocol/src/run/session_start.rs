@@ -1,5 +1,5 @@
-//! Start of a session on the rig of a rig file. The operator enables the robot; the tip passes through the air and touches gently. Presses begin only
-//! if the measurements agree with the rig file and earlier sessions.
+//! Start of a session on the rig of a rig file. The operator enables the robot. The tip moves through the air and touches the gel gently. Presses begin only if
+//! the measurements agree with the rig file and earlier sessions.
 
 pub(super) mod picture;
 mod signs;
@@ -21,9 +21,9 @@ use crate::plan::PlannedPress;
 
 /// Duration of measuring the delay of readings.
 const TIMED: Duration = Duration::from_secs(2);
-/// Greatest overshoot of a late guard, as a part of the allowed depth.
+/// Maximum overshoot of a late guard, as a part of the allowed depth.
 const OVERSHOOT_PART: f64 = 0.3;
-/// Speed of the first pass through the air, in mm/s.
+/// Speed of the first motion through the air, in mm/s.
 const AIR_MM_S: f64 = 10.0;
 /// Number of interruptions by stale signals that end the start.
 const TRIES: u32 = 3;
@@ -50,7 +50,7 @@ impl Run<'_> {
         supervisor.during_question(|| enable(robot, way, operator, self.tip.cancel))
     }
 
-    /// Begins the session, once, before the first press and with its specimen.
+    /// Begins the session. Called once, before the first press and with the specimen of this press.
     pub(super) fn begin(
         &mut self,
         places: &[[Nanometre; 2]],
@@ -151,7 +151,7 @@ impl Run<'_> {
     }
 }
 
-/// Caps a speed so that the operator can follow with a hand at the emergency stop.
+/// Limits a speed, so that the operator can follow the robot with a hand at the emergency stop.
 fn slowly(travel: Speed) -> Speed {
     match Speed::try_new(AIR_MM_S) {
         Ok(slow) if slow.mm_per_s() < travel.mm_per_s() => slow,

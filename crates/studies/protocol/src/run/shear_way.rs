@@ -1,4 +1,4 @@
-//! Compares the tangential way of the tip in a press with the change of the shear force.
+//! Compares the tangential displacement of the tip in a press with the change of the shear force.
 
 use std::fmt;
 
@@ -10,11 +10,11 @@ use crate::press::Waypoint;
 const FORCE_STEPS: f64 = 5.0;
 /// Least change that is compared, as a part of the greater shear force. Slip and relaxation lower a shear force by less, also along the way.
 const CHANGED_PART: f64 = 0.75;
-/// Least part of the change along the way. Friction and an elastic gel push along the way. A swap of x and y reverses the force of every way whose
-/// parts along x and y have opposite signs.
+/// Minimum part of the force change along the displacement. Friction and an elastic gel push along the displacement. If x and y are swapped, the force is
+/// reversed for every displacement whose components along x and y have opposite signs.
 const ALONG: f64 = -0.25;
 
-/// Waypoint of a resting tip, with its shear force in N.
+/// A waypoint at which the tip rested, with its shear force in N.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sheared {
     depth: Nanometre,
@@ -22,10 +22,10 @@ pub(super) struct Sheared {
     force_n: [f64; 2],
 }
 
-/// Tangential way and the change of the shear force over it, along x and y.
+/// Tangential displacement, and the change of the shear force over it, along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShearFault {
-    /// Way of the tip, in mm.
+    /// Displacement of the tip, in mm.
     pub way_mm: [f64; 2],
     /// Change of the force, in N.
     pub force_n: [f64; 2],
@@ -52,7 +52,7 @@ impl Sheared {
         }
     }
 
-    /// Fault if the tip moved sideways at one depth since `earlier` and most of the shear force changed against that way. `air_n` is the least force
+    /// Fault if the tip moved sideways at one depth since `earlier`, and most of the shear force changed against this displacement. `air_n` is the least force
     /// in the air.
     pub(super) fn fault(&self, earlier: &Sheared, air_n: f64) -> Option<ShearFault> {
         let axes = [0, 1];

@@ -1,5 +1,5 @@
-//! Checks every force reading and every pose, and halts the robot if one exceeds a limit or cannot be trusted. Moves nothing. Several threads may
-//! pass readings.
+//! Checks every force reading and every pose, and halts the robot if a value exceeds a limit or is unreliable. Moves nothing. Several threads may pass
+//! readings.
 //!
 //! The supervisor is not a safety function. The site is responsible for the emergency stop, the collision sensitivity of the robot and the guards.
 
@@ -34,9 +34,9 @@ const DIVERGED_NOISES: f64 = 5.0;
 const RATE_MAX_N_S: f64 = 200.0;
 /// Least time between two readings for a rate above the noise, in s.
 const RATE_SPAN_S: f64 = 0.005;
-/// Allowed rise of the force above its start in a retreat, in N, for the noise of a transducer.
+/// Allowed increase of the force over its start value in a retreat, in N. It allows for the noise of a transducer.
 const RETREAT_MARGIN_N: f64 = 0.05;
-/// Greatest change of pose that counts as rest, without noise, in mm.
+/// Maximum change of a pose without noise that counts as rest, in mm.
 const MOVED_MM: f64 = 1e-6;
 
 /// A supervisor shared by several threads.
@@ -64,7 +64,7 @@ impl SharedSupervisor {
     }
 }
 
-/// Halts a robot on a bad reading. The trip stays until [`release`](Supervisor::release).
+/// Halts a robot on a bad reading. The trip is stored until [`release`](Supervisor::release) is called.
 pub struct Supervisor {
     limits: RigLimits,
     halt: Arc<dyn Halt>,
@@ -113,7 +113,8 @@ impl Supervisor {
         }
     }
 
-    /// Begins to supervise `stage` at `now_s`; staleness counts from now. A trip stays: the robot is halted until a release.
+    /// Starts the supervision of `stage` at `now_s`, from which the age of signals is measured. A trip is not cleared, so the robot remains halted until a
+    /// release.
     pub fn watch(&mut self, stage: MotionStage, now_s: f64) {
         self.stage = stage;
         self.heard_s = now_s;
@@ -130,7 +131,7 @@ impl Supervisor {
         }
     }
 
-    /// Clears the trip and supervises `stage`, after the halt of the robot was ended.
+    /// Clears the trip and supervises `stage`. Call this after the halt of the robot was ended.
     pub fn release(&mut self, stage: MotionStage, now_s: f64) {
         self.tripped = None;
         self.watch(stage, now_s);
@@ -141,7 +142,7 @@ impl Supervisor {
         self.way = None;
     }
 
-    /// True from a sent motion until the tip rests. Missing readings are dangerous then.
+    /// True from the sending of a motion until the tip rests. During this time, missing readings are dangerous.
     pub fn is_under_way(&self) -> bool {
         self.way.is_some()
     }
@@ -152,7 +153,7 @@ impl Supervisor {
         self.halt();
     }
 
-    /// Fault that the robot reported.
+    /// Fault that the robot reported, if any.
     pub fn fault(&self) -> Option<Fault> {
         self.fault
     }
@@ -225,7 +226,7 @@ impl Supervisor {
         self.tripped
     }
 
-    /// True if the last force differs from the one before the last motion, so that the signal is not frozen.
+    /// True if the last force differs from the one before the last motion. The signal is then not frozen.
     pub fn is_fresh(&self) -> bool {
         self.repeats.count() == 0
     }
@@ -233,7 +234,7 @@ impl Supervisor {
     /// Checks an observation. A bad one halts the robot before this returns.
     ///
     /// # Errors
-    /// The [`Trip`], which stays until the next [`release`](Supervisor::release).
+    /// The [`Trip`], which is stored until the next [`release`](Supervisor::release).
     pub fn observe(&mut self, observation: &Observation, now_s: f64) -> Result<(), Trip> {
         let trip = self.tripped.or_else(|| match observation {
             Observation::Force(wrench, stamp) => self.force(wrench, stamp, None, now_s),
@@ -352,7 +353,7 @@ impl Supervisor {
         })
     }
 
-    /// Checks a pose during a motion. An unchanged pose does not count as a motion between readings.
+    /// Checks a pose during a motion. An unchanged pose does not count as a motion.
     fn under_way(&mut self, pose: &Pose, stamp: &Stamp, now_s: f64) -> Option<Trip> {
         let seen = *self.seen.get_or_insert(*pose);
         if distance(pose, &seen) > MOVED_MM.max(self.limits.signals.slack_mm()) {

@@ -27,25 +27,25 @@ pub(super) struct Surface {
 pub(super) const LEAST_READINGS: usize = 6;
 /// Parameters beside z₀: b, c and the noise.
 const PARAMETERS: usize = 3;
-/// Exponents of the force in quarters, with their prior weights: 4 for a flat tip and a skin, 6 for a ball, 8 for an edge.
+/// Exponents of the force in quarters, with their prior weights: 4 for a flat tip and a skin, 6 for a sphere, 8 for an edge.
 const EXPONENTS: [(u32, f64); 5] = [(4, 2.0), (5, 2.0), (6, 2.0), (7, 0.5), (8, 0.25)];
-/// Heights at which each of two passes weighs the residuals; the second pass covers what the first finds probable.
+/// Number of heights at which each of two passes weighs the residuals. The second pass covers the heights that the first finds probable.
 const HEIGHTS: u32 = 64;
 const PASSES: u32 = 2;
 /// Half the range of the second pass, in standard deviations of the first.
 const SPREAD: f64 = 5.0;
-/// Least standard deviation of a reading, in N: no transducer at rest is quieter.
+/// Minimum standard deviation of a reading, in N. No transducer at rest has less noise.
 const QUIET_N: f64 = 1e-4;
-/// Weight of a gel that is not there, relative to the best fit, from which no contact is seen.
+/// Weight of a fit without a gel, relative to the best fit, above which no contact is detected.
 const UNSEEN: f64 = 0.01;
-/// Weight at the upper end of the range, relative to the greatest, from which the gel may begin above it.
+/// Weight at the upper end of the range, relative to the greatest, above which the gel may begin above the range.
 const CUT_OFF: f64 = 0.1;
-/// Uncertainty from the unknown law of force, as a part of the depth of the first contact.
+/// Uncertainty because the force law is unknown, as a part of the depth of the first contact.
 const LAW_PART: f64 = 0.05;
 /// Tolerance for the end of the window, in mm.
 const ROUNDING_MM: f64 = 1e-9;
 
-/// Height of the gel that was first felt at `contact_mm`, from the `readings` at most `window_mm` above.
+/// Height of the gel whose first contact was at `contact_mm`, from the `readings` at most `window_mm` above.
 pub(super) fn surface(
     readings: &[DepthForce],
     contact_mm: f64,
@@ -87,7 +87,7 @@ pub(super) fn surface(
     })
 }
 
-/// Heights under consideration.
+/// Range of heights under consideration.
 #[derive(Clone, Copy, Debug)]
 struct Range {
     from_mm: f64,
@@ -114,7 +114,7 @@ impl Range {
     }
 }
 
-/// Readings, with the sums that every height shares.
+/// Readings, with the sums that are the same for every height.
 struct Centred<'a> {
     readings: &'a [DepthForce],
     count: f64,

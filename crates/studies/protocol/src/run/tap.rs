@@ -1,4 +1,4 @@
-//! Taps: the tip touches the gel at one place repeatedly, alternating between fast and slow, while listeners record every device.
+//! Taps: the tip touches the gel at one place repeatedly, fast and slowly in turn, while listeners record every device.
 //!
 //! Position, force and frame change at the same moment, so the delay of a device is its latency. The force reaches half of its rise at an offset from
 //! the reference height of the pose. The time over this offset decreases with speed; a latency does not.
@@ -31,7 +31,7 @@ const SLOW_PART: f64 = 1.0 / 3.0;
 const LEAD_MM: f64 = 0.5;
 /// Depth and force at the end of a tap, as parts of their limits. The force is predicted from the first touch.
 const PART: f64 = 0.4;
-/// Time of recording before and after the motion, enough for the latest device.
+/// Duration of the recording before and after the motion. It is sufficient for the slowest device.
 const BEFORE: Duration = Duration::from_millis(150);
 const AFTER: Duration = Duration::from_millis(600);
 /// Number of consecutive interruptions of a tap by stale signals that end the run.
@@ -39,11 +39,11 @@ const TRIES: u32 = 3;
 
 /// Listener to the devices of a rig during taps, on its own threads.
 pub trait TapListener {
-    /// Starts recording, with the tip at rest above the gel.
+    /// Starts recording. The tip is at rest above the gel.
     fn begins(&mut self);
-    /// Stops recording and returns it, after a tap or its interruption.
+    /// Stops recording after a tap or its interruption, and returns the recording.
     fn ends(&mut self) -> TapHeard;
-    /// Confirms the last tap. It is not repeated.
+    /// Called if the last tap is valid. It is not repeated.
     fn counts(&mut self);
 }
 
@@ -54,7 +54,7 @@ pub trait TapListener {
 /// here, because the listener holds the sensor.
 ///
 /// # Errors
-/// [`RunError`], as [`run_guarded`](super::run_guarded).
+/// [`RunError`] for the causes of [`run_guarded`](super::run_guarded).
 pub fn tap<'a>(
     plan: &'a Plan,
     robot: &'a mut dyn Robot,
@@ -216,7 +216,7 @@ impl Way {
     }
 }
 
-/// Stores the start of the session; records no press.
+/// Test log that stores the start of the session, and records no press.
 struct Begun(Option<SessionRecord>);
 
 impl PressLog for Begun {

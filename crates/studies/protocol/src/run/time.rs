@@ -1,21 +1,21 @@
-//! Clock and cancellation of a run, given by the caller. This crate reads no clock itself.
+//! Clock and cancellation of a run, which the caller provides. This crate reads no clock itself.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-/// Clock of a run, in s. It stamps the readings of the devices and never goes back.
+/// Clock of a run, in s. It stamps the readings of the devices, and never runs backwards.
 ///
 /// (Core's [`Clock`](taceva_core::Clock) names only the kind of clock of a recording.)
 pub trait Timekeeper {
     /// Current time, in s.
     fn now_s(&self) -> f64;
 
-    /// Waits for `rest`.
+    /// Waits for the duration `rest`.
     fn rest(&mut self, rest: Duration);
 }
 
-/// A cancellation that any thread can request; a run stops before its next motion.
+/// Cancellation that any thread can request. A run stops before its next motion.
 #[derive(Clone, Debug, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
@@ -30,7 +30,7 @@ impl Cancel {
         self.0.store(true, Ordering::Release);
     }
 
-    /// True once cancelled.
+    /// True if [`cancel`](Cancel::cancel) was called.
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Acquire)
     }

@@ -1,4 +1,4 @@
-//! The tip of the robot: every motion is checked, cut into segments where it may touch the gel, and followed by a reading.
+//! The tip of the robot. Every motion is checked, divided into segments where it may touch the gel, and followed by a reading.
 
 use std::time::Duration;
 
@@ -23,14 +23,14 @@ use crate::plan::Plan;
 
 /// Deadline of every call except motions.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-/// Extra segments of a motion, beyond twice those of its path, before the robot counts as stuck.
+/// Number of additional segments of a motion, beyond twice those of its path, after which the robot counts as stuck.
 const SPARE_SEGMENTS: f64 = 8.0;
 
 /// Stage while the zero or the present force is unknown: only saturation of the transducer limits the force.
 pub(super) const ANY_FORCE: MotionStage = MotionStage::Retreat {
     force_n: f64::INFINITY,
 };
-/// Force of a collision in the air, in multiples of the contact threshold: arms shake what they carry.
+/// Force of a collision in the air, in multiples of the contact threshold. It is high because arms shake the body that they move.
 const COLLISION_THRESHOLDS: f64 = 10.0;
 
 /// Result of a step of a press; the error is the cause that stops it.
@@ -43,7 +43,7 @@ pub(super) struct Tip<'a> {
     pub(super) clock: &'a mut dyn Timekeeper,
     pub(super) cancel: &'a Cancel,
     pub(super) supervisor: SharedSupervisor,
-    /// True if threads show every reading of force to the supervisor.
+    /// True if threads pass every force reading to the supervisor.
     pub(super) is_guarded: bool,
     pub(super) bounds: Bounds,
     pub(super) pace: Pace,
@@ -59,19 +59,19 @@ pub(super) struct Tip<'a> {
     pub(super) felt: Felt,
     /// Highest height at which the gel was felt, in mm.
     pub(super) surface_mm: Option<f64>,
-    /// Readings of the search in progress, or of its last steps passed again.
+    /// Readings of the search in progress, or of its repeated last steps.
     pub(super) readings: Option<Vec<DepthForce>>,
-    /// True if the robot reported a fault: then a person must check it first.
+    /// True if the robot reported a fault. A person must then check the robot first.
     pub(super) robot_failed: bool,
     /// True while a retreat ignores cancellation.
     pub(super) ignores_cancel: bool,
-    /// True once the transducer has set its own zero, which happens once if the host zeroes the force.
+    /// True if the transducer has set its own zero, which happens only once if the host zeroes the force.
     pub(super) is_box_zeroed: bool,
-    /// True if the zero holds for the present load of the robot.
+    /// True if the zero is valid for the present load of the robot.
     pub(super) is_zero_known: bool,
-    /// True once a motion was sent.
+    /// True if a motion has been sent.
     pub(super) has_moved: bool,
-    /// True while the robot is halted at the travel height or above it, so that hands may come near.
+    /// True while the robot is halted at or above the travel height, so that an operator may reach in.
     pub(super) stands_clear: bool,
 }
 
@@ -85,12 +85,12 @@ pub(super) struct Pace {
     pub(super) search_mm: f64,
     settle: Duration,
     pub(super) threshold_n: f64,
-    /// Least force that counts as contact at rest in the air, in N: the threshold, or more if noise demands it.
+    /// Least force that counts as contact at rest in the air, in N. It is the threshold, or more if required by noise.
     pub(super) air_n: f64,
     pub(super) normal_max_n: f64,
     pub(super) bearing: Bearing,
     pub(super) clearance_mm: f64,
-    /// Tolerance of a reported pose along each axis, in mm: a pose this close to its target has arrived.
+    /// Tolerance of a reported pose along each axis, in mm. A tip this close to its target has arrived.
     pub(super) slack_mm: f64,
     pub(super) host_zero: bool,
 }
@@ -163,12 +163,12 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Assumed pose: the target, if only noise separates it from the reported pose.
+    /// Assumed pose. It is the target, if the difference to the reported pose is within the noise.
     pub(super) fn here(&self) -> Pose {
         settled(&self.at, &self.target, self.pace.slack_mm)
     }
 
-    /// Reads the pose, and raises the tip straight to the height of travel if it is lower.
+    /// Reads the pose, and raises the tip straight to the travel height if it is lower.
     pub(super) fn find(&mut self) -> Step<()> {
         self.release()?;
         self.find_pose()?;
@@ -201,7 +201,7 @@ impl<'a> Tip<'a> {
         self.look().map(drop)
     }
 
-    /// Sets the motion stage before a motion through the air. Guard threads watch it for collisions if the zero is known.
+    /// Sets the stage before a motion through the air. If the zero is known, guard threads watch the motion for collisions.
     pub(super) fn watch_way(&mut self) -> Step<()> {
         if self.is_zero_known || !self.pace.host_zero {
             let threshold_n = match self.is_guarded {
@@ -217,9 +217,9 @@ impl<'a> Tip<'a> {
         Ok(())
     }
 
-    /// Moves straight to a place in mm, by the longest allowed motions, each followed by a reading.
+    /// Moves straight to a place in mm, by the longest allowed motions. Each motion is followed by a reading.
     ///
-    /// Each motion starts at the actual pose, so a lagging tip does not leap after its target.
+    /// Each motion starts at the actual pose, so that a lagging tip does not jump to its target.
     pub(super) fn approach(&mut self, [x, y, z]: [f64; 3]) -> Step<()> {
         let [x, y, z] = [x, y, z].map(Millimetre);
         let goal = Pose {
@@ -262,7 +262,7 @@ impl<'a> Tip<'a> {
         Err(self.halt_for(Trip::Frozen { readings }))
     }
 
-    /// Sets the stage. A trip of a guard thread remains, as does the halt of the robot.
+    /// Sets the stage. A trip of a guard thread is not cleared, and the robot remains halted.
     pub(super) fn watch(&mut self, stage: MotionStage) {
         self.stage = stage;
         let now_s = self.clock.now_s();
@@ -343,7 +343,7 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Place of a waypoint: over `place`, sheared, at `depth` below `height_mm`.
+    /// Pose for a waypoint: over `place`, displaced by the shear, at `depth` below `height_mm`.
     pub(super) fn waypoint(
         place: [Nanometre; 2],
         shear: [Nanometre; 2],

@@ -1,11 +1,11 @@
-//! Distances between places, and equality of places under the noise of a reported pose.
+//! Distances between places, and comparison of places within the noise of a reported pose.
 
 use taceva_core::{Degree, Millimetre, Point, Pose, Rotation};
 
 /// Tolerance of the rotation of a robot with a noisy pose, in degrees; arms repeat to hundredths.
 const TURN_SLACK_DEG: f64 = 0.1;
 
-/// Greatest sideways part of a straight motion.
+/// Maximum sideways part of a straight motion, relative to its length.
 const ASIDE_PART: f64 = 0.01;
 
 /// Distance between two tip positions, in mm.
@@ -41,7 +41,7 @@ pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     distance(tip, &part_way(from, to, part))
 }
 
-/// Assumed pose of a tip. Along each axis, `sent` if `seen` is within `slack_mm` of it, else `seen`.
+/// Assumed pose of a tip. Along each axis, it is `sent` if `seen` is within `slack_mm` of it, otherwise `seen`.
 pub(super) fn settled(seen: &Pose, sent: &Pose, slack_mm: f64) -> Pose {
     let settle = |seen: Millimetre, sent: Millimetre| {
         let is_there = (seen.0 - sent.0).abs() < slack_mm;

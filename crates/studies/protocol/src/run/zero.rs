@@ -1,11 +1,11 @@
-//! Zero of the force: set by the transducer or, on a real rig, computed as the mean of readings in the air.
+//! Zero of the force. The transducer sets it, or on a real rig it is computed as the mean of readings in the air.
 
 use taceva_core::{Newton, NewtonMillimetre, Wrench};
 
 use super::supervisor::MotionStage;
 use super::tip::{ANY_FORCE, DEADLINE, Step, Tip};
 
-/// Duration of the mean, in s. A zero command of an amplifier can take seconds at every press.
+/// Averaging time of the zero, in s. A zero command of an amplifier would take seconds at every press.
 const LISTEN_S: f64 = 0.25;
 /// Least number of readings of a mean, for slow transducers.
 const LEAST_READINGS: u32 = 4;

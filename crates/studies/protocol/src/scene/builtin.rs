@@ -42,7 +42,7 @@ impl BuiltinScene {
     /// Parses the scene.
     ///
     /// # Errors
-    /// As [`Scene::parse`]; a test parses every built-in scene.
+    /// Errors of [`Scene::parse`]. A test parses every built-in scene.
     pub fn scene(self) -> Result<Scene, SceneError> {
         Scene::parse(self.name(), self.text())
     }

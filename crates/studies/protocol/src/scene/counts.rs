@@ -52,7 +52,7 @@ pub struct Protocol {
 }
 
 table! {
-    /// Settings for finding and keeping contact.
+    /// Settings for finding contact and for motions in contact.
     Contact {
         /// Radius of the spherical indenter, in mm. The text of the paper states 2, a caption 10.
         indenter_radius_mm: f64 = 2.0,
@@ -61,7 +61,7 @@ table! {
         /// Normal force that counts as contact, in N.
         #[serde(rename = "threshold_N")]
         threshold_n: f64 = 0.02,
-        /// Height from which depths count.
+        /// Height relative to which depths are measured.
         depth_from: DepthOrigin = DepthOrigin::Contact,
         /// Height of travel and start of the search above the nominal surface, in mm.
         clearance_mm: f64 = 2.0,

@@ -1,8 +1,8 @@
-//! Heights from which the depths of a press count.
+//! Heights relative to which the depths of a press are measured.
 
 use serde::Deserialize;
 
-/// Height from which the depths of a press count.
+/// Height relative to which the depths of a press are measured.
 ///
 /// ```
 /// use taceva_protocol::DepthOrigin;
@@ -12,9 +12,9 @@ use serde::Deserialize;
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum DepthOrigin {
-    /// First reading above the threshold, up to a step of the search below the surface and more on a soft gel.
+    /// First reading above the threshold. It is up to one search step below the surface, and more on a soft gel.
     #[default]
     Contact,
-    /// Surface of the gel, fitted to the readings before and in contact.
+    /// Surface of the gel, fitted to the readings before and during contact.
     Surface,
 }

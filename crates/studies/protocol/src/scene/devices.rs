@@ -19,9 +19,9 @@ pub struct DeviceSpec {
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `driver` or `scenes`")]
 pub struct LightingSpec {
-    /// Selector. Without one, the sensor sets the light; if it cannot, the operator does.
+    /// Selector of the lighting. Without a lighting, the sensor sets the light; if it cannot, the operator does.
     pub driver: Option<Setting<String>>,
-    /// Light scenes to visit, the one of calibration first. By default all scenes of the driver; required if the operator sets the light.
+    /// Light scenes to use, that of calibration first. The default is all scenes of the driver. Required if the operator sets the light.
     pub scenes: Option<Setting<Vec<String>>>,
 }
 
@@ -43,7 +43,7 @@ pub struct SensorSpec {
     pub footprint: Option<Setting<FootprintSpec>>,
 }
 
-/// Model from frames to positions and forces: an estimator to fit, or a fitted model.
+/// Model that predicts positions and forces from frames: an estimator to fit, or a fitted model.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table with `name` or `file`")]
 pub struct ModelSpec {
@@ -56,7 +56,7 @@ pub struct ModelSpec {
     pub set: BTreeMap<String, toml::Value>,
 }
 
-/// Key of a selector: the text before its arguments.
+/// Driver key of a selector: the text before its arguments.
 pub(crate) fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
 }

@@ -14,7 +14,7 @@ use crate::text::Setting;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(remote = "Self", deny_unknown_fields, default)]
 pub struct MetricsSpec {
-    /// Names of metrics or groups; by default all that apply. A metric named individually must apply to some sensor of the scene.
+    /// Names of metrics or groups; the default is all that apply. A metric that is named individually must apply to a sensor of the scene.
     pub want: Option<Vec<Setting<String>>>,
     /// Settings of the metrics.
     pub settings: MetricSettings,
@@ -41,7 +41,7 @@ impl<'de> Deserialize<'de> for MetricsSpec {
     }
 }
 
-/// Settings of the metrics; an absent one takes the default of its metric.
+/// Settings of the metrics. For an absent setting, the metric's default applies.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table of settings")]
 pub struct MetricSettings {
@@ -49,7 +49,7 @@ pub struct MetricSettings {
     pub bins: Option<Setting<u32>>,
     /// Least number of samples in a cell or bin.
     pub n_min: Option<Setting<u32>>,
-    /// Least force of a press that counts in sensitivity, in N.
+    /// Least force of a press for the press to count in the sensitivity, in N.
     #[serde(rename = "gate_N")]
     pub gate_n: Option<Setting<f64>>,
     /// Width of the moving average of a curve, in bins; odd.
@@ -92,7 +92,7 @@ pub struct ReportSpec {
     pub formats: Vec<Setting<String>>,
     /// One of [`LIKE`](ReportSpec::LIKE): published study whose table layout is also written. `None` writes no such tables.
     pub like: Option<Setting<String>>,
-    /// Any of [`KEEP`](ReportSpec::KEEP): further files that the folder of a run keeps.
+    /// Any of [`KEEP`](ReportSpec::KEEP): additional files to store in the folder of a run.
     pub keep: Vec<Setting<String>>,
 }
 
@@ -103,10 +103,10 @@ impl ReportSpec {
     /// Studies whose table layout is supported.
     pub const LIKE: [&'static str; 1] = ["taceva"];
 
-    /// Files that a run keeps on request: fitted models.
+    /// Files that a run stores on request: fitted models.
     pub const KEEP: [&'static str; 1] = ["models"];
 
-    /// True if the folder of a run keeps its fitted models.
+    /// True if the folder of a run stores its fitted models.
     pub fn keeps_models(&self) -> bool {
         !self.keep.is_empty()
     }

@@ -15,28 +15,28 @@ use crate::text::Text;
 /// A sensor with its rig, limits and model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Study {
-    /// Name in the report; by default the name of the scene, if it has one sensor.
+    /// Name in the report. The default is the name of the scene, if the scene has one sensor.
     pub name: String,
     /// The sensor.
     pub sensor: SensorSpec,
-    /// Robot that carries the indenter.
+    /// Robot that moves the indenter.
     pub robot: Option<DeviceSpec>,
     /// The force transducer.
     pub force: Option<DeviceSpec>,
     /// The light around the sensor.
     pub lighting: Option<LightingSpec>,
-    /// Limits; the defaults are those of the scene.
+    /// Limits of the study. The defaults are those of the scene.
     pub limits: LimitSpec,
-    /// Model; `None` predicts nothing.
+    /// Model of the study; `None` for no predictions.
     pub model: Option<ModelSpec>,
-    /// Frame size in storage; `None` keeps frames whole.
+    /// Size of stored frames; `None` stores full frames.
     pub frames: Option<Setting<FrameSize>>,
     /// Rig file that names the devices, if any.
     pub rig: Option<Arc<RigFile>>,
 }
 
 impl Study {
-    /// Text that names sensor, robot and force transducer: the rig file if any, else `scene`.
+    /// Text that names sensor, robot and force transducer: the rig file if any, otherwise `scene`.
     pub(crate) fn device_text<'a>(&'a self, scene: &'a Scene) -> &'a Text {
         match &self.rig {
             Some(rig) => &rig.text,

@@ -12,7 +12,7 @@ use crate::reason::PlanReason;
 pub struct SceneError {
     /// Name of the text, such as its file.
     pub source_name: String,
-    /// Line, from 1, if a single line is at fault.
+    /// Line number, counted from 1, if a single line is wrong.
     pub line: Option<u64>,
     /// Problem.
     pub problem: Box<SceneProblem>,
@@ -50,7 +50,7 @@ pub enum SceneProblem {
     UnknownKey {
         /// Key as written.
         key: String,
-        /// Most similar known key.
+        /// Most similar known key, if any is similar.
         nearest: Option<String>,
         /// All known keys.
         known: String,
@@ -71,7 +71,7 @@ pub enum SceneProblem {
         what: &'static str,
         /// Name as written.
         name: String,
-        /// Most similar known name.
+        /// Most similar known name, if any is similar.
         nearest: Option<String>,
         /// All known names.
         known: String,
@@ -157,7 +157,7 @@ pub enum SceneProblem {
         /// Tighter limit.
         limit: f64,
     },
-    /// A length or force of the protocol exceeds its limit.
+    /// A length or force of the protocol exceeds a limit.
     #[error("`{key}` is {found}, beyond the limit `{limit_key}` = {limit} ({who})")]
     BeyondLimit {
         /// The key.
@@ -195,7 +195,7 @@ pub enum SceneProblem {
         /// The real device.
         real: String,
     },
-    /// A robot moves in its base frame, whose place relative to the sensor is unknown.
+    /// A robot moves in its base frame, whose pose relative to the sensor is unknown.
     #[error(
         "the robot `{robot}` moves in its base frame, whose pose relative to the gel is unknown: write a rig file with `origin_mm` and `axes` under [robot] and name it by `rig = \"lab.toml\"` or --rig (docs/rig.md)"
     )]
@@ -203,7 +203,7 @@ pub enum SceneProblem {
         /// The robot.
         robot: String,
     },
-    /// The robot of a rig file touched nothing on its way down to the gel.
+    /// The robot of a rig file found no contact in its descent to the gel.
     #[error(
         "no contact down to {search_mm} mm below the height of `origin_mm`: correct `origin_mm` or `axes` of [robot], or press the force transducer with a finger and check that it responds"
     )]
@@ -211,7 +211,7 @@ pub enum SceneProblem {
         /// Depth of the search, in mm.
         search_mm: f64,
     },
-    /// The axes of a rig file contradict the measured forces.
+    /// The measured forces contradict the axes in a rig file.
     #[error("`axes` of [force]: {felt}{}", mended(.expected, *.may_be_robot))]
     AxesContradicted {
         /// Directions of the motions and of the measured forces.
@@ -221,7 +221,7 @@ pub enum SceneProblem {
         /// True if the robot itself may have moved in another direction.
         may_be_robot: bool,
     },
-    /// A robot comes to rest too late after an exceeded limit.
+    /// A robot takes too long to come to rest after an exceeded limit.
     #[error(
         "`{robot}` needs {stop_ms} ms to stop, so it stops {needed_ms:.0} ms after a limit is exceeded: expected at most {greatest_ms:.0} ms"
     )]
@@ -235,7 +235,7 @@ pub enum SceneProblem {
         /// Greatest allowed time, in ms.
         greatest_ms: f64,
     },
-    /// The tip travels too far in contact before its force counts as stale.
+    /// The tip would travel too far in contact before its force counts as stale.
     #[error(
         "`speed_mm_s` is {found}, but {who} times out only after {stale_ms:.0} ms without a reading: expected at most {greatest:.3}"
     )]
@@ -307,7 +307,7 @@ fn did_you_mean(nearest: &Option<String>) -> String {
     })
 }
 
-/// Hint for a driver of a plugin, `ID/KEY` with dots in the id; empty for other names.
+/// Hint for a driver of a plugin, whose name `ID/KEY` has dots in the id; empty for other names.
 fn found_where(what: &str, name: &str) -> &'static str {
     let is_of_plugin = name.split_once('/').is_some_and(|(id, _)| id.contains('.'));
     if what.starts_with("driver of") && is_of_plugin {

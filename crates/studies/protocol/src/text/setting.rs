@@ -1,4 +1,4 @@
-//! A value of a scene with its position in the text, so that later errors can name the line.
+//! A value of a scene with its position in the text. Later errors can thereby name the line.
 
 use serde::{Deserialize, Deserializer};
 
@@ -21,7 +21,7 @@ impl<T> Setting<T> {
         self.at
     }
 
-    /// Maps the value and keeps the position.
+    /// Applies `change` to the value, and keeps the position.
     pub fn map<U>(self, change: impl FnOnce(T) -> U) -> Setting<U> {
         Setting {
             value: change(self.value),
@@ -30,7 +30,7 @@ impl<T> Setting<T> {
     }
 }
 
-/// Compares only the values, because the position does not matter.
+/// Compares only the values. The position has no effect.
 impl<T: PartialEq> PartialEq for Setting<T> {
     fn eq(&self, other: &Setting<T>) -> bool {
         self.value == other.value

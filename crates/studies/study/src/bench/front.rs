@@ -1,7 +1,7 @@
 //! Pareto front of models: processor time of the fit against error.
 //!
-//! A faster model beats a slower one on a channel, unless the slower one is shown to be more accurate. That is shown if the 95 % interval of the
-//! difference of their mean absolute errors, paired by contact point, is below 0.
+//! A faster model beats a slower one on a channel, unless the slower model is shown to be more accurate. Accuracy is shown if the 95 % interval of the
+//! difference of mean absolute errors, paired by contact point, is below 0.
 
 use taceva_metrics::ClusterSums;
 
@@ -11,7 +11,7 @@ use super::paired_errors::difference;
 /// A model of a race, and the sums of its absolute errors by contact point, one entry for each channel.
 pub(super) type Raced = (ModelTrial, Vec<Option<ClusterSums>>);
 
-/// Writes into each error the models that beat it; none if the system does not report processor time.
+/// Records in each error the models that beat the model with this error; records none if the system does not report processor time.
 pub(super) fn mark(race: &mut [Raced]) {
     let marks: Vec<Vec<Vec<String>>> = race
         .iter()
@@ -27,7 +27,7 @@ pub(super) fn mark(race: &mut [Raced]) {
     }
 }
 
-/// Models that beat `own` on the channel at `at`.
+/// Names of the models that beat the model `own` on the channel with index `at`.
 fn beaten_by(race: &[Raced], (own, sums): &Raced, at: usize) -> Vec<String> {
     let error = &own.errors[at];
     let beats = |(other, other_sums): &&Raced| {
@@ -53,7 +53,7 @@ mod tests {
     use super::super::models::TrialError;
     use super::*;
 
-    /// A model with the errors `errors` at ten points.
+    /// Test model with the errors `errors` at ten contact points.
     fn raced(model: &str, fit_cpu_s: f64, errors: impl Fn(u8) -> f64) -> Raced {
         let mut sums = ClusterSums::default();
         for point in 0..10_u8 {

@@ -12,7 +12,7 @@ use taceva_evaluate::EvaluateError;
 
 /// Channels of the timed columns: the six contact channels.
 const CHANNELS: usize = 6;
-/// Typical values of a lab: positions in mm with errors of about 0.3 mm.
+/// Values typical of a laboratory: positions in mm with errors of about 0.3 mm.
 const LAB: Kind = Kind::Lab {
     low: -12.5,
     high: 12.5,
@@ -46,11 +46,11 @@ impl Default for KernelRequest {
 /// Run time against error of every summation kernel, with the schema [`BENCH_SCHEMA`].
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelBench {
-    /// [`BENCH_SCHEMA`].
+    /// Always [`BENCH_SCHEMA`].
     pub schema: &'static str,
-    /// `kernels`.
+    /// Always `kernels`.
     pub subject: &'static str,
-    /// The machine.
+    /// Machine that ran the benchmark.
     pub machine: Machine,
     /// Rows of each of the six channels.
     pub rows_timed: usize,
@@ -65,7 +65,7 @@ pub struct KernelBench {
 /// Time to sum both columns once: the lower limit of any kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Floor {
-    /// `stream sum`.
+    /// Always `stream sum`.
     pub name: &'static str,
     /// Nanoseconds for each pair of values, wall time.
     pub ns_per_pair: Spread,
@@ -79,7 +79,7 @@ pub struct Floor {
 /// One summation kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelRow {
-    /// Name.
+    /// Name of the kernel.
     pub name: String,
     /// Instruction set that it was compiled for, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -95,7 +95,7 @@ pub struct KernelRow {
     pub times_floor: f64,
     /// Least number of correct digits over all scores and inputs.
     pub digits_min: f64,
-    /// Least number of correct digits of its scores, for each input.
+    /// Least number of correct digits over the scores of the kernel, for each input.
     pub digits: Vec<InputDigits>,
     /// True if the result has the same bits in any order of rows.
     pub order_free: bool,
@@ -106,9 +106,9 @@ pub struct KernelRow {
 /// Accuracy of a candidate on one input.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct InputDigits {
-    /// The input.
+    /// Name of the input.
     pub input: &'static str,
-    /// Least number of correct digits of its scores.
+    /// Least number of correct digits over the scores of the candidate.
     pub digits: f64,
 }
 
@@ -232,7 +232,7 @@ fn candidates() -> Vec<Candidate> {
     full.chain(mae).collect()
 }
 
-/// Six channels with typical values of a lab.
+/// Six channels with values typical of a laboratory.
 fn columns(request: &KernelRequest) -> Vec<Paired<Vec<f64>>> {
     (0..CHANNELS as u64)
         .map(|channel| {

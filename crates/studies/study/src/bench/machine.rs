@@ -18,7 +18,7 @@ pub struct Machine {
 }
 
 impl Machine {
-    /// This machine, for a benchmark on `threads` threads.
+    /// Describes this machine, for a benchmark on `threads` threads.
     pub fn here(threads: usize, isa: Vec<String>) -> Machine {
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         Machine {
@@ -31,7 +31,7 @@ impl Machine {
     }
 }
 
-/// Name of the processor, from Linux.
+/// Name of the processor as Linux reports it.
 fn cpu_name() -> Option<String> {
     let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
     let line = text.lines().find(|line| line.starts_with("model name"))?;

@@ -21,7 +21,7 @@ use taceva_evaluate::{Predicted, Target, model_extractor, predict_target};
 
 /// Metric of the comparison.
 const METRIC: &str = "mae";
-/// Number of frames that are predicted one by one.
+/// Number of frames predicted individually, to measure latency.
 const SINGLES: usize = 50;
 
 /// Cost and error of one model.
@@ -33,11 +33,11 @@ pub struct ModelTrial {
     pub settings: Vec<String>,
     /// Time of the fit including features, in s.
     pub fit_s: f64,
-    /// Processor time of the fit including features, in s: the least of all rounds. `None` if the system does not report it.
+    /// Least processor time of the fit over all rounds, including features, in s. `None` if the system does not report processor time.
     pub fit_cpu_s: Option<f64>,
     /// Time to predict the whole test part including features, in s.
     pub predict_s: f64,
-    /// Time from one decoded frame to its prediction, in s: the median over frames predicted one by one.
+    /// Median time from one decoded frame to its prediction, in s, over frames predicted individually.
     pub latency_s: f64,
     /// Error of each channel on the test part; empty if the model could not be fitted.
     pub errors: Vec<TrialError>,
@@ -48,18 +48,18 @@ pub struct ModelTrial {
 /// Mean absolute error of one channel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TrialError {
-    /// The channel.
+    /// Name of the channel.
     pub channel: String,
     /// Unit of the error and its interval.
     pub unit: Unit,
     /// The mean absolute error.
     pub mae: f64,
-    /// 95 % interval by contact point; `None` if there are too few points.
+    /// 95 % interval of the error, with contact points as clusters; `None` if there are too few points.
     pub ci95: Option<[f64; 2]>,
     /// Number of samples.
     pub n: u64,
-    /// Models of the race that beat this one: they fit in less processor time, and this one is not shown to be more accurate. Accuracy is shown if
-    /// the 95 % interval of the difference of errors, paired by contact point, is below 0. Empty on the Pareto front.
+    /// Models of the race that beat this one on the channel. Such a model has a fit with less processor time, and this model is not shown to be more accurate.
+    /// Accuracy is shown if the 95 % interval of the difference of errors, paired by contact point, is below 0. Empty on the Pareto front.
     pub beaten_by: Vec<String>,
 }
 
@@ -74,9 +74,9 @@ impl ModelTrial {
 /// A race of models.
 #[derive(Clone, Copy, Debug)]
 pub struct ModelRace<'a> {
-    /// One fit for each model, all on one split and one seed.
+    /// Requests, one for each model, all with the same split and seed.
     pub requests: &'a [FitRequest],
-    /// Number of fits of each model, in turns.
+    /// Number of fits of each model. The models take turns.
     pub rounds: NonZeroUsize,
 }
 
@@ -87,7 +87,7 @@ pub struct ModelTrials {
     pub split: String,
     /// Number of samples in the training part.
     pub train: usize,
-    /// Number of samples in the scored part.
+    /// Number of samples in the test part.
     pub test: usize,
     /// One row for each model, in the requested order.
     pub rows: Vec<ModelTrial>,
@@ -174,7 +174,7 @@ fn trial(
     Ok((row, sums))
 }
 
-/// Reason why a model could not be fitted or scored, if the error ends only its own row.
+/// Reason why a model could not be fitted or scored. Returns the error itself if the whole race must end.
 pub(super) fn unfitted(
     outcome: Result<(), EvaluateError>,
 ) -> Result<Option<String>, EvaluateError> {
@@ -213,7 +213,7 @@ fn measure(
     Ok(sums.collect())
 }
 
-/// Result of `run`, and its processor time in s.
+/// Calls `run`, and returns its result and its processor time in s.
 fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
     let start = process_time();
     let outcome = run();
@@ -290,7 +290,7 @@ impl Raced {
     }
 }
 
-/// Median time from a decoded frame or signals to the prediction.
+/// Median time from a decoded frame or its signals to the prediction, in s.
 fn latency(
     dataset: &Dataset,
     model: &Model,

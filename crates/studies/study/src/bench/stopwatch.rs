@@ -1,4 +1,4 @@
-//! Times of several candidates, measured in turns, so that disturbances affect all of them.
+//! Times of several candidates, measured in turns, so that a disturbance affects all candidates.
 
 use std::time::{Duration, Instant};
 
@@ -7,14 +7,14 @@ use serde::Serialize;
 /// Best and median of several times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// The shortest time, with the least disturbance.
+    /// Shortest time, the one least affected by disturbances.
     pub best: f64,
-    /// The median time.
+    /// Median time.
     pub median: f64,
 }
 
 impl Spread {
-    /// Spread of `values`; `None` if they are empty.
+    /// Spread of `values`; `None` if `values` is empty.
     pub fn of(values: &[f64]) -> Option<Spread> {
         let mut sorted = values.to_vec();
         sorted.sort_by(f64::total_cmp);
@@ -44,7 +44,8 @@ pub struct Stopwatch {
 impl Stopwatch {
     /// Runs all candidates once untimed, then `rounds` times in turns.
     ///
-    /// `run` receives the index of a candidate. `go_on` decides after each candidate whether to continue; earlier measurements stay.
+    /// `run` receives the index of a candidate. After each candidate, `go_on` returns true to continue. If it returns false, the times measured so far are
+    /// kept.
     pub fn race(
         candidates: usize,
         rounds: usize,
@@ -118,7 +119,7 @@ fn clock(clock: Clock) -> Option<Duration> {
     Some(Duration::new(seconds, nanoseconds))
 }
 
-/// Not supported on this system.
+/// Returns `None`, because this system does not report processor time.
 #[cfg(not(unix))]
 fn clock(_: Clock) -> Option<Duration> {
     None

@@ -16,14 +16,14 @@ use taceva_evaluate::{MODELS, PLANS, RECORDINGS, STATES};
 use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
 use crate::error::StudyError;
 
-/// Policy for an existing folder.
+/// Policy for a run folder that already exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Existing {
-    /// Rejects it.
+    /// Rejects the folder.
     Refuse,
-    /// Resumes the run in it if its plans are the same.
+    /// Resumes the run in the folder if its plans are unchanged.
     Resume,
-    /// Removes the run in it; rejects a folder that is not a run.
+    /// Removes the run in the folder; rejects a folder that contains no run.
     Replace,
 }
 
@@ -34,7 +34,7 @@ pub struct RunFolder {
 }
 
 impl RunFolder {
-    /// Name of the scene of the run in the folder at `path`; `None` if it has no readable scene.
+    /// Name of the scene in the run folder at `path`; `None` if the folder has no readable scene.
     ///
     /// ```
     /// assert_eq!(taceva_study::RunFolder::scene_name("no-run".as_ref()), None);
@@ -48,7 +48,7 @@ impl RunFolder {
     /// Prepares the folder at `path` for `scene`.
     ///
     /// # Errors
-    /// [`StudyError::RunFolder`] if it exists and `existing` rejects it, if the run in it has other plans, or if it cannot be written.
+    /// [`StudyError::RunFolder`] if `existing` rejects the folder, if the run in the folder has other plans, or if the folder cannot be written.
     pub fn open(
         path: &Path,
         scene: &PlannedScene,
@@ -97,12 +97,12 @@ impl RunFolder {
         &self.path
     }
 
-    /// Folder of its reports.
+    /// Folder of the reports of the run.
     pub fn reports(&self) -> PathBuf {
         self.path.join(REPORTS)
     }
 
-    /// Folder of its figures.
+    /// Folder of the figures of the run.
     pub fn figures(&self) -> PathBuf {
         self.path.join(FIGURES)
     }
@@ -118,7 +118,7 @@ impl RunFolder {
         self.path.join(RECORDINGS).join(name)
     }
 
-    /// Report file of study `number`, counted from 0, with this extension.
+    /// Report file of study `number`, counted from 0, with the extension `extension`.
     pub fn report(&self, number: usize, study: &str, extension: &str) -> PathBuf {
         let name = format!("{}-{}.{extension}", number + 1, slug(study));
         self.reports().join(name)
@@ -130,13 +130,13 @@ impl RunFolder {
         self.path.join(name)
     }
 
-    /// Beginning of the names of the state files of study `number`, counted from 0.
+    /// Common prefix of the names of the state files of study `number`, counted from 0.
     pub(crate) fn states(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}", number + 1, slug(study));
         self.path.join(STATES).join(name)
     }
 
-    /// Model file of study `number`, counted from 0, for a scene that keeps its models.
+    /// Model file of study `number`, counted from 0, for a scene that stores its models.
     pub(crate) fn model(&self, number: usize, study: &str) -> PathBuf {
         let name = format!("{}-{}.taceva", number + 1, slug(study));
         self.path.join(MODELS).join(name)
@@ -158,7 +158,7 @@ impl RunFolder {
         Ok(())
     }
 
-    /// Removes the folder of a run that recorded nothing, so that the command can be repeated after its error is fixed. Returns true if it was
+    /// Removes the folder of a run that recorded nothing, so that the user can repeat the command after fixing the error. Returns true if the folder was
     /// removed.
     pub fn remove_if_untouched(&self) -> bool {
         let is_untouched = [RECORDINGS, REPORTS, FIGURES, STATES]
@@ -167,7 +167,7 @@ impl RunFolder {
         is_untouched && fs::remove_dir_all(&self.path).is_ok()
     }
 
-    /// First free path `<parent>/<scene>-<number>`, counted from 1; for `Resume` and `Replace`, the last used one.
+    /// First free path `<parent>/<scene>-<number>`, counted from 1. For `Resume` and `Replace`, the path before it.
     pub fn numbered(parent: &Path, scene: &str, existing: Existing) -> PathBuf {
         let path = |number: u64| parent.join(format!("{}-{number}", slug(scene)));
         let free = (1..).find(|number| !path(*number).exists()).unwrap_or(1);
@@ -178,7 +178,7 @@ impl RunFolder {
     }
 }
 
-/// A name in the form of a file name.
+/// Converts a name to a valid file name.
 fn slug(name: &str) -> String {
     let letters = name.chars().map(|letter| {
         if letter.is_alphanumeric() || "-_".contains(letter) {
@@ -195,7 +195,7 @@ fn is_empty(path: &Path) -> io::Result<bool> {
     Ok(fs::read_dir(path)?.next().is_none())
 }
 
-/// Creates the folder of a run under a temporary name and renames it, so that it is never incomplete.
+/// Creates the folder of a run under a temporary name and renames it, so that no incomplete folder is visible.
 fn make(path: &Path, scene: &str, plans: &str) -> io::Result<()> {
     fs::create_dir_all(parent_of(path))?;
     let staged = Staged::beside(path)?;
@@ -226,7 +226,7 @@ mod tests {
     const SCENE_TEXT: &str = "scene_version = 1\nname = \"My gel, twice\"\n\
                               sensor = { dataset = \"recording\" }\n";
 
-    /// A scene of a recording with one sample, in its own folder.
+    /// Scene with one sample per recording, written to its own folder, for tests.
     fn scene(folder: &Path, seed: u64) -> PlannedScene {
         let recording = folder.join("recording");
         if !recording.exists() {

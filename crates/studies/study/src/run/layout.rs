@@ -1,6 +1,6 @@
 //! File names in the folder of a run.
 
-/// The scene as written.
+/// Copy of the scene as the user wrote it.
 pub(super) const SCENE: &str = "scene.toml";
 /// Folder of the reports.
 pub(super) const REPORTS: &str = "reports";

@@ -15,8 +15,8 @@ pub(crate) struct RunContext<'a> {
     pub(crate) models: &'a Models,
     /// Checkpoint file of a long training.
     pub(crate) checkpoint: &'a Path,
-    /// Beginning of the names of its state files.
+    /// Common prefix of the names of the state files.
     pub(crate) states: &'a Path,
-    /// File for its model; `None` if the scene keeps no models.
+    /// File for the fitted model; `None` if the scene does not store models.
     pub(crate) model: Option<&'a Path>,
 }

@@ -1,4 +1,4 @@
-//! Rows of a recording by part of the protocol, and the rows that a model may see.
+//! Rows of a recording by phase of the protocol, and the rows available to a model.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -17,7 +17,7 @@ use taceva_evaluate::{DataPart, Divided};
 pub(super) struct PhaseRows<'a> {
     plan: &'a Plan,
     dataset: &'a Dataset,
-    /// `None` if the plan has no presses; every row then belongs to every part.
+    /// Rows of each phase; `None` if the plan has no presses, and every row then belongs to every phase.
     rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
 }
 
@@ -32,7 +32,7 @@ impl<'a> PhaseRows<'a> {
         }
     }
 
-    /// Rows of a part of the protocol, ascending.
+    /// Rows of one phase of the protocol, ascending.
     pub(super) fn rows(&self, kind: PhaseKind) -> Vec<usize> {
         match &self.rows {
             Some(rows) => rows.get(&kind).cloned().unwrap_or_default(),
@@ -40,7 +40,7 @@ impl<'a> PhaseRows<'a> {
         }
     }
 
-    /// Rows of every part of the protocol by its name; `None` for a recording without a plan.
+    /// Rows of every phase of the protocol, by name of the phase; `None` for a recording without a plan.
     pub(super) fn protocol(&self) -> Option<BTreeMap<&'static str, Vec<usize>>> {
         let rows = self.rows.as_ref()?.iter();
         Some(
@@ -55,18 +55,18 @@ impl<'a> PhaseRows<'a> {
         planned.filter_map(|metric| Some((metric, catalogue::find(&metric.id)?)))
     }
 
-    /// True if a metric compares predictions with the truth.
+    /// True if any planned metric compares predictions with the truth.
     pub(super) fn reads_predictions(&self) -> bool {
         !self.predicted_phases().is_empty()
     }
 
-    /// True if a metric compares predicted spacings with the true ones.
+    /// True if any planned metric compares predicted spacings with the true ones.
     pub(super) fn reads_spacings(&self) -> bool {
         let mut metrics = self.metrics();
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// Parts of the protocol whose predictions are needed: those of metrics, and the calibration, which gives the skill of the model.
+    /// Phases of the protocol with needed predictions: the phases of metrics, and the calibration, which gives the skill of the model.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
@@ -77,7 +77,7 @@ impl<'a> PhaseRows<'a> {
         phases
     }
 
-    /// Channels whose predictions are needed, in the order of the plan: the channels of samples with a frame.
+    /// Channels with needed predictions, in the order of the plan: the channels of samples with a frame.
     pub(super) fn predicted_channels(&self) -> Vec<String> {
         let table = self.dataset.table();
         let is_seen = |channel: &str| {
@@ -107,7 +107,7 @@ impl<'a> PhaseRows<'a> {
             .collect()
     }
 
-    /// Divides the presses for the fit, with contact points kept whole; all other presses are in no part.
+    /// Divides the calibration presses for the fit, and keeps each contact point in one part. All other presses are in no part.
     pub(super) fn divided(&self, request: &FitRequest) -> Result<Divided, EvaluateError> {
         let dataset = self.dataset;
         if self.rows.is_none() {
@@ -117,8 +117,8 @@ impl<'a> PhaseRows<'a> {
         Divided::within(dataset, &rows, Some("by-point"), request.seed)
     }
 
-    /// The only unit measured outside the map of surfaces, with a note on the metrics that compare units. `None` if the study has no other unit or no
-    /// such metric, or if several units were measured.
+    /// The only unit measured outside the map of surfaces, with a note for metrics that compare units. `None` if the study has no other unit, no metric
+    /// compares units, or several units were measured.
     pub(super) fn measured_unit(&self) -> Option<(String, Note)> {
         let units = self.dataset.table().as_text(Field::UnitId.name())?;
         let mut of: Vec<String> = units.iter().flatten().cloned().collect();
@@ -162,7 +162,7 @@ impl<'a> PhaseRows<'a> {
     }
 }
 
-/// Rows used to fit a model or to choose its settings, ascending.
+/// Rows used to fit a model or choose its settings, ascending.
 pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     let parts = [DataPart::Train, DataPart::Validation].map(|part| divided.rows(part));
     let mut rows = parts.concat();
@@ -170,7 +170,7 @@ pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     rows
 }
 
-/// Rows of each part of the protocol; samples are named `<press>/<number>`.
+/// Rows of each phase of the protocol. Samples are named `<press>/<number>`.
 fn by_phase(plan: &Plan, dataset: &Dataset) -> BTreeMap<PhaseKind, Vec<usize>> {
     let presses = plan.presses.iter();
     let phases: BTreeMap<String, &[PhaseKind]> = presses

@@ -24,7 +24,7 @@ pub(super) struct Scores<'a> {
     pub(super) study: &'a PlannedStudy,
     pub(super) dataset: &'a Dataset,
     pub(super) phase_rows: &'a PhaseRows<'a>,
-    /// Predictions, with their rows of the dataset, ascending.
+    /// Predictions, and the dataset row of each prediction, ascending.
     pub(super) predicted: Option<&'a (Predicted, Vec<usize>)>,
     /// Predicted spacings of presses on gratings.
     pub(super) predicted_spacings: Option<&'a PredictedSpacings>,
@@ -37,11 +37,11 @@ struct ScoreGroup {
     phase: PhaseKind,
     channels: Vec<String>,
     predictions: Option<Within>,
-    /// True if times are taken from the phase alone, and everything else from every row.
+    /// True if times are read only from the rows of the phase, and all other values from every row.
     of_sensor: bool,
 }
 
-/// Range of the predictions that are read.
+/// Range to which predictions are clipped before a metric reads them.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 enum Within {
     /// Predictions clipped to the bounds of the model.
@@ -51,7 +51,7 @@ enum Within {
 }
 
 impl Within {
-    /// Range that `metric` reads; `None` if it reads no predictions.
+    /// Range for the predictions that `metric` reads; `None` if it reads no predictions.
     fn of(metric: &Metric) -> Option<Within> {
         metric.reads_predictions().then(|| {
             if metric.reads_unbounded_predictions() {
@@ -63,14 +63,13 @@ impl Within {
     }
 }
 
-/// Metric of the frame rate and the field of view. Frames have the full rate only at rest without contact, so contact points are taken from all other
-/// parts of the protocol.
+/// Metric of the frame rate and the field of view. Only frames at rest without contact have the full rate, so contact points are read from all other phases.
 const OF_SENSOR: &str = "intrinsic";
 
 /// Scores of a study, with the sums behind them.
 pub(super) struct StudyScores {
     pub(super) evaluation: Evaluation,
-    /// Notes on omissions that a skip cannot express.
+    /// Notes on omissions that cannot be expressed as a skip.
     pub(super) notes: Vec<Note>,
     /// State of each group of rows.
     pub(super) states: Vec<StateFile>,
@@ -171,7 +170,7 @@ impl Scores<'_> {
         Ok(GroupScores { evaluation, state })
     }
 
-    /// Group that shows the skill of the model: the unseen presses of the calibration. If there are none, the part of the protocol with the most
+    /// Group of rows that determines the skill of the model: the unseen presses of the calibration. Without unseen presses, the phase with the most
     /// predictions.
     fn skill_group(&self) -> Option<ScoreGroup> {
         let (_, predicted) = self.predicted?;
@@ -195,7 +194,7 @@ impl Scores<'_> {
         })
     }
 
-    /// Constant predictions for the skill by channel, as far as the model states them.
+    /// Constant prediction of each channel, for the skill. Contains only channels for which the model states a constant.
     fn constants(&self) -> BTreeMap<String, f64> {
         let predicted = self.predicted.map(|(predicted, _)| predicted);
         predicted.map_or_else(BTreeMap::new, |predicted| predicted.constants().clone())
@@ -209,7 +208,7 @@ impl Scores<'_> {
         Channels::new(chosen).map_err(|error| EvaluateError::Request(error.to_string()))
     }
 
-    /// Rows of `group` and their predictions. If a metric reads predictions, rows without one are skipped.
+    /// Rows of `group` and their predictions. Skips rows without a prediction if a metric reads predictions.
     fn rows(&self, group: &ScoreGroup, channels: &Channels) -> Taken {
         let rows = match group.of_sensor {
             true => self.dataset.all_rows(),
@@ -251,9 +250,9 @@ impl Scores<'_> {
 /// Rows that metrics read.
 struct Taken {
     rows: Vec<usize>,
-    /// Their predictions, channel by channel.
+    /// Predictions of the rows, one column per channel.
     prediction: Vec<Column>,
-    /// Predictions of each channel beyond the bounds of the model.
+    /// Number of predictions of each channel outside the bounds of the model.
     bounded: Bounded,
 }
 
@@ -287,7 +286,7 @@ impl Rows for Samples<'_> {
     }
 }
 
-/// Omissions of the plan: as skips if any stream may have the reason, else as notes.
+/// Omissions of the plan. An omission is a skip if any stream may have its reason, otherwise a note.
 fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<Note>) {
     let (mut skipped, mut notes) = (Vec::new(), Vec::new());
     for skip in &study.plan.skipped {

@@ -78,7 +78,7 @@ fn record_on(
     })
 }
 
-/// Result of `act` on a scene that is planned on `world`.
+/// Result of calling `act` with a scene that is planned on `world`.
 fn with_workshop<T>(
     world: &World,
     progress: &dyn Progress,

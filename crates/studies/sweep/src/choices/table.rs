@@ -19,7 +19,7 @@ fn without_validation(groups: &[Group<'_>]) -> Vec<String> {
     silent
 }
 
-/// Description of the quantity that a channel measures.
+/// Question that the choice for a channel answers.
 fn question(channel: &str) -> &'static str {
     match channel {
         "Pz" => "depth",

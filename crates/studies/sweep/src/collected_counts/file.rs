@@ -13,7 +13,7 @@ use crate::seal;
 
 /// Schema of the file.
 const SCHEMA: &str = "taceva.sweep-collected/1.0";
-/// Output files that must exist beside the counts.
+/// Output files that must exist beside the file of counts.
 const BESIDE: [&str; 5] = [
     "table.csv",
     "table.parquet",
@@ -22,7 +22,7 @@ const BESIDE: [&str; 5] = [
     "times.html",
 ];
 
-/// Content of the file.
+/// Content of the sealed file.
 #[derive(Serialize, Deserialize)]
 struct Kept {
     schema: String,
@@ -51,10 +51,10 @@ impl Collected {
         folder.write(&path, text.as_bytes())
     }
 
-    /// Reads the counts for the output in `folder` made from the inputs `made_of`; `None` if the inputs differ or a file is missing.
+    /// Reads the counts of the output in `folder`. Returns `None` if the output was not made from the inputs `made_of`, or if a file is missing.
     ///
     /// # Errors
-    /// [`SweepError::Kept`] if the file was edited, because its counts and verdicts are printed.
+    /// [`SweepError::Kept`] if the file was edited, because commands print its counts and verdicts.
     pub(crate) fn read(
         folder: &SweepFolder,
         made_of: &str,

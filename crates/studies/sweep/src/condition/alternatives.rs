@@ -1,4 +1,4 @@
-//! Operators between the terms of a condition: ` and `, which has precedence, and ` or `.
+//! Splits a condition at its operators: ` and `, which has precedence, and ` or `.
 
 use super::term::Term;
 
@@ -23,7 +23,7 @@ enum Joint {
     Or,
 }
 
-/// Text of each term, with the operator before it. Quoted operators are part of a value.
+/// Text of each term, with the operator before the term. A quoted operator is part of a value.
 fn pieces(text: &str) -> Vec<(Joint, &str)> {
     let mut pieces = Vec::new();
     let (mut joint, mut start, mut quote) = (Joint::And, 0, None);

@@ -2,12 +2,12 @@
 
 use crate::task::Task;
 
-/// Accepted forms, for messages.
+/// Accepted forms of a term, for messages.
 const UNDERSTOOD: &str = "expected NAME = VALUE or NAME != VALUE, joined by ` and ` or ` or ` (no parentheses), or the key of a task";
 /// Characters not allowed in an unquoted value. A term that contains one is rejected.
 const SIGNS: [char; 9] = ['=', '!', '<', '>', '&', '|', '(', ')', '"'];
 
-/// One term: `size != 64x64`.
+/// Term that selects tasks by the first digits of their key.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Term {
     pub(super) name: String,
@@ -44,7 +44,7 @@ impl Term {
         }
     }
 
-    /// True if the term holds for `task`.
+    /// True if `task` satisfies the term.
     pub(super) fn holds(&self, task: &Task) -> bool {
         let is_same = match self.name.as_str() {
             "key" => task.key.as_str().starts_with(&self.value),

@@ -1,4 +1,4 @@
-//! Results for tests: errors at eight contact points.
+//! Example results for tests: errors at eight contact points.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::analysis::Group;
 use crate::key::{KeyParts, TaskKey};
 use crate::result::{TaskResult, ValidationError};
 
-/// Result with a mean absolute error of Fz, N.
+/// Example result with a mean absolute error of `Fz` of `error`, in N.
 pub(super) fn result(error: f64) -> TaskResult {
     let key = TaskKey::of(KeyParts {
         dataset: Digest::of(b"data"),
@@ -36,7 +36,7 @@ pub(super) fn result(error: f64) -> TaskResult {
     result
 }
 
-/// A configuration with a result for each of `seeds`.
+/// Example group: a configuration with a result for each of `seeds`.
 pub(super) fn group<'a>(seeds: &[u64], results: &'a [TaskResult]) -> Group<'a> {
     Group {
         dataset: "monday",

@@ -1,15 +1,16 @@
-//! Power of a family of tests: number of sign flips, and detection of families that cannot show a difference.
+//! Power of a family of tests: computes the number of sign flips, and detects families that cannot show a difference.
 
 use taceva_metrics::{Difference, SignFlip};
 
 /// Significance level of the family.
 const LEVEL: f64 = 0.05;
-/// Flips for each test. The least p value is then half of the first step of Holm's procedure, which is `LEVEL` divided by the number of tests.
+/// Number of flips per test in the family. The least p value is then half of the first step of Holm's procedure, which is `LEVEL` divided by the number of
+/// tests.
 const FLIPS_A_TEST: usize = 40;
-/// Limit on the flips of all tests together. Each takes 16 bytes until the family is decided.
+/// Limit on the flips of all tests together. Each flip takes 16 bytes until the family is decided.
 const MOST_FLIPS: usize = 1 << 24;
 
-/// Number of sign flips for each of `tests` tests: enough for the first step of Holm's procedure, up to the limit `MOST_FLIPS`.
+/// Number of sign flips for each of `tests` tests. It is enough for the first step of Holm's procedure, up to the limit `MOST_FLIPS`.
 pub(super) fn flips_of(tests: usize) -> u32 {
     let wanted = tests
         .saturating_mul(FLIPS_A_TEST)
@@ -18,8 +19,8 @@ pub(super) fn flips_of(tests: usize) -> u32 {
     u32::try_from(wanted.min(most)).unwrap_or(u32::MAX)
 }
 
-/// Message for a family in which no test can have a p value below the first step of Holm's procedure; else `None`. Only tests by sign flips have a
-/// least p value.
+/// Message for a family in which no test can have a p value below the first step of Holm's procedure; otherwise `None`. Only sign-flip tests have a least p
+/// value.
 pub(super) fn out_of_reach(family: &[Difference]) -> Option<String> {
     let step = LEVEL / family.len() as f64;
     let least = family.iter().map(|difference| difference.test.least_p());

@@ -1,4 +1,4 @@
-//! Errors of two configurations for the seeds that both have.
+//! Errors of two configurations, for seeds with a result of both configurations.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::analysis::Group;
 
 /// Errors of both compared configurations, for the seeds with a result of both.
 pub(super) struct SharedSeeds {
-    /// Errors by contact point. A press counts once, however often it was in a test part.
+    /// Errors of each configuration by contact point. A press counts once, even if it was in the test part of several seeds.
     pub(super) sums: Sides<ClusterSums>,
     /// Number of seeds with a result, for each configuration.
     of: Sides<usize>,
@@ -17,7 +17,7 @@ pub(super) struct SharedSeeds {
 }
 
 impl SharedSeeds {
-    /// Errors of `channel`.
+    /// Computes the shared errors of two groups on `channel`.
     pub(super) fn of(groups: Sides<&Group<'_>>, channel: &str) -> SharedSeeds {
         let [a, b] = [groups.a, groups.b].map(|group| by_seed(group, channel));
         let mut shared = SharedSeeds {
@@ -38,7 +38,7 @@ impl SharedSeeds {
         shared
     }
 
-    /// Number of compared seeds; with the number of each configuration, if they differ.
+    /// Number of compared seeds, for a table. Adds the number of seeds of each configuration if these numbers differ.
     pub(super) fn words(&self) -> String {
         let Sides { a, b } = self.of;
         match a == self.count && b == self.count {

@@ -1,4 +1,4 @@
-//! Variation between seeds of the difference of two configurations.
+//! Variation of the difference of two configurations between seeds.
 
 use taceva_metrics::TrainingSpread;
 
@@ -7,8 +7,8 @@ use crate::analysis::Group;
 /// Standard error of the mean difference in the errors of `channel`, over the seeds of both groups. `None` for fewer than two seeds, or if all
 /// differences are equal.
 ///
-/// Both configurations share the division of a seed, so differences are computed seed by seed. A seed also changes the tested contact points, which
-/// the clusters represent too. The total variation is therefore rather overestimated.
+/// Both configurations use the same division for a seed, so differences are computed seed by seed. A seed also changes the tested contact points, which the
+/// clusters represent too. The total variation is therefore overestimated rather than underestimated.
 pub(super) fn between_seeds(
     chosen: &Group<'_>,
     other: &Group<'_>,

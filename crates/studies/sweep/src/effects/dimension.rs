@@ -9,7 +9,7 @@ use crate::task_list::TaskList;
 pub(super) struct Dimension {
     what: What,
     pub(super) values: Vec<String>,
-    /// Settings that apply to every model: `[vary]`.
+    /// Settings in `[vary]`, which apply to every model.
     shared: BTreeSet<String>,
 }
 
@@ -19,7 +19,7 @@ enum What {
     Model,
     /// A setting that applies to every model.
     Shared(String),
-    /// A setting of one model that the file lists more than once.
+    /// A setting of one model with more than one value in the sweep file.
     Own {
         model: String,
         key: String,
@@ -81,7 +81,7 @@ impl Dimension {
         }
     }
 
-    /// All other properties of a task. Tasks with equal text form a pair.
+    /// All other properties of a task, as text. Tasks with equal text form a pair.
     pub(super) fn beside(&self, task: &Task) -> String {
         let split = match self.what {
             What::Split => None,
@@ -106,7 +106,7 @@ impl Dimension {
         )
     }
 
-    /// Model-specific settings of a task, except `but`.
+    /// Model-specific settings of a task as text, without the setting `but`.
     fn own_settings(&self, task: &Task, but: Option<&str>) -> String {
         let own = task
             .settings

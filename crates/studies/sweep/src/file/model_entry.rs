@@ -17,7 +17,7 @@ pub struct ModelEntry {
 }
 
 impl ModelEntry {
-    /// Parses a name, or `{ name = …, set = { … } }`.
+    /// Parses an entry: a name, or `{ name = …, set = { … } }`.
     pub(super) fn of(value: &toml::Value, place: FilePlace<'_>) -> Result<ModelEntry, SweepError> {
         const KEYS: [&str; 2] = ["name", "set"];
         let table = match value {
@@ -46,7 +46,7 @@ impl ModelEntry {
         Ok(ModelEntry::asked(name, set))
     }
 
-    /// Entry for the model `name`. A preset is replaced by its model and settings, so that keys and tables state the fitted model.
+    /// Entry for the model or preset `name`. A preset is replaced by its model and settings, so that keys and tables name the fitted model.
     fn asked(name: &str, mut set: BTreeMap<String, String>) -> ModelEntry {
         let Some(preset) = Preset::named(name) else {
             return ModelEntry {
@@ -65,7 +65,7 @@ impl ModelEntry {
     }
 }
 
-/// Parses the own settings of a model.
+/// Parses the model-specific settings of an entry.
 fn settings(
     name: &str,
     written: Option<&toml::Value>,
@@ -92,7 +92,7 @@ fn settings(
     Ok(set)
 }
 
-/// Converts a setting to the form that users type.
+/// Text of a setting as users type it; `None` if the value has no such text.
 pub(super) fn word(value: &toml::Value) -> Option<String> {
     match value {
         toml::Value::String(text) => Some(text.clone()),

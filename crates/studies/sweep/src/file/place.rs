@@ -12,7 +12,7 @@ pub(super) struct FilePlace<'a> {
 }
 
 impl FilePlace<'_> {
-    /// Error for a value of `key`, with its line.
+    /// Error for an invalid value of `key`, with its line.
     pub(super) fn wrong(&self, key: &str, problem: String) -> SweepError {
         SweepError::Meaning {
             path: self.path.to_owned(),
@@ -21,7 +21,7 @@ impl FilePlace<'_> {
         }
     }
 
-    /// Line that assigns `key`, otherwise the first line that contains it as a word, such as a model in a list.
+    /// Line that assigns `key`. Otherwise, the first line that contains `key` as a word, such as a model in a list.
     pub(super) fn line_of(&self, key: &str) -> Option<usize> {
         let mut lines = self.text.lines();
         let set = lines.position(|line| {

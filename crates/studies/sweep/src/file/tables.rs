@@ -14,7 +14,7 @@ use crate::syntax::{WrittenScore, WrittenSweep};
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct TablesEntry {
-    /// File name of the truth in the sweep file.
+    /// File name of the truth table, as written in the sweep file.
     pub name: String,
     /// Path of the truth table.
     pub truth: PathBuf,
@@ -24,12 +24,12 @@ pub struct TablesEntry {
     pub shards: u32,
     /// Units of channels other than the six standard channels.
     pub units: Vec<(String, Unit)>,
-    /// True if non-finite cells are counted and skipped instead of rejected.
+    /// True if non-finite cells are counted and skipped, false if they are rejected.
     pub allow_invalid: bool,
 }
 
 impl TablesEntry {
-    /// Parses `written`; paths are relative to `folder`.
+    /// Parses `written`. Paths in it are relative to `folder`.
     pub(super) fn of(
         written: &WrittenScore,
         folder: &Path,

@@ -7,7 +7,7 @@ use super::model_entry::word;
 use super::place::FilePlace;
 use crate::error::SweepError;
 
-/// Varied settings, each with its values in the form that users type.
+/// Converts varied settings to the text that users type, for each of their values.
 pub(super) fn vary(
     written: BTreeMap<String, Vec<toml::Value>>,
     models: &[ModelEntry],

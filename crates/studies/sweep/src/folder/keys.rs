@@ -1,4 +1,4 @@
-//! Results and failures in the folder of a sweep, found by their file names.
+//! Finds results and failures in the folder of a sweep by their file names.
 
 use std::collections::BTreeSet;
 use std::fs;

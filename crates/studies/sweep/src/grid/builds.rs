@@ -1,4 +1,4 @@
-//! Builds of the plugins behind models; they are part of the keys of tasks.
+//! Builds of the plugins that provide models. The keys of tasks include these builds.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use taceva_models::{ChosenModel, Models};
 use crate::error::SweepError;
 use crate::file::SweepFile;
 
-/// Build of the plugin behind each plugin model. Unknown models are skipped here and rejected by the check of settings.
+/// Build of the plugin that provides each plugin model. Unknown models are skipped here, and rejected by the check of settings.
 pub(super) fn builds(
     file: &SweepFile,
     models: &Models,
@@ -41,7 +41,7 @@ mod tests {
 
     use super::*;
 
-    /// Plugin model with only a build, for tests.
+    /// Test double of a plugin model, with a fixed build.
     struct Built(DriverKey, &'static str);
 
     impl EstimatorFactory for Built {

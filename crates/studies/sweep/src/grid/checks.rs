@@ -1,4 +1,4 @@
-//! Checks of a grid before any work.
+//! Checks of a grid before any task runs.
 
 use std::collections::BTreeSet;
 
@@ -73,7 +73,7 @@ pub(super) fn words(file: &SweepFile) -> Result<(), SweepError> {
     Ok(())
 }
 
-/// Rejects an unknown model or setting before any work; checks each configuration once.
+/// Rejects an unknown model or setting before any task runs; checks each configuration once.
 pub(super) fn settings(file: &SweepFile, grid: &Grid, models: &Models) -> Result<(), SweepError> {
     let mut checked = BTreeSet::new();
     for task in &grid.tasks {

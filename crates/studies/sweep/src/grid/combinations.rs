@@ -10,11 +10,11 @@ use crate::file::{ModelEntry, SweepFile};
 use crate::key::{KeyParts, TaskKey};
 use crate::task::Task;
 
-/// State that tasks of recordings share.
+/// State that tasks of all recordings share.
 pub(super) struct Common<'a> {
     pub(super) file: &'a SweepFile,
     pub(super) sensor: Option<Digest>,
-    /// Build of the plugin behind each plugin model.
+    /// Build of the plugin that provides each plugin model.
     pub(super) builds: BTreeMap<String, String>,
 }
 

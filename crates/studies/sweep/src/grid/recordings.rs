@@ -12,11 +12,11 @@ use crate::glob;
 use crate::recording::opened;
 use crate::scene_recording::SceneRecording;
 
-/// Recording by name, before it is opened.
+/// Recording that is named but not opened yet.
 pub(super) struct Named {
     name: String,
     path: PathBuf,
-    /// Placeholder for the digest until the scene has been acquired; `None` for a recording of the file.
+    /// Placeholder for the digest until the scene has been acquired; `None` for a recording that the file names.
     planned: Option<Digest>,
 }
 
@@ -28,7 +28,7 @@ pub(super) struct Recording {
 }
 
 impl Named {
-    /// Key of the sweep file that names the recording.
+    /// Key of the sweep file under which the recording is named.
     fn key(&self) -> &'static str {
         match self.planned {
             None => "datasets",
@@ -47,7 +47,7 @@ impl Named {
     }
 }
 
-/// Recordings that the file names, with patterns resolved, and recordings of its scenes.
+/// Recordings that the file names, with patterns expanded, and recordings of its scenes.
 pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<Named>, SweepError> {
     let mut names: Vec<String> = Vec::new();
     for text in &file.datasets {
@@ -94,7 +94,7 @@ pub(super) fn named(file: &SweepFile, scenes: &[SceneRecording]) -> Result<Vec<N
     Ok(folders.chain(of_scenes).collect())
 }
 
-/// Opens each recording once for its digest, without reading frames. Rejects two names for one recording, which would share a result.
+/// Opens each recording once for its digest, without reading frames. Rejects two names for one recording, because they would share a result.
 pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, SweepError> {
     let mut recordings: Vec<Recording> = Vec::with_capacity(all.len());
     for one in all {

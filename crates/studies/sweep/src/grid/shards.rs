@@ -15,7 +15,7 @@ use crate::file::{SweepFile, TablesEntry};
 use crate::key::{ShardParts, TaskKey};
 use crate::task::{SHARD, Task};
 
-/// Two tables as planned, with everything needed to score a shard of them.
+/// Two planned tables, with everything needed to score one shard.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct PlannedTables {
@@ -23,20 +23,20 @@ pub(crate) struct PlannedTables {
     prediction: PathBuf,
     units: Vec<(String, Unit)>,
     allow_invalid: bool,
-    /// Positions of the rows of both tables, and their digests.
+    /// Positions of the rows in both tables, and the digests of the tables.
     tables: ScoreTables,
 }
 
 impl PlannedTables {
-    /// Returns the tables; scans them again if a file has changed.
+    /// Returns the tables; scans both again if a file has changed.
     ///
     /// # Errors
-    /// [`SweepError::Study`] if the content of a file has changed.
+    /// [`SweepError::Study`] if the content of a table has changed.
     pub(crate) fn again(&self) -> Result<ScoreTables, SweepError> {
         Ok(self.tables.clone().again()?)
     }
 
-    /// Digests of the truth and of the predictions.
+    /// Digests of the truth table and of the prediction table.
     pub(crate) fn digests(&self) -> [Digest; 2] {
         self.tables.digests()
     }

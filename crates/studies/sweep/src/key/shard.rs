@@ -8,7 +8,7 @@ use super::{KeyBytes, TaskKey, text_of};
 /// Inputs that determine the result of a shard of two tables.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShardParts<'a> {
-    /// Digests of the truth and of the predictions.
+    /// Digests of the truth table and of the prediction table.
     pub(crate) tables: [Digest; 2],
     /// Shard number and number of shards: `2/7`.
     pub(crate) shard: &'a str,

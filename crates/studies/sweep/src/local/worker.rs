@@ -15,11 +15,11 @@ use crate::outcome::{Common, Outcome, carry_out, is_stop};
 use crate::task::Task;
 use crate::times::Timer;
 
-/// Interval at which a worker checks whether another one has finished a task.
+/// Interval at which a worker checks if another worker has finished a task.
 const LOOK_EVERY: Duration = Duration::from_millis(200);
 
 impl Runner<'_> {
-    /// Runs tasks that no other worker has claimed, until none is left.
+    /// Runs tasks that no other worker has claimed, until no task is left.
     pub(super) fn work(&self, shared: &Shared, sensor: Option<&SensorFile>, threads: NonZeroUsize) {
         let mut others: Vec<(usize, Watch)> = Vec::new();
         while !self.progress.is_cancelled() {

@@ -7,7 +7,7 @@ use taceva_results::{EvaluationReport, Samples};
 
 use crate::result::PointErrors;
 
-/// Absolute errors of each of `channels`, summed by the clusters that intervals leave out. Skips angles with a period, whose errors are not plain
+/// Absolute errors of each of `channels`, summed by the clusters that an interval resamples. Skips angles with a period, because their errors are not plain
 /// differences.
 pub(super) fn errors(report: &EvaluationReport, channels: &Channels) -> PointErrors {
     let sums = report.samples.as_ref().map(of_samples);
@@ -23,7 +23,7 @@ fn without_periods(mut sums: PointErrors, channels: &Channels) -> PointErrors {
     sums
 }
 
-/// Sums by the groups of the split, else by contact point, else by sample.
+/// Sums errors by group of the split; without groups, by contact point; without contact points, by sample.
 fn of_samples(samples: &Samples) -> PointErrors {
     let mut sums = PointErrors::new();
     let mut known = [Samples::GROUP, "point_id"].into_iter();

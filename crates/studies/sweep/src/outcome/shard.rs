@@ -10,7 +10,7 @@ use crate::task::{SHARD, Task};
 /// Scores the shard of `task` and writes its state.
 ///
 /// # Errors
-/// [`SweepError`] if the shard fails; nothing is written then.
+/// [`SweepError`] if the shard fails. Nothing is written in this case.
 pub(super) fn carry_out(
     task: &Task,
     planned: &PlannedTables,

@@ -8,7 +8,7 @@ use crate::folder::SweepFolder;
 use crate::task_list::TaskList;
 use crate::times::TaskTime;
 
-/// Page of run times: time against error, with a figure for each recording and channel with R². The page differs between runs.
+/// Page of run times: time against error, with a figure of R² for each recording and channel. Its content differs between runs.
 pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]) -> String {
     let mut parts = vec![PagePart::Words(
         "The time of a task depends on the machine, its load and the content of the cache. Filled: no other configuration is both faster \

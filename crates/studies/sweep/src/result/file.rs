@@ -18,7 +18,7 @@ impl TaskResult {
         })
     }
 
-    /// Result of `key` in `folder`; `None` if there is none.
+    /// Reads the result of `key` in `folder`; `None` if the folder has no such result.
     pub(crate) fn read(
         folder: &SweepFolder,
         key: &TaskKey,

@@ -1,4 +1,4 @@
-//! Jobs that the scheduler still lists.
+//! Jobs in the queue of the scheduler.
 
 use super::Submitted;
 use super::command::run;
@@ -10,13 +10,13 @@ use crate::error::SweepError;
 pub struct JobState {
     /// Job number, such as `17_3`.
     pub id: String,
-    /// `RUNNING`, `PENDING`, …
+    /// State in the terms of Slurm: `RUNNING`, `PENDING`, …
     pub state: String,
     /// Host that runs the job, or the reason why it waits.
     pub place: String,
 }
 
-/// Jobs of `submitted` that the scheduler still lists.
+/// Jobs of `submitted` that are still in the queue of the scheduler.
 ///
 /// # Errors
 /// [`SweepError::Scheduler`] with the message of `squeue`.

@@ -16,9 +16,9 @@ const SCHEMA: &str = "taceva.sweep-jobs/1.0";
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Submitted {
-    /// Job numbers of the arrays.
+    /// Job ids of the arrays.
     pub arrays: Vec<String>,
-    /// Number of the job that collects the results.
+    /// Job id of the job that collects the results.
     pub collect: Option<String>,
 }
 
@@ -47,7 +47,7 @@ impl Submitted {
     /// Reads the last submission; `None` if there was none.
     ///
     /// # Errors
-    /// [`SweepError`] if the record cannot be read or was edited, because an edited record could cancel other jobs.
+    /// [`SweepError`] if the record cannot be read or was edited, because cancelling by an edited record could cancel other jobs.
     pub fn read(folder: &SweepFolder) -> Result<Option<Submitted>, SweepError> {
         let path = path_in(folder);
         let Some(text) = seal::read(&path)? else {

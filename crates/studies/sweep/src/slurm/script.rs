@@ -1,4 +1,4 @@
-//! Job scripts, which can be read, kept and submitted by hand.
+//! Job scripts that a user can read, keep and submit without this program.
 
 use std::path::Path;
 
@@ -60,7 +60,7 @@ impl Script<'_> {
         text
     }
 
-    /// Script of the job that collects the results after all other jobs have ended, successfully or not.
+    /// Script of the job that collects the results. It starts after all other jobs have ended, with or without success.
     pub(super) fn collect(&self) -> String {
         let mut text = self.head("collect", "%j");
         text.push_str(&self.setup());

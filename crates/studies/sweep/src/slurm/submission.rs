@@ -5,10 +5,10 @@ use super::{Submission, Submitted};
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
 
-/// Submits the arrays, and the job that collects the results after they have ended.
+/// Submits the arrays, and the job that collects the results after all arrays have ended.
 ///
 /// # Errors
-/// [`SweepError::Scheduler`] with the message of `sbatch`. Jobs submitted before are cancelled.
+/// [`SweepError::Scheduler`] with the message of `sbatch`. Jobs submitted before the error are cancelled.
 pub fn submit(folder: &SweepFolder, submission: &Submission) -> Result<Submitted, SweepError> {
     let mut submitted = Submitted::default();
     let done = submit_all(submission, &mut submitted);

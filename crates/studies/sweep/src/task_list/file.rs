@@ -11,7 +11,7 @@ use crate::folder::SweepFolder;
 use crate::seal;
 
 impl TaskList {
-    /// Writes the list into `folder` under a name derived from its content, and also as the latest list. Returns the path.
+    /// Writes the list into `folder` under a name derived from its content, and again as the latest list. Returns the path of the first file.
     ///
     /// # Errors
     /// [`SweepError::Io`] if the list cannot be written.
@@ -73,7 +73,7 @@ impl TaskList {
         TaskList::read(&latest(folder))
     }
 
-    /// Reads the sensor facts, unchanged since planning.
+    /// Reads the file of sensor facts, and checks that it has not changed since planning.
     ///
     /// # Errors
     /// [`SweepError::Changed`] if the file has changed since planning; [`SweepError`] if it cannot be read.

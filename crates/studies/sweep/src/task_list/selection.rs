@@ -18,7 +18,7 @@ pub struct Counts {
 }
 
 impl TaskList {
-    /// Positions of the tasks that `only` selects; all tasks if it is `None`.
+    /// Indices of the tasks that `only` selects; indices of all tasks if `only` is `None`.
     ///
     /// # Errors
     /// [`SweepError::Condition`] for a name that no task has, and for a condition that selects no task.
@@ -43,7 +43,7 @@ impl TaskList {
         }
     }
 
-    /// Tasks at `wanted` that must still be run.
+    /// Indices among `wanted` of the tasks that must still be run.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.
@@ -61,7 +61,7 @@ impl TaskList {
         Ok(wanted.iter().copied().filter(is_left).collect())
     }
 
-    /// Progress of the sweep, from file names in its folder.
+    /// Progress of the sweep, counted from file names in its folder.
     ///
     /// # Errors
     /// [`SweepError`] if the folder cannot be read.

@@ -60,10 +60,10 @@ const STRENGTHS: [f64; 11] = [
 const SWEEPS: u32 = 1000;
 const TOLERANCE: f64 = 1e-4;
 
-/// Multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²), wⱼ the weights of feature j for every target.
+/// Multi-task elastic net: minimises ½n⁻¹ ‖Y − XW‖² + λ (α Σ‖wⱼ‖₂ + ½(1 − α)‖W‖²). wⱼ contains the weights of feature j for every target.
 ///
-/// λ is the strength × the least λ at which every weight is 0. Targets are fitted together, once per strength. Each target takes the
-/// weights of its chosen strength.
+/// λ is the strength × the least λ at which every weight is 0. All targets are fitted together, once per strength. For each target, the weights of its chosen
+/// strength are used.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

@@ -21,8 +21,8 @@ const NAME: &str = "linfa/linear";
 
 /// Ordinary least squares by Householder decomposition, each target separately.
 ///
-/// With no more samples than features, or with dependent features, the library gets the samples in coordinates of their span. The
-/// result is the solution of least norm.
+/// With no more samples than features, or with dependent features, the library receives the samples in coordinates of their span. The result is the
+/// least-squares solution of least norm.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

@@ -34,8 +34,8 @@ const STRENGTH: Number = Number {
 /// Candidate strengths, ascending.
 const STRENGTHS: [f64; 5] = [1e-1, 1.0, 1e1, 1e2, 1e3];
 
-/// Multinomial logistic regression with a penalty on squared weights, each target separately. Predicts one of a channel's training
-/// values, for boards, kinds, spacings and levels.
+/// Multinomial logistic regression with a penalty on squared weights, each target separately. Predicts one of the channel's training values. Suitable for
+/// boards, kinds, spacings and levels.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -69,7 +69,7 @@ fn levels(mut labels: Vec<f64>) -> Vec<f64> {
     labels
 }
 
-/// Planes of one target with the penalty `strength`.
+/// Fits the planes of one target with the penalty `strength`.
 fn planes(task: &LibraryTask<'_>, target: usize, strength: f64) -> Result<Classes, ModelError> {
     let labels = task.target(target);
     let known = levels(labels.clone());

@@ -1,4 +1,4 @@
-//! `linfa/svr`: support vector regression with a Gaussian kernel, on all samples.
+//! `linfa/svr`: support vector regression with a Gaussian kernel, fitted to all samples.
 
 use linfa::Dataset;
 use linfa::traits::Fit;
@@ -29,15 +29,15 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::ChosenAmong(&COSTS),
 };
-/// Candidate costs, descending. Of equal errors, the smallest cost is chosen.
+/// Candidate costs, descending. Of costs with equal errors, the smallest is chosen.
 const COSTS: [f64; 4] = [100.0, 10.0, 1.0, 0.1];
 
-/// Coefficients up to this size count as 0 in the library.
+/// Absolute value up to which the library treats a coefficient as 0.
 const NOTHING: f64 = 100.0 * f64::EPSILON;
 
 /// Support vector regression by sequential minimal optimisation, each target separately.
 ///
-/// The kernel is exp(−‖x − v‖² / (2 ℓ² d²)), d² the mean squared distance of training samples from their mean.
+/// The kernel is exp(−‖x − v‖² / (2 ℓ² d²)). d² is the mean squared distance of training samples from their mean.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -66,7 +66,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Factor of squared distances in a kernel of length `length`.
+/// Factor of squared distances in a kernel of length `length`, in typical distances.
 pub(crate) fn rate(task: &LibraryTask<'_>, length: f64) -> f64 {
     let squares: f64 = task.rows.iter().map(|value| value * value).sum();
     task.sizes.samples as f64 / (2.0 * length * length * squares)

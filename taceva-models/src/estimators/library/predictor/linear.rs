@@ -7,12 +7,12 @@ use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors}
 use crate::linalg::dot;
 use crate::training::file::tensors::Raw;
 
-/// Weights and bias of each target.
+/// Linear predictor: weights and bias of each target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Linear {
-    /// Weights, `[targets, features]`.
+    /// Weights, shape `[targets, features]`.
     weights: Vec<f64>,
-    /// Biases, `[targets]`.
+    /// Biases, shape `[targets]`.
     bias: Vec<f64>,
 }
 

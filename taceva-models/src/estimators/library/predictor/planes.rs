@@ -1,4 +1,4 @@
-//! Classification by planes: each target's label of the highest plane is predicted.
+//! Classification by planes: predicts, for each target, the label of the plane that is highest at the sample.
 
 use taceva_core::ModelError;
 
@@ -19,7 +19,7 @@ pub(crate) struct Classes {
     pub(crate) labels: Vec<f64>,
     /// Offset of each class.
     pub(crate) offsets: Vec<f64>,
-    /// Weights, `[classes, features]`.
+    /// Weights, shape `[classes, features]`.
     pub(crate) weights: Vec<f64>,
 }
 

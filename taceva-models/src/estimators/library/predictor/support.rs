@@ -7,21 +7,21 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target, over training samples with a nonzero coefficient in any target.
+/// Predicts Σ coefficient · exp(−rate ‖x − v‖²) + bias for each target. The sum includes training samples with a nonzero coefficient in any target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Support {
     rate: f64,
-    /// Stored training samples, `[vectors, features]`.
+    /// Stored training samples, shape `[vectors, features]`.
     vectors: Vec<f32>,
-    /// Coefficients, `[vectors, targets]`.
+    /// Coefficients, shape `[vectors, targets]`.
     coefficients: Vec<f64>,
-    /// Biases, `[targets]`.
+    /// Biases, shape `[targets]`.
     bias: Vec<f64>,
 }
 
-/// Library fit for one target.
+/// Support vector machine that the library fitted for one target.
 pub(crate) struct Machine {
-    /// Coefficient of each training sample; 0 if it is not a support vector of the target.
+    /// Coefficient of each training sample; 0 for a sample that is not a support vector of the target.
     pub(crate) coefficients: Vec<f64>,
     pub(crate) bias: f64,
 }
@@ -32,7 +32,7 @@ const RATE: &str = "rate";
 const VECTORS: &str = "vectors";
 
 impl Support {
-    /// Builds the predictor from `rows`, `[samples, features]` of single-precision values, and one machine per target.
+    /// Builds the predictor from `rows`, `[samples, features]` with values of single precision, and one machine per target.
     ///
     /// # Errors
     /// [`ModelError`] of kind `OutOfRange` if a coefficient or bias is not finite.
@@ -110,7 +110,7 @@ impl LibraryPredictor for Support {
     }
 }
 
-/// Squared distance with eight partial sums, in a fixed order.
+/// Squared distance, computed with eight partial sums in a fixed order.
 fn squared_distance(left: &[f32], right: &[f32]) -> f64 {
     let (left, last_left) = left.as_chunks::<8>();
     let (right, last_right) = right.as_chunks::<8>();

@@ -1,4 +1,4 @@
-//! Predictors that add up leaves of trees.
+//! Predictors that sum the leaf values of trees.
 
 use taceva_core::ModelError;
 
@@ -7,14 +7,14 @@ use crate::estimators::library::guard::finite;
 use crate::estimators::library::{LibraryPredictor, LibrarySizes, LibraryTensors};
 use crate::training::file::tensors::Raw;
 
-/// Prediction of each target: base + factor · Σ leaf, over its trees.
+/// Predicts base + factor · Σ leaf for each target, over the trees of the target.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Trees {
     /// Constant of each target.
     base: Vec<f64>,
     /// Factor of each target.
     factor: Vec<f64>,
-    /// Number of trees of each target. `trees` stores them target by target.
+    /// Number of trees of each target. `trees` contains the trees target by target.
     counts: Vec<u32>,
     trees: Vec<Tree>,
 }
@@ -22,13 +22,13 @@ pub(crate) struct Trees {
 /// Nodes of a tree, root first.
 pub(crate) type Tree = Vec<Node>;
 
-/// A comparison, or a leaf if `low` is 0.
+/// A node of a tree: a comparison, or a leaf if `low` is 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Node {
     pub(crate) feature: u32,
-    /// Largest feature value that continues at `low`. Greater values continue at `high`.
+    /// Largest feature value for which the path continues at `low`. For greater values it continues at `high`.
     pub(crate) threshold: f64,
-    /// Indices of the child nodes, greater than that of this node.
+    /// Indices of the child nodes. Both are greater than the index of this node.
     pub(crate) low: u32,
     pub(crate) high: u32,
     pub(crate) value: f64,
@@ -42,7 +42,7 @@ const PLACES: &str = "places";
 const SIZES: &str = "sizes";
 
 impl Trees {
-    /// Builds the predictor from (base, factor, trees) of each target.
+    /// Builds the predictor from base, factor and trees of each target.
     ///
     /// # Errors
     /// [`ModelError`] of kind `OutOfRange` if a value is not finite.
@@ -110,7 +110,7 @@ impl Trees {
     }
 }
 
-/// Rejects a tree that compares an unknown feature or has a node without a leaf below.
+/// Rejects a tree with an unknown feature, or with a node that has no leaf below it.
 fn checked(tree: Tree, features: usize) -> Result<Tree, ModelError> {
     let leads_on = |(place, node): (usize, &Node)| {
         let behind = |child: u32| (place + 1..tree.len()).contains(&(child as usize));
@@ -135,7 +135,7 @@ fn leaf(tree: &Tree, sample: &[f32]) -> f64 {
     node.value
 }
 
-/// Converts a count to the type of files.
+/// Converts a count to `u32`, the type in files.
 pub(crate) fn small(count: usize) -> u32 {
     u32::try_from(count).expect("fewer than a file holds")
 }

@@ -1,4 +1,4 @@
-//! `smartcore/gradient-boosting`: each tree is fitted to the errors of the trees before it.
+//! `smartcore/gradient-boosting`: fits each tree to the errors of the previous trees.
 
 use rayon::prelude::*;
 use serde_json::Value;
@@ -72,8 +72,8 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// Gradient boosting with exact splits and a penalty on leaves, each target separately. No setting is chosen by error, because every split sorts
-/// every feature again. One fit takes as long as the choice of settings in other models.
+/// Gradient boosting with exact splits and a penalty on leaves, each target separately. No setting is chosen by error, because every split sorts every feature
+/// again. One fit takes as long as the whole choice of settings in other models.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

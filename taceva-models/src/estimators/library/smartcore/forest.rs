@@ -67,7 +67,7 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// Candidate shares, descending: of equal errors the last, cheapest one is taken.
+/// Candidate shares of features, descending. Of shares with equal errors, the last and cheapest one is chosen.
 const SHARES: [f64; 3] = [0.3, 0.1, 0.03];
 
 const NUMBERS: &[Number] = &[TREES, LEAF, SHARE, SEED];
@@ -119,18 +119,18 @@ pub(super) static EXTRA_TREES: Adapter = Adapter {
     fit: |set, task| fit(&EXTRA_TREES, extra_trees, set, task),
 };
 
-/// Work of a hundred trees, grown four times: for each of three shares, and for the chosen one. Every tree sorts every feature at
-/// every depth.
+/// Number of multiplications for a hundred trees that are grown four times: for each of three shares, and for the chosen share. Every tree sorts every feature
+/// at every depth.
 fn work(sizes: LibrarySizes) -> Option<f64> {
     let [samples, features, targets] = sizes.real();
     let depth = 2.0 * samples.log2().max(1.0);
     Some(4.0 * 100.0 * 2.0 * targets * samples * features * depth)
 }
 
-/// Grows the trees of one target with a number of features per split. Returns them serialised by the library, or the library's error.
+/// Function that grows the trees of one target with a number of features per split. Returns the trees in the library's serialised form, or the library's error.
 type Grow = fn(&Numbers<'_>, &DenseMatrix<f64>, &Vec<f64>, usize) -> Result<Value, String>;
 
-/// Defines a `Grow` for the library type `$regressor`. Its parameter types share methods but no trait.
+/// Defines a `Grow` for the library type `$regressor`. The library's parameter types have equal methods, but no common trait.
 macro_rules! grow {
     ($name:ident, $regressor:ident, $parameters:ident) => {
         fn $name(

@@ -1,4 +1,4 @@
-//! `smartcore/knn`: mean of the nearest training samples, with the library's search.
+//! `smartcore/knn`: mean of the nearest training samples, found by the library's search.
 
 use smartcore::algorithm::neighbour::linear_search::LinearKNNSearch;
 use smartcore::metrics::distance::euclidian::Euclidian;
@@ -30,10 +30,10 @@ const COUNT: Number = Number {
     unset: Unset::ChosenAmong(&COUNTS),
 };
 
-/// Candidate counts, ascending: of equal errors the last, smoothest one is taken.
+/// Candidate numbers of neighbours, ascending. Of numbers with equal errors, the last and smoothest one is chosen.
 const COUNTS: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.0, 20.0];
 
-/// Nearest neighbours by Euclidean distance, weighted by 1 / distance. Samples at distance 0 exclude all others.
+/// Nearest neighbours by Euclidean distance, weighted by 1 / distance. If samples have distance 0, all other samples are ignored.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -55,12 +55,12 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Training samples in the library's search, and their labels.
+/// Search structure of the library with the training samples, and the labels of these samples.
 struct Lookup {
     search: LinearKNNSearch<Vec<f64>, Euclidian<f64>>,
     features: usize,
     rows: Vec<f32>,
-    /// Labels, `[samples, targets]`.
+    /// Labels, shape `[samples, targets]`.
     labels: Vec<f64>,
     /// Number of neighbours of each target.
     counts: Vec<u32>,
@@ -141,7 +141,7 @@ impl LibraryPredictor for Lookup {
 }
 
 impl Lookup {
-    /// Nearest samples with their weights, in sample order.
+    /// Nearest samples of `asked` with their weights, in sample order.
     fn nearest(&self, asked: &Vec<f64>, count: u32) -> Result<Vec<(usize, f64)>, ModelError> {
         let found = guarded(NAME, || self.search.find(asked, count as usize))?;
         let mut near: Vec<(usize, f64)> = found

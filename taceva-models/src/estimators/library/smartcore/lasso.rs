@@ -33,14 +33,14 @@ const STRENGTH: Number = Number {
 /// Candidate strengths, ascending.
 const STRENGTHS: [f64; 4] = [1e-2, 3e-2, 1e-1, 3e-1];
 
-/// Maximum number of steps. The method ends earlier at a relative gap of `TOLERANCE`.
+/// Maximum number of steps. The method stops earlier at a relative duality gap of `TOLERANCE`.
 const STEPS: usize = 50;
 const TOLERANCE: f64 = 1e-2;
 
 /// Lasso by an interior-point method, each target separately: minimises ‖y − Xw‖² + λ ‖w‖₁.
 ///
-/// λ is the strength × the least λ at which every weight is 0. The library rejects fewer samples than features. In that case, samples
-/// with zero features and labels are appended, which change no sum.
+/// λ is the strength × the least λ at which every weight is 0. The library rejects fewer samples than features. In that case, samples with zero features and
+/// zero labels are appended, which do not change any sum.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(

@@ -31,7 +31,7 @@ const COST: Number = Number {
     is_whole: false,
     unset: Unset::Is(10.0),
 };
-/// Support vector regression by sequential minimal optimisation, each target separately. No setting is chosen by error.
+/// Support vector regression by sequential minimal optimisation, each target separately. No setting is chosen by held-out error.
 pub(super) static ADAPTER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
@@ -59,7 +59,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     fit,
 };
 
-/// Reads a fit from its serialised form, with the support vectors in sample order.
+/// Reads a fit from the library's serialised form. Returns the support vectors in sample order.
 fn machine(fitted: &Value, task: &LibraryTask<'_>) -> Option<Machine> {
     let vectors = fitted.get("instances")?.as_array()?;
     let mut found = vectors.iter().zip(fitted.get("w")?.as_array()?).peekable();

@@ -13,7 +13,7 @@ use crate::training::file::error::FormatError;
 use crate::training::file::tensors::Raw;
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
-/// Most members of an ensemble.
+/// Maximum number of members of an ensemble.
 pub(super) const MEMBERS_MOST: usize = 16;
 
 /// Fitted networks whose predictions are averaged.
@@ -26,7 +26,7 @@ impl EnsembleRegressor {
     /// Builds a regressor from networks.
     ///
     /// # Errors
-    /// [`ModelError`] if the number of networks is out of range, or their channels or features differ.
+    /// [`ModelError`] if the number of networks is out of range, or if channels or features of the networks differ.
     pub(crate) fn new(members: Vec<NetworkRegressor>) -> Result<EnsembleRegressor, ModelError> {
         let is_like = |other: &NetworkRegressor| {
             let first = &members[0];
@@ -41,7 +41,7 @@ impl EnsembleRegressor {
         Ok(EnsembleRegressor { members })
     }
 
-    /// Loads the networks from a file. Each member's tensors have its own prefix.
+    /// Loads the networks from a file. The tensor names of each member have their own prefix.
     pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
         let mut found = named_tensors(&stored.tensors)?;
         let mut members = Vec::new();

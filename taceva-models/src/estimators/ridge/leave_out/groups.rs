@@ -12,18 +12,18 @@ use crate::linalg::multiply;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::Errors;
 
-/// Precomputed terms of one group, independent of the penalty.
+/// Precomputed terms of one group, which do not depend on the penalty.
 struct Group {
-    /// Rows of U for the group.
+    /// Rows of U that belong to the group.
     vectors: Mat<f64>,
-    /// Block of R for the group.
+    /// Diagonal block of R that belongs to the group.
     unspanned: Mat<f64>,
-    /// Rows of R for the group, times the targets.
+    /// Rows of the product of R and the targets that belong to the group.
     residuals: Mat<f64>,
 }
 
 impl LeaveOut<'_> {
-    /// Mean squared error of each target at each penalty. Each group is predicted by a fit without it.
+    /// Mean squared error of each target at each penalty. Each group is predicted by a fit without this group.
     pub(in crate::estimators::ridge) fn groups(
         &self,
         groups: &[Vec<usize>],
@@ -87,7 +87,7 @@ impl LeaveOut<'_> {
     }
 }
 
-/// Diagonal block of I − 11ᵀ/n.
+/// Diagonal block of size `size` of the centring matrix I − 11ᵀ/n.
 fn centring(size: usize, samples: usize) -> Mat<f64> {
     Mat::from_fn(size, size, |row, column| {
         let identity = if row == column { 1.0 } else { 0.0 };
@@ -95,7 +95,7 @@ fn centring(size: usize, samples: usize) -> Mat<f64> {
     })
 }
 
-/// Solves for a positive definite matrix; `None` if the matrix is numerically singular, as for very weak penalties.
+/// Solves a system with a positive definite matrix; `None` if the matrix is numerically singular, as for very weak penalties.
 fn solve(mut matrix: Mat<f64>, mut right: Mat<f64>) -> Option<Mat<f64>> {
     let size = matrix.nrows();
     let scratch = cholesky_in_place_scratch::<f64>(size, Par::Seq, Default::default())

@@ -1,4 +1,4 @@
-//! Leave-one-out errors: groups of one sample, computed in blocks.
+//! Leave-one-out errors: every group is one sample, and samples are processed in blocks.
 
 use faer::Mat;
 use rayon::prelude::*;
@@ -9,18 +9,18 @@ use crate::linalg::multiply;
 use crate::linalg::progress::{ReportedStage, interrupted};
 use crate::training::choice::Errors;
 
-/// Samples per block.
+/// Number of samples per block.
 const BLOCK: usize = 256;
 
-/// Diagonals of λ / (σ² + λ) and their products with the rotated targets, for every penalty.
+/// Factors λ / (σ² + λ) for every penalty, and their products with the rotated targets.
 struct Shrunk {
     shrinkage: Mat<f64>,
-    /// One column per penalty and channel, channels of one penalty adjacent.
+    /// Products, with one column per penalty and channel. Channels of one penalty are adjacent.
     coefficients: Mat<f64>,
 }
 
 impl LeaveOut<'_> {
-    /// Mean squared error of each target at each penalty. Each sample is predicted by a fit without it.
+    /// Mean squared error of each target at each penalty. Each sample is predicted by a fit without this sample.
     pub(in crate::estimators::ridge) fn singles(
         &self,
         penalties: &[f64],

@@ -1,4 +1,4 @@
-//! Drawn grids of markers, moved by known amounts.
+//! Tests on drawn grids of markers, moved by known amounts.
 
 use super::*;
 use crate::features::test_pictures::{Gel, grid, noise};
@@ -10,7 +10,7 @@ const CLEAN: Gel = Gel {
     seed: 1,
 };
 
-/// Root mean square distance of each of `found` from the nearest of `truth`, pixels; every distance must be small.
+/// Root mean square distance of each of `found` from the nearest of `truth`, in pixels. Fails if any distance is large.
 fn error_px(found: impl Iterator<Item = [f64; 2]>, truth: &[[f64; 2]]) -> f64 {
     let off = found.map(|found| {
         let off = truth.iter().map(|truth| distance(found, *truth));
@@ -28,7 +28,7 @@ fn every_grid() -> impl Iterator<Item = (Polarity, bool)> {
         .flat_map(|polarity| [(polarity, false), (polarity, true)])
 }
 
-/// Largest displacement error of all markers, pixels, and the number of unseen ones.
+/// Largest displacement error of all markers, in pixels, and the number of unseen markers.
 fn track(
     tracker: &MarkerTracker,
     frame: &Frame,

@@ -1,4 +1,4 @@
-//! Errors by the number of channels per partial sum, on which `channels_at_once` is based.
+//! Measures errors by the number of channels per partial sum. The function `channels_at_once` is based on these errors.
 
 use super::super::products::{Products, RunValues, channels_at_once};
 use super::super::weights::to_points;
@@ -11,13 +11,13 @@ use crate::machine::Machine;
 use crate::panel::Aligned;
 use crate::planes::Planes;
 
-/// Layers of residual networks in Winograd's form for pictures of 64² to 112²: channels and side of their pictures.
+/// Layers of residual networks that use Winograd's algorithm, for pictures of 64² to 112²: number of channels, and side of the layer's pictures.
 const LAYERS: [(usize, usize); 4] = [(64, 16), (128, 8), (256, 4), (512, 4)];
 
-/// Channels per partial sum. The last is all channels.
+/// Numbers of channels per partial sum. The last number includes all channels.
 const BLOCKS: [usize; 5] = [4, 8, 16, 32, 512];
 
-/// Outputs of pictures and gradients of their inputs, by channels per partial sum.
+/// Outputs and input gradients, computed with `channels` channels per partial sum.
 fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> [Vec<f32>; 2] {
     let mut weights = ConvolutionWeights::zeros(case.convolution);
     weights.set_plain(&numbers.weights);
@@ -52,14 +52,14 @@ fn summed(case: &Case, machine: Machine, numbers: &Numbers, channels: usize) -> 
     ]
 }
 
-/// Values like those after ReLU: half of the pixels are zero, none is negative.
+/// Values like those after ReLU: half of them are zero, and none is negative.
 fn rectified(mut numbers: Numbers) -> Numbers {
     let pixels = numbers.pictures.iter_mut();
     pixels.for_each(|value| *value = value.max(0.0));
     numbers
 }
 
-/// Errors of outputs and of gradients of inputs for each of `BLOCKS`.
+/// Errors of outputs and of input gradients for each of `BLOCKS`.
 fn errors_by_block(case: &Case, numbers: &Numbers) -> [[f64; 2]; BLOCKS.len()] {
     let [outputs, twice, _] = case.definition(numbers);
     let gradients: Vec<f64> = twice.iter().map(|value| value / 2.0).collect();
@@ -91,7 +91,7 @@ fn channels_are_summed_by_as_many_as_are_most_exact_and_not_all_in_one_row() {
     }
 }
 
-/// `cargo test -p taceva-network --lib by_block -- --ignored --nocapture`
+/// Prints a table of errors: `cargo test -p taceva-network --lib by_block -- --ignored --nocapture`.
 #[test]
 #[ignore = "prints a table"]
 #[expect(clippy::print_stdout, reason = "a table to be read")]

@@ -1,4 +1,4 @@
-//! Tests: a predictor never blocks its caller, and counts dropped frames.
+//! Tests that a predictor never blocks its caller, and counts dropped frames.
 
 use std::path::Path;
 use std::time::Instant;
@@ -22,7 +22,7 @@ fn frame(level: u8) -> Frame {
     Frame::new(INFO, vec![level; 48]).expect("whole")
 }
 
-/// A model of the brightness of even frames, in N.
+/// Test model that predicts the brightness of uniform frames, in N.
 fn model() -> LiveModel {
     let spec = FeatureSpec {
         width: 4,
@@ -58,7 +58,7 @@ fn model() -> LiveModel {
     LiveModel::new(model, Path::new("m.taceva")).expect("of frames")
 }
 
-/// Offers `count` frames of brightness 0, 1, 2 … at the interval `every`; the callback takes `listens` for each prediction.
+/// Offers `count` frames of brightness 0, 1, 2 … at the interval `every`. The callback takes the time `listens` for each prediction.
 fn offered(count: u8, every: Duration, listens: Duration) -> (Vec<Prediction>, PredictionCounts) {
     let model = model();
     let heard = Mutex::new(Vec::new());

@@ -1,4 +1,4 @@
-//! A force transducer with its own reader thread, and a mailbox for its last reading.
+//! A force transducer with its own reader thread, and a mailbox that stores its last reading.
 
 use std::sync::mpsc::{Receiver, RecvError, Sender, TryRecvError, channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -13,23 +13,23 @@ use taceva_protocol::{Event, Observation, SharedSupervisor};
 
 use crate::viewer::Viewer;
 
-/// Deadline of one reading, after which it is retried.
+/// Deadline for each reading. A reading that misses it is retried.
 const READ_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 /// Delay before a failing transducer is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
-/// Silence of the transducer after which it counts as lost while a question stands.
+/// Time without readings after which the transducer counts as lost while the operator is asked a question.
 const SILENCE: Duration = Duration::from_secs(1);
 
 /// Last reading of the transducer.
 #[derive(Default)]
 struct Latest {
-    /// Number of readings.
+    /// Number of readings so far.
     count: u64,
     reading: Option<(Wrench, Stamp, Option<u64>)>,
     error: Option<DriverError>,
 }
 
-/// Shared slot of the last reading.
+/// Slot for the last reading, shared between threads.
 #[derive(Default)]
 struct Slot {
     latest: Mutex<Latest>,
@@ -47,29 +47,29 @@ impl Slot {
     }
 }
 
-/// Tasks for the owner of the transducer.
+/// Tasks for the thread that owns the transducer.
 enum Task {
     Start(Deadline),
     Stop,
     Zero(Deadline),
 }
 
-/// A task, and the channel for its outcome.
+/// A task, and the channel that receives its outcome.
 type Request = (Task, Sender<Result<(), DriverError>>);
 
-/// Transducer for a run: `read` returns the newest reading of the reader thread.
+/// Transducer for a run. `read` returns the newest reading of the reader thread.
 pub(super) struct Mailbox {
     slot: Arc<Slot>,
     requests: Sender<Request>,
     driver: DriverKey,
     axes: Axes,
     has_tare: bool,
-    /// Number of readings at the last `read`.
+    /// Number of readings when `read` was last called.
     taken: u64,
     sequence: Option<u64>,
 }
 
-/// Reader of the transducer.
+/// Reader of the transducer, to run on its own thread.
 pub(super) struct Reader {
     slot: Arc<Slot>,
     requests: Receiver<Request>,
@@ -77,7 +77,7 @@ pub(super) struct Reader {
     heard: Instant,
 }
 
-/// Receivers of every reading, and of a lost force.
+/// Receivers of every reading, and of the loss of the force.
 #[derive(Clone, Copy)]
 pub(super) struct Listeners<'a> {
     pub(super) supervisor: &'a SharedSupervisor,
@@ -86,7 +86,7 @@ pub(super) struct Listeners<'a> {
 }
 
 impl Listeners<'_> {
-    /// Shows an operator at a question that the force is lost.
+    /// Informs an operator who is being asked a question that the force is lost.
     fn lose(&self, error: &DriverError) {
         let words = format!(
             "the force is lost: {error}; the robot stays halted: stop here, check cable and power of the transducer, and continue with `--resume`"
@@ -99,7 +99,7 @@ impl Listeners<'_> {
 }
 
 impl Mailbox {
-    /// Creates the mailbox of `force`, and its reader.
+    /// Creates the mailbox and the reader of `force`.
     pub(super) fn of(force: &mut dyn ForceTransducer, driver: DriverKey) -> (Mailbox, Reader) {
         let (requests, received) = channel();
         let slot = Arc::new(Slot::default());
@@ -138,7 +138,7 @@ impl ForceTransducer for Mailbox {
         self.ask(Task::Start(deadline))
     }
 
-    /// Newest reading. Each reading is returned once.
+    /// Newest reading. Each reading is returned only once.
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let taken = self.taken;
         let is_old = |latest: &mut Latest| latest.count == taken && latest.error.is_none();
@@ -186,7 +186,7 @@ impl Tare for Mailbox {
 }
 
 impl Reader {
-    /// Reads `force` from start to stop, shows every reading to `listeners`, and executes tasks between readings. Ends when the mailbox is dropped.
+    /// Reads `force` from start to stop, passes every reading to `listeners`, and executes tasks between readings. Ends when the mailbox is dropped.
     pub(super) fn serve(mut self, force: &mut dyn ForceTransducer, listeners: Listeners<'_>) {
         let mut is_started = false;
         loop {

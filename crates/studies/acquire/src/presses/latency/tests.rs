@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// A device without timing checks whose stamps are `latency_ms` ms late.
+/// A device without timing checks whose time stamps are `latency_ms` ms late.
 fn late<D: ?Sized>(device: Box<D>, latency_ms: f64) -> Late<D> {
     let driver = DriverKey::fixed("test/device");
     Late::new(device, driver, latency_ms, SampleTiming::unchecked())
@@ -32,7 +32,7 @@ impl ForceTransducer for Arrived {
     }
 }
 
-/// A robot whose guarded motion ends by contact or arrival at 7 s.
+/// A test robot whose guarded motion ends by contact or arrival at 7 s.
 struct Stops {
     is_felt: bool,
 }

@@ -1,4 +1,4 @@
-//! Description of the models of a cross-validation as one model.
+//! Combines the models of a cross-validation in one description.
 
 use taceva_dataset::{Dataset, Digest};
 use taceva_results::ModelProvenance;

@@ -1,4 +1,4 @@
-//! Cross-validation of a recording whose split is not named.
+//! Default cross-validation of a recording, for requests without a split.
 
 use std::collections::BTreeSet;
 
@@ -11,10 +11,10 @@ use crate::grouping::{Grouping, SplitFields};
 
 /// Default number of folds.
 const COUNT: usize = 5;
-/// Number of groups from which one division scores enough. Below it, cross-validation is the default, from one group a fold on.
+/// Minimum number of groups for which a single division scores enough groups. With fewer, cross-validation is the default; each fold has at least one group.
 const GROUPS_MANY: usize = 1000;
 
-/// Cross-validation of a recording with few groups. `None` for a recording of a run, which its plan divides, and for joined recordings.
+/// Default cross-validation of a recording with few groups. `None` for joined recordings, and for a recording of a run, whose plan divides it.
 pub(super) fn default_split(dataset: &Dataset) -> Result<Option<SplitSpec>, EvaluateError> {
     if !dataset.recordings().is_empty() || PlannedRows::of(dataset)?.is_some() {
         return Ok(None);

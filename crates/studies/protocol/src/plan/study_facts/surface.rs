@@ -1,4 +1,4 @@
-//! Pressed surface: within the footprint of the sensor and the workspace of the robot.
+//! Checks that the pressed surface is within the footprint of the sensor and the workspace of the robot.
 
 use taceva_core::{Footprint, Millimetre, Nanometre, Point, Pose, Rotation};
 
@@ -9,7 +9,7 @@ use crate::source::RigInfo;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Footprint of the scene, else of the rig file, else of the sensor. Each must lie within the next.
+    /// Footprint in the scene, else in the rig file, else of the sensor. Each must be within the next.
     pub(super) fn footprint(
         &self,
         stated: Option<Footprint>,
@@ -30,7 +30,7 @@ impl Gather<'_> {
         Ok(footprint)
     }
 
-    /// Rejects a robot that moves in its base frame if no rig file relates that frame to the sensor.
+    /// Rejects a robot that moves in its base frame if no rig file relates this frame to the sensor.
     pub(super) fn is_mapped(&self, rig: &RigInfo) -> Result<(), SceneError> {
         let robot = rig.robot.as_ref().filter(|robot| {
             let facts = robot.robot();
@@ -112,7 +112,7 @@ impl Gather<'_> {
     }
 }
 
-/// Footprint of `written`, which must lie within `outer`, stated by `owner`.
+/// Footprint `written`, which must be within `outer`, stated by `owner`.
 fn within(
     written: &FootprintSpec,
     outer: Option<Footprint>,

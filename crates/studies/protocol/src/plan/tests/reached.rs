@@ -1,4 +1,4 @@
-//! Tests that a scene, a rig or a recording triggers every reason, with the right subject.
+//! Tests that a scene, a rig or a recording can cause every reason, with the right subject.
 
 use std::collections::BTreeSet;
 

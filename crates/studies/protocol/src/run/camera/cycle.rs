@@ -1,4 +1,4 @@
-//! Detects a camera that returns old frames in turn, as from a ring of buffers that is filled no more.
+//! Detects a camera that repeats a sequence of old frames, as from a ring buffer that is no longer filled.
 
 use std::collections::VecDeque;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -7,17 +7,17 @@ use taceva_core::Frame;
 
 use super::moment::Moment;
 
-/// Number of frames that are compared, at least the number of buffers of a camera.
+/// Number of frames that are compared. It is at least the number of buffers of a camera.
 const COMPARED: usize = 16;
 
-/// Last distinct frames, by digest.
+/// Digests of the last distinct frames.
 #[derive(Default)]
 pub(super) struct Cycle {
     frames: VecDeque<Old>,
     returns: u32,
 }
 
-/// Frame that was new at its moment.
+/// An earlier frame that differed from all compared frames before it.
 struct Old {
     digest: u64,
     moment: Moment,

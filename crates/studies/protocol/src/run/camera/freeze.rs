@@ -1,22 +1,22 @@
-//! Detects a frozen camera: frames that repeat earlier ones to the last bit although the force on the gel changed.
+//! Detects a frozen camera, whose frames are bit-equal to earlier ones although the force on the gel changed.
 
 use taceva_core::Frame;
 
 use super::cycle::Cycle;
 use super::moment::Moment;
 
-/// Number of changed frames after which a camera counts as live. An earlier repeat shows a camera that is too coarse to be checked.
+/// Number of changed frames after which a camera counts as live. An equal frame before that means that the camera is too coarse to be checked.
 const LIVE_FRAMES: u32 = 8;
-/// Number of changed frames of the untouched gel after which a camera counts as noisy. Then no two of its frames are equal.
+/// Number of changed frames of the untouched gel after which a camera counts as noisy. No two frames of a noisy camera are equal.
 const NOISY_FRAMES: u32 = 4;
 /// Number of repeats of one frame after which a camera with fewer changes counts as frozen. It must have shown such a change of the force before.
 const STUCK_REPEATS: u32 = 3;
 /// Part of the greatest shown change that shows again. Presses to one depth differ in force.
 const SHOWN_PART: f64 = 0.75;
-/// Number of returns to older frames after which a noisy camera counts as frozen, and the number for any other one.
+/// Number of repeated older frames after which a camera counts as frozen: for a noisy camera, and for any other.
 const NOISY_RETURNS: u32 = 3;
 const CYCLE_RETURNS: u32 = 6;
-/// Distance of a sample from black or from full scale, up to which it shows nothing.
+/// Distance of a pixel value from black or full scale up to which it counts as clipped.
 const CLIPPED: u16 = 4;
 /// Greatest part of the samples of a blank frame that are not clipped, as of hot pixels.
 const SEEN_PART: f64 = 0.01;
@@ -38,25 +38,25 @@ pub(super) struct Freeze {
 struct Distinct {
     frame: Frame,
     moment: Moment,
-    /// True if the tip left the gel since.
+    /// True if the tip has left the gel since the frame was captured.
     is_left: bool,
-    /// Number of repeats that should have differed.
+    /// Number of equal frames that should have differed.
     repeats: u32,
     /// True if it was seen in the air and in contact, or in two presses, over a change of the force that was shown before.
     is_seen_across: bool,
 }
 
 impl Freeze {
-    /// Notes that the tip left the gel.
+    /// Records that the tip left the gel.
     pub(super) fn leave(&mut self) {
         if let Some(last) = &mut self.last {
             last.is_left = true;
         }
     }
 
-    /// True if `frame`, captured at `moment`, repeats the one before or older ones in turn although the force changed.
+    /// True if `frame`, captured at `moment`, equals the previous frame or repeats a sequence of older ones, although the force changed.
     ///
-    /// A blank frame, as of a camera in the dark, is never counted as a repeat.
+    /// A blank frame, as from a camera in the dark, never counts as repeated.
     pub(super) fn is_frozen(&mut self, frame: &Frame, moment: Moment) -> bool {
         let Some(last) = &mut self.last else {
             self.cycle.returns(frame, moment);

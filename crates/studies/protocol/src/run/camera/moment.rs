@@ -1,4 +1,4 @@
-//! State of the tip at a frame, and its changes that every camera shows.
+//! State of the tip when a frame is captured, and changes of this state that every camera shows.
 
 use taceva_core::Pose;
 
@@ -11,19 +11,19 @@ const FORCE_STEPS: f64 = 5.0;
 /// Least way of the tip that changes the frame of a camera without noise, in mm. A gel at rest may creep under it unseen.
 const MOVED_MM: f64 = 0.05;
 
-/// State of the tip at a frame.
+/// State of the tip when a frame is captured.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Moment {
     pub(super) felt: Felt,
     pub(super) pose: Pose,
-    /// True from a retreat to the next search: a light touch is not in the air, whatever its force.
+    /// True from a retreat to the next search. A light touch does not count as being in the air, whatever its force.
     pub(super) is_in_air: bool,
     /// Least force that counts as contact in the air, in N.
     pub(super) air_n: f64,
 }
 
 impl Moment {
-    /// The present state of `tip`.
+    /// Present state of `tip`.
     pub(super) fn of(tip: &Tip<'_>) -> Moment {
         Moment {
             felt: tip.felt,

@@ -1,4 +1,4 @@
-//! Tests that the robot stands halted, out of the way, while a changer moves, and of failing changers.
+//! Tests that the robot is halted away from the gel while a changer moves, and tests of failing changers.
 
 use taceva_core::{DriverError, DriverKey, ErrorKind};
 
@@ -8,7 +8,7 @@ use crate::run::rig::{CONTACT_MM, Rig, plan};
 use crate::run::time::Cancel;
 use crate::run::{Controls, Devices, Mode, RunSpec, SpecimenChanger};
 
-/// A changer that takes two seconds. It stores the tip height before and after, and whether the robot is halted.
+/// Test changer that takes two seconds. It records the tip height before and after, and whether the robot is halted.
 struct Carousel {
     rig: Rig,
     holds: bool,
@@ -50,7 +50,7 @@ impl SpecimenChanger for Carousel {
 
 const PATIENCE: Duration = Duration::from_secs(30);
 
-/// Answers and stores the questions.
+/// Test operator who records the questions and gives a fixed answer.
 struct Person(Answer, Vec<Question>);
 
 impl Operator for Person {

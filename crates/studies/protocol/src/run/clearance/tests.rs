@@ -1,4 +1,4 @@
-//! Tests that the tip leaves the gel before hands come near, and only with permission.
+//! Tests that the tip leaves the gel before an operator reaches in, and moves only with permission.
 
 use std::sync::Arc;
 
@@ -6,7 +6,7 @@ use super::*;
 use crate::run::rig::{CONTACT_MM, Rig, plan};
 use crate::run::supervisor::{Enabling, Supervisor};
 
-/// Stores the questions, the height of the tip, and whether it had moved.
+/// Test operator who records the questions, the height of the tip, and whether the tip had moved.
 struct Person {
     rig: Rig,
     answer: Answer,
@@ -64,7 +64,7 @@ fn raised_under(
     (done, person)
 }
 
-/// A gel that pushes back below its surface; readings differ.
+/// Test gel that pushes back below its surface. No two readings are equal.
 fn over_a_gel(height_mm: f64) -> Rig {
     Rig::new(height_mm, |question, height_mm| {
         let pressed_mm = (height_mm - CONTACT_MM).max(0.0);

@@ -16,9 +16,9 @@ use crate::run::surface_fit::Surface;
 use crate::run::tip::{Step, Tip};
 use crate::text::SceneProblem;
 
-/// Number of readings averaged to one force.
+/// Number of readings averaged for one force.
 const READINGS: u32 = 8;
-/// Least number of standard errors at which a push counts as measured.
+/// Minimum number of standard errors for a push to count as measured.
 const ERRORS: f64 = 4.0;
 /// Force of the touch, in multiples of the contact threshold.
 const RISE: f64 = 3.0;
@@ -26,8 +26,8 @@ const RISE: f64 = 3.0;
 const FORCE_PART: f64 = 0.5;
 /// Greatest depth of the touch, as a part of the depth limit.
 const DEPTH_PART: f64 = 0.5;
-/// Depth of the comparison with other sessions, in mm, and its greatest part of the limits of depth and force. A shallower touch scatters with the
-/// height of the contact. Taps go to a greater part.
+/// Depth for the comparison with other sessions, in mm, and its greatest part of the limits of depth and force.
+/// A shallower touch varies with the height of the contact. Taps use a greater part.
 const REFERENCE_MM: f64 = 0.3;
 const REFERENCE_PART: f64 = 0.3;
 /// Greatest slope of a force over its depth, relative to their ratio: of a ball, by Hertz.
@@ -108,7 +108,7 @@ impl Run<'_> {
         })
     }
 
-    /// Presses on from the first contact at `height_mm` to three times the contact force.
+    /// Continues the press from the first contact at `height_mm` to three times the contact force.
     fn press_on(&mut self, height_mm: f64) -> Step<Force> {
         let wanted_n = (RISE * self.tip.pace.air_n).min(FORCE_PART * self.tip.pace.normal_max_n);
         let deepest_mm = self.deepest_mm(height_mm);
@@ -129,8 +129,8 @@ impl Run<'_> {
         }
     }
 
-    /// Presses on to the depth at which sessions are compared: that of an earlier session, or else [`REFERENCE_MM`]. Stops earlier at a part of the
-    /// force limit.
+    /// Continues the press to the depth at which sessions are compared. It is that of an earlier session, or otherwise [`REFERENCE_MM`]. Stops earlier at a
+    /// part of the force limit.
     fn press_deeper(&mut self, height_mm: f64, earlier_mm: Option<f64>) -> Step<Force> {
         let part = match earlier_mm {
             Some(_) => FORCE_PART,
@@ -192,7 +192,7 @@ impl Run<'_> {
         Ok(pushes)
     }
 
-    /// Presses on until the frames change. Returns the change; `None` without frames.
+    /// Continues the press until the frames change. Returns the change; `None` without frames.
     fn show_touch(&mut self, height_mm: f64, in_air: &[Option<Picture>; 2]) -> Step<Option<Seen>> {
         let [Some(one), Some(other)] = in_air else {
             return Ok(None);
@@ -238,8 +238,8 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step
-    /// below the threshold and the first one above; `None` at the end of the search.
+    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step below the
+    /// threshold and the first one above. `None` at the end of the search.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<Surface>> {
         self.watch(MotionStage::Search);
         let start_mm = self.target.position.z.0;
@@ -332,7 +332,7 @@ fn between_steps_mm(step_mm: f64, noise_n: f64, rise_n: f64) -> f64 {
 #[derive(Clone, Copy, Debug, Default)]
 struct Force {
     mean_n: [f64; 3],
-    /// Greatest standard error of a component.
+    /// Greatest standard error of any component.
     error_n: f64,
 }
 

@@ -8,11 +8,11 @@ use crate::run::halt_reason::Trip;
 /// State of an enabling switch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Enabling {
-    /// Held, or the rig has no switch.
+    /// The switch is held, or the rig has no switch.
     Held,
-    /// Not held.
+    /// The switch is not held.
     Released,
-    /// Unreadable.
+    /// The switch cannot be read.
     Lost,
 }
 
@@ -39,7 +39,7 @@ impl Supervisor {
     /// Announces a straight motion before it is sent.
     ///
     /// # Errors
-    /// [`Supervisor::withheld`], or the trip since the last release. The motion must not be sent then.
+    /// [`Supervisor::withheld`], or the trip since the last release. The motion must not be sent in this case.
     pub fn sent(&mut self, from: Pose, to: Pose) -> Result<(), Trip> {
         if let Some(trip) = self.withheld().or(self.tripped) {
             return Err(self.trip(trip));

@@ -34,21 +34,21 @@ pub enum Observation {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum MotionStage {
-    /// In the air; a force above `threshold_n` is a collision.
+    /// In the air. A force above `threshold_n` is a collision.
     Travel {
         /// Greatest force without a collision, in N.
         threshold_n: f64,
     },
-    /// At rest in the air while the transducer sets its zero; forces are ignored.
+    /// At rest in the air while the transducer sets its zero. Forces are ignored.
     Zeroing,
     /// Approach to the first contact.
     Search,
     /// In contact, below `height_mm`.
     Press {
-        /// Height from which depths count in the sensor's frame, in mm: that of the first contact, or the fitted surface above it.
+        /// Height relative to which depths are measured, in mm of the sensor frame. It is that of the first contact, or of the fitted surface above it.
         height_mm: f64,
     },
-    /// Retreat; the force must not rise above `force_n`.
+    /// Retreat. The force must not exceed `force_n`.
     Retreat {
         /// Force at the start of the retreat, in N.
         force_n: f64,

@@ -1,18 +1,18 @@
-//! Questions to the operator, and a force that is lost while one stands.
+//! Questions to the operator, and loss of the force while the operator is being asked.
 
 use super::{SharedSupervisor, Supervisor};
 
-/// State of the question that stands, if any.
+/// State of the question that the operator is being asked, if any.
 #[derive(Default)]
 pub(super) struct StandingQuestion {
     stands: bool,
-    /// True if the robot was halted for a lost force since the question began.
+    /// True if the robot has been halted for a lost force since the question began.
     is_halted: bool,
     is_remarked: bool,
 }
 
 impl SharedSupervisor {
-    /// Result of `ask`, which puts a question to the operator. The question stands until `ask` returns.
+    /// Calls `ask`, which asks the operator a question, and returns its result. The question is active until `ask` returns.
     pub(crate) fn during_question<T>(&self, ask: impl FnOnce() -> T) -> T {
         self.lock().asks(true);
         let answer = ask();
@@ -22,7 +22,7 @@ impl SharedSupervisor {
 }
 
 impl Supervisor {
-    /// Marks the begin or the end of a question to the operator. The robot is halted before a question begins.
+    /// Marks the start or the end of a question to the operator. The robot must be halted before a question starts.
     pub fn asks(&mut self, stands: bool) {
         self.question = StandingQuestion {
             stands,
@@ -30,13 +30,13 @@ impl Supervisor {
         };
     }
 
-    /// True while a question to the operator stands.
+    /// True while the operator is being asked a question.
     pub fn is_asking(&self) -> bool {
         self.question.stands
     }
 
-    /// Halts because the transducer cannot be read: at each call, but once for each question. Returns true if the operator at a question does
-    /// not know it yet.
+    /// Halts because the transducer cannot be read: at every call, but only once during a question. Returns true if the operator who is being asked has not
+    /// been informed yet.
     pub fn lose_force(&mut self) -> bool {
         if !(self.question.stands && self.question.is_halted) {
             // A halt that fails is repeated.

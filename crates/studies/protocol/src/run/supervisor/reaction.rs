@@ -4,7 +4,7 @@ use taceva_core::whole_size;
 
 /// Time to send a halt, in s.
 const SEND_S: f64 = 0.001;
-/// Percentile of the reaction time; one in a thousand may be later.
+/// Percentile of the reaction time. One in a thousand reactions may be later.
 const SOONER: f64 = 0.999;
 
 /// Ages of readings on arrival at the supervisor.

@@ -4,7 +4,7 @@ use taceva_core::Wrench;
 
 /// Counts consecutive equal readings, each after a motion.
 ///
-/// Compares raw readings, so that neither a new stage nor a zero set by the host resets the count.
+/// Compares raw readings, so that a new stage, or a zero set by the host, does not reset the count.
 #[derive(Default)]
 pub(super) struct Repeats {
     last: Option<Wrench>,
@@ -15,7 +15,7 @@ pub(super) struct Repeats {
 }
 
 impl Repeats {
-    /// Records a motion of the tip; at rest, equal readings are normal.
+    /// Records a motion of the tip. At rest, equal readings are normal.
     pub(super) fn moved(&mut self) {
         self.moved = true;
     }
@@ -41,7 +41,7 @@ impl Repeats {
         self.count
     }
 
-    /// Resets the count, because the transducer sets its own zero.
+    /// Resets the count, because the transducer sets its own zero and its readings change.
     pub(super) fn forget(&mut self) {
         *self = Repeats::default();
     }

@@ -39,7 +39,7 @@ fn search(seed: u32, noise_n: f64, law: fn(f64) -> f64) -> (Vec<DepthForce>, f64
 struct Errors {
     mean_mm: f64,
     deviation_mm: f64,
-    /// Part of the seeds whose error is within 1.96 standard uncertainties.
+    /// Part of the seeds whose error is at most 1.96 standard uncertainties.
     held: f64,
     greatest_mm: f64,
 }
@@ -70,7 +70,7 @@ fn linear(depth_mm: f64) -> f64 {
     2.0 * depth_mm
 }
 
-/// A ball of 2 mm on a gel of 0.3 MPa.
+/// Force of a sphere of 2 mm on a gel of 0.3 MPa.
 fn ball(depth_mm: f64) -> f64 {
     0.754 * depth_mm * depth_mm.sqrt()
 }

@@ -6,9 +6,9 @@ use crate::rig_file::Latency;
 
 /// Height above the gel above which signals count as in the air, in mm.
 const AIR_MM: f64 = 0.1;
-/// Duration of the end of a tap, in s: the tip rests in the gel, and every device shows it.
+/// Duration of the end of a tap, in s. The tip rests in the gel, and every device reports this state.
 const REST_S: f64 = 0.2;
-/// Least number of readings, frames or poses in a section of a tap.
+/// Minimum number of readings, frames or poses in a section of a tap.
 const LEAST: usize = 3;
 /// Part of the change that marks the edge. The signal stays below it in the air, and is well above it at rest.
 const EDGE: f64 = 0.5;
@@ -17,9 +17,9 @@ const AT_REST: f64 = 0.75;
 const END_MM: f64 = 0.05;
 /// Least ratio of the fastest to the slowest tap. Below it, offset and latency cannot be separated.
 const LEAST_RATIO: f64 = 1.5;
-/// Taps that may be left out: one in this number.
+/// Divisor of the number of taps: at most one tap in this many may be dropped.
 const DROPPED: usize = 4;
-/// Late taps that may be left out: one in this number.
+/// Divisor of the number of taps: at most one tap in this many may be dropped as late.
 const LATE: usize = 5;
 /// Number of standard deviations that cover 95 of 100 taps.
 const WITHIN: f64 = 2.0;
@@ -41,25 +41,25 @@ pub enum TapError {
         "tap {tap}: {count} {what} arrived {stretch}, expected at least {LEAST}: measure the rate of the {device} with `taceva rig check`"
     )]
     Few {
-        /// Number of the tap, from 1.
+        /// Number of the tap, counted from 1.
         tap: usize,
-        /// `robot`, `force` or `sensor`.
+        /// Name of the device: `robot`, `force` or `sensor`.
         device: &'static str,
-        /// Kind of its values.
+        /// Kind of values of the device.
         what: &'static str,
         /// Section of the tap.
         stretch: &'static str,
         /// Number of values.
         count: usize,
     },
-    /// A device does not show the tap: its signal in the air varies by at least half of its change.
+    /// A device does not show the tap clearly. Its signal in the air varies by at least half of its change.
     #[error(
         "tap {tap}: the {device} signal does not show it clearly: in the air it varies by {in_air:.2} of its change, expected below {EDGE}; check its mounting, its light or its noise"
     )]
     Unclear {
-        /// Number of the tap, from 1.
+        /// Number of the tap, counted from 1.
         tap: usize,
-        /// `force` or `sensor`.
+        /// Name of the device: `force` or `sensor`.
         device: &'static str,
         /// Greatest signal in the air, as a part of the change.
         in_air: f64,
@@ -69,12 +69,12 @@ pub enum TapError {
         "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: its latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
     Late {
-        /// Number of the tap, from 1.
+        /// Number of the tap, counted from 1.
         tap: usize,
-        /// `force` or `sensor`.
+        /// Name of the device: `force` or `sensor`.
         device: &'static str,
     },
-    /// So many taps are late that the others show too short a latency.
+    /// Too many taps are late, so the latency from the other taps would be too short.
     #[error(
         "{late} of {taps} taps were left out as late, expected at most a fifth: the remaining taps show too short a latency; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
@@ -97,7 +97,7 @@ pub enum TapError {
         "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10`, and check the rig for vibration"
     )]
     Spread {
-        /// `force` or `sensor`.
+        /// Name of the device: `force` or `sensor`.
         device: &'static str,
         /// Two standard deviations of a tap, in ms.
         spread_ms: f64,
@@ -149,10 +149,10 @@ impl Tapped {
     /// Each tap gives the delay between two times: the tip passes the reference height, and a device shows half of its change. Over all taps the
     /// delay is L + δ/v, a line in the reciprocal of the speed v. L is the latency, δ the offset of the half change below that height.
     ///
-    /// A tap that a device does not show clearly is left out, up to a quarter of all, and a late one up to a fifth.
+    /// A tap that a device does not show clearly is dropped, up to a quarter of all taps. A late tap is dropped, up to a fifth of all taps.
     ///
     /// # Errors
-    /// [`TapError`] for missing, unclear or contradictory signals: that of the first such tap if more than a quarter have one.
+    /// [`TapError`] for missing, unclear or contradictory signals. If more than a quarter of the taps have an error, the first of these errors is returned.
     pub fn latencies(&self) -> Result<(Latency, Latency), TapError> {
         let (mut clear, mut dropped) = (Vec::new(), Vec::new());
         for edges in self.edges() {
@@ -198,12 +198,12 @@ impl Tapped {
         Ok((force, sensor))
     }
 
-    /// Reasons of the taps that latencies leave out, because a device does not show them clearly.
+    /// Reasons why taps are dropped, because a device does not show them clearly.
     pub fn dropped(&self) -> Vec<TapError> {
         self.edges().into_iter().filter_map(Result::err).collect()
     }
 
-    /// Number of taps that are left out as late.
+    /// Number of taps that are dropped as late.
     pub fn late(&self) -> usize {
         late_among(&self.dropped())
     }

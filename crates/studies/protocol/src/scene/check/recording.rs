@@ -11,7 +11,7 @@ use crate::text::Setting;
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields, default, expecting = "a table with `frames`")]
 pub(super) struct WrittenRecording {
-    /// Size to which frames are reduced before they are stored; `None` keeps them whole.
+    /// Size to which frames are reduced before storage; `None` stores full frames.
     pub(super) frames: Option<Setting<WrittenSize>>,
 }
 

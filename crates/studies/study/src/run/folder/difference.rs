@@ -1,12 +1,12 @@
-//! First difference between the plans of a begun run and those of a scene.
+//! First difference between the plans of a started run and the plans of a scene.
 
 use serde_json::Value;
 use taceva_core::shown;
 
-/// Most characters of a value in a message.
+/// Maximum number of characters of a value in a message.
 const MOST: usize = 60;
 
-/// Values that follow from others, which are named first.
+/// Keys whose values depend on other values. Differences in the other values are reported first.
 const FOLLOWING: [&str; 3] = ["cost", "digest", "rig"];
 /// Value of a missing key.
 static NULL: Value = Value::Null;

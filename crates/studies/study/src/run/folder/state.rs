@@ -1,4 +1,4 @@
-//! State of a run folder: its run, and whether its recordings are complete.
+//! State of a run folder: the scene of its run, and completeness of its recordings.
 
 use std::fs;
 use std::path::Path;
@@ -13,17 +13,17 @@ use super::{RunFolder, difference, slug};
 use crate::error::StudyError;
 
 impl RunFolder {
-    /// Folder below `parent` named after `scene`; it may not exist yet.
+    /// Run folder for `scene` below `parent`, named after the scene. The folder may not exist yet.
     pub fn named(parent: &Path, scene: &PlannedScene) -> RunFolder {
         RunFolder {
             path: parent.join(slug(&scene.scene.name)),
         }
     }
 
-    /// True if the run of `scene` was started there. Changes nothing.
+    /// True if the folder contains a started run of `scene`. Changes nothing.
     ///
     /// # Errors
-    /// [`StudyError::RunFolder`] if the run there has other plans, or if they cannot be read.
+    /// [`StudyError::RunFolder`] if the run in the folder has other plans, or if its plans cannot be read.
     pub fn is_begun(&self, scene: &PlannedScene) -> Result<bool, StudyError> {
         let path = self.path.join(PLANS);
         if !path.exists() {
@@ -37,7 +37,7 @@ impl RunFolder {
         }
     }
 
-    /// Message that the run has another plan, with its first differences.
+    /// Message that the run in the folder has another plan, with the first differences.
     fn other_plan(&self, scene: &PlannedScene, before: &str, now: &str) -> String {
         let text = fs::read_to_string(self.path.join(SCENE)).ok();
         let line = text.and_then(|text| difference::of_scenes(&text, &scene.text.text));
@@ -52,7 +52,7 @@ impl RunFolder {
         )
     }
 
-    /// True if every study of `scene` is completely recorded there. Changes nothing.
+    /// True if the folder contains complete recordings of every study of `scene`. Changes nothing.
     ///
     /// # Errors
     /// [`StudyError::Evaluate`] for a recording that was edited.
@@ -70,7 +70,7 @@ impl RunFolder {
         Ok(true)
     }
 
-    /// Stored plans of `scene`.
+    /// Text of the stored plans, for comparison with `scene`.
     pub(super) fn plans_of(&self, scene: &PlannedScene) -> Result<String, StudyError> {
         serde_json::to_string(scene).map_err(|error| self.refused(error.to_string()))
     }

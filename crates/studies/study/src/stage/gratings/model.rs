@@ -9,7 +9,7 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// Spacings of the spectra `asked`, predicted by a model fitted on the spectra `known` and their spacings.
+/// Predicts the spacings of the spectra `asked`, by a model fitted on the spectra `known` and their spacings.
 pub(super) fn predict(
     classifier: &ModelClassifier,
     known: &[Vec<f64>],

@@ -9,10 +9,11 @@ use crate::classifier::ModelClassifier;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Work;
 
-/// Memory limit of the planes held at once, in bytes. Presses that need more are decoded twice.
+/// Limit on the memory of planes stored together, in bytes. Frames are decoded twice if their planes need more.
 const HELD_BYTES: u64 = 512 << 20;
 
-/// Number of passes over `presses` frames of `dataset`: one if their planes fit in memory, else two, for the mean and for the frames.
+/// Number of times the frames of `presses` presses of `dataset` are decoded. One pass is enough if all planes fit in memory; otherwise a first pass computes
+/// the mean.
 pub(super) fn times_decoded(dataset: &Dataset, presses: usize) -> u64 {
     let info = dataset.header().frames.as_ref().map(|frames| frames.info);
     let plane = info.map_or(0, |info| RadialSpectrum::new(info).plane_bytes());
@@ -49,7 +50,7 @@ struct Seen {
     row: usize,
     spacing: Nanometre,
     fold: usize,
-    /// Spectrum of the press for each fold, after subtraction of the background of the fold.
+    /// Spectrum of the press for each fold, computed after the background of the fold was subtracted.
     spectra: Vec<Vec<f64>>,
 }
 
@@ -59,7 +60,7 @@ struct Pictures<'a> {
     spectra: RadialSpectrum,
     presses: &'a [(usize, Nanometre)],
     rows: Vec<usize>,
-    /// Fold of each press. Presses on one board are assigned in turn.
+    /// Fold of each press. The presses of one board are assigned to folds in turn.
     folds: Vec<usize>,
     work: Work<'a>,
 }
@@ -86,7 +87,7 @@ impl<'a> Pictures<'a> {
         })
     }
 
-    /// Every press with its spectra.
+    /// Computes the spectra of every press.
     fn seen(&self) -> Result<Vec<Seen>, EvaluateError> {
         let is_held = times_decoded(self.dataset, self.rows.len()) == 1;
         let mut held = Vec::new();
@@ -126,7 +127,7 @@ impl<'a> Pictures<'a> {
         Ok(seen)
     }
 
-    /// Sum and number of the planes of all other folds, for each fold; calls `keep` once with each plane.
+    /// Sum and number of the planes outside each fold; calls `keep` once with each plane.
     fn backgrounds(
         &self,
         mut keep: impl FnMut(FourierPlane),

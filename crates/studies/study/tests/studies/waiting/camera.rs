@@ -10,7 +10,7 @@ use crate::waiting::guard::{depth_mm, stopped};
 use crate::waiting::record_by_hand;
 use crate::waiting::world::World;
 
-/// Scene with frames of six places.
+/// Scene with frames at six places.
 const SEEN: &str = r#"
 scene_version = 1
 name = "wall"
@@ -25,7 +25,7 @@ contact = { clearance_mm = 0.3, search_mm = 0.5, speed_mm_s = 5.0, travel_mm_s =
 calibration = { points = 6, indentations = 2, shear_mm = 0.0 }
 "#;
 
-/// Makes the camera fail once the tip is in the gel.
+/// Progress receiver that makes the camera fail when the tip is in the gel.
 struct Spoils<'a>(&'a World, ErrorKind, AtomicBool);
 
 impl Progress for Spoils<'_> {

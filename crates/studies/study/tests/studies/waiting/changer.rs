@@ -17,7 +17,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::{Misfortune, World};
 
-/// Two units, each with its surface measured at two places. The tip is slow in contact, so that a busy machine keeps up.
+/// Scene of two units, each with its surface measured at two places. The tip is slow in contact, so that a busy machine keeps up.
 const SCENE: &str = r#"
 scene_version = 1
 name = "wall"
@@ -34,7 +34,7 @@ surface = { points = 2 }
 "#;
 /// Specimen of the scene.
 const BALL: &str = "sphere of radius 2 mm";
-/// Duration of a change, and interval at which the changer checks that the robot stands still.
+/// Duration of a change, and interval at which the changer checks that the robot does not move.
 const CHANGE: Duration = Duration::from_millis(100);
 
 /// A changer that observes the robot during a change.
@@ -55,7 +55,7 @@ impl Interrupt for Bell {
 }
 
 impl Bell {
-    /// True if it was notified within `patience`; resets the notification.
+    /// True if the carousel was notified within `patience`. Resets the notification.
     fn rang_within(&self, patience: Duration) -> bool {
         let held = self.0.lock().expect("whole");
         let waited = self.1.wait_timeout_while(held, patience, |rang| !*rang);
@@ -118,7 +118,7 @@ fn rig(folder: &Path, changers: &str) -> PathBuf {
     path
 }
 
-/// Changers that hold every item.
+/// Changers that contain every item.
 fn both() -> String {
     format!(
         "specimen = \"wall/carousel:holds={BALL}\"\nunit = \"wall/revolver:holds=a+b\"\npatience_s = 0.5"
@@ -247,7 +247,7 @@ fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_
     }
 }
 
-/// Answers and stores the questions, and repairs the changer.
+/// Operator who answers and records the questions, and repairs the changer.
 struct Person(World, Vec<Question>);
 
 impl Operator for Person {
@@ -319,7 +319,7 @@ fn a_changer_that_is_none_or_holds_nothing_is_refused_with_its_line() {
     }
 }
 
-/// Requests a stop while the changer moves.
+/// Progress receiver that requests a stop while the changer moves.
 struct StopsMeanwhile(Instant);
 
 impl Progress for StopsMeanwhile {

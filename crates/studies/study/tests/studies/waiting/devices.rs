@@ -16,7 +16,7 @@ use crate::waiting::changer::Carousel;
 use crate::waiting::world::{World, pose};
 
 const ROBOT: DriverKey = DriverKey::fixed("wall/robot");
-/// The same robot in a base frame.
+/// Key of the same robot with poses in a base frame.
 const ARM: DriverKey = DriverKey::fixed("wall/arm");
 const FORCE: DriverKey = DriverKey::fixed("wall/force");
 const SWITCH: DriverKey = DriverKey::fixed("wall/pedal");
@@ -24,9 +24,9 @@ pub(crate) const CAROUSEL: DriverKey = DriverKey::fixed("wall/carousel");
 const REVOLVER: DriverKey = DriverKey::fixed("wall/revolver");
 const LAMP: DriverKey = DriverKey::fixed("wall/lamp");
 const SENSOR: DriverKey = DriverKey::fixed("wall/gel");
-/// Interval between readings.
+/// Interval between readings, in s.
 const READING_S: f64 = 0.005;
-/// Delay of the stamps of readings.
+/// Delay of the time stamps of readings, in ms.
 const LATENCY_MS: f64 = 1.0;
 
 /// Drivers of `world`.

@@ -12,7 +12,7 @@ use taceva_study::StudyError;
 use crate::waiting::record;
 use crate::waiting::world::World;
 
-/// Calls `look` with the world whenever the guard asks for cancellation, a hundred times a second, and returns its result.
+/// Progress receiver that calls `look` with the world whenever the guard checks for cancellation, a hundred times a second. Returns the result of `look`.
 struct Looking<'a, F>(&'a World, F);
 
 #[derive(Clone, Copy, Default)]

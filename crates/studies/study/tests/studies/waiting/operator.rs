@@ -10,7 +10,7 @@ use taceva_study::StudyError;
 use crate::waiting::record_by_hand;
 use crate::waiting::world::World;
 
-/// Two units, each with its surface measured at two places.
+/// Scene of two units, each with its surface measured at two places.
 const SCENE: &str = r#"
 scene_version = 1
 name = "wall"
@@ -87,7 +87,7 @@ fn each_unit_is_asked_for_and_one_that_is_skipped_is_left_for_the_next_call() {
     assert_eq!(whole.table().samples().len(), 4);
 }
 
-/// Answers every question, and keeps what it is warned of.
+/// Operator who answers every question, and records the warnings.
 struct Warned(Vec<String>);
 
 impl Operator for Warned {
@@ -111,7 +111,7 @@ fn a_remark_of_the_transducer_is_shown_once_for_all_units() {
     assert_eq!(warned[..], ["a low pass delays forces: switch it off"]);
 }
 
-/// Stores the tip height when a unit is requested, whether the tip is halted, and whether it moves before the answer.
+/// Operator who records the tip height when a unit is requested, whether the tip is halted, and whether it moves before the answer.
 struct Hands {
     world: World,
     seen: Vec<(f64, bool, bool)>,
@@ -160,7 +160,7 @@ fn a_tip_that_stands_in_the_gel_is_raised_and_halted_before_a_unit_is_asked_for(
     }
 }
 
-/// One unit under two lights that no device sets.
+/// Scene of one unit under two lights that no device sets.
 pub(crate) const LIGHTS: &str = r#"
 scene_version = 1
 name = "wall"

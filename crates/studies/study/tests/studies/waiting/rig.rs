@@ -12,7 +12,7 @@ use crate::waiting::record_on;
 use crate::waiting::session::{self, UPRIGHT, rig_file, scene};
 use crate::waiting::world::World;
 
-/// Allows or forbids the robot to move.
+/// Operator who allows or forbids the robot to move.
 struct Person(Answer);
 
 impl Operator for Person {
@@ -131,7 +131,7 @@ fn nothing_moves_in_a_check_whose_rig_file_has_the_tip_in_the_gel_or_was_never_t
     assert_eq!(check.halt_left_out.as_deref(), Some(why));
 }
 
-/// Jogs the tip into the gel before it lets the robot move.
+/// Operator who jogs the tip into the gel before allowing the robot to move.
 struct JogsIntoGel(World);
 
 impl Operator for JogsIntoGel {
@@ -191,7 +191,7 @@ fn a_run_with_a_rig_file_that_was_never_taught_is_refused_with_its_line_before_a
     assert_eq!((state.readings, state.motions), (0, 0));
 }
 
-/// An operator that fails the test if asked.
+/// Operator who must not be asked; a question fails the test.
 struct Nobody;
 
 impl Operator for Nobody {
@@ -200,7 +200,7 @@ impl Operator for Nobody {
     }
 }
 
-/// An operator that jogs the robot to given places in its base frame.
+/// Operator who jogs the robot to given places in its base frame.
 struct Jogs {
     world: World,
     along: [[f64; 3]; 3],

@@ -30,7 +30,7 @@ pub(crate) fn scene() -> String {
 
 pub(crate) const UPRIGHT: &str = "[\"x\", \"y\", \"z\"]";
 
-/// Allows everything, and stores the questions.
+/// Operator who allows everything, and records the questions.
 #[derive(Default)]
 pub(crate) struct Person(Vec<Question>);
 
@@ -47,7 +47,7 @@ fn rows(folder: &Path) -> Vec<String> {
     text.lines().skip(1).map(str::to_owned).collect()
 }
 
-/// Requests a stop once the tip is in the gel for the first time after the session began.
+/// Progress receiver that requests a stop when the tip is in the gel for the first time after the session began.
 struct StopsInPress<'a>(&'a World, PathBuf, AtomicBool);
 
 impl Progress for StopsInPress<'_> {
@@ -165,7 +165,7 @@ fn a_robot_that_nobody_is_there_to_let_move_is_refused_before_anything_is_opened
     assert_eq!(world.state().readings, 0);
 }
 
-/// Requests a stop after this time, in s.
+/// Progress receiver that requests a stop after this time, in s.
 struct StopsAfter(f64);
 
 impl StopsAfter {
@@ -217,7 +217,7 @@ fn ctrl_c_at_any_moment_leaves_the_tip_above_the_gel_and_no_press_is_lost_or_dou
     assert_eq!(names.len(), 6);
 }
 
-/// Never answers; waits until the run is cancelled.
+/// Operator who never answers, and waits until the run is cancelled.
 struct WalkedAway(World, u32);
 
 impl Operator for WalkedAway {
@@ -271,7 +271,7 @@ fn a_disk_that_takes_no_session_stops_it_before_its_first_press() {
     assert_eq!(dataset.expect("it goes on").table().samples().len(), 6);
 }
 
-/// Creates a folder at the path of the session table once the folder of recordings exists.
+/// Progress receiver that creates a folder at the path of the session table, when the folder of recordings exists.
 struct Blocks(PathBuf);
 
 impl Progress for Blocks {

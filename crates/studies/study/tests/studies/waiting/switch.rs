@@ -58,11 +58,11 @@ const LOOKS: u32 = 40;
 /// Number of guard readings within which a motion in progress is halted.
 const HALTED_LOOKS: u32 = 20;
 
-/// Releases the switch once the tip is deep in the gel, and holds it again 40 readings later. The tip must stand still meanwhile.
+/// Progress receiver that releases the switch when the tip is deep in the gel, and holds it again 40 readings later. The tip must not move in between.
 struct LetsGo<'a> {
     world: &'a World,
     looks: AtomicU32,
-    /// Position of the tip when it must have been halted, as the bits of a number.
+    /// Position of the tip when the halt was due, as the bits of a number.
     stood: AtomicU64,
     moved_looks: AtomicU32,
 }
@@ -131,7 +131,7 @@ fn a_switch_that_nobody_holds_lets_nothing_move_and_the_run_ends_when_the_patien
     assert_whole(&recorded(&world, folder.path(), &SilentProgress).expect("it is held"));
 }
 
-/// Unplugs the switch once the tip is deep in the gel.
+/// Progress receiver that unplugs the switch when the tip is deep in the gel.
 struct Unplugs<'a>(&'a World);
 
 impl Progress for Unplugs<'_> {
@@ -190,7 +190,7 @@ fn an_enable_that_is_no_switch_or_does_not_open_is_refused_with_its_line_before_
     }
 }
 
-/// Allows the robot to move.
+/// Operator who allows the robot to move.
 struct LetsMove;
 
 impl Operator for LetsMove {

@@ -6,7 +6,7 @@ use std::time::Duration;
 use taceva_core::{ErrorKind, Millimetre, Point, Pose};
 use taceva_drivers::MonotonicClock;
 
-/// Stiffness of the gel, in N/mm, from a height of 0.
+/// Stiffness of the gel, in N/mm. The surface is at height 0.
 const STIFFNESS_N_MM: f64 = 0.5;
 /// Start position of the tip, in mm.
 const HOME_MM: [f64; 3] = [0.0, 0.0, -2.0];
@@ -21,16 +21,16 @@ pub(crate) struct State {
     span_s: [f64; 2],
     pub(crate) is_halted: bool,
     pub(crate) motions: u32,
-    /// Number of readings returned, and number still to be withheld.
+    /// Number of readings returned, and number of readings still to be withheld.
     pub(crate) readings: u64,
     pub(crate) withheld: u32,
     pub(crate) deepest_mm: f64,
     /// Number and times of the halts of the robot.
     pub(crate) halts: usize,
     halted_s: Vec<f64>,
-    /// An obstacle in the air presses with 1 N where x is above this, in mm.
+    /// Greatest x without an obstacle, in mm. Beyond it, an obstacle in the air presses with 1 N.
     pub(crate) obstacle_x_mm: f64,
-    /// Time of the first contact with it, in s.
+    /// Time of the first contact with the obstacle, in s.
     pub(crate) struck_s: Option<f64>,
     /// True if the emergency stop is pressed.
     pub(crate) is_stopped: bool,
@@ -97,7 +97,7 @@ impl World {
         self.0.lock().expect("nobody panics with it")
     }
 
-    /// Moves the tip and waits until it rests; returns true if it arrived.
+    /// Moves the tip, and waits until it rests. Returns true if the tip arrived.
     pub(crate) fn travel(&self, to: [f64; 3], speed_mm_s: f64) -> bool {
         let until_s = {
             let mut state = self.state();

@@ -9,7 +9,7 @@ use super::*;
 
 const KEY: DriverKey = DriverKey::fixed("test/force");
 
-/// A scripted transducer: one entry for each reading, then timeouts.
+/// A scripted transducer. Each reading uses one entry, and further readings time out.
 struct Script(Vec<Result<f64, ErrorKind>>);
 
 impl ForceTransducer for Script {
@@ -52,7 +52,7 @@ fn reading<T>(
     reading_for(script, &SilentProgress, act)
 }
 
-/// As [`reading`], with remarks to `progress`.
+/// Like [`reading`], with messages to `progress`.
 fn reading_for<T>(
     script: Vec<Result<f64, ErrorKind>>,
     progress: &dyn Progress,
@@ -141,7 +141,7 @@ fn a_transducer_that_fails_halts_and_its_error_is_found_by_who_reads_next() {
     }
 }
 
-/// Stores remarks.
+/// Test observer that stores messages.
 #[derive(Default)]
 struct Remarks(Mutex<Vec<String>>);
 
@@ -157,7 +157,7 @@ impl Progress for Remarks {
     }
 }
 
-/// Number of halts and the remarks, for a transducer that is lost while a question stands. The question ends before the run if `is_answered`.
+/// Number of halts and the messages, for a transducer that is lost during a question to the operator. If `is_answered`, the question ends before the run.
 fn lost_at_a_question(is_answered: bool) -> (u32, Vec<String>) {
     let readings = (0..20).map(|number| Ok(f64::from(number) * 1e-6));
     let errors = (0..1_000).map(|_| Err(ErrorKind::Disconnected));

@@ -1,4 +1,4 @@
-//! A gel with an arm, a transducer and a camera in simulated time, its possible faults, and a session on it.
+//! Test bench: a gel with an arm, a transducer and a camera in simulated time, and a session on it. The bench can have faults.
 
 use std::sync::{Arc, Mutex, MutexGuard};
 use std::time::Duration;
@@ -63,7 +63,7 @@ pub(super) struct State {
 pub(super) enum Sees {
     Touches,
     Nothing,
-    /// Keeps showing the touch forever.
+    /// Frames show the touch forever afterwards.
     Afterwards,
 }
 
@@ -242,7 +242,7 @@ impl Sensor for Camera {
 }
 
 impl State {
-    /// Depth below the surface, for a frame that keeps an earlier touch.
+    /// Depth below the surface that a frame shows. The frame may show an earlier touch.
     fn deepest(&mut self) -> f64 {
         if self.depth_mm() > 0.0 {
             self.clings_n = self.clings_n.max(f64::MIN_POSITIVE);
@@ -261,7 +261,7 @@ impl Timekeeper for Bench {
     }
 }
 
-/// Stores the records of a session.
+/// Test log that stores the records of a session.
 #[derive(Default)]
 pub(super) struct Memory {
     pub(super) presses: usize,
@@ -286,7 +286,7 @@ impl PressLog for Memory {
     }
 }
 
-/// Answers, and stores the height of the tip and the number of its motions.
+/// Test operator who gives answers, and records the height of the tip and the number of its motions.
 pub(super) struct Person {
     bench: Bench,
     answer: Answer,
@@ -334,7 +334,7 @@ pub(super) fn begun(bench: &Bench, session: Session<'_>) -> (Result<(), RunError
     begun_with(bench, session, &one_press())
 }
 
-/// As [`begun`], with the presses of `plan`.
+/// Like [`begun`], with the presses of `plan`.
 pub(super) fn begun_with(
     bench: &Bench,
     session: Session<'_>,

@@ -6,7 +6,7 @@ use crate::run::{
     Timekeeper as _, tap,
 };
 
-/// Counts taps. During one of them, the guard threads receive no readings for a while.
+/// Test listener that counts taps. During one of them, the guard threads receive no readings for some time.
 struct Counting {
     bench: Bench,
     broken_off: u32,
