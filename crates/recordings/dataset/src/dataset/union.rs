@@ -283,7 +283,7 @@ fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     table
 }
 
-/// Header of the joined dataset. If the recordings differ, the clock is unknown, and serial number and gel are `several`.
+/// Header of the joined dataset. If the recordings differ, the clock and the presses are unknown, and serial number and gel are `several`.
 fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 of several recordings");
@@ -309,6 +309,9 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
             if own != theirs {
                 *own = "several".to_owned();
             }
+        }
+        if header.sensor.presses_since_gel != other.sensor.presses_since_gel {
+            header.sensor.presses_since_gel = None;
         }
         header
             .settings
