@@ -46,7 +46,7 @@ fn worn(folder: &Path, name: &str, age: &Age, light: f64, noise: u32) -> Dataset
 
 /// Four recordings after 0, 1000, 2000 and 3000 presses, whose light falls, in another order.
 fn falling(folder: &Path) -> Vec<Dataset> {
-    [(3, 0.4), (0, 1.0), (2, 0.6), (1, 0.8)]
+    [(3_u32, 0.4), (0, 1.0), (2, 0.6), (1, 0.8)]
         .map(|(thousand, light)| {
             let name = format!("after-{thousand}");
             let age = age(Some(1000 * thousand), None);
