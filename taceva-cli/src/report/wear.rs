@@ -2,9 +2,7 @@
 
 use taceva_metrics::elementary::exponential;
 use taceva_report::{Cell, Column, Table};
-use taceva_stress::{
-    ChannelWear, Estimate, GelWear, LimitMet, RecordingWear, WearBy, WearDifference, WearReport,
-};
+use taceva_stress::{ChannelWear, Estimate, GelWear, WearBy, WearReport};
 
 use super::stress::{cell, main_channels, phrase, short};
 
@@ -33,17 +31,11 @@ pub(crate) fn table(report: &WearReport) -> Table {
                 (WearBy::Date, Some(day)) => day.to_string(),
                 _ => short(of.place),
             };
-            let mut cells = vec![
-                Cell::text(gel.gel.as_str()),
-                Cell::text(of.recording.as_str()),
-                Cell::Number(place),
-                Cell::Number(of.stimulus.map_or_else(|| NONE.to_owned(), short)),
-            ];
-            let errors = channels.iter().map(|name| {
-                let mae = of.mae.get(*name);
-                mae.map_or_else(|| Cell::text(NONE), cell)
-            });
-            cells.extend(errors);
+            let stimulus = of.stimulus.map_or_else(|| NONE.to_owned(), short);
+            let mut cells = [gel.gel.as_str(), &of.recording].map(Cell::text).to_vec();
+            cells.extend([place, stimulus].map(Cell::Number));
+            let errors = channels.iter().map(|name| of.mae.get(*name));
+            cells.extend(errors.map(|mae| mae.map_or_else(|| Cell::text(NONE), cell)));
             table.push(cells);
         }
     }
@@ -107,140 +99,44 @@ fn growth(report: &WearReport, gel: &GelWear, name: &str, of: &ChannelWear) -> S
     format!("Gel {}, {name}: {words}; {different}.", gel.gel)
 }
 
-/// Table for programs: one row for each number, in shortest round-trip form.
+/// Table for programs: one row for each recording and channel, with the growth of the channel, in shortest round-trip form.
 pub(crate) fn numbers(report: &WearReport) -> Table {
-    let columns = [
-        "gel",
-        "recording",
-        "presses_since_gel",
-        "day",
-        "channel",
-        "quantity",
-        "value",
-        "unit",
-        "low",
-        "high",
-        "reason",
-        "source",
-    ];
-    let mut rows = Rows {
-        table: Table::new("Errors over the life of gels", columns),
-        source: &report.subject.source,
-    };
+    const COLUMNS: &str = "gel recording presses_since_gel day stimulus channel unit mae ci95_low ci95_high difference difference_low \
+                           difference_high p slope slope_low slope_high met_at not_before source";
+    let mut table = Table::new("Errors over the life of gels", COLUMNS.split(' '));
+    let ends =
+        |ends: Option<[f64; 2]>| [0_usize, 1].map(|end| Cell::exact(ends.map(|ends| ends[end])));
     for gel in &report.gels {
         for of in &gel.recordings {
-            let whole = Place {
-                gel: &gel.gel,
-                recording: Some(of),
-                channel: "",
-            };
-            let stimulus = Estimate::of_known(of.stimulus);
-            rows.push(&whole, "stimulus", &Number::of(&stimulus), "1");
             for (channel, mae) in &of.mae {
-                let unit = unit(report, channel);
-                let place = Place { channel, ..whole };
-                rows.push(&place, "mae", &Number::of(mae), unit);
-                if let Some(difference) = of.differences.get(channel) {
-                    rows.push(
-                        &place,
-                        "difference",
-                        &Number::of_difference(difference),
-                        unit,
-                    );
-                    let p = Estimate::of_known(difference.p);
-                    rows.push(&place, "p", &Number::of(&p), "1");
-                }
+                let difference = of.differences.get(channel).cloned().unwrap_or_default();
+                let growth = gel.channels.get(channel);
+                let slope = growth.map(|of| of.slope);
+                let limit = growth.and_then(|of| of.limit);
+                let presses = of.presses_since_gel.map(|of| of.to_string());
+                let day = of.day.map(|day| day.to_string());
+                let mut cells = vec![
+                    Cell::text(gel.gel.as_str()),
+                    Cell::text(of.recording.as_str()),
+                    Cell::Number(presses.unwrap_or_default()),
+                    Cell::text(day.unwrap_or_default()),
+                    Cell::exact(of.stimulus),
+                    Cell::text(channel.as_str()),
+                    Cell::text(unit(report, channel)),
+                    Cell::exact(mae.value),
+                ];
+                cells.extend(ends(mae.ci95));
+                cells.push(Cell::exact(difference.value));
+                cells.extend(ends(difference.interval));
+                cells.push(Cell::exact(difference.p));
+                cells.push(Cell::exact(slope.and_then(|of| of.value)));
+                cells.extend(ends(slope.and_then(|of| of.ci95)));
+                cells.push(Cell::exact(limit.and_then(|of| of.at)));
+                cells.push(Cell::exact(limit.and_then(|of| of.not_before)));
+                cells.push(Cell::text(report.subject.source.as_str()));
+                table.push(cells);
             }
         }
-        for (channel, of) in &gel.channels {
-            let place = Place {
-                gel: &gel.gel,
-                recording: None,
-                channel,
-            };
-            let per_step = format!("1/({} {})", report.step, report.by.unit());
-            rows.push(&place, "slope", &Number::of(&of.slope), &per_step);
-            if let Some(limit) = &of.limit {
-                let unit = report.by.unit();
-                rows.push(&place, "met_at", &Number::of_limit(limit), unit);
-            }
-        }
     }
-    rows.table
-}
-
-/// Gel, recording and channel of a number.
-#[derive(Clone, Copy)]
-struct Place<'a> {
-    gel: &'a str,
-    recording: Option<&'a RecordingWear>,
-    channel: &'a str,
-}
-
-/// A number with the ends of its interval, or the reason for an absent one.
-struct Number {
-    value: Option<f64>,
-    low: Option<f64>,
-    high: Option<f64>,
-    reason: String,
-}
-
-impl Number {
-    fn of(of: &Estimate) -> Number {
-        Number {
-            value: of.value,
-            low: of.ci95.map(|[low, _]| low),
-            high: of.ci95.map(|[_, high]| high),
-            reason: of.reason.map(|of| of.to_string()).unwrap_or_default(),
-        }
-    }
-
-    fn of_difference(of: &WearDifference) -> Number {
-        Number {
-            value: of.value,
-            low: of.interval.map(|[low, _]| low),
-            high: of.interval.map(|[_, high]| high),
-            reason: of.reason.clone().unwrap_or_default(),
-        }
-    }
-
-    fn of_limit(of: &LimitMet) -> Number {
-        Number {
-            value: of.at,
-            low: of.not_before,
-            high: None,
-            reason: of.reason.map(|of| of.to_string()).unwrap_or_default(),
-        }
-    }
-}
-
-/// Rows of the table for programs.
-struct Rows<'a> {
-    table: Table,
-    source: &'a str,
-}
-
-impl Rows<'_> {
-    fn push(&mut self, place: &Place<'_>, quantity: &str, of: &Number, unit: &str) {
-        let number = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-        };
-        let recording = place.recording;
-        let presses = recording.and_then(|of| of.presses_since_gel);
-        let day = recording.and_then(|of| of.day);
-        self.table.push([
-            Cell::text(place.gel),
-            Cell::text(recording.map_or("", |of| of.recording.as_str())),
-            Cell::Number(presses.map_or_else(String::new, |of| of.to_string())),
-            Cell::text(day.map_or_else(String::new, |of| of.to_string())),
-            Cell::text(place.channel),
-            Cell::text(quantity),
-            number(of.value),
-            Cell::text(unit),
-            number(of.low),
-            number(of.high),
-            Cell::text(of.reason.as_str()),
-            Cell::text(self.source),
-        ]);
-    }
+    table
 }

@@ -66,14 +66,13 @@ fn the_table_has_a_row_for_each_recording_and_states_the_growth() {
         assert!(said.contains("Nothing here was measured"), "{said}");
     }
     let csv = bench.ok(&format!("{WEAR} --format csv -q"));
-    let head = "gel,recording,presses_since_gel,day,channel,quantity,value,unit,low,high,reason";
+    let head = "gel,recording,presses_since_gel,day,stimulus,channel,unit,mae,ci95_low,ci95_high";
     assert!(csv.starts_with(head), "{csv}");
     let mut rows = csv.lines().skip(1);
     assert!(rows.clone().all(|row| row.ends_with(",synthetic")), "{csv}");
-    assert!(
-        rows.any(|row| row.starts_with("1,used,1000,,Fz,mae,")),
-        "{csv}"
-    );
+    assert_eq!(rows.clone().count(), 6, "{csv}");
+    let is_force = |row: &str| row.starts_with("1,used,1000,,") && row.contains(",Fz,N,");
+    assert!(rows.any(is_force), "{csv}");
 }
 
 #[test]

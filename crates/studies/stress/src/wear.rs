@@ -5,10 +5,12 @@ mod order;
 mod report;
 mod trend;
 
+use std::collections::BTreeMap;
+
 use taceva_core::{Amount, Frame, Unit, shown};
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Work, subject_of};
-use taceva_metrics::{PLANES, plane_axes};
+use taceva_metrics::PLANES;
 use taceva_models::Model;
 use taceva_results::{Provenance, Subject, not_measured};
 
@@ -92,37 +94,26 @@ fn named(dataset: &Dataset, error: EvaluateError) -> EvaluateError {
 
 /// Refuses a limit of a channel that is not scored, in another unit, or not above 0.
 fn check_limits(model: &Model, limits: &ByChannel<Amount>) -> Result<(), EvaluateError> {
-    let scored = model.channels().iter();
-    let scored = scored.filter(|channel| channel.period().is_none());
-    let scored: Vec<(&str, Unit)> = scored
+    let channels = model.channels().iter();
+    let scored = channels.filter(|channel| channel.period().is_none());
+    let mut units: BTreeMap<&str, Unit> = scored
         .map(|channel| (channel.name(), channel.unit()))
         .collect();
-    let unit_of = |name: &str| {
-        let own = scored.iter().find(|(scored, _)| *scored == name);
-        own.map(|(_, unit)| *unit)
-    };
-    let unit_of_plane = |name: &str| {
-        let [one, other] = plane_axes(name)?;
-        unit_of(one).filter(|_| unit_of(other).is_some())
-    };
+    for (plane, axes, unit) in PLANES {
+        if axes.iter().all(|axis| units.contains_key(axis)) {
+            units.insert(plane, unit);
+        }
+    }
     for (name, limit) in limits {
-        let problem = match unit_of(name).or_else(|| unit_of_plane(name)) {
-            None => {
-                let planes = PLANES.into_iter().map(|(plane, ..)| plane);
-                let planes = planes.filter(|plane| unit_of_plane(plane).is_some());
-                let names = scored.iter().map(|(name, _)| *name).chain(planes);
-                let names: Vec<&str> = names.collect();
-                format!(
-                    "is not scored for this model, expected one of `{}`",
-                    names.join("`, `")
-                )
-            }
-            Some(unit) if unit != limit.unit => {
+        let problem = match units.get(name.as_str()) {
+            None => format!(
+                "is not scored for this model, expected one of `{}`",
+                Vec::from_iter(units.keys().copied()).join("`, `")
+            ),
+            Some(unit) if *unit != limit.unit => {
                 format!("has a limit in {}, expected one in {unit}", limit.unit)
             }
-            Some(_) if limit.value <= 0.0 => {
-                format!("has the limit {limit}, expected one above 0")
-            }
+            Some(_) if limit.value <= 0.0 => format!("has the limit {limit}, expected one above 0"),
             Some(_) => continue,
         };
         let name = shown(name);
