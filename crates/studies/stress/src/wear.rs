@@ -39,8 +39,8 @@ pub struct WearRequest {
 /// Errors of `model` on `recordings` of one unit, in the order of their age. Nothing is fitted to the pictures.
 ///
 /// # Errors
-/// [`EvaluateError`] if the recordings are not of one unit or have no order, if a limit suits no channel, if the model was fitted on the scored
-/// samples or does not suit them, or if a picture cannot be read.
+/// [`EvaluateError::Request`] if the recordings are not of one unit or have no order, or if a limit suits no channel. Other [`EvaluateError`] if the
+/// model does not suit a recording, or a picture cannot be read.
 pub fn wear(
     recordings: &[Dataset],
     model: &Model,
