@@ -27,13 +27,16 @@ pub(crate) fn table(report: &WearReport) -> Table {
     let mut table = Table::new(caption, columns);
     for gel in &report.gels {
         for of in &gel.recordings {
-            let place = match (report.by, of.day) {
-                (WearBy::Date, Some(day)) => day.to_string(),
-                _ => short(of.place),
+            let place = match report.by {
+                WearBy::Presses => of.presses_since_gel.map(|presses| presses.to_string()),
+                WearBy::Date => of.day.map(|day| day.to_string()),
             };
-            let stimulus = of.stimulus.map_or_else(|| NONE.to_owned(), short);
-            let mut cells = [gel.gel.as_str(), &of.recording].map(Cell::text).to_vec();
-            cells.extend([place, stimulus].map(Cell::Number));
+            let numbers = [place, of.stimulus.map(short)];
+            let mut cells = vec![
+                Cell::text(gel.gel.as_str()),
+                Cell::text(of.recording.as_str()),
+            ];
+            cells.extend(numbers.map(|of| Cell::Number(of.unwrap_or_else(|| NONE.to_owned()))));
             let errors = channels.iter().map(|name| of.mae.get(*name));
             cells.extend(errors.map(|mae| mae.map_or_else(|| Cell::text(NONE), cell)));
             table.push(cells);
@@ -133,7 +136,7 @@ pub(crate) fn numbers(report: &WearReport) -> Table {
                 cells.extend(ends(slope.and_then(|of| of.ci95)));
                 cells.push(Cell::exact(limit.and_then(|of| of.at)));
                 cells.push(Cell::exact(limit.and_then(|of| of.not_before)));
-                cells.push(Cell::text(report.subject.source.as_str()));
+                cells.push(Cell::text(of.source.as_str()));
                 table.push(cells);
             }
         }

@@ -190,6 +190,7 @@ impl Gel<'_> {
             let own = of(placed);
             RecordingWear {
                 recording: shown(self.recordings[placed.at].path()).to_string(),
+                source: subject_of(&self.recordings[placed.at]).source,
                 presses_since_gel: placed.presses,
                 day: placed.day,
                 place: placed.place,

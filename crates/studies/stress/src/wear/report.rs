@@ -47,6 +47,8 @@ pub struct GelWear {
 pub struct RecordingWear {
     /// Folder of the recording.
     pub recording: String,
+    /// Origin of its samples, as of [`Subject::source`].
+    pub source: String,
     /// Presses on the gel before it, if they are stated.
     pub presses_since_gel: Option<u32>,
     /// Its first day, if that is known.

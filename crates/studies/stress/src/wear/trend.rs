@@ -96,7 +96,7 @@ mod tests {
     }
 
     #[test]
-    fn residuals_widen_the_interval_and_bring_the_bound_forward() {
+    fn residuals_widen_the_interval_and_lower_the_bound() {
         let trend = Trend::of(&grown(0.3, &[0.05, -0.08, 0.02, 0.06, -0.05]));
         let slope = trend.slope();
         let ([low, high], value) = (slope.ci95.expect("five"), slope.value.expect("five"));

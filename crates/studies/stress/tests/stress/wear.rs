@@ -98,6 +98,7 @@ fn recordings_are_ordered_by_presses_and_a_growing_error_has_a_slope() {
     assert_eq!(met.at.is_some(), met.reason.is_none(), "{met:?}");
     assert!(gel.channels["Px"].limit.is_none());
     assert!(gel.recordings[0].differences.is_empty());
+    assert_eq!(gel.recordings[0].source, "synthetic");
     let last = &gel.recordings[3].differences["Fz"];
     assert!(
         last.is_shown && last.value.expect("known") > 0.0,
