@@ -82,11 +82,12 @@ pub fn wear(
     })
 }
 
-/// The error with the folder of the recording, if it is a wrong request.
+/// The error with the folder of the recording, if it is a wrong request that does not begin with it.
 fn named(dataset: &Dataset, error: EvaluateError) -> EvaluateError {
+    let folder = format!("{}: ", shown(dataset.path()));
     match error {
-        EvaluateError::Request(words) => {
-            EvaluateError::Request(format!("{}: {words}", shown(dataset.path())))
+        EvaluateError::Request(words) if !words.starts_with(&folder) => {
+            EvaluateError::Request(folder + &words)
         }
         other => other,
     }

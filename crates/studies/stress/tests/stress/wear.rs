@@ -243,3 +243,18 @@ fn samples_of_the_fit_are_left_out_and_wrong_limits_are_refused() {
         assert!(said.starts_with(expected), "{said}");
     }
 }
+
+#[test]
+fn one_of_several_recordings_of_the_fit_is_refused_and_named_once() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let new = |name: &str, presses: u32, noise: u32| {
+        worn(folder.path(), name, &age(Some(presses), None), 1.0, noise)
+    };
+    let both = Dataset::joined(vec![new("one", 0, 1), new("other", 10, 2)]).expect("joined");
+    let model = fitted(&both, "ridge", &["size=8x8"]);
+    let one = Dataset::open(&folder.path().join("one")).expect("opens");
+    let said = refused(&[one, new("later", 20, 3)], &model, &WearRequest::default());
+    let expected = "one: the model was fitted on this and others";
+    assert!(said.contains(expected), "{said}");
+    assert_eq!(said.matches("one: ").count(), 1, "{said}");
+}
