@@ -20,6 +20,7 @@ mod rig;
 mod stress;
 mod study;
 mod sweep;
+mod wear;
 
 use std::path::PathBuf;
 
@@ -58,6 +59,7 @@ pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
 };
+pub(crate) use self::wear::{Wear, WearByArg};
 
 /// First commands for a new user, by kind of data.
 pub(crate) const START: &str = "\
@@ -128,6 +130,8 @@ pub(crate) enum Command {
     Evaluate(Evaluate),
     /// Score a fitted model on pictures with faults: blur, dead pixels, lost light, wear, dust
     Stress(Stress),
+    /// Compare the errors of a fitted model over the life of a gel: recordings of one unit, by presses or by date
+    Wear(Wear),
     /// Write a model's predictions as a table
     Predict(Predict),
     /// Score the predictions of another program: no pictures, no model

@@ -97,6 +97,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Fit(args) => cmd::fit::run(args, context),
         Command::Evaluate(args) => cmd::evaluate::run(args, context),
         Command::Stress(args) => cmd::stress::run(args, context),
+        Command::Wear(args) => cmd::wear::run(args, context),
         Command::Predict(args) => cmd::predict::run(args, context),
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
@@ -139,6 +140,7 @@ fn patience(command: &Command) -> Option<Duration> {
         Command::Fit(_)
         | Command::Evaluate(_)
         | Command::Stress(_)
+        | Command::Wear(_)
         | Command::Predict(_)
         | Command::Bench(_) => Some(Duration::from_secs(8)),
         _ => Some(Duration::from_secs(1)),

@@ -1,5 +1,7 @@
 //! `taceva stress`.
 
+use std::path::Path;
+
 use anyhow::Context as _;
 use taceva_core::shown;
 use taceva_evaluate::DataPart;
@@ -10,16 +12,22 @@ use crate::args::{Format, Stress, StressBy};
 use crate::report::stress::{numbers, table};
 use crate::{exit, output};
 
+/// Refuses a model that is no file: nothing is fitted here.
+pub(super) fn check_model_file(path: &Path) -> anyhow::Result<()> {
+    match path.is_file() {
+        true => Ok(()),
+        false => Err(Usage::error(format!(
+            "--model {}: no such file, expected a fitted model; `taceva fit DATASET --model fast --out m.taceva` writes one",
+            shown(path)
+        ))),
+    }
+}
+
 pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.output.path {
         output::check_free(path, args.output.force)?;
     }
-    if !args.model.is_file() {
-        return Err(Usage::error(format!(
-            "--model {}: no such file, expected a fitted model; `taceva fit DATASET --model fast --out m.taceva` writes one",
-            shown(&args.model)
-        )));
-    }
+    check_model_file(&args.model)?;
     let request = StressRequest {
         faults: args.faults.clone(),
         severities: severities(&args.severity)?,

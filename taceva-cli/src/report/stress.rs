@@ -3,11 +3,13 @@
 use taceva_core::counted;
 use taceva_metrics::plane_of;
 use taceva_report::{Cell, Column, FormattedValue, Table};
-use taceva_stress::{By, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport};
+use taceva_stress::{
+    By, ByChannel, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport,
+};
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
 pub(crate) fn table(report: &StressReport) -> Table {
-    let channels = main_channels(report);
+    let channels = main_channels(&report.clean);
     let mut columns = vec![
         Column::new("fault"),
         Column::new("severity"),
@@ -136,17 +138,17 @@ fn by_channel(channels: &[&str], words: impl Fn(&str) -> Option<String>) -> Stri
 }
 
 /// Names of planes, and of channels that are not an axis of a plane.
-fn main_channels(report: &StressReport) -> Vec<&str> {
-    let names = report.clean.keys().map(String::as_str);
+pub(super) fn main_channels<T>(of: &ByChannel<T>) -> Vec<&str> {
+    let names = of.keys().map(String::as_str);
     let is_main = |name: &&str| {
         let plane = plane_of(name);
-        plane.is_none_or(|plane| !report.clean.contains_key(plane))
+        plane.is_none_or(|plane| !of.contains_key(plane))
     };
     names.filter(is_main).collect()
 }
 
 /// Number with four digits.
-fn short(number: f64) -> String {
+pub(super) fn short(number: f64) -> String {
     FormattedValue::number(number, None).value
 }
 
@@ -160,7 +162,7 @@ fn formatted(of: &Estimate) -> FormattedValue {
     }
 }
 
-fn phrase(of: &Estimate, unit: &str) -> String {
+pub(super) fn phrase(of: &Estimate, unit: &str) -> String {
     let unit = match unit {
         "" => String::new(),
         unit => format!(" {unit}"),
@@ -168,7 +170,7 @@ fn phrase(of: &Estimate, unit: &str) -> String {
     formatted(of).phrase(&unit)
 }
 
-fn cell(of: &Estimate) -> Cell {
+pub(super) fn cell(of: &Estimate) -> Cell {
     Cell::Estimate(taceva_report::Estimate {
         formatted: formatted(of),
         ..taceva_report::Estimate::default()

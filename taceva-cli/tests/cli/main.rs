@@ -52,4 +52,5 @@ mod threads;
 mod uncertainty;
 mod views;
 mod waiting;
+mod wear;
 mod words;

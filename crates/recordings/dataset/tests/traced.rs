@@ -159,6 +159,29 @@ fn joined_recordings_keep_the_first_and_the_last_of_their_days() {
 }
 
 #[test]
+fn joined_recordings_state_the_presses_on_their_gel_only_if_they_agree() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let after = |name: &str, presses: u32, force: f64| {
+        let path = folder.path().join(name);
+        let mut spec = spec("D-K-1");
+        spec.facts.sensor = spec.facts.sensor.with_presses_since_gel(presses);
+        let mut recorder = Recorder::create(&path, &spec).expect("created");
+        recorder.append(&sample("1", force)).expect("recorded");
+        recorder.close().expect("closed");
+        Dataset::open(&path).expect("opens")
+    };
+    let presses = |recordings| {
+        let joined = Dataset::joined(recordings).expect("alike");
+        joined.header().sensor.presses_since_gel
+    };
+    let (new, worn) = (after("new", 0, 0.5), after("worn", 5000, 0.6));
+    assert_eq!(worn.header().sensor.presses_since_gel, Some(5000));
+    assert_eq!(presses(vec![new, worn]), None);
+    let same = vec![after("a", 70, 0.5), after("b", 70, 0.6)];
+    assert_eq!(presses(same), Some(70));
+}
+
+#[test]
 fn joined_recordings_name_the_certificates_of_both_once() {
     let folder = tempfile::tempdir().expect("a folder");
     let one = record(&folder.path().join("one"), "D-K-1", 0.5);

@@ -26,6 +26,16 @@ pub enum Undefined {
     NoInterval,
     /// No severity of the fault was reached.
     NoSeverity,
+    /// Fewer than three recordings of the gel have the error.
+    TooFewRecordings,
+    /// All recordings have the same number of presses, or the same day.
+    EqualPlaces,
+    /// The error of a recording is zero, which has no logarithm.
+    ZeroError,
+    /// The error does not grow, so no limit is met later.
+    NotGrowing,
+    /// The growth of the error is not shown.
+    GrowthNotShown,
 }
 
 impl fmt::Display for Undefined {
@@ -40,6 +50,11 @@ impl fmt::Display for Undefined {
             Undefined::TooFewClusters => "fewer than five contact points",
             Undefined::NoInterval => "no interval",
             Undefined::NoSeverity => "no severity was reached",
+            Undefined::TooFewRecordings => "fewer than three recordings",
+            Undefined::EqualPlaces => "all recordings have the same presses or day",
+            Undefined::ZeroError => "an error is zero",
+            Undefined::NotGrowing => "the error does not grow",
+            Undefined::GrowthNotShown => "no growth is shown",
         })
     }
 }

@@ -8,12 +8,14 @@ mod findings;
 mod pass;
 mod ratio;
 mod report;
+mod samples;
 mod scale;
 mod score;
 mod setup;
 mod severity;
 mod stress;
 mod study;
+mod wear;
 
 pub use estimate::{Estimate, Undefined};
 pub use fault::{Fault, Scope};
@@ -26,3 +28,7 @@ pub use setup::{StressRequest, stress_plan};
 pub use severity::{By, NEVER, TARGETS, Unreached, severities};
 pub use stress::Stress;
 pub use study::stress;
+pub use wear::{
+    ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearBy, WearDifference, WearReport,
+    WearRequest, wear,
+};

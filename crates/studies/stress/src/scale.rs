@@ -72,6 +72,15 @@ impl Scale {
             decoded,
         })
     }
+
+    /// Origin of the untouched picture.
+    pub(crate) fn source(&self) -> &'static str {
+        match (&self.untouched, self.is_reference) {
+            (Some(_), true) => "reference",
+            (Some(_), false) => "least load",
+            (None, _) => "none",
+        }
+    }
 }
 
 /// Mean absolute difference of two pictures, a share of full scale; 0 for pictures of different kinds.

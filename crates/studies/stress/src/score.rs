@@ -35,7 +35,9 @@ pub(crate) struct Scorer<'a> {
 
 /// Scores of some predictions.
 pub(crate) struct Scored {
-    mae: ByChannel<Estimate>,
+    /// Mean absolute errors, as a comparison reads them.
+    pub(crate) scores: ByChannel<Score>,
+    pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
     errors: ByChannel<Errors>,
 }
@@ -124,10 +126,16 @@ impl<'a> Scorer<'a> {
             let scores = scores.map(|(_, name, score)| (name.to_owned(), estimate(score)));
             scores.collect()
         };
+        let scores = evaluation
+            .scores()
+            .filter(|(metric, ..)| metric.id == MAE)
+            .map(|(_, name, score)| (name.to_owned(), score.clone()))
+            .collect();
         let mae = of_metric(MAE);
         let errors = mae.keys();
         let errors = errors.map(|name| (name.clone(), self.errors(name, &columns)));
         Ok(Scored {
+            scores,
             errors: errors.collect(),
             skill: of_metric(SKILL),
             mae,

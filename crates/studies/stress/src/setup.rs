@@ -2,13 +2,14 @@
 
 use taceva_core::{counted, shown};
 use taceva_dataset::Dataset;
-use taceva_evaluate::{DataPart, EvaluateError, Need, Plan, Target, subject_of, usable};
+use taceva_evaluate::{DataPart, EvaluateError, Plan, subject_of};
 use taceva_models::Model;
 use taceva_results::not_measured;
 
 use crate::fault::{Fault, Scope};
 use crate::faults::{LIST, select};
 use crate::report::SkippedFault;
+use crate::samples::Unseen;
 use crate::severity::By;
 use crate::stress::Stress;
 
@@ -44,9 +45,7 @@ impl Default for StressRequest {
 
 /// Samples and faults of a test, checked before any picture is read.
 pub(crate) struct Setup {
-    pub(crate) target: Target,
-    /// Samples with a picture, ascending.
-    pub(crate) rows: Vec<usize>,
+    pub(crate) samples: Unseen,
     pub(crate) faults: Vec<&'static Fault>,
     pub(crate) skipped: Vec<SkippedFault>,
 }
@@ -64,45 +63,10 @@ impl Setup {
         {
             return refused("severities: expected some numbers from 1 to 5".to_owned());
         }
-        if !dataset.recordings().is_empty() {
-            return refused("several recordings: expected one, because each has its own untouched picture; test them one by one".to_owned());
-        }
-        if model.reads_features() && !model.reads_frames() {
-            return refused("the model reads signals, and all faults change pictures: fit a model on pictures by `taceva fit --set input=frame`".to_owned());
-        }
-        dataset.require_view()?;
-        if dataset.header().frames.is_none() {
-            return refused(format!(
-                "{}: the recording has no pictures, expected some: all faults change pictures",
-                shown(dataset.path())
-            ));
-        }
-        let target = Target::new(dataset, model, request.part)?;
-        let is_fitted = target
-            .divided
-            .as_ref()
-            .is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
-        if is_fitted && target.part != DataPart::Test {
-            return refused(format!(
-                "part `{}`: the model was fitted on these samples, so its errors without a fault are too small; use --part test, or another \
-                 recording",
-                target.part.name()
-            ));
-        }
-        let need = Need {
-            frame: true,
-            labels: None,
-        };
-        let rows = usable(dataset, &target.rows, need);
-        if rows.is_empty() {
-            return refused(format!(
-                "the part `{}` has no sample with a picture",
-                target.part.name()
-            ));
-        }
+        let samples = Unseen::of(dataset, model, request.part)?;
         let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
             let stress = Stress::new(fault, 0.0, request.seed);
-            !stress.repeats() || rows.len() > 1
+            !stress.repeats() || samples.rows.len() > 1
         });
         let skipped = orderless.into_iter().map(|fault| SkippedFault {
             fault: fault.id,
@@ -110,8 +74,7 @@ impl Setup {
         });
         Ok(Setup {
             skipped: skipped.collect(),
-            target,
-            rows,
+            samples,
             faults,
         })
     }
@@ -130,13 +93,13 @@ pub fn stress_plan(
     let mut plan = Plan::default();
     let rows = counted(dataset.table().rows(), "row");
     plan.step("read", format!("{rows} of {}", shown(dataset.path())));
-    let scored = setup.rows.len();
+    let scored = setup.samples.rows.len();
     plan.step(
         "decode",
         format!(
             "{} of the part `{}`, each once for all faults; before, {} at most for the change by contact",
             counted(scored, "frame"),
-            setup.target.part.name(),
+            setup.samples.target.part.name(),
             counted(COMPARED.min(scored + 1), "frame")
         ),
     );

@@ -3,9 +3,9 @@
 use taceva_check::{FrameFacts, RestChange, Tiles};
 use taceva_core::Frame;
 use taceva_dataset::{Dataset, Digest};
-use taceva_evaluate::{EvaluateError, Work, model_provenance, provenance_of, subject_of};
+use taceva_evaluate::{EvaluateError, Work, subject_of};
 use taceva_models::Model;
-use taceva_results::{Provenance, not_measured};
+use taceva_results::not_measured;
 
 use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
@@ -37,11 +37,17 @@ pub fn stress(
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let setup = Setup::new(dataset, model, request)?;
-    let scale = Scale::of(dataset, &setup.rows)?;
+    let scale = Scale::of(dataset, &setup.samples.rows)?;
     let levels = levels(&setup, &scale, request)?;
     let cells = cells(&setup, &scale, &levels, model, request);
-    let found = predictions(dataset, model, &setup.rows, &cells, work)?;
-    let scorer = Scorer::new(dataset, model, &setup.target, &setup.rows, work.jobs)?;
+    let found = predictions(dataset, model, &setup.samples.rows, &cells, work)?;
+    let scorer = Scorer::new(
+        dataset,
+        model,
+        &setup.samples.target,
+        &setup.samples.rows,
+        work.jobs,
+    )?;
     let baseline = scorer.score(&found.clean)?;
     let scored = found.cells.iter().map(|of| ScoredCell::of(&scorer, of));
     let scored: Vec<ScoredCell> = scored.collect::<Result<_, EvaluateError>>()?;
@@ -53,23 +59,14 @@ pub fn stress(
         predicted: &found.cells,
         scored: &scored,
         baseline: &baseline,
-        rows: setup.rows.len(),
+        rows: setup.samples.rows.len(),
     };
     let faults: Vec<FaultReport> = (0..setup.faults.len())
         .map(|fault| results.of_fault(fault, setup.faults[fault], &levels[fault]))
         .collect();
     let mean = results.mean(setup.faults.len());
     let subject = subject_of(dataset);
-    let divided = setup.target.divided.as_ref();
-    let provenance = Provenance {
-        model: Some(model_provenance(model)?),
-        split: divided.map(|divided| divided.spec.to_string()),
-        seed: divided.map(|divided| divided.seed),
-        part: Some(setup.target.part.name().to_owned()),
-        samples: divided.map(|of| of.counts()).unwrap_or_default(),
-        frames_decoded: scale.decoded + setup.rows.len() as u64,
-        ..provenance_of(dataset)
-    };
+    let provenance = setup.samples.provenance(dataset, model, scale.decoded)?;
     Ok(StressReport {
         schema: STRESS_SCHEMA,
         not_measured: not_measured([subject.source.as_str()]),
@@ -77,13 +74,9 @@ pub fn stress(
         by: request.by,
         list: list(&setup.faults, request),
         seed: request.seed,
-        samples: setup.rows.len(),
-        left_out: setup.target.left_out + setup.target.rows.len() - setup.rows.len(),
-        untouched: match (&scale.untouched, scale.is_reference) {
-            (Some(_), true) => "reference",
-            (Some(_), false) => "least load",
-            (None, _) => "none",
-        },
+        samples: setup.samples.rows.len(),
+        left_out: setup.samples.left_out(),
+        untouched: scale.source(),
         contact: scale.contact,
         units: scorer.units(&baseline),
         clean,

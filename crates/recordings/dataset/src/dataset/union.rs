@@ -283,7 +283,7 @@ fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
     table
 }
 
-/// Header of the joined dataset. If recordings differ in the clock, it is unknown; if they differ in serial number or gel, the value is `several`.
+/// Header of the joined dataset. If the recordings differ, clock and presses are unknown, and serial number and gel are `several`.
 fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 of several recordings");
@@ -309,6 +309,9 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
             if own != theirs {
                 *own = "several".to_owned();
             }
+        }
+        if header.sensor.presses_since_gel != other.sensor.presses_since_gel {
+            header.sensor.presses_since_gel = None;
         }
         header
             .settings

@@ -108,16 +108,20 @@ pub struct SensorFacts {
     pub gel: String,
     /// True if ambient light cannot reach the camera.
     pub opaque: Known<bool>,
+    /// Presses on this gel before the recording; `None` if nobody counted them.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub presses_since_gel: Option<u32>,
 }
 
 impl SensorFacts {
-    /// Sensor of `model` with unknown serial number, gel and opacity.
+    /// Sensor of `model` with unknown serial number, gel, opacity and presses.
     pub fn new(model: impl Into<String>) -> SensorFacts {
         SensorFacts {
             model: model.into(),
             serial: "unknown".to_owned(),
             gel: "unknown".to_owned(),
             opaque: Known::Unknown,
+            presses_since_gel: None,
         }
     }
 
@@ -144,6 +148,15 @@ impl SensorFacts {
     pub fn with_opaque(self, opaque: bool) -> SensorFacts {
         SensorFacts {
             opaque: Known::Is(opaque),
+            ..self
+        }
+    }
+
+    /// The same sensor with the number of presses on its gel before the recording.
+    #[must_use]
+    pub fn with_presses_since_gel(self, presses: impl Into<Option<u32>>) -> SensorFacts {
+        SensorFacts {
+            presses_since_gel: presses.into(),
             ..self
         }
     }

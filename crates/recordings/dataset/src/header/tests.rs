@@ -20,6 +20,7 @@ fn header() -> Header {
             serial: "unknown".to_owned(),
             gel: "g1".to_owned(),
             opaque: Known::Unknown,
+            presses_since_gel: Some(1200),
         },
         footprint: Some(Footprint {
             shape: Shape::Disc,

@@ -22,6 +22,7 @@ const SAMPLES: u16 = 1030;
 pub(crate) fn recorded(folder: &Path) -> Dataset {
     let path = folder.join("recorded");
     let sensor = SensorFacts::new("gel \"π\"")
+        .with_presses_since_gel(1200_u32)
         .with_serial("7")
         .with_opaque(true);
     let facts = RecordingFacts::new(Source::Simulated, Clock::Monotonic, sensor)

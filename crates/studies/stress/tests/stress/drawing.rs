@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use taceva_core::{
-    Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, SilentProgress,
+    Channel, Channels, Clock, Date, Frame, FrameInfo, PixelFormat, Readings, Sample, SilentProgress,
 };
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::{FitRequest, Work, fit};
@@ -64,14 +64,42 @@ pub(crate) fn record(path: &Path, noise: u32) -> Dataset {
     )
 }
 
+/// Unit, gel and age of a recording.
+pub(crate) struct Age {
+    pub(crate) serial: &'static str,
+    pub(crate) gel: &'static str,
+    pub(crate) presses: Option<u32>,
+    pub(crate) recorded_on: Option<Date>,
+}
+
 /// A recording of the pictures that `draw` makes of a force, a place and a number.
 pub(crate) fn record_with(
     path: &Path,
     reference: Option<Frame>,
     draw: impl Fn(f64, f64, u32) -> Frame,
 ) -> Dataset {
-    let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
-    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let age = Age {
+        serial: "1",
+        gel: "1",
+        presses: None,
+        recorded_on: None,
+    };
+    record_aged(path, &age, reference, draw)
+}
+
+/// The same of this age.
+pub(crate) fn record_aged(
+    path: &Path,
+    age: &Age,
+    reference: Option<Frame>,
+    draw: impl Fn(f64, f64, u32) -> Frame,
+) -> Dataset {
+    let sensor = SensorFacts::new("drawn")
+        .with_serial(age.serial)
+        .with_gel(age.gel)
+        .with_presses_since_gel(age.presses);
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor)
+        .with_recorded_on(age.recorded_on);
     let channels = Channels::new([Channel::PX, Channel::FZ]).expect("two");
     let mut recorder = Recorder::create(path, &RecordingSpec::new(facts, channels)).expect("new");
     if let Some(reference) = &reference {

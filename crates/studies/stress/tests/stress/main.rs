@@ -5,3 +5,4 @@ mod drawing;
 mod pictures;
 mod scores;
 mod severities;
+mod wear;

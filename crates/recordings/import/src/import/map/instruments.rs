@@ -29,6 +29,7 @@ pub(super) struct WrittenSensor {
     serial: String,
     gel: String,
     opaque: Known<bool>,
+    presses_since_gel: Option<u32>,
     certificate: Option<WrittenCertificate>,
 }
 
@@ -37,7 +38,8 @@ impl WrittenSensor {
     pub(super) fn facts(&self) -> SensorFacts {
         let mut facts = SensorFacts::new(&self.model)
             .with_serial(&self.serial)
-            .with_gel(&self.gel);
+            .with_gel(&self.gel)
+            .with_presses_since_gel(self.presses_since_gel);
         facts.opaque = self.opaque;
         facts
     }

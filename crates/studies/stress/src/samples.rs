@@ -1,0 +1,84 @@
+//! Samples with pictures that a model has not seen.
+
+use taceva_dataset::Dataset;
+use taceva_evaluate::{
+    DataPart, EvaluateError, Need, Target, model_provenance, provenance_of, usable,
+};
+use taceva_models::Model;
+use taceva_results::Provenance;
+
+/// Samples of a recording that a model has not seen.
+pub(crate) struct Unseen {
+    pub(crate) target: Target,
+    /// Samples with a picture, ascending.
+    pub(crate) rows: Vec<usize>,
+}
+
+impl Unseen {
+    /// Samples of `part`, or of the part that the model has not seen. Reads no picture.
+    pub(crate) fn of(
+        dataset: &Dataset,
+        model: &Model,
+        part: Option<DataPart>,
+    ) -> Result<Unseen, EvaluateError> {
+        let refused = |words: String| Err(EvaluateError::Request(words));
+        if !dataset.recordings().is_empty() {
+            return refused("several recordings: expected one, because each has its own untouched picture; test them one by one".to_owned());
+        }
+        if model.reads_features() && !model.reads_frames() {
+            return refused("the model reads signals, expected one that reads pictures: fit one by `taceva fit --set input=frame`".to_owned());
+        }
+        dataset.require_view()?;
+        if dataset.header().frames.is_none() {
+            return refused("the recording has no pictures, expected some, because faults and wear change pictures".to_owned());
+        }
+        let target = Target::new(dataset, model, part)?;
+        let is_fitted = target
+            .divided
+            .as_ref()
+            .is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
+        if is_fitted && target.part != DataPart::Test {
+            return refused(format!(
+                "part `{}`: the model was fitted on these samples, so its errors without a fault are too small; use --part test, or another \
+                 recording",
+                target.part.name()
+            ));
+        }
+        let need = Need {
+            frame: true,
+            labels: None,
+        };
+        let rows = usable(dataset, &target.rows, need);
+        if rows.is_empty() {
+            return refused(format!(
+                "the part `{}` has no sample with a picture",
+                target.part.name()
+            ));
+        }
+        Ok(Unseen { target, rows })
+    }
+
+    /// Number of samples of the part without a picture.
+    pub(crate) fn left_out(&self) -> usize {
+        self.target.left_out + self.target.rows.len() - self.rows.len()
+    }
+
+    /// Origin of scores of these samples of `dataset`, for which `decoded` further pictures were decoded.
+    pub(crate) fn provenance(
+        &self,
+        dataset: &Dataset,
+        model: &Model,
+        decoded: u64,
+    ) -> Result<Provenance, EvaluateError> {
+        let divided = self.target.divided.as_ref();
+        Ok(Provenance {
+            model: Some(model_provenance(model)?),
+            split: divided.map(|divided| divided.spec.to_string()),
+            seed: divided.map(|divided| divided.seed),
+            part: Some(self.target.part.name().to_owned()),
+            samples: divided.map(|of| of.counts()).unwrap_or_default(),
+            frames_decoded: decoded + self.rows.len() as u64,
+            ..provenance_of(dataset)
+        })
+    }
+}

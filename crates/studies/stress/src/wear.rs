@@ -1,0 +1,241 @@
+//! Wear: errors of a fitted model on recordings of one unit, from its first to its last.
+
+mod comparison;
+mod order;
+mod report;
+mod trend;
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Amount, Frame, Unit, shown};
+use taceva_dataset::Dataset;
+use taceva_evaluate::{EvaluateError, Work, subject_of};
+use taceva_metrics::PLANES;
+use taceva_models::Model;
+use taceva_results::{Provenance, Subject, not_measured};
+
+use crate::pass::predictions;
+use crate::report::ByChannel;
+use crate::samples::Unseen;
+use crate::scale::{Scale, difference};
+use crate::score::{Scored, Scorer};
+use order::{Order, Placed};
+use trend::{ErrorAt, Trend};
+
+pub use order::WearBy;
+pub use report::{
+    ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearDifference, WearReport,
+};
+
+/// Order of recordings, and limits of errors.
+#[derive(Clone, Debug, Default)]
+pub struct WearRequest {
+    /// Quantity that orders the recordings; `None` for presses if every recording states them, otherwise for the date.
+    pub by: Option<WearBy>,
+    /// Greatest mean absolute error of channels or planes.
+    pub limits: ByChannel<Amount>,
+}
+
+/// Errors of `model` on `recordings` of one unit, in the order of their age. Nothing is fitted to the pictures.
+///
+/// # Errors
+/// [`EvaluateError::Request`] if the recordings are not of one unit or have no order, or if a limit suits no channel. Other [`EvaluateError`] if the
+/// model does not suit a recording, or a picture cannot be read.
+pub fn wear(
+    recordings: &[Dataset],
+    model: &Model,
+    request: &WearRequest,
+    work: Work<'_>,
+) -> Result<WearReport, EvaluateError> {
+    let order = Order::of(recordings, request.by)?;
+    check_limits(model, &request.limits)?;
+    let unseen = recordings.iter().map(|dataset| {
+        let samples = Unseen::of(dataset, model, None);
+        samples.map_err(|error| named(dataset, error))
+    });
+    let unseen: Vec<Unseen> = unseen.collect::<Result<_, EvaluateError>>()?;
+    let measured = recordings.iter().zip(unseen);
+    let measured = measured.map(|(dataset, samples)| Measured::of(dataset, model, samples, work));
+    let measured: Vec<Measured> = measured.collect::<Result<_, EvaluateError>>()?;
+    let subjects: Vec<Subject> = recordings.iter().map(subject_of).collect();
+    let gels = order.gels.iter().map(|placed| Gel {
+        recordings,
+        measured: &measured,
+        placed,
+        by: order.by,
+        limits: &request.limits,
+    });
+    let mut units = ByChannel::new();
+    for of in &measured {
+        units.extend(of.units.clone());
+    }
+    Ok(WearReport {
+        schema: WEAR_SCHEMA,
+        not_measured: not_measured(subjects.iter().map(|of| of.source.as_str())),
+        subject: subjects[1..]
+            .iter()
+            .fold(subjects[0].clone(), |all, of| all.joined(of)),
+        by: order.by,
+        step: order.by.step(),
+        units,
+        gels: gels.map(|gel| gel.report()).collect(),
+    })
+}
+
+/// The error with the folder of the recording, if it is a wrong request that does not begin with it.
+fn named(dataset: &Dataset, error: EvaluateError) -> EvaluateError {
+    let folder = format!("{}: ", shown(dataset.path()));
+    match error {
+        EvaluateError::Request(words) if !words.starts_with(&folder) => {
+            EvaluateError::Request(folder + &words)
+        }
+        other => other,
+    }
+}
+
+/// Refuses a limit of a channel that is not scored, in another unit, or not above 0.
+fn check_limits(model: &Model, limits: &ByChannel<Amount>) -> Result<(), EvaluateError> {
+    let channels = model.channels().iter();
+    let scored = channels.filter(|channel| channel.period().is_none());
+    let mut units: BTreeMap<&str, Unit> = scored
+        .map(|channel| (channel.name(), channel.unit()))
+        .collect();
+    for (plane, axes, unit) in PLANES {
+        if axes.iter().all(|axis| units.contains_key(axis)) {
+            units.insert(plane, unit);
+        }
+    }
+    for (name, limit) in limits {
+        let problem = match units.get(name.as_str()) {
+            None => format!(
+                "is not scored for this model, expected one of `{}`",
+                Vec::from_iter(units.keys().copied()).join("`, `")
+            ),
+            Some(unit) if *unit != limit.unit => {
+                format!("has a limit in {}, expected one in {unit}", limit.unit)
+            }
+            Some(_) if limit.value <= 0.0 => format!("has the limit {limit}, expected one above 0"),
+            Some(_) => continue,
+        };
+        let name = shown(name);
+        return Err(EvaluateError::Request(format!("mae.{name} {problem}")));
+    }
+    Ok(())
+}
+
+/// Scores and untouched picture of one recording.
+struct Measured {
+    scored: Scored,
+    units: ByChannel<&'static str>,
+    samples: usize,
+    left_out: usize,
+    untouched: Option<Frame>,
+    source: &'static str,
+    /// Mean change of a picture by contact.
+    contact: Option<f64>,
+    provenance: Provenance,
+}
+
+impl Measured {
+    fn of(
+        dataset: &Dataset,
+        model: &Model,
+        samples: Unseen,
+        work: Work<'_>,
+    ) -> Result<Measured, EvaluateError> {
+        let scale = Scale::of(dataset, &samples.rows)?;
+        let found = predictions(dataset, model, &samples.rows, &[], work)?;
+        let scorer = Scorer::new(dataset, model, &samples.target, &samples.rows, work.jobs)?;
+        let scored = scorer.score(&found.clean)?;
+        Ok(Measured {
+            units: scorer.units(&scored),
+            scored,
+            samples: samples.rows.len(),
+            left_out: samples.left_out(),
+            source: scale.source(),
+            provenance: samples.provenance(dataset, model, scale.decoded)?,
+            untouched: scale.untouched,
+            contact: scale.contact,
+        })
+    }
+
+    /// Change of the untouched picture from that of `first`, beside the change by contact there.
+    fn stimulus(&self, first: &Measured) -> Option<f64> {
+        let (own, before) = (self.untouched.as_ref()?, first.untouched.as_ref()?);
+        let contact = first.contact.filter(|_| own.info() == before.info())?;
+        Some(difference(own, before) / contact)
+    }
+}
+
+/// Recordings of one gel, in order.
+struct Gel<'a> {
+    recordings: &'a [Dataset],
+    measured: &'a [Measured],
+    placed: &'a [Placed],
+    by: WearBy,
+    limits: &'a ByChannel<Amount>,
+}
+
+impl Gel<'_> {
+    fn report(&self) -> GelWear {
+        let of = |placed: &Placed| &self.measured[placed.at];
+        let first = of(&self.placed[0]);
+        let later: Vec<&Scored> = self.placed[1..]
+            .iter()
+            .map(|placed| &of(placed).scored)
+            .collect();
+        let differences = comparison::differences(&first.scored, &later);
+        let differences = std::iter::once(ByChannel::new()).chain(differences);
+        let recordings = self.placed.iter().zip(differences);
+        let recordings = recordings.map(|(placed, differences)| {
+            let own = of(placed);
+            RecordingWear {
+                recording: shown(self.recordings[placed.at].path()).to_string(),
+                source: subject_of(&self.recordings[placed.at]).source,
+                presses_since_gel: placed.presses,
+                day: placed.day,
+                place: placed.place,
+                samples: own.samples,
+                left_out: own.left_out,
+                untouched: own.source,
+                stimulus: own.stimulus(first),
+                mae: own.scored.mae.clone(),
+                differences,
+                provenance: own.provenance.clone(),
+            }
+        });
+        let recordings: Vec<RecordingWear> = recordings.collect();
+        let channels = first.scored.names();
+        let channels = channels.map(|name| (name.clone(), self.channel(name, &recordings)));
+        GelWear {
+            gel: self.recordings[self.placed[0].at]
+                .header()
+                .sensor
+                .gel
+                .clone(),
+            channels: channels.collect(),
+            recordings,
+        }
+    }
+
+    fn channel(&self, name: &str, recordings: &[RecordingWear]) -> ChannelWear {
+        let step = self.by.step();
+        let errors = recordings.iter().filter_map(|of| {
+            Some(ErrorAt {
+                steps: of.place / step,
+                error: of.mae.get(name)?.value?,
+            })
+        });
+        let trend = Trend::of(&errors.collect::<Vec<ErrorAt>>());
+        let mut later = recordings.iter();
+        let different = later.find(|of| of.differences.get(name).is_some_and(|of| of.is_shown));
+        ChannelWear {
+            slope: trend.slope(),
+            limit: self
+                .limits
+                .get(name)
+                .map(|limit| trend.meets(limit.value, step)),
+            first_different: different.map(|of| of.recording.clone()),
+        }
+    }
+}

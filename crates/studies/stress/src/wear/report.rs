@@ -1,0 +1,113 @@
+//! Result of a comparison of recordings of one unit.
+
+use serde::Serialize;
+
+use taceva_core::Date;
+use taceva_results::{Provenance, Subject};
+
+use crate::estimate::{Estimate, Undefined};
+use crate::report::ByChannel;
+use crate::wear::order::WearBy;
+
+/// Schema of the result.
+pub const WEAR_SCHEMA: &str = "taceva.wear/1";
+
+/// Errors of a model on recordings of one unit, in the order of their age.
+#[derive(Clone, Debug, Serialize)]
+pub struct WearReport {
+    /// Schema of the result.
+    pub schema: &'static str,
+    /// The sensor.
+    pub subject: Subject,
+    /// Statement on samples that were not measured; `None` if all were.
+    pub not_measured: Option<String>,
+    /// Quantity that orders the recordings.
+    pub by: WearBy,
+    /// Presses or days that a slope is stated for.
+    pub step: f64,
+    /// Unit of each channel.
+    pub units: ByChannel<&'static str>,
+    /// Gels of the unit, by name.
+    pub gels: Vec<GelWear>,
+}
+
+/// Recordings of one gel.
+#[derive(Clone, Debug, Serialize)]
+pub struct GelWear {
+    /// Name of the gel.
+    pub gel: String,
+    /// Its recordings, the first one first.
+    pub recordings: Vec<RecordingWear>,
+    /// Growth of the error of each channel.
+    pub channels: ByChannel<ChannelWear>,
+}
+
+/// Scores of one recording.
+#[derive(Clone, Debug, Serialize)]
+pub struct RecordingWear {
+    /// Folder of the recording.
+    pub recording: String,
+    /// Origin of its samples, as of [`Subject::source`].
+    pub source: String,
+    /// Presses on the gel before it, if they are stated.
+    pub presses_since_gel: Option<u32>,
+    /// Its first day, if that is known.
+    pub day: Option<Date>,
+    /// Presses on the gel, or days from its first recording.
+    pub place: f64,
+    /// Number of scored samples.
+    pub samples: usize,
+    /// Number of samples that have no picture.
+    pub left_out: usize,
+    /// Untouched picture: `reference`, `least load`, or `none`.
+    pub untouched: &'static str,
+    /// Change of the untouched picture from that of the first recording, divided by the mean change by contact in the first.
+    pub stimulus: Option<f64>,
+    /// Mean absolute errors.
+    pub mae: ByChannel<Estimate>,
+    /// Differences of the errors from those of the first recording; empty for the first.
+    pub differences: ByChannel<WearDifference>,
+    /// Origin of the numbers.
+    pub provenance: Provenance,
+}
+
+/// Difference of the error of a recording from that of the first.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct WearDifference {
+    /// The difference, in the unit of the channel.
+    pub value: Option<f64>,
+    /// Both ends of its interval.
+    pub interval: Option<[f64; 2]>,
+    /// Confidence of the interval, more than 0.95 among several differences.
+    pub confidence: Option<f64>,
+    /// p value, adjusted for all differences of the gel.
+    pub p: Option<f64>,
+    /// True if a difference is shown.
+    pub is_shown: bool,
+    /// Reason for an absent difference.
+    pub reason: Option<String>,
+}
+
+/// Growth of the error of one channel.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ChannelWear {
+    /// Growth of the natural logarithm of the error in one step of presses or days.
+    pub slope: Estimate,
+    /// Place at which the limit of the channel is met; `None` without a limit.
+    pub limit: Option<LimitMet>,
+    /// Folder of the first recording whose error is shown to differ from that of the first.
+    pub first_different: Option<String>,
+}
+
+/// Place at which an error meets its limit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LimitMet {
+    /// The limit, in the unit of the channel.
+    pub limit: f64,
+    /// Presses on the gel, or days from its first recording, at which the trend meets the limit; 0 if it did before.
+    pub at: Option<f64>,
+    /// One-sided 95 % bound: the error of a recording before this place is below the limit.
+    pub not_before: Option<f64>,
+    /// Reason for an absent place.
+    pub reason: Option<Undefined>,
+}

@@ -1,0 +1,120 @@
+//! Errors of a fitted model over the life of a gel.
+
+use std::fs;
+
+use crate::support::Bench;
+
+/// A model of the recording `seen`, and recordings after 0, 1000 and 2000 presses.
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.record_with_noise("seen", 24, 0);
+    bench.ok("fit seen --model ridge --set size=8x8 --out m.taceva -q");
+    for (name, noise, presses) in [("new", 2, 0), ("used", 3, 1000), ("old", 4, 2000)] {
+        bench.record_with_noise(name, 24, noise);
+        state_presses(&bench, name, presses);
+    }
+    bench
+}
+
+/// Adds the number of presses to the header, as a user does.
+fn state_presses(bench: &Bench, name: &str, presses: u32) {
+    let path = bench.path(&format!("{name}/dataset.toml"));
+    let text = fs::read_to_string(&path).expect("a header");
+    let stated = format!("[sensor]\npresses_since_gel = {presses}\n");
+    assert!(text.contains("[sensor]\n"), "{text}");
+    fs::write(&path, text.replacen("[sensor]\n", &stated, 1)).expect("written");
+    bench.ok(&format!("reseal {name} --reason counted -q"));
+}
+
+const WEAR: &str = "wear old new used --model m.taceva";
+
+#[test]
+fn json_has_the_published_form_in_the_order_of_the_presses() {
+    let bench = bench();
+    let report = bench.json(&format!("{WEAR} --limit mae.Fz=2000mN"));
+    crate::schema::check("wear", &report);
+    assert_eq!(report["by"], "presses");
+    let gel = &report["gels"][0];
+    let names = gel["recordings"].as_array().expect("three recordings");
+    let names: Vec<&str> = names
+        .iter()
+        .filter_map(|of| of["recording"].as_str())
+        .collect();
+    assert_eq!(names, ["new", "used", "old"]);
+    assert_eq!(gel["recordings"][2]["presses_since_gel"], 2000);
+    assert_eq!(gel["channels"]["Fz"]["limit"]["limit"], 2.0);
+    assert!(gel["channels"]["Px"]["limit"].is_null());
+    assert!(gel["channels"]["Fz"]["slope"]["value"].is_number(), "{gel}");
+    let said = report["not_measured"].as_str().expect("drawn pictures");
+    assert!(said.contains("synthetic"), "{said}");
+    // Two recordings have no growth, and the reason is of the published form, too.
+    let two = bench.json("wear new old --model m.taceva");
+    crate::schema::check("wear", &two);
+    let slope = &two["gels"][0]["channels"]["Fz"]["slope"];
+    assert_eq!(slope["reason"], "too_few_recordings");
+}
+
+#[test]
+fn the_table_has_a_row_for_each_recording_and_states_the_growth() {
+    let bench = bench();
+    for format in ["text", "md"] {
+        let said = bench.ok(&format!("{WEAR} --limit mae.Fz=2N --format {format} -q"));
+        let rows = said.lines().filter(|line| line.contains("2000"));
+        assert!(rows.count() >= 1, "{said}");
+        assert!(said.contains("the error is multiplied by"), "{said}");
+        assert!(said.contains("the limit 2 N"), "{said}");
+        assert!(said.contains("Nothing here was measured"), "{said}");
+    }
+    let csv = bench.ok(&format!("{WEAR} --format csv -q"));
+    let head = "gel,recording,presses_since_gel,day,stimulus,channel,unit,mae,ci95_low,ci95_high";
+    assert!(csv.starts_with(head), "{csv}");
+    let mut rows = csv.lines().skip(1);
+    assert!(rows.clone().all(|row| row.ends_with(",synthetic")), "{csv}");
+    assert_eq!(rows.clone().count(), 6, "{csv}");
+    let is_force = |row: &str| row.starts_with("1,used,1000,,") && row.contains(",Fz,N,");
+    assert!(rows.any(is_force), "{csv}");
+}
+
+#[test]
+fn a_result_is_written_to_a_file_once() {
+    let bench = bench();
+    let words = format!("{WEAR} --format json --out wear.json");
+    bench.ok(&format!("{words} -q"));
+    let text = fs::read_to_string(bench.path("wear.json")).expect("written");
+    assert!(text.contains("taceva.wear/1"), "{text}");
+    bench.refused(&words, 3, "wear.json exists already; --force replaces it");
+}
+
+#[test]
+fn one_recording_no_day_wrong_limits_and_models_are_refused_by_name() {
+    let bench = bench();
+    bench.refused(
+        "wear new --model m.taceva",
+        2,
+        "new: one recording, expected two or more recordings of one unit",
+    );
+    bench.refused(
+        &format!("{WEAR} --by date"),
+        2,
+        "no day: `recorded_on` is not stated in dataset.toml",
+    );
+    for limit in ["Fz=0.1N", "rmse.Fz=0.1N", "mae.Fz"] {
+        let expected = format!("--limit `{limit}`: expected mae.CHANNEL=AMOUNT");
+        bench.refused(&format!("{WEAR} --limit {limit}"), 2, &expected);
+    }
+    bench.refused(
+        &format!("{WEAR} --limit mae.Fz=0.1N --limit mae.Fz=0.2N"),
+        2,
+        "a second limit of this channel",
+    );
+    bench.refused(
+        &format!("{WEAR} --limit mae.Fz=1mm"),
+        2,
+        "mae.Fz has a limit in mm, expected one in N",
+    );
+    bench.refused(
+        "wear new old --model ridge",
+        2,
+        "--model ridge: no such file",
+    );
+}
