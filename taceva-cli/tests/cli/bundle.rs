@@ -160,7 +160,11 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
         ("changed", "tables/prediction.csv", "expected sha256:"),
         ("lost", "states/0.json", "it is missing"),
         ("added", "states/more.json", "bundle.json does not list it"),
-        ("sealless", "bundle.json", "was changed after it was sealed"),
+        (
+            "sealless",
+            "bundle.json",
+            "was changed after it was sealed; restore it, or make the bundle again with `taceva bundle`",
+        ),
     ] {
         bench.shell(&format!("cp -r whole {name}"));
         let path = bench.path(name).join(damage);
@@ -175,6 +179,7 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
         assert_eq!(first["path"], damage, "{first}");
         let problem = first["problem"].as_str().expect("words");
         assert!(problem.contains(words), "{name}: {problem}");
+        assert!(!problem.contains("taceva reseal"), "{name}: {problem}");
     }
     #[cfg(unix)]
     {
