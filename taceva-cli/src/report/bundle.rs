@@ -44,7 +44,7 @@ pub(crate) fn verification(
         }
     }
     for damage in &found.damage {
-        writeln!(out, "damage   {damage} ({})", damage.rule)?;
+        writeln!(out, "damage   {damage} (broken rule: {})", damage.rule)?;
     }
     for level in &found.levels {
         match &level.reason {

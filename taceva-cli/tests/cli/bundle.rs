@@ -181,6 +181,9 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
         assert!(problem.contains(words), "{name}: {problem}");
         assert!(!problem.contains("taceva reseal"), "{name}: {problem}");
     }
+    let ran = bench.run("bundle verify lost");
+    let words = "states/0.json: it is missing (broken rule: every listed file is there)";
+    assert!(ran.out.contains(words), "{}", ran.out);
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("/etc/passwd", bench.path("whole/link")).expect("room");
