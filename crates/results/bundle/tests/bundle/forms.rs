@@ -96,6 +96,10 @@ fn each_form_holds_value_interval_unit_and_number_of_samples_of_every_claim() {
         assert!(places.any(|place| place == lines), "{lines:?}");
     }
     assert!(with_interval > 3, "{with_interval} of {}", claims.len());
+    let card = card.join("\n");
+    for words in ["mean of truth − prediction", "Computed again from: "] {
+        assert!(card.contains(words), "{card}");
+    }
 }
 
 #[test]
