@@ -310,6 +310,12 @@ fn tables_that_are_withheld_leave_the_claims_at_the_scores() {
     let found = verified(&bench, "b", 0);
     let claims = found["claims"].as_array().expect("claims");
     assert!(claims.iter().all(|claim| claim["level"] == "scores"));
+    let levels = found["levels"].to_string();
+    assert!(
+        levels.contains("the maker of the bundle withheld the tables")
+            && !levels.contains("--pred"),
+        "{levels}"
+    );
     verified(&bench, "b --level scores", 0);
     verified(&bench, "b --level predictions", 1);
 }

@@ -160,6 +160,7 @@ pub(crate) fn check(
     let is_of_model = most >= Level::Model;
     let settings = RecomputationSettings {
         reads_tables: most >= Level::Predictions,
+        are_tables_withheld: manifest.withholds_tables(),
         datasets: is_of_model.then_some(request.datasets.as_slice()),
         fits: most >= Level::Fit,
         has_same_sets: is_of_model
