@@ -33,7 +33,7 @@ pub(crate) fn verification(
     if let Some(bundle) = &found.bundle {
         writeln!(
             out,
-            "{}: made on {} by TacEva {}, samples {}",
+            "{}: made on {} by TacEva {}; origin of the samples: {}",
             shown(&bundle.name),
             shown(&bundle.created),
             shown(&bundle.taceva),
