@@ -82,7 +82,8 @@ pub(crate) fn citation(manifest: &Manifest) -> String {
     });
     let mut authors: Vec<Value> = authors.collect();
     if authors.is_empty() {
-        authors.push(json!({"name": "not stated"}));
+        // Names would make an author of a draft.
+        authors.push(json!({"alias": "not stated"}));
     }
     let mut own = json!({
         "cff-version": "1.2.0",

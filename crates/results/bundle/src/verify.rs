@@ -92,7 +92,7 @@ pub fn verify_with(
     };
     let manifest = &sealed.manifest;
     found.bundle = Some(facts(&sealed));
-    found.remarks.extend(manifest.badge.clone());
+    found.remarks.extend(manifest.remarks());
     found.remarks.extend(unchecked(manifest));
     let damage = form::files(&source, manifest)?;
     if !damage.is_empty() {

@@ -158,6 +158,13 @@ fn simulated_samples_and_drafts_are_named_in_every_form_with_claims() {
             assert!(text.contains(remark), "{name}: {text}");
         }
     }
+    let citation = bench.text("CITATION.cff");
+    let is_alias = citation.contains("alias: \"not stated\"");
+    assert!(is_alias && !citation.contains("name:"), "{citation}");
+    let found = bench.verified(Level::Form);
+    let draft = "Draft: author or licence is missing.";
+    let is_named = found.remarks.iter().any(|remark| remark == draft);
+    assert!(is_named, "{:?}", found.remarks);
 }
 
 #[test]
