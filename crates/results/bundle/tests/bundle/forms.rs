@@ -168,6 +168,16 @@ fn simulated_samples_and_drafts_are_named_in_every_form_with_claims() {
 }
 
 #[test]
+fn the_program_of_the_crate_has_the_address_of_its_repository() {
+    let bench = Bench::new();
+    let address = env!("CARGO_PKG_REPOSITORY");
+    assert_eq!(entity(&bench, address)["url"], address);
+    let run = entity(&bench, "#recomputation");
+    assert_eq!(run["instrument"]["@id"], address);
+    assert!(!bench.text("ro-crate-metadata.json").contains("crates.io"));
+}
+
+#[test]
 fn names_with_quotes_and_umlauts_are_escaped_in_every_form() {
     let bench = Bench::of(finished);
     let described = bench.json("croissant.json");
