@@ -201,7 +201,14 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
     bench.write("text.tar.gz", "no archive");
     let found = verified(&bench, "text.tar.gz", 3);
     let problem = found["damage"][0]["problem"].as_str().expect("words");
-    assert!(problem.contains("no whole .tar.gz"), "{problem}");
+    assert!(
+        problem.contains("no bundle: expected a folder or a .tar.gz"),
+        "{problem}"
+    );
+    assert_eq!(found["damage"][0]["path"], "text.tar.gz");
+    let ran = bench.run("bundle verify result.json");
+    assert_eq!(ran.code, 3, "{}", ran.out);
+    assert!(ran.out.contains("result.json: no bundle: "), "{}", ran.out);
     bench.refused("bundle verify nowhere", 3, "nowhere");
 }
 
