@@ -304,6 +304,14 @@ fn a_state_of_other_tables_is_refused_when_a_bundle_is_made() {
     let words = "bundle result.json --state better.state --draft --out b";
     bench.refused(words, 3, "name the state and the tables of this result");
     assert!(!bench.path("b").exists());
+    let words = "bundle result.json --state result.state --draft --out b";
+    let swapped = format!("{words} --truth pred.csv --pred truth.csv");
+    bench.refused(&swapped, 3, "--truth and --pred are swapped");
+    let ran = bench.run(&format!("{words} --truth truth.csv --pred better.csv"));
+    assert_eq!(ran.code, 3, "{}", ran.err);
+    let named = "result.state: it was summed from other tables";
+    assert!(ran.err.contains(named), "{}", ran.err);
+    assert!(!ran.err.contains(".taceva-"), "{}", ran.err);
     let words = "bundle result.json --draft --out b";
     bench.refused(words, 3, "nothing to compute its numbers again from");
 }
