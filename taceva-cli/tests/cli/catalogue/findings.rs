@@ -106,6 +106,15 @@ fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
     let found = findings(&bench);
     has(&found, &["bundles/", "expected that of its name"]);
     has(&found, &["entries/foo.toml", "missing or damaged"]);
+    let entry = text(&bench, "entries/foo.toml");
+    let rows = entry.matches("[[measured]]").count();
+    let numbers = format!("{rows} numbers of this entry");
+    has(&found, &["entries/foo.toml", numbers.as_str()]);
+    assert_eq!(
+        found.len(),
+        2,
+        "one of the file, one of its numbers: {found:#?}"
+    );
     fs::remove_file(&path).expect("there");
     has(
         &findings(&bench),
@@ -210,7 +219,10 @@ fn bad_toml_is_named_by_file_line_and_expectation() {
         ),
     ] {
         bench.write("c/entries/foo.toml", &entry);
-        has(&findings(&bench), &["entries/foo.toml", line, expected]);
+        let found = findings(&bench);
+        has(&found, &["entries/foo.toml", line, expected]);
+        let is_spared = found.iter().all(|own| !own.contains("remove the file"));
+        assert!(is_spared, "its manifest stays: {found:#?}");
         bench.refused("catalogue site c --out pages", 3, "entries/foo.toml");
     }
 }

@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use taceva_core::counted;
 use taceva_files::seal::digest_of_bytes;
 use taceva_report::catalogue::{self, Origin, Sensor};
 
@@ -49,11 +50,12 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
     let manifests = manifests(root, &mut findings, &mut index)?;
     let mut entries: Vec<EntryFile> = Vec::new();
     let mut used: BTreeSet<String> = BTreeSet::new();
-    let mut numbers = 0;
+    let (mut numbers, mut is_unreadable) = (0, false);
     for file in entry_texts(root)? {
         let text = match file.text {
             Ok(text) => text,
             Err(problem) => {
+                is_unreadable = true;
                 findings.push(CatalogueFinding::new(&file.path, problem));
                 continue;
             }
@@ -61,6 +63,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         let sensor = match Sensor::read(&file.path, &text) {
             Ok(sensor) => sensor,
             Err(error) => {
+                is_unreadable = true;
                 findings.push(CatalogueFinding::of_entry(&file.path, &error));
                 continue;
             }
@@ -79,7 +82,10 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         });
     }
     findings.extend(alike(&entries, &built_in));
-    let unused = manifests.keys().filter(|path| !used.contains(*path));
+    // The rows of an entry that cannot be read may be those of any manifest.
+    let unused = manifests
+        .keys()
+        .filter(|path| !is_unreadable && !used.contains(*path));
     findings.extend(unused.map(|path| {
         let problem = "no entry has its numbers; add the bundle again, or remove the file";
         CatalogueFinding::new(path, problem)
@@ -170,7 +176,7 @@ fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<Catalogu
     faults
 }
 
-/// Rows whose manifest is missing or does not hold their number, and rows that stand twice.
+/// Manifests that are missing, rows whose manifest does not hold their number, and rows that stand twice.
 fn row_faults(
     path: &str,
     text: &str,
@@ -179,6 +185,7 @@ fn row_faults(
 ) -> Vec<CatalogueFinding> {
     let mut faults = Vec::new();
     let mut known = BTreeSet::new();
+    let mut orphans: BTreeMap<String, (Option<usize>, u64)> = BTreeMap::new();
     for origin in Origin::ALL {
         let lines = catalogue::row_lines(text, origin);
         for (at, row) in sensor.rows(origin).iter().enumerate() {
@@ -190,10 +197,11 @@ fn row_faults(
                     row.words(),
                     row.short_bundle()
                 )),
-                None => Some(format!(
-                    "{} is of {manifest}, which is missing or damaged: expected the manifest of its bundle",
-                    row.words()
-                )),
+                None => {
+                    let line = lines.get(at).copied();
+                    orphans.entry(manifest).or_insert((line, 0)).1 += 1;
+                    None
+                }
                 Some(manifest) => row_check::fault(row, manifest),
             };
             faults.extend(fault.map(|problem| CatalogueFinding {
@@ -202,6 +210,16 @@ fn row_faults(
             }));
         }
     }
+    faults.extend(orphans.into_iter().map(|(manifest, (line, count))| {
+        let problem = format!(
+            "{manifest} is missing or damaged, and {} of this entry from here on rest on it: restore it, or remove its rows and add the bundle again",
+            counted(count, "number")
+        );
+        CatalogueFinding {
+            line,
+            ..CatalogueFinding::new(path, problem)
+        }
+    }));
     faults
 }
 
