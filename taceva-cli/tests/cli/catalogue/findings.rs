@@ -72,6 +72,12 @@ fn forge(bench: &Bench, change: impl FnOnce(&mut Value)) {
 fn a_catalogue_without_a_fault_gets_its_index() {
     let bench = catalogue();
     assert!(findings(&bench).is_empty());
+    let said = bench.ok("catalogue check c");
+    assert!(
+        said.starts_with("0 findings in 1 entry, 1 bundle and "),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 1, "a table without rows: {said}");
     let index: Value = serde_json::from_str(&text(&bench, "index.json")).expect("JSON");
     assert_eq!(index["schema"], "taceva.catalogue-index/1");
     assert_eq!(index["entries"][0]["name"], "Foo");
