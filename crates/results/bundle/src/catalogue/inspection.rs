@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use taceva_core::counted;
+use taceva_core::{counted, shown};
 use taceva_files::seal::digest_of_bytes;
 use taceva_report::catalogue::{self, Origin, Sensor};
 
@@ -11,8 +11,8 @@ use super::entry_place::{NAME_RULE, is_name};
 use super::error::CatalogueFolderError;
 use super::finding::CatalogueFinding;
 use super::folder::{
-    EntryFile, check_catalogue_folder, entry_path, entry_texts, manifest_path, manifest_texts,
-    write,
+    EntryFile, check_catalogue_folder, entry_files, entry_path, entry_texts, manifest_path,
+    manifest_texts, write,
 };
 use super::index::Index;
 use super::row_check;
@@ -98,6 +98,34 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         numbers,
         index: index.text(),
     })
+}
+
+/// Sensors of all entries of the catalogue at `root`, by file name. Each number of a bundle is that of its manifest.
+///
+/// # Errors
+/// [`CatalogueFolderError`] with file and line for an invalid entry, for a number that its manifest does not hold, and for a folder that is
+/// no catalogue.
+pub fn entries(root: &Path) -> Result<Vec<Sensor>, CatalogueFolderError> {
+    check_catalogue_folder(root)?;
+    let manifests = manifests(root, &mut Vec::new(), &mut Index::default())?;
+    let mut sensors = Vec::new();
+    for EntryFile { path, text, sensor } in entry_files(root)? {
+        let faults = row_faults(&path, &text, &sensor, &manifests);
+        if let Some(fault) = faults.into_iter().next() {
+            let place = match fault.line {
+                Some(line) => format!("{path}:{line}"),
+                None => path,
+            };
+            let problem = format!(
+                "{}; run `taceva catalogue check {}`",
+                fault.problem,
+                shown(root)
+            );
+            return Err(CatalogueFolderError::refused(&root.join(place), problem));
+        }
+        sensors.push(sensor);
+    }
+    Ok(sensors)
 }
 
 /// Writes the index of a catalogue without a finding.
