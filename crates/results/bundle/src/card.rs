@@ -82,7 +82,7 @@ pub(crate) fn citation(manifest: &Manifest) -> String {
     });
     let mut authors: Vec<Value> = authors.collect();
     if authors.is_empty() {
-        // Names would make an author of a draft.
+        // A name would be an author that nobody stated.
         authors.push(json!({"alias": "not stated"}));
     }
     let mut own = json!({

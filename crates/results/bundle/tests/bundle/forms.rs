@@ -162,8 +162,8 @@ fn simulated_samples_and_drafts_are_named_in_every_form_with_claims() {
     let is_alias = citation.contains("alias: \"not stated\"");
     assert!(is_alias && !citation.contains("name:"), "{citation}");
     let found = bench.verified(Level::Form);
-    let draft = "Draft: author or licence is missing.";
-    let is_named = found.remarks.iter().any(|remark| remark == draft);
+    let unfinished = "Draft: author or licence is missing.";
+    let is_named = found.remarks.iter().any(|remark| remark == unfinished);
     assert!(is_named, "{:?}", found.remarks);
 }
 
