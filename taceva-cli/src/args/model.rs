@@ -106,7 +106,8 @@ pub(crate) struct Predict {
 /// order. Rows that disagree in another key, in `t_s`, `point_id` or `frame_sha256` are rejected.
 #[derive(Debug, Args)]
 pub(crate) struct Score {
-    /// The truth: a table, CSV or Parquet, with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or others
+    /// The truth: a table, CSV or Parquet, with columns Px,Py,Pz (mm), Fx,Fy,Fz (N) or others; `id` pairs its rows, and `point_id` is the
+    /// contact point of each press, without which no score has an interval
     #[arg(long, value_name = "TRUTH.csv")]
     pub(crate) truth: PathBuf,
     /// The predictions: a table with the same channels

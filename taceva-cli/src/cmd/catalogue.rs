@@ -15,7 +15,7 @@ use taceva_report::{SitePage, Table};
 use super::{Context, Usage, results};
 use crate::args::{
     CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueShow, CatalogueSite,
-    CatalogueSubject, Output,
+    CatalogueSubject, Format, Output,
 };
 use crate::{exit, output};
 
@@ -127,6 +127,14 @@ fn check(args: &CatalogueCheckArgs) -> anyhow::Result<u8> {
         counted(found.bundles, "bundle"),
         counted(found.numbers, "number"),
     );
+    let to = &args.output;
+    if found.findings.is_empty() && matches!(to.format, Format::Text | Format::Md) {
+        write_index(&args.catalogue, &found)?;
+        output::write_as(to.format, to.path.as_deref(), |out| {
+            writeln!(out, "{caption}")
+        })?;
+        return Ok(exit::DONE);
+    }
     let mut table = Table::new(caption, ["file", "line", "finding"]);
     for finding in &found.findings {
         let line = finding
@@ -134,9 +142,7 @@ fn check(args: &CatalogueCheckArgs) -> anyhow::Result<u8> {
             .map_or_else(String::new, |line| line.to_string());
         table.push([finding.path.clone(), line, finding.problem.clone()]);
     }
-    results::write(&table, &args.output, || {
-        table.json("taceva.catalogue-check/1")
-    })?;
+    results::write(&table, to, || table.json("taceva.catalogue-check/1"))?;
     if !found.findings.is_empty() {
         return Ok(exit::CHECK_FAILED);
     }

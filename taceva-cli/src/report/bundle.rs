@@ -33,7 +33,7 @@ pub(crate) fn verification(
     if let Some(bundle) = &found.bundle {
         writeln!(
             out,
-            "{}: made on {} by TacEva {}, samples {}",
+            "{}: made on {} by TacEva {}; origin of the samples: {}",
             shown(&bundle.name),
             shown(&bundle.created),
             shown(&bundle.taceva),
@@ -44,7 +44,7 @@ pub(crate) fn verification(
         }
     }
     for damage in &found.damage {
-        writeln!(out, "damage   {damage} ({})", damage.rule)?;
+        writeln!(out, "damage   {damage} (broken rule: {})", damage.rule)?;
     }
     for level in &found.levels {
         match &level.reason {

@@ -100,6 +100,7 @@ fn every_claim_of_scored_tables_is_computed_again_from_folder_and_file() {
         }
     }
     let text = bench.ok("bundle verify b");
+    assert!(text.contains("origin of the samples: unknown"), "{text}");
     assert!(
         text.contains("A seal is a digest and no signature"),
         "{text}"
@@ -160,7 +161,11 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
         ("changed", "tables/prediction.csv", "expected sha256:"),
         ("lost", "states/0.json", "it is missing"),
         ("added", "states/more.json", "bundle.json does not list it"),
-        ("sealless", "bundle.json", "was changed after it was sealed"),
+        (
+            "sealless",
+            "bundle.json",
+            "was changed after it was sealed; restore it, or make the bundle again with `taceva bundle`",
+        ),
     ] {
         bench.shell(&format!("cp -r whole {name}"));
         let path = bench.path(name).join(damage);
@@ -175,7 +180,11 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
         assert_eq!(first["path"], damage, "{first}");
         let problem = first["problem"].as_str().expect("words");
         assert!(problem.contains(words), "{name}: {problem}");
+        assert!(!problem.contains("taceva reseal"), "{name}: {problem}");
     }
+    let ran = bench.run("bundle verify lost");
+    let words = "states/0.json: it is missing (broken rule: every listed file is there)";
+    assert!(ran.out.contains(words), "{}", ran.out);
     #[cfg(unix)]
     {
         std::os::unix::fs::symlink("/etc/passwd", bench.path("whole/link")).expect("room");
@@ -192,7 +201,14 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
     bench.write("text.tar.gz", "no archive");
     let found = verified(&bench, "text.tar.gz", 3);
     let problem = found["damage"][0]["problem"].as_str().expect("words");
-    assert!(problem.contains("no whole .tar.gz"), "{problem}");
+    assert!(
+        problem.contains("no bundle: expected a folder or a .tar.gz"),
+        "{problem}"
+    );
+    assert_eq!(found["damage"][0]["path"], "text.tar.gz");
+    let ran = bench.run("bundle verify result.json");
+    assert_eq!(ran.code, 3, "{}", ran.out);
+    assert!(ran.out.contains("result.json: no bundle: "), "{}", ran.out);
     bench.refused("bundle verify nowhere", 3, "nowhere");
 }
 
@@ -288,22 +304,16 @@ fn a_state_of_other_tables_is_refused_when_a_bundle_is_made() {
     let words = "bundle result.json --state better.state --draft --out b";
     bench.refused(words, 3, "name the state and the tables of this result");
     assert!(!bench.path("b").exists());
+    let words = "bundle result.json --state result.state --draft --out b";
+    let swapped = format!("{words} --truth pred.csv --pred truth.csv");
+    bench.refused(&swapped, 3, "--truth and --pred are swapped");
+    let ran = bench.run(&format!("{words} --truth truth.csv --pred better.csv"));
+    assert_eq!(ran.code, 3, "{}", ran.err);
+    let named = "result.state: it was summed from other tables";
+    assert!(ran.err.contains(named), "{}", ran.err);
+    assert!(!ran.err.contains(".taceva-"), "{}", ran.err);
     let words = "bundle result.json --draft --out b";
     bench.refused(words, 3, "nothing to compute its numbers again from");
-}
-
-#[test]
-fn tables_that_are_withheld_leave_the_claims_at_the_scores() {
-    let bench = bench();
-    bench.ok(&format!("{BUNDLE} b --without predictions"));
-    let withheld = manifest(&bench, "b")["withheld"].clone();
-    assert_eq!(withheld.as_array().map(Vec::len), Some(2), "{withheld}");
-    assert!(!bench.path("b/tables").exists());
-    let found = verified(&bench, "b", 0);
-    let claims = found["claims"].as_array().expect("claims");
-    assert!(claims.iter().all(|claim| claim["level"] == "scores"));
-    verified(&bench, "b --level scores", 0);
-    verified(&bench, "b --level predictions", 1);
 }
 
 #[test]

@@ -6,6 +6,7 @@ mod pages;
 use std::fs;
 
 use serde_json::Value;
+use taceva_files::seal::{digest_of_bytes, json};
 
 use crate::bundle::forgery::{accept, edit};
 use crate::support::Bench;
@@ -91,6 +92,26 @@ fn names(bench: &Bench, folder: &str) -> Vec<String> {
         .collect();
     names.sort();
     names
+}
+
+/// Replaces the manifest of the first bundle of an entry by a sealed one with this change, under its own digest.
+fn forge(bench: &Bench, entry: &str, change: impl FnOnce(&mut Value)) {
+    let rows = text(bench, &format!("entries/{entry}.toml"));
+    let (_, rest) = rows.split_once("bundle = \"sha256:").expect("a bundle");
+    let (old, _) = rest.split_once('"').expect("a digest");
+    let mut manifest: Value =
+        serde_json::from_str(&text(bench, &format!("bundles/{old}.json"))).expect("JSON");
+    change(&mut manifest);
+    manifest.as_object_mut().expect("an object").remove("seal");
+    let sealed = json::seal(&manifest.to_string()).expect("an object");
+    let digest = digest_of_bytes(sealed.as_bytes());
+    let digits = digest.strip_prefix("sha256:").expect("a digest");
+    fs::remove_file(bench.path("c/bundles").join(format!("{old}.json"))).expect("there");
+    bench.write(&format!("c/bundles/{digits}.json"), &sealed);
+    edit(
+        &bench.path("c/entries").join(format!("{entry}.toml")),
+        |text| text.replace(old, digits),
+    );
 }
 
 #[test]
@@ -280,23 +301,31 @@ fn numbers_of_other_samples_or_definitions_stand_side_by_side_without_a_rank() {
     );
     assert!(!listed("ranked").contains("(measured"), "{chosen:#}");
     let path = bench.path("c/entries/bar.toml");
-    let whole = text(&bench, "entries/bar.toml");
-    let other = whole.replace("definition = \"mae/1\"", "definition = \"mae/9\"");
-    fs::write(&path, other).expect("room");
+    let redefine = |from: &str, to: &str| {
+        forge(&bench, "bar", |manifest| {
+            for claim in manifest["claims"].as_array_mut().expect("claims") {
+                if claim["definition"] == from {
+                    claim["definition"] = to.into();
+                }
+            }
+        });
+        let [from, to] = [from, to].map(|own| format!("definition = \"{own}\""));
+        edit(&path, |text| text.replace(&from, &to));
+    };
+    redefine("mae/1", "mae/9");
     let differing = answered();
     assert!(
         differing.contains("`mae/1` and `mae/9` differ"),
         "{differing}"
     );
-    let samples = format!("samples = \"sha256:{}\"", "0".repeat(64));
-    let rows = whole
-        .lines()
-        .map(|line| match line.starts_with("samples = ") {
-            true => samples.as_str(),
-            false => line,
-        });
-    let rows: Vec<&str> = rows.collect();
-    fs::write(&path, rows.join("\n")).expect("room");
+    redefine("mae/9", "mae/1");
+    let (mut own, other) = (String::new(), format!("sha256:{}", "0".repeat(64)));
+    forge(&bench, "bar", |manifest| {
+        let samples = manifest["samples_digest"].as_str().expect("a digest");
+        own = samples.to_owned();
+        manifest["samples_digest"] = other.as_str().into();
+    });
+    edit(&path, |text| text.replace(&own, &other));
     let differing = answered();
     assert!(
         differing.contains("they are of other samples"),

@@ -24,6 +24,7 @@ fn help_of_a_command_ends_with_examples() {
         said.contains("Examples:\n  taceva score --truth truth.csv"),
         "{said}"
     );
+    assert!(said.contains("point_id"), "{said}");
 }
 
 #[test]

@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, BufReader, BufWriter, Read, Write};
+use std::io::{self, BufRead, BufReader, BufWriter, Read, Write};
 use std::path::Path;
 use std::rc::Rc;
 
@@ -15,6 +15,8 @@ use crate::error::{BundleError, Damage};
 use crate::layout::{GROWTH, GROWTH_BYTES};
 use crate::name::{self, check_amount, check_case};
 
+/// First bytes of a packed file.
+const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// Rule of entries.
 const ENTRIES: &str = "a packed bundle holds regular files alone";
 
@@ -55,6 +57,14 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
         return Err(damaged(".", problem));
     }
     let file = File::open(path).map_err(BundleError::file(path))?;
+    let mut file = BufReader::new(file);
+    let start = file.fill_buf().map_err(BundleError::file(path))?;
+    if !start.starts_with(&GZIP) {
+        let rule = "a bundle is a folder or a .tar.gz";
+        let problem = "no bundle: expected a folder or a .tar.gz that `taceva bundle` wrote";
+        let damage = Damage::new(&path.to_string_lossy(), rule, problem);
+        return Err(BundleError::Damaged(damage));
+    }
     let allowed = about
         .len()
         .saturating_mul(GROWTH)
@@ -62,7 +72,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
     let allowed = allowed.min(most);
     let is_beyond = Rc::new(Cell::new(false));
     let reader = Capped {
-        decoder: MultiGzDecoder::new(BufReader::new(file)),
+        decoder: MultiGzDecoder::new(file),
         left: allowed,
         is_beyond: Rc::clone(&is_beyond),
     };

@@ -13,6 +13,10 @@ pub(crate) const NO_LICENCE: &str = "No licence is stated, so nobody may copy th
 pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. A bundle whose predictions, states and \
      results were all changed alike cannot be distinguished from an honest one without the model or the truth from elsewhere.";
 
+/// Sentences on the columns of the claims.
+const COLUMNS: &str = "`bias` is the mean of truth − prediction. Computed again from: the deepest files that gave the number again when the bundle was made. \
+     `scores` are the states, `predictions` the tables of truth and prediction, and `form` none.";
+
 /// Text of `README.md`.
 pub(crate) fn card(manifest: &Manifest) -> String {
     let mut text = front_matter(manifest);
@@ -63,7 +67,7 @@ pub(crate) fn card(manifest: &Manifest) -> String {
             claim.level
         );
     }
-    text += &format!("\n{SEAL_REMARK}\n");
+    text += &format!("\n{COLUMNS}\n\n{SEAL_REMARK}\n");
     text
 }
 
@@ -78,7 +82,8 @@ pub(crate) fn citation(manifest: &Manifest) -> String {
     });
     let mut authors: Vec<Value> = authors.collect();
     if authors.is_empty() {
-        authors.push(json!({"name": "not stated"}));
+        // A name would be an author that nobody stated.
+        authors.push(json!({"alias": "not stated"}));
     }
     let mut own = json!({
         "cff-version": "1.2.0",

@@ -14,7 +14,6 @@ mod submission;
 pub use addition::{Addition, add};
 pub use error::CatalogueFolderError;
 pub use finding::CatalogueFinding;
-pub use folder::entries;
 pub use index::INDEX_SCHEMA;
-pub use inspection::{CatalogueCheck, check_catalogue, write_index};
+pub use inspection::{CatalogueCheck, check_catalogue, entries, write_index};
 pub use request::AddRequest;

@@ -115,6 +115,9 @@ fn studies(
         );
         return Err(BundleError::input(path, problem));
     }
+    if let (Some(tables), [report]) = (&request.tables, reports) {
+        check_not_swapped(tables, report)?;
+    }
     let folder = run.map_or_else(|| parent_of(path).to_owned(), |run| run.join(REPORTS));
     let wanted = reports
         .iter()
@@ -152,6 +155,25 @@ fn studies(
         return Err(BundleError::input(path, problem));
     }
     Ok(studies)
+}
+
+/// Rejects two tables in each other's place.
+fn check_not_swapped(tables: &ScoredTables, report: &EvaluationReport) -> Result<(), BundleError> {
+    let paths = [&tables.truth, &tables.prediction];
+    // A pipe would be waited for.
+    if !paths.iter().all(|path| path.is_file()) {
+        return Ok(());
+    }
+    let [truth, prediction] = [digest_of(&tables.truth)?, digest_of(&tables.prediction)?];
+    let stated = |role: &str| report.provenance.tables.get(role);
+    let is_swapped = stated("truth") == Some(&prediction) && stated("prediction") == Some(&truth);
+    match is_swapped && truth != prediction {
+        true => {
+            let problem = "the results have it as their predictions, so --truth and --pred are swapped; name the other table by --truth";
+            Err(BundleError::input(&tables.truth, problem))
+        }
+        false => Ok(()),
+    }
 }
 
 /// Model files of `reports`, by digest: those given, and those of a run.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use taceva_core::{SilentProgress, counted};
+use taceva_core::{SilentProgress, counted, shown};
 use taceva_files::{Staged, TemporaryFolder, parent_of, replace};
 
 use crate::archive;
@@ -189,9 +189,12 @@ fn set_levels(
     let mut asked = VerifyRequest::new(root);
     asked.jobs = request.jobs;
     let checked = check(&source, manifest, &inputs.reports, &asked, &SilentProgress);
+    let refused = |problem: &str| {
+        let problem = as_given(problem, manifest, inputs, root);
+        BundleError::input(&inputs.path, format!("{problem}; {REMEDY}"))
+    };
     if let Some(damage) = checked.damage.first() {
-        let problem = format!("{damage}; {REMEDY}");
-        return Err(BundleError::input(&inputs.path, problem));
+        return Err(refused(&damage.to_string()));
     }
     let is_wrong = |claim: &&ClaimCheck| match claim.verdict {
         Verdict::Differs => true,
@@ -201,18 +204,35 @@ fn set_levels(
     if let Some(claim) = checked.claims.iter().find(is_wrong) {
         let claim_words = words(&claim.metric, claim.variant.as_deref(), &claim.channel);
         let reason = claim.reason.as_deref().unwrap_or("it differs");
-        let problem = format!("{claim_words}: {reason}; {REMEDY}");
-        return Err(BundleError::input(&inputs.path, problem));
+        return Err(refused(&format!("{claim_words}: {reason}")));
     }
     let mut others = checked.others.iter();
     if let Some(other) = others.find(|other| other.verdict == Verdict::Differs) {
-        let problem = format!("{}: {}; {REMEDY}", other.part, other.reason);
-        return Err(BundleError::input(&inputs.path, problem));
+        return Err(refused(&format!("{}: {}", other.part, other.reason)));
     }
     for (claim, check) in manifest.claims.iter_mut().zip(&checked.claims) {
         claim.level = check.level;
     }
     Ok(())
+}
+
+/// `problem` with the files that the caller named in place of their copies below `root`.
+fn as_given(problem: &str, manifest: &Manifest, inputs: &Inputs, root: &Path) -> String {
+    let mut problem = problem.to_owned();
+    for (files, study) in manifest.studies.iter().zip(&inputs.studies) {
+        let mut tables = Vec::new();
+        if let (Some(copies), Some(given)) = (&files.tables, &study.tables) {
+            tables.push((&copies.truth, &given.truth));
+            tables.push((&copies.prediction, &given.prediction));
+        }
+        let states = files.states.iter().zip(&study.states);
+        let samples = files.samples.iter().zip(&study.samples);
+        for (copy, given) in states.chain(samples).chain(tables) {
+            let copy = shown(&root.join(copy)).to_string();
+            problem = problem.replace(&copy, &shown(given).to_string());
+        }
+    }
+    problem
 }
 
 /// Names of the sensors of the results.

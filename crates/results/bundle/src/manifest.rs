@@ -220,7 +220,7 @@ impl Manifest {
             return Err(damaged(rule, problem));
         }
         let opened = taceva_files::seal::json::check(text)
-            .map_err(|error| damaged("the manifest has its seal", error.to_string()))?;
+            .map_err(|error| damaged("the manifest has its seal", unsealed(&error.to_string())))?;
         if has_own_seal(text) != Some(true) {
             let problem = "`seal` has other keys than its content; make the bundle again";
             return Err(damaged("the manifest has its seal", problem.to_owned()));
@@ -265,6 +265,12 @@ pub(crate) fn model_digest(report: &EvaluationReport) -> Option<&str> {
     let is_file = |digest: &&str| digest.starts_with("sha256:") && own.cross_validation().is_none();
     let digest = own.model.as_ref().map(|model| model.digest.as_str());
     digest.filter(is_file)
+}
+
+/// The fault of a seal with the remedy for a manifest, whose edits no command accepts.
+fn unsealed(fault: &str) -> String {
+    let fault = fault.split("; restore it").next().unwrap_or(fault);
+    format!("{fault}; restore it, or make the bundle again with `taceva bundle`")
 }
 
 /// True if the whole seal is that of its content. A seal shows which key was changed, and its digest does not cover its own words.

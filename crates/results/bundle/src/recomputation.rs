@@ -57,6 +57,8 @@ pub(crate) enum FitScores {
 pub(crate) struct RecomputationSettings<'a> {
     /// True if tables are scored again.
     pub(crate) reads_tables: bool,
+    /// True if the maker of the bundle left tables out.
+    pub(crate) are_tables_withheld: bool,
     /// Recordings on which models predict again; `None` if they do not.
     pub(crate) datasets: Option<&'a [PathBuf]>,
     /// True if models are fitted again.
@@ -88,6 +90,9 @@ impl Recomputation {
         let own = &report.provenance;
         let unscored = match (own.tables.is_empty(), own.part.is_some()) {
             _ if files.tables.is_some() => None,
+            _ if settings.are_tables_withheld && files.samples.is_none() => {
+                Some("the maker of the bundle withheld the tables")
+            }
             (true, true) => None,
             // A run scores each phase of its protocol by itself.
             (true, false) => Some("the table of samples holds every sample, scored or not"),

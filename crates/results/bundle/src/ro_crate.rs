@@ -9,8 +9,8 @@ use crate::manifest::{BundledFile, Manifest, StudyFiles};
 
 /// Profile of a run of programs.
 const PROFILE: &str = "https://w3id.org/ro/wfrun/process/0.5";
-/// The program.
-const PROGRAM: &str = "https://crates.io/crates/taceva-cli";
+/// The program, by the address of its repository.
+const PROGRAM: &str = env!("CARGO_PKG_REPOSITORY");
 /// The run that computed the claims again.
 const RUN: &str = "#recomputation";
 

@@ -92,7 +92,7 @@ pub fn verify_with(
     };
     let manifest = &sealed.manifest;
     found.bundle = Some(facts(&sealed));
-    found.remarks.extend(manifest.badge.clone());
+    found.remarks.extend(manifest.remarks());
     found.remarks.extend(unchecked(manifest));
     let damage = form::files(&source, manifest)?;
     if !damage.is_empty() {
@@ -160,6 +160,7 @@ pub(crate) fn check(
     let is_of_model = most >= Level::Model;
     let settings = RecomputationSettings {
         reads_tables: most >= Level::Predictions,
+        are_tables_withheld: manifest.withholds_tables(),
         datasets: is_of_model.then_some(request.datasets.as_slice()),
         fits: most >= Level::Fit,
         has_same_sets: is_of_model

@@ -45,6 +45,26 @@ fn drop_state(bench: &Bench) {
 }
 
 #[test]
+fn tables_that_are_withheld_leave_the_claims_at_the_scores() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b --without predictions"));
+    let withheld = manifest(&bench, "b")["withheld"].clone();
+    assert_eq!(withheld.as_array().map(Vec::len), Some(2), "{withheld}");
+    assert!(!bench.path("b/tables").exists());
+    let found = verified(&bench, "b", 0);
+    let claims = found["claims"].as_array().expect("claims");
+    assert!(claims.iter().all(|claim| claim["level"] == "scores"));
+    let levels = found["levels"].to_string();
+    assert!(
+        levels.contains("the maker of the bundle withheld the tables")
+            && !levels.contains("--pred"),
+        "{levels}"
+    );
+    verified(&bench, "b --level scores", 0);
+    verified(&bench, "b --level predictions", 1);
+}
+
+#[test]
 fn claims_that_are_left_out_repeated_or_of_other_files_are_damage() {
     let bench = made();
     let whole = manifest(&bench, "b");

@@ -3,9 +3,8 @@
 use std::fs;
 
 use serde_json::Value;
-use taceva_files::seal::{digest_of_bytes, json};
 
-use super::{bundle, names, text};
+use super::{bundle, forge, names, text};
 use crate::bundle::forgery::edit;
 use crate::support::Bench;
 
@@ -50,28 +49,16 @@ fn replace_line(bench: &Bench, start: &str, new: &str) {
     });
 }
 
-/// Replaces the manifest of the bundle by a sealed one with this change, under its own digest.
-fn forge(bench: &Bench, change: impl FnOnce(&mut Value)) {
-    let name = names(bench, "bundles").remove(0);
-    let mut manifest: Value =
-        serde_json::from_str(&text(bench, &format!("bundles/{name}"))).expect("JSON");
-    change(&mut manifest);
-    manifest.as_object_mut().expect("an object").remove("seal");
-    let sealed = json::seal(&manifest.to_string()).expect("an object");
-    let digest = digest_of_bytes(sealed.as_bytes());
-    let digits = digest.strip_prefix("sha256:").expect("a digest");
-    fs::remove_file(bench.path("c/bundles").join(&name)).expect("there");
-    bench.write(&format!("c/bundles/{digits}.json"), &sealed);
-    let old = name.strip_suffix(".json").expect("a manifest");
-    edit(&bench.path("c/entries/foo.toml"), |text| {
-        text.replace(old, digits)
-    });
-}
-
 #[test]
 fn a_catalogue_without_a_fault_gets_its_index() {
     let bench = catalogue();
     assert!(findings(&bench).is_empty());
+    let said = bench.ok("catalogue check c");
+    assert!(
+        said.starts_with("0 findings in 1 entry, 1 bundle and "),
+        "{said}"
+    );
+    assert_eq!(said.lines().count(), 1, "a table without rows: {said}");
     let index: Value = serde_json::from_str(&text(&bench, "index.json")).expect("JSON");
     assert_eq!(index["schema"], "taceva.catalogue-index/1");
     assert_eq!(index["entries"][0]["name"], "Foo");
@@ -98,6 +85,22 @@ fn a_number_that_its_manifest_does_not_hold_is_found() {
 }
 
 #[test]
+fn an_edited_number_is_neither_compared_nor_chosen_nor_shown() {
+    let bench = catalogue();
+    replace_line(&bench, "value = ", "value = 123.5");
+    for words in [
+        "compare Foo GelSight --catalogue c",
+        "choose --catalogue c --need force",
+        "catalogue site c --out pages",
+    ] {
+        bench.refused(words, 3, "entries/foo.toml:");
+        bench.refused(words, 3, "`value` of ");
+        bench.refused(words, 3, "run `taceva catalogue check c`");
+    }
+    assert!(!bench.path("pages").exists());
+}
+
+#[test]
 fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
     let bench = catalogue();
     let name = names(&bench, "bundles").remove(0);
@@ -106,6 +109,15 @@ fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
     let found = findings(&bench);
     has(&found, &["bundles/", "expected that of its name"]);
     has(&found, &["entries/foo.toml", "missing or damaged"]);
+    let entry = text(&bench, "entries/foo.toml");
+    let rows = entry.matches("[[measured]]").count();
+    let numbers = format!("{rows} numbers of this entry");
+    has(&found, &["entries/foo.toml", numbers.as_str()]);
+    assert_eq!(
+        found.len(),
+        2,
+        "one of the file, one of its numbers: {found:#?}"
+    );
     fs::remove_file(&path).expect("there");
     has(
         &findings(&bench),
@@ -122,10 +134,12 @@ fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
 #[test]
 fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
     let bench = catalogue();
-    forge(&bench, |manifest| manifest["licence"] = "ask me".into());
+    forge(&bench, "foo", |manifest| {
+        manifest["licence"] = "ask me".into()
+    });
     has(&findings(&bench), &["`ask me`", "SPDX identifier"]);
     let bench = catalogue();
-    forge(&bench, |manifest| manifest["draft"] = true.into());
+    forge(&bench, "foo", |manifest| manifest["draft"] = true.into());
     has(&findings(&bench), &["bundles/", "a draft: expected"]);
 }
 
@@ -134,7 +148,7 @@ fn the_same_results_and_the_same_row_twice_are_found() {
     let bench = catalogue();
     let name = names(&bench, "bundles").remove(0);
     let before = text(&bench, &format!("bundles/{name}"));
-    forge(&bench, |manifest| manifest["name"] = "again".into());
+    forge(&bench, "foo", |manifest| manifest["name"] = "again".into());
     bench.write(&format!("c/bundles/{name}"), &before);
     has(&findings(&bench), &["the same results as bundles/"]);
     let bench = catalogue();
@@ -210,7 +224,10 @@ fn bad_toml_is_named_by_file_line_and_expectation() {
         ),
     ] {
         bench.write("c/entries/foo.toml", &entry);
-        has(&findings(&bench), &["entries/foo.toml", line, expected]);
+        let found = findings(&bench);
+        has(&found, &["entries/foo.toml", line, expected]);
+        let is_spared = found.iter().all(|own| !own.contains("remove the file"));
+        assert!(is_spared, "its manifest stays: {found:#?}");
         bench.refused("catalogue site c --out pages", 3, "entries/foo.toml");
     }
 }

@@ -35,16 +35,6 @@ pub(super) struct EntryFile {
     pub(super) sensor: Sensor,
 }
 
-/// Sensors of all entries of the catalogue at `root`, by file name.
-///
-/// # Errors
-/// [`CatalogueFolderError`] with file and line for an invalid entry, and for a folder that is no catalogue.
-pub fn entries(root: &Path) -> Result<Vec<Sensor>, CatalogueFolderError> {
-    check_catalogue_folder(root)?;
-    let files = entry_files(root)?;
-    Ok(files.into_iter().map(|file| file.sensor).collect())
-}
-
 /// Entries of the catalogue at `root`.
 pub(super) fn entry_files(root: &Path) -> Result<Vec<EntryFile>, CatalogueFolderError> {
     let mut entries = Vec::new();

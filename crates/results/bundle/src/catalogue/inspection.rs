@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
+use taceva_core::{counted, shown};
 use taceva_files::seal::digest_of_bytes;
 use taceva_report::catalogue::{self, Origin, Sensor};
 
@@ -10,8 +11,8 @@ use super::entry_place::{NAME_RULE, is_name};
 use super::error::CatalogueFolderError;
 use super::finding::CatalogueFinding;
 use super::folder::{
-    EntryFile, check_catalogue_folder, entry_path, entry_texts, manifest_path, manifest_texts,
-    write,
+    EntryFile, check_catalogue_folder, entry_files, entry_path, entry_texts, manifest_path,
+    manifest_texts, write,
 };
 use super::index::Index;
 use super::row_check;
@@ -49,11 +50,12 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
     let manifests = manifests(root, &mut findings, &mut index)?;
     let mut entries: Vec<EntryFile> = Vec::new();
     let mut used: BTreeSet<String> = BTreeSet::new();
-    let mut numbers = 0;
+    let (mut numbers, mut is_unreadable) = (0, false);
     for file in entry_texts(root)? {
         let text = match file.text {
             Ok(text) => text,
             Err(problem) => {
+                is_unreadable = true;
                 findings.push(CatalogueFinding::new(&file.path, problem));
                 continue;
             }
@@ -61,6 +63,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         let sensor = match Sensor::read(&file.path, &text) {
             Ok(sensor) => sensor,
             Err(error) => {
+                is_unreadable = true;
                 findings.push(CatalogueFinding::of_entry(&file.path, &error));
                 continue;
             }
@@ -79,7 +82,10 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         });
     }
     findings.extend(alike(&entries, &built_in));
-    let unused = manifests.keys().filter(|path| !used.contains(*path));
+    // The rows of an entry that cannot be read may be those of any manifest.
+    let unused = manifests
+        .keys()
+        .filter(|path| !is_unreadable && !used.contains(*path));
     findings.extend(unused.map(|path| {
         let problem = "no entry has its numbers; add the bundle again, or remove the file";
         CatalogueFinding::new(path, problem)
@@ -92,6 +98,34 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         numbers,
         index: index.text(),
     })
+}
+
+/// Sensors of all entries of the catalogue at `root`, by file name. Each number of a bundle is that of its manifest.
+///
+/// # Errors
+/// [`CatalogueFolderError`] with file and line for an invalid entry, for a number that its manifest does not hold, and for a folder that is
+/// no catalogue.
+pub fn entries(root: &Path) -> Result<Vec<Sensor>, CatalogueFolderError> {
+    check_catalogue_folder(root)?;
+    let manifests = manifests(root, &mut Vec::new(), &mut Index::default())?;
+    let mut sensors = Vec::new();
+    for EntryFile { path, text, sensor } in entry_files(root)? {
+        let faults = row_faults(&path, &text, &sensor, &manifests);
+        if let Some(fault) = faults.into_iter().next() {
+            let place = match fault.line {
+                Some(line) => format!("{path}:{line}"),
+                None => path,
+            };
+            let problem = format!(
+                "{}; run `taceva catalogue check {}`",
+                fault.problem,
+                shown(root)
+            );
+            return Err(CatalogueFolderError::refused(&root.join(place), problem));
+        }
+        sensors.push(sensor);
+    }
+    Ok(sensors)
 }
 
 /// Writes the index of a catalogue without a finding.
@@ -170,7 +204,7 @@ fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<Catalogu
     faults
 }
 
-/// Rows whose manifest is missing or does not hold their number, and rows that stand twice.
+/// Manifests that are missing, rows whose manifest does not hold their number, and rows that stand twice.
 fn row_faults(
     path: &str,
     text: &str,
@@ -179,6 +213,7 @@ fn row_faults(
 ) -> Vec<CatalogueFinding> {
     let mut faults = Vec::new();
     let mut known = BTreeSet::new();
+    let mut orphans: BTreeMap<String, (Option<usize>, u64)> = BTreeMap::new();
     for origin in Origin::ALL {
         let lines = catalogue::row_lines(text, origin);
         for (at, row) in sensor.rows(origin).iter().enumerate() {
@@ -190,10 +225,11 @@ fn row_faults(
                     row.words(),
                     row.short_bundle()
                 )),
-                None => Some(format!(
-                    "{} is of {manifest}, which is missing or damaged: expected the manifest of its bundle",
-                    row.words()
-                )),
+                None => {
+                    let line = lines.get(at).copied();
+                    orphans.entry(manifest).or_insert((line, 0)).1 += 1;
+                    None
+                }
                 Some(manifest) => row_check::fault(row, manifest),
             };
             faults.extend(fault.map(|problem| CatalogueFinding {
@@ -202,6 +238,16 @@ fn row_faults(
             }));
         }
     }
+    faults.extend(orphans.into_iter().map(|(manifest, (line, count))| {
+        let problem = format!(
+            "{manifest} is missing or damaged, and {} of this entry from here on rest on it: restore it, or remove its rows and add the bundle again",
+            counted(count, "number")
+        );
+        CatalogueFinding {
+            line,
+            ..CatalogueFinding::new(path, problem)
+        }
+    }));
     faults
 }
 

@@ -96,6 +96,10 @@ fn each_form_holds_value_interval_unit_and_number_of_samples_of_every_claim() {
         assert!(places.any(|place| place == lines), "{lines:?}");
     }
     assert!(with_interval > 3, "{with_interval} of {}", claims.len());
+    let card = card.join("\n");
+    for words in ["mean of truth − prediction", "Computed again from: "] {
+        assert!(card.contains(words), "{card}");
+    }
 }
 
 #[test]
@@ -154,6 +158,23 @@ fn simulated_samples_and_drafts_are_named_in_every_form_with_claims() {
             assert!(text.contains(remark), "{name}: {text}");
         }
     }
+    let citation = bench.text("CITATION.cff");
+    let is_alias = citation.contains("alias: \"not stated\"");
+    assert!(is_alias && !citation.contains("name:"), "{citation}");
+    let found = bench.verified(Level::Form);
+    let unfinished = "Draft: author or licence is missing.";
+    let is_named = found.remarks.iter().any(|remark| remark == unfinished);
+    assert!(is_named, "{:?}", found.remarks);
+}
+
+#[test]
+fn the_program_of_the_crate_has_the_address_of_its_repository() {
+    let bench = Bench::new();
+    let address = env!("CARGO_PKG_REPOSITORY");
+    assert_eq!(entity(&bench, address)["url"], address);
+    let run = entity(&bench, "#recomputation");
+    assert_eq!(run["instrument"]["@id"], address);
+    assert!(!bench.text("ro-crate-metadata.json").contains("crates.io"));
 }
 
 #[test]

@@ -64,7 +64,7 @@ fn add_table(document: &mut Document, origin: Origin, entries: &[Entry<'_>]) {
                     (right_heads(["value", "95 % interval"]))
                     (heads(["unit"]))
                     (right_heads(["n"]))
-                    (heads(["level", "origin", "samples", "measured by", "made on", "certificates", "definition", "protocol", "bundle"]))
+                    (heads(["level", "origin", "samples", "handed in by", "made on", "certificates", "definition", "protocol", "bundle"]))
                 }
             }
             tbody { @for entry in entries { (line(entry)) } }
@@ -179,11 +179,12 @@ mod tests {
     }
 
     #[test]
-    fn a_number_says_who_measured_it_on_which_samples_and_how_deep_it_was_verified() {
+    fn a_number_says_who_handed_it_in_on_which_samples_and_how_deep_it_was_verified() {
         let page = page(&[entry("ci95 = [0.01, 0.03]\ntraceability = [\"D-K-1\"]\n")]);
         let text = page.expect("a page").text;
         for words in [
             "Ada &lt;script&gt;",
+            "handed in by",
             "55555555",
             "<td>predictions</td>",
             "level-predictions sensor-x--b- metric-mae certified",
