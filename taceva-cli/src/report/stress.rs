@@ -91,6 +91,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }
     let skipped = report.skipped.iter();
     notes.extend(skipped.map(|of| format!("Skipped: {}: {}.", of.fault, of.reason)));
+    notes.extend(report.notes.iter().cloned());
     notes.extend(report.not_measured.clone());
     notes
 }

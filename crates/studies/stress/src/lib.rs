@@ -5,6 +5,7 @@ mod estimate;
 mod fault;
 mod faults;
 mod findings;
+mod notes;
 mod pass;
 mod ratio;
 mod report;

@@ -51,6 +51,8 @@ pub struct StressReport {
     pub unnoticed: Option<Vec<&'static str>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
+    /// Limits of what the numbers contain, as sentences.
+    pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
 }

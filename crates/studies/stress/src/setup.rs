@@ -148,7 +148,7 @@ pub fn stress_plan(
         plan.step("skip", format!("{}: {}", skipped.fault, skipped.reason));
     }
     let fresh = setup.faults.iter();
-    let fresh = fresh.filter(|fault| compares(model) && fault.scope == Scope::Fixed);
+    let fresh = fresh.filter(|fault| compares(model) && fault.scope != Scope::Each);
     let fresh = fresh.count() * request.severities.len();
     plan.step(
         "predict",

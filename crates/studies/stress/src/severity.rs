@@ -182,7 +182,7 @@ impl Reference<'_> {
             return parameter * self.scale.successive / self.contact;
         }
         let drawn = match fault.scope {
-            Scope::Fixed => 1,
+            Scope::Fixed | Scope::Drawn => 1,
             Scope::Each => (LINES / self.untouched.info().height.max(1)).clamp(1, DRAWN),
         };
         let changes = (0..drawn).map(|number| {

@@ -111,6 +111,24 @@ fn a_new_untouched_picture_removes_most_of_the_error_of_lost_light() {
 }
 
 #[test]
+fn a_note_names_the_faults_whose_places_are_one_draw() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let request = |faults: &[&str]| StressRequest {
+        severities: vec![1],
+        seed: 7,
+        ..by_parameter(faults)
+    };
+    let wanted = request(&["exposure_low", "sensor_noise", "tear", "dust"]);
+    let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
+    let expected = "tear, dust: one draw of places, by seed 7;";
+    assert!(report.notes[0].starts_with(expected), "{:?}", report.notes);
+    let wanted = request(&["exposure_low", "sensor_noise"]);
+    let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
+    assert!(report.notes.is_empty(), "{:?}", report.notes);
+}
+
+#[test]
 fn a_fault_of_all_pictures_does_not_count_as_contact_that_hides_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let (_, model) = unseen(folder.path());
