@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 
-use super::{ExplainArgs, Output, PartArgs, SeedArgs, ViewArgs};
+use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
 /// Faults are applied to the pictures of the recording, and the model predicts them without being fitted again. Severities 1 to 5 change the
 /// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. Faults that stay are scored with an untouched picture from before and
@@ -37,12 +37,22 @@ pub(crate) struct Stress {
     pub(crate) by: StressBy,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    #[command(flatten)]
-    pub(crate) part: PartArgs,
+    /// The part of the recording [default: test, or all if the model was fitted on another recording]
+    #[arg(long, value_enum)]
+    pub(crate) part: Option<StressPart>,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// Samples that the model has not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StressPart {
+    /// Unseen samples of the recording of the fit
+    Test,
+    /// Every sample of another recording
+    All,
 }
 
 /// Quantity that sets severity.

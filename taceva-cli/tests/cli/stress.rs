@@ -73,6 +73,13 @@ fn explain_names_faults_and_pictures_and_the_origin() {
 }
 
 #[test]
+fn the_help_lists_only_parts_that_are_accepted() {
+    let said = bench().ok("stress --help");
+    assert!(said.contains("Unseen samples of the recording"), "{said}");
+    assert!(!said.contains("validation"), "{said}");
+}
+
+#[test]
 fn wrong_faults_severities_models_and_seen_samples_are_refused_by_name() {
     let bench = bench();
     let stress = "stress unseen --model m.taceva";
@@ -95,5 +102,13 @@ fn wrong_faults_severities_models_and_seen_samples_are_refused_by_name() {
         2,
         "part `all`: the model was fitted on these samples",
     );
+    bench.ok("fit seen --model ridge --set size=8x8 --split all --out whole.taceva -q");
+    for part in ["", " --part test"] {
+        bench.refused(
+            &format!("stress seen --model whole.taceva{part}"),
+            2,
+            "fitted on every sample of this recording, so its errors without a fault are too small; stress it on another recording",
+        );
+    }
     bench.refused("stress nowhere --model m.taceva", 3, "nowhere");
 }
