@@ -21,7 +21,7 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 is the list of all
+    /// Faults, separated by commas; gel-12 or all is the list of all
     #[arg(
         long,
         value_name = "FAULTS",

@@ -4,7 +4,7 @@ use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample};
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::DataPart;
 use taceva_models::Model;
-use taceva_stress::{StressRequest, stress};
+use taceva_stress::{FAULTS, StressRequest, select, stress};
 
 use crate::drawing::{WORK, fitted, picture, record, record_with, unseen};
 
@@ -35,6 +35,18 @@ fn a_misspelt_fault_is_refused_with_the_nearest_name() {
         ..StressRequest::default()
     };
     assert!(refused(&dataset, &model, &none).contains("no fault is named"));
+}
+
+#[test]
+fn names_of_faults_may_have_spaces_around_them_and_all_is_every_fault() {
+    let ids = |names: &[&str]| -> Vec<&'static str> {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let chosen = select(&names).expect("known names");
+        chosen.into_iter().map(|fault| fault.id).collect()
+    };
+    assert_eq!(ids(&["dust", " tear "]), ["tear", "dust"]);
+    assert_eq!(ids(&["all"]), ids(&["gel-12"]));
+    assert_eq!(ids(&["all"]).len(), FAULTS.len());
 }
 
 #[test]
