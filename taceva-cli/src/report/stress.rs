@@ -30,7 +30,10 @@ pub(crate) fn table(report: &StressReport) -> Table {
                 score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
             });
             cells.extend(ratios);
-            cells.push(Cell::text(of.check.join(" ")));
+            cells.push(Cell::text(match report.unnoticed {
+                Some(_) => of.check.join(" "),
+                None => "–".to_owned(),
+            }));
             table.push(cells);
         }
     }
@@ -63,16 +66,23 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     });
     let clean: Vec<String> = clean.collect();
     notes.push(format!("Error without a fault: {}.", clean.join(", ")));
-    notes.extend(report.faults.iter().map(|fault| of_fault(fault, channels)));
+    let faults = report.faults.iter();
+    notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
     let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
     notes.push(format!("Mean degradation over all faults: {mean}."));
     if let Some(unnoticed) = &report.unnoticed {
-        let names = match unnoticed.is_empty() {
+        let main = unnoticed
+            .iter()
+            .filter(|of| channels.contains(&of.channel.as_str()));
+        let names: Vec<String> = main
+            .map(|of| format!("{} {} {}", of.fault, of.severity, of.channel))
+            .collect();
+        let names = match names.is_empty() {
             true => "none".to_owned(),
-            false => unnoticed.join(", "),
+            false => names.join(", "),
         };
         notes.push(format!(
-            "Faults that at least double an error, unnoticed by the check of untouched pictures (TAC034): {names}."
+            "Faults, severities and channels with an error at least doubled, unnoticed by the check of untouched pictures (TAC034): {names}."
         ));
     }
     notes.extend(report.faults.iter().filter_map(|fault| {
@@ -97,13 +107,12 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
 }
 
 /// Summary of a fault on one line.
-fn of_fault(fault: &FaultReport, channels: &[&str]) -> String {
+fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
     let breaks = by_channel(channels, |name| {
-        Some(match fault.breaks_at.get(name)? {
-            Some(NEVER) => "never".to_owned(),
-            Some(severity) => severity.to_string(),
-            None => "unknown".to_owned(),
-        })
+        match report.clean.get(name)?.skill.is_above_zero() {
+            Some(false) => Some("no skill without a fault".to_owned()),
+            _ => Some(skill_end(fault, *fault.breaks_at.get(name)?)),
+        }
     });
     let recovers = by_channel(channels, |name| {
         let share = fault.recovers.get(name)?.value?;
@@ -126,6 +135,22 @@ fn of_fault(fault: &FaultReport, channels: &[&str]) -> String {
     }
     line.push('.');
     line
+}
+
+/// Severity at which skill ends, as far as the tested severities bound it.
+fn skill_end(fault: &FaultReport, breaks_at: Option<u8>) -> String {
+    let tested = fault.severities.iter().map(|of| of.severity);
+    let last = fault.severities.last().map(|of| of.severity);
+    match (breaks_at, last) {
+        (None, _) => "unknown".to_owned(),
+        (Some(NEVER), Some(last)) if last + 1 < NEVER => format!("not up to {last}"),
+        (Some(NEVER), _) => "never".to_owned(),
+        (Some(severity), _) => match tested.filter(|of| *of < severity).max() {
+            Some(before) if before + 1 < severity => format!("between {before} and {severity}"),
+            None if severity > 1 => format!("{severity} or below"),
+            _ => severity.to_string(),
+        },
+    }
 }
 
 /// Channels for which `words` returns text, each with this text: `Fz 3, Pxy never`.

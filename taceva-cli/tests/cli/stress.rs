@@ -55,6 +55,18 @@ fn the_table_has_a_row_for_each_severity_and_states_where_skill_ends() {
 }
 
 #[test]
+fn the_end_of_skill_is_bounded_by_the_tested_severities_alone() {
+    let bench = bench();
+    let said = bench
+        .ok("stress unseen --model m.taceva --faults stale_frames --severity 1 --by parameter -q");
+    assert!(!said.contains("never"), "{said}");
+    bench.ok("fit seen --model baseline --out constant.taceva -q");
+    let said = bench
+        .ok("stress unseen --model constant.taceva --faults dust --severity 2 --by parameter -q");
+    assert!(said.contains("no skill without a fault"), "{said}");
+}
+
+#[test]
 fn a_result_is_written_to_a_file_once() {
     let bench = bench();
     let words = format!("{STRESS} --format json --out stress.json");

@@ -21,7 +21,7 @@ pub use fault::{Fault, Scope};
 pub use faults::{FAULTS, LIST, select};
 pub use report::{
     ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
-    SkippedFault, StressReport,
+    SkippedFault, StressReport, Unnoticed,
 };
 pub use setup::{StressRequest, stress_plan};
 pub use severity::{By, NEVER, TARGETS, Unreached, severities};
