@@ -3,7 +3,9 @@
 use taceva_core::counted;
 use taceva_metrics::plane_of;
 use taceva_report::{Cell, Column, FormattedValue, Table};
-use taceva_stress::{By, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport};
+use taceva_stress::{
+    By, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport, Undefined,
+};
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
 pub(crate) fn table(report: &StressReport) -> Table {
@@ -48,8 +50,14 @@ fn caption(report: &StressReport) -> String {
         By::Stimulus => "stimulus",
         By::Parameter => "parameter",
     };
+    let cells = report.faults.iter().flat_map(|fault| &fault.severities);
+    let mut scores = cells.flat_map(|of| of.stale.values());
+    let intervals = match scores.any(|score| score.degradation.ci95.is_some()) {
+        true => ", with 95 % intervals",
+        false => "",
+    };
     format!(
-        "Mean absolute errors with faults, divided by those without, with 95 % intervals: faults {}, severity by {by}, seed {}, {} samples of the part {}",
+        "Mean absolute errors with faults, divided by those without{intervals}: faults {}, severity by {by}, seed {}, {} samples of the part {}",
         report.list.name,
         report.seed,
         report.samples,
@@ -115,15 +123,28 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
         }
     });
     let recovers = by_channel(channels, |name| {
-        let share = fault.recovers.get(name)?.value?;
-        Some(format!("{:.0} %", 100.0 * share))
+        let share = fault.recovers.get(name)?;
+        match share.value {
+            Some(value) => Some(format!("{:.0} %", 100.0 * value)),
+            None => Some(format!("– ({})", share.reason?)),
+        }
     });
     let mut line = format!("{}: skill ends at severity: {breaks}", fault.id);
-    if !recovers.is_empty() {
+    let tested = fault.severities.iter().map(|of| of.severity.to_string());
+    let tested: Vec<String> = tested.collect();
+    if !tested.is_empty() {
+        let mean = by_channel(channels, |name| Some(phrase(fault.mean.get(name)?, "")));
         line.push_str(&format!(
-            "; a new untouched picture removes of the excess error: {recovers}"
+            "; mean degradation D over severity {}: {mean}",
+            tested.join(", ")
         ));
     }
+    line.push_str(&match common_reason(fault) {
+        Some(reason) => format!("; recovers unknown: {reason}"),
+        None => {
+            format!("; a new untouched picture removes of the excess error: {recovers}")
+        }
+    });
     for of in &fault.unreached {
         line.push_str(&format!(
             "; severity {} is not possible: {} of a contact at the parameter {}, expected {}",
@@ -135,6 +156,14 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     }
     line.push('.');
     line
+}
+
+/// Reason for the absence of every share that a new untouched picture removes, if it is the same.
+fn common_reason(fault: &FaultReport) -> Option<Undefined> {
+    let reason = fault.recovers.values().next()?.reason?;
+    let mut shares = fault.recovers.values();
+    let is_common = shares.all(|of| of.value.is_none() && of.reason == Some(reason));
+    is_common.then_some(reason)
 }
 
 /// Severity at which skill ends, as far as the tested severities bound it.

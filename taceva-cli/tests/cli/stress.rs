@@ -41,6 +41,15 @@ fn the_table_has_a_row_for_each_severity_and_states_where_skill_ends() {
         let rows = said.lines().filter(|line| line.contains("defocus "));
         assert!(rows.count() >= 2, "{said}");
         assert!(said.contains("skill ends at severity"), "{said}");
+        assert!(
+            said.contains("mean degradation D over severity 1, 4:"),
+            "{said}"
+        );
+        // The drawn recording has no untouched picture.
+        assert!(
+            said.contains("recovers unknown: no untouched picture"),
+            "{said}"
+        );
         assert!(said.contains("Nothing here was measured"), "{said}");
     }
     let csv = bench.ok(&format!("{words} --format csv -q"));

@@ -90,7 +90,7 @@ pub fn stress(
         clean,
         mean,
         unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
-        notes: notes(&setup.faults, request.seed),
+        notes: notes(&setup.faults, request.seed, baseline.clusters()),
         faults,
         skipped: setup.skipped,
         provenance,

@@ -2,7 +2,7 @@
 
 use std::num::NonZeroUsize;
 
-use taceva_core::PixelFormat;
+use taceva_core::{PixelFormat, counted};
 use taceva_evaluate::{EvaluateRequest, ModelChoice, Work, evaluate};
 use taceva_stress::{
     By, FaultReport, NEVER, StressReport, StressRequest, Undefined, Unnoticed, stress, stress_plan,
@@ -146,6 +146,24 @@ fn a_note_names_the_faults_whose_places_are_one_draw() {
     let wanted = request(&["exposure_low", "sensor_noise"]);
     let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
     assert!(report.notes.is_empty(), "{:?}", report.notes);
+}
+
+#[test]
+fn a_note_counts_clusters_that_are_too_few_for_intervals() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = record(&folder.path().join("seen"), 1);
+    // The test part has two of the twelve points.
+    let model = fitted(&seen, "ridge", &["size=8x8"]);
+    let report = stress(&seen, &model, &by_parameter(&["defocus"]), WORK).expect("tested");
+    let clusters = report.samples / 5;
+    assert!(clusters < 5, "{clusters}");
+    let expected = format!(
+        "No intervals: {}, 5 are needed",
+        counted(clusters, "cluster")
+    );
+    assert!(report.notes[0].starts_with(&expected), "{:?}", report.notes);
+    let mean = &report.faults[0].mean["Fz"];
+    assert_eq!(mean.reason, Some(Undefined::TooFewClusters));
 }
 
 #[test]
