@@ -1,11 +1,13 @@
 //! Tables of errors with faults.
 
+mod numbers;
+
 use taceva_core::counted;
 use taceva_metrics::plane_of;
 use taceva_report::{Cell, Column, FormattedValue, Table};
-use taceva_stress::{
-    By, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport, Undefined,
-};
+use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
+
+pub(crate) use self::numbers::numbers;
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
 pub(crate) fn table(report: &StressReport) -> Table {
@@ -93,6 +95,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             "Faults, severities and channels with an error at least doubled, unnoticed by the check of untouched pictures (TAC034): {names}."
         ));
     }
+    notes.extend(missed_targets(report));
     notes.extend(report.faults.iter().filter_map(|fault| {
         let words = fault.note?;
         Some(format!("{}: {words}.", fault.id))
@@ -112,6 +115,30 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     notes.extend(report.notes.iter().cloned());
     notes.extend(report.not_measured.clone());
     notes
+}
+
+/// Remark on the severities whose pictures change by less than half of the target, or by more than twice the target.
+fn missed_targets(report: &StressReport) -> Option<String> {
+    if report.by == By::Parameter {
+        return None;
+    }
+    let cells = report.faults.iter().flat_map(|fault| {
+        let severities = fault.severities.iter();
+        severities.filter_map(move |of| {
+            let target = TARGETS[usize::from(of.severity) - 1];
+            let stimulus = of.stimulus?;
+            let is_near = (0.5 * target..=2.0 * target).contains(&stimulus);
+            let words = || format!("{} {} {}", fault.id, of.severity, short(stimulus));
+            (!is_near).then(words)
+        })
+    });
+    let cells: Vec<String> = cells.collect();
+    (!cells.is_empty()).then(|| {
+        format!(
+            "Stimulus of the scored pictures beyond half or twice its target (fault, severity, stimulus): {}.",
+            cells.join(", ")
+        )
+    })
 }
 
 /// Summary of a fault on one line.
@@ -228,125 +255,4 @@ fn cell(of: &Estimate) -> Cell {
         formatted: formatted(of),
         ..taceva_report::Estimate::default()
     })
-}
-
-/// Table for programs: one row for each number, in shortest round-trip form.
-pub(crate) fn numbers(report: &StressReport) -> Table {
-    let columns = [
-        "fault",
-        "severity",
-        "parameter",
-        "stimulus",
-        "untouched",
-        "channel",
-        "quantity",
-        "value",
-        "unit",
-        "ci95_low",
-        "ci95_high",
-        "reason",
-        "source",
-    ];
-    let mut rows = Rows {
-        table: Table::new("Errors with faults", columns),
-        report,
-    };
-    for (channel, score) in &report.clean {
-        let unit = rows.unit(channel);
-        rows.push(&Place::default(), channel, "mae", &score.mae, unit);
-        rows.push(&Place::default(), channel, "skill", &score.skill, "1");
-    }
-    for (channel, mean) in &report.mean {
-        rows.push(&Place::default(), channel, "mD", mean, "1");
-    }
-    for fault in &report.faults {
-        let whole = Place {
-            fault: fault.id,
-            ..Place::default()
-        };
-        for (channel, mean) in &fault.mean {
-            rows.push(&whole, channel, "D", mean, "1");
-        }
-        for (channel, share) in &fault.recovers {
-            rows.push(&whole, channel, "recovers", share, "1");
-        }
-        for (channel, severity) in &fault.breaks_at {
-            let severity = Estimate::of_known(severity.map(f64::from));
-            rows.push(&whole, channel, "breaks_at", &severity, "1");
-        }
-        for of in &fault.severities {
-            let sides = [("before", Some(&of.stale)), ("after", of.fresh.as_ref())];
-            for (untouched, scores) in sides {
-                for (channel, score) in scores.into_iter().flatten() {
-                    let place = Place {
-                        fault: fault.id,
-                        severity: Some(of),
-                        untouched,
-                    };
-                    rows.push_cell(&place, channel, score);
-                }
-            }
-        }
-    }
-    rows.table
-}
-
-/// Fault, severity and untouched picture of a number.
-#[derive(Clone, Copy, Default)]
-struct Place<'a> {
-    fault: &'a str,
-    severity: Option<&'a SeverityReport>,
-    untouched: &'a str,
-}
-
-/// Rows of the table for programs.
-struct Rows<'a> {
-    table: Table,
-    report: &'a StressReport,
-}
-
-impl<'a> Rows<'a> {
-    fn unit(&self, channel: &str) -> &'a str {
-        self.report.units.get(channel).copied().unwrap_or("")
-    }
-
-    fn push_cell(&mut self, place: &Place<'_>, channel: &str, score: &CellScore) {
-        let unit = self.unit(channel);
-        self.push(place, channel, "mae", &score.mae, unit);
-        self.push(place, channel, "skill", &score.skill, "1");
-        self.push(place, channel, "degradation", &score.degradation, "1");
-        let capped = Estimate::of_known(score.capped);
-        self.push(place, channel, "capped", &capped, unit);
-    }
-
-    fn push(
-        &mut self,
-        place: &Place<'_>,
-        channel: &str,
-        quantity: &str,
-        of: &Estimate,
-        unit: &str,
-    ) {
-        let number = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-        };
-        let severity = place.severity;
-        let level = severity.map_or_else(String::new, |of| of.severity.to_string());
-        let reason = of.reason.map_or_else(String::new, |of| of.to_string());
-        self.table.push([
-            Cell::text(place.fault),
-            Cell::Number(level),
-            number(severity.map(|of| of.parameter)),
-            number(severity.and_then(|of| of.stimulus)),
-            Cell::text(place.untouched),
-            Cell::text(channel),
-            Cell::text(quantity),
-            number(of.value),
-            Cell::text(unit),
-            number(of.ci95.map(|[low, _]| low)),
-            number(of.ci95.map(|[_, high]| high)),
-            Cell::text(reason),
-            Cell::text(self.report.subject.source.as_str()),
-        ]);
-    }
 }

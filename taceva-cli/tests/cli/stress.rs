@@ -60,7 +60,12 @@ fn the_table_has_a_row_for_each_severity_and_states_where_skill_ends() {
         rows.clone().any(|row| row.starts_with("defocus,4,0.016,")),
         "{csv}"
     );
-    assert!(rows.clone().any(|row| row.contains(",breaks_at,")), "{csv}");
+    for quantity in ["breaks_at", "check", "note"] {
+        let named = format!(",{quantity},");
+        assert!(rows.clone().any(|row| row.contains(&named)), "{csv}");
+    }
+    let stale = rows.clone().filter(|row| row.contains(",stale,"));
+    assert!(stale.count() > 0, "{csv}");
 }
 
 #[test]
@@ -73,6 +78,14 @@ fn the_end_of_skill_is_bounded_by_the_tested_severities_alone() {
     let said = bench
         .ok("stress unseen --model constant.taceva --faults dust --severity 2 --by parameter -q");
     assert!(said.contains("no skill without a fault"), "{said}");
+}
+
+#[test]
+fn csv_names_severities_that_are_not_possible_and_draws_of_places() {
+    let bench = bench();
+    let csv = bench.ok("stress unseen --model m.taceva --faults defocus,dust --format csv -q");
+    assert!(csv.contains(",unreached,"), "{csv}");
+    assert!(csv.contains("one draw of places"), "{csv}");
 }
 
 #[test]
