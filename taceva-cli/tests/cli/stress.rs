@@ -107,8 +107,12 @@ fn explain_names_faults_and_pictures_and_the_origin() {
 }
 
 #[test]
-fn the_help_lists_only_parts_that_are_accepted() {
-    let said = bench().ok("stress --help");
+fn the_help_lists_all_faults_and_only_parts_that_are_accepted() {
+    let said = Bench::new().ok("stress --help");
+    for fault in taceva_stress::FAULTS {
+        let named = format!("  {} ", fault.id);
+        assert!(said.contains(&named), "{named}: {said}");
+    }
     assert!(said.contains("Unseen samples of the recording"), "{said}");
     assert!(!said.contains("validation"), "{said}");
 }
