@@ -2,7 +2,7 @@
 
 use taceva_core::{counted, shown};
 use taceva_dataset::Dataset;
-use taceva_evaluate::{DataPart, Divided, EvaluateError, Need, Plan, Target, subject_of, usable};
+use taceva_evaluate::{DataPart, EvaluateError, Need, Plan, Target, subject_of, usable};
 use taceva_models::Model;
 use taceva_results::not_measured;
 
@@ -130,7 +130,7 @@ fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
     if dataset.views().is_empty() && dataset.header().frames.is_none() {
         return refused("the recording has no pictures: stress cannot test it");
     }
-    match Divided::by_model(dataset, model)? {
+    match taceva_evaluate::Divided::by_model(dataset, model)? {
         Some(divided) if divided.rows(DataPart::Test).is_empty() => refused(
             "the model was fitted on every sample of this recording, so its errors without a fault are too small; stress it on another recording",
         ),
