@@ -54,7 +54,7 @@ pub(crate) use self::plugin::{
 };
 pub(crate) use self::results::{Accept, Choose, Compare, Conditional, Like, ReportArgs};
 pub(crate) use self::rig::{RigCheckArgs, RigCommand, RigSubject, RigTapArgs, RigTeachArgs};
-pub(crate) use self::stress::{Stress, StressBy};
+pub(crate) use self::stress::{Stress, StressBy, StressPart};
 pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,

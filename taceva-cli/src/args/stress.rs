@@ -3,15 +3,15 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
+use taceva_stress::FAULTS;
 
-use super::{ExplainArgs, Output, PartArgs, SeedArgs, ViewArgs};
+use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
 /// Faults are applied to the pictures of the recording, and the model predicts them without being fitted again. Severities 1 to 5 change the
 /// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. Faults that stay are scored with an untouched picture from before and
 /// from after the fault. A fitted model is scored on samples that it has not seen.
-///
-/// Faults: defocus, dead_pixels, exposure_low, exposure_high, sensor_noise, cable_noise, camera_shift, led_loss, scratches, tear, dust, stale_frames.
 #[derive(Debug, Args)]
+#[command(after_help = faults_help())]
 pub(crate) struct Stress {
     /// The recording
     #[arg(value_name = "DATASET")]
@@ -21,7 +21,7 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 is the list of all
+    /// Faults, separated by commas; gel-12 or all is the list of all
     #[arg(
         long,
         value_name = "FAULTS",
@@ -37,12 +37,30 @@ pub(crate) struct Stress {
     pub(crate) by: StressBy,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    #[command(flatten)]
-    pub(crate) part: PartArgs,
+    /// The part of the recording [default: test, or all if the model was fitted on another recording]
+    #[arg(long, value_enum)]
+    pub(crate) part: Option<StressPart>,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// Names of the faults, each with its appearance.
+fn faults_help() -> String {
+    let lines = FAULTS
+        .iter()
+        .map(|fault| format!("\n  {:<15}{}", fault.id, fault.title));
+    format!("Faults:{}", lines.collect::<String>())
+}
+
+/// Samples that the model has not seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum StressPart {
+    /// Unseen samples of the recording of the fit
+    Test,
+    /// Every sample of another recording
+    All,
 }
 
 /// Quantity that sets severity.

@@ -8,7 +8,7 @@ use taceva_evaluate::DataPart;
 use taceva_stress::{By, StressRequest, severities, stress, stress_plan};
 
 use super::{Context, Usage, open_seen, results};
-use crate::args::{Format, Stress, StressBy};
+use crate::args::{Format, Stress, StressBy, StressPart};
 use crate::report::stress::{numbers, table};
 use crate::{exit, output};
 
@@ -36,7 +36,10 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
             StressBy::Parameter => By::Parameter,
         },
         seed: args.seed.value,
-        part: args.part.name.map(DataPart::from),
+        part: args.part.map(|part| match part {
+            StressPart::Test => DataPart::Test,
+            StressPart::All => DataPart::All,
+        }),
     };
     let model = context.models()?.open(&args.model)?;
     let recordings = [args.dataset.clone()];

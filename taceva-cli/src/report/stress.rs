@@ -1,11 +1,13 @@
 //! Tables of errors with faults.
 
+mod numbers;
+
 use taceva_core::counted;
 use taceva_metrics::plane_of;
 use taceva_report::{Cell, Column, FormattedValue, Table};
-use taceva_stress::{
-    By, ByChannel, CellScore, Estimate, FaultReport, NEVER, SeverityReport, StressReport,
-};
+use taceva_stress::{By, ByChannel, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
+
+pub(crate) use self::numbers::numbers;
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
 pub(crate) fn table(report: &StressReport) -> Table {
@@ -32,7 +34,10 @@ pub(crate) fn table(report: &StressReport) -> Table {
                 score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
             });
             cells.extend(ratios);
-            cells.push(Cell::text(of.check.join(" ")));
+            cells.push(Cell::text(match report.unnoticed {
+                Some(_) => of.check.join(" "),
+                None => "–".to_owned(),
+            }));
             table.push(cells);
         }
     }
@@ -47,8 +52,14 @@ fn caption(report: &StressReport) -> String {
         By::Stimulus => "stimulus",
         By::Parameter => "parameter",
     };
+    let cells = report.faults.iter().flat_map(|fault| &fault.severities);
+    let mut scores = cells.flat_map(|of| of.stale.values());
+    let intervals = match scores.any(|score| score.degradation.ci95.is_some()) {
+        true => ", with 95 % intervals",
+        false => "",
+    };
     format!(
-        "Mean absolute errors with faults, divided by those without, with 95 % intervals: faults {}, severity by {by}, seed {}, {} samples of the part {}",
+        "Mean absolute errors with faults, divided by those without{intervals}: faults {}, severity by {by}, seed {}, {} samples of the part {}",
         report.list.name,
         report.seed,
         report.samples,
@@ -65,18 +76,26 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     });
     let clean: Vec<String> = clean.collect();
     notes.push(format!("Error without a fault: {}.", clean.join(", ")));
-    notes.extend(report.faults.iter().map(|fault| of_fault(fault, channels)));
+    let faults = report.faults.iter();
+    notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
     let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
     notes.push(format!("Mean degradation over all faults: {mean}."));
     if let Some(unnoticed) = &report.unnoticed {
-        let names = match unnoticed.is_empty() {
+        let main = unnoticed
+            .iter()
+            .filter(|of| channels.contains(&of.channel.as_str()));
+        let names: Vec<String> = main
+            .map(|of| format!("{} {} {}", of.fault, of.severity, of.channel))
+            .collect();
+        let names = match names.is_empty() {
             true => "none".to_owned(),
-            false => unnoticed.join(", "),
+            false => names.join(", "),
         };
         notes.push(format!(
-            "Faults that at least double an error, unnoticed by the check of untouched pictures (TAC034): {names}."
+            "Faults, severities and channels with an error at least doubled, unnoticed by the check of untouched pictures (TAC034): {names}."
         ));
     }
+    notes.extend(missed_targets(report));
     notes.extend(report.faults.iter().filter_map(|fault| {
         let words = fault.note?;
         Some(format!("{}: {words}.", fault.id))
@@ -93,29 +112,66 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }
     let skipped = report.skipped.iter();
     notes.extend(skipped.map(|of| format!("Skipped: {}: {}.", of.fault, of.reason)));
+    notes.extend(report.notes.iter().cloned());
     notes.extend(report.not_measured.clone());
     notes
 }
 
-/// Summary of a fault on one line.
-fn of_fault(fault: &FaultReport, channels: &[&str]) -> String {
-    let breaks = by_channel(channels, |name| {
-        Some(match fault.breaks_at.get(name)? {
-            Some(NEVER) => "never".to_owned(),
-            Some(severity) => severity.to_string(),
-            None => "unknown".to_owned(),
+/// Remark on the severities whose pictures change by less than half of the target, or by more than twice the target.
+fn missed_targets(report: &StressReport) -> Option<String> {
+    if report.by == By::Parameter {
+        return None;
+    }
+    let cells = report.faults.iter().flat_map(|fault| {
+        let severities = fault.severities.iter();
+        severities.filter_map(move |of| {
+            let target = TARGETS[usize::from(of.severity) - 1];
+            let stimulus = of.stimulus?;
+            let is_near = (0.5 * target..=2.0 * target).contains(&stimulus);
+            let words = || format!("{} {} {}", fault.id, of.severity, short(stimulus));
+            (!is_near).then(words)
         })
     });
+    let cells: Vec<String> = cells.collect();
+    (!cells.is_empty()).then(|| {
+        format!(
+            "Stimulus of the scored pictures beyond half or twice its target (fault, severity, stimulus): {}.",
+            cells.join(", ")
+        )
+    })
+}
+
+/// Summary of a fault on one line.
+fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
+    let breaks = by_channel(channels, |name| {
+        match report.clean.get(name)?.skill.is_above_zero() {
+            Some(false) => Some("no skill without a fault".to_owned()),
+            _ => Some(skill_end(fault, *fault.breaks_at.get(name)?)),
+        }
+    });
     let recovers = by_channel(channels, |name| {
-        let share = fault.recovers.get(name)?.value?;
-        Some(format!("{:.0} %", 100.0 * share))
+        let share = fault.recovers.get(name)?;
+        match share.value {
+            Some(value) => Some(format!("{:.0} %", 100.0 * value)),
+            None => Some(format!("– ({})", share.reason?)),
+        }
     });
     let mut line = format!("{}: skill ends at severity: {breaks}", fault.id);
-    if !recovers.is_empty() {
+    let tested = fault.severities.iter().map(|of| of.severity.to_string());
+    let tested: Vec<String> = tested.collect();
+    if !tested.is_empty() {
+        let mean = by_channel(channels, |name| Some(phrase(fault.mean.get(name)?, "")));
         line.push_str(&format!(
-            "; a new untouched picture removes of the excess error: {recovers}"
+            "; mean degradation D over severity {}: {mean}",
+            tested.join(", ")
         ));
     }
+    line.push_str(&match common_reason(fault) {
+        Some(reason) => format!("; recovers unknown: {reason}"),
+        None => {
+            format!("; a new untouched picture removes of the excess error: {recovers}")
+        }
+    });
     for of in &fault.unreached {
         line.push_str(&format!(
             "; severity {} is not possible: {} of a contact at the parameter {}, expected {}",
@@ -127,6 +183,30 @@ fn of_fault(fault: &FaultReport, channels: &[&str]) -> String {
     }
     line.push('.');
     line
+}
+
+/// Reason for the absence of every share that a new untouched picture removes, if it is the same.
+fn common_reason(fault: &FaultReport) -> Option<Undefined> {
+    let reason = fault.recovers.values().next()?.reason?;
+    let mut shares = fault.recovers.values();
+    let is_common = shares.all(|of| of.value.is_none() && of.reason == Some(reason));
+    is_common.then_some(reason)
+}
+
+/// Severity at which skill ends, as far as the tested severities bound it.
+fn skill_end(fault: &FaultReport, breaks_at: Option<u8>) -> String {
+    let tested = fault.severities.iter().map(|of| of.severity);
+    let last = fault.severities.last().map(|of| of.severity);
+    match (breaks_at, last) {
+        (None, _) => "unknown".to_owned(),
+        (Some(NEVER), Some(last)) if last + 1 < NEVER => format!("not up to {last}"),
+        (Some(NEVER), _) => "never".to_owned(),
+        (Some(severity), _) => match tested.filter(|of| *of < severity).max() {
+            Some(before) if before + 1 < severity => format!("between {before} and {severity}"),
+            None if severity > 1 => format!("{severity} or below"),
+            _ => severity.to_string(),
+        },
+    }
 }
 
 /// Channels for which `words` returns text, each with this text: `Fz 3, Pxy never`.
@@ -175,125 +255,4 @@ pub(super) fn cell(of: &Estimate) -> Cell {
         formatted: formatted(of),
         ..taceva_report::Estimate::default()
     })
-}
-
-/// Table for programs: one row for each number, in shortest round-trip form.
-pub(crate) fn numbers(report: &StressReport) -> Table {
-    let columns = [
-        "fault",
-        "severity",
-        "parameter",
-        "stimulus",
-        "untouched",
-        "channel",
-        "quantity",
-        "value",
-        "unit",
-        "ci95_low",
-        "ci95_high",
-        "reason",
-        "source",
-    ];
-    let mut rows = Rows {
-        table: Table::new("Errors with faults", columns),
-        report,
-    };
-    for (channel, score) in &report.clean {
-        let unit = rows.unit(channel);
-        rows.push(&Place::default(), channel, "mae", &score.mae, unit);
-        rows.push(&Place::default(), channel, "skill", &score.skill, "1");
-    }
-    for (channel, mean) in &report.mean {
-        rows.push(&Place::default(), channel, "mD", mean, "1");
-    }
-    for fault in &report.faults {
-        let whole = Place {
-            fault: fault.id,
-            ..Place::default()
-        };
-        for (channel, mean) in &fault.mean {
-            rows.push(&whole, channel, "D", mean, "1");
-        }
-        for (channel, share) in &fault.recovers {
-            rows.push(&whole, channel, "recovers", share, "1");
-        }
-        for (channel, severity) in &fault.breaks_at {
-            let severity = Estimate::of_known(severity.map(f64::from));
-            rows.push(&whole, channel, "breaks_at", &severity, "1");
-        }
-        for of in &fault.severities {
-            let sides = [("before", Some(&of.stale)), ("after", of.fresh.as_ref())];
-            for (untouched, scores) in sides {
-                for (channel, score) in scores.into_iter().flatten() {
-                    let place = Place {
-                        fault: fault.id,
-                        severity: Some(of),
-                        untouched,
-                    };
-                    rows.push_cell(&place, channel, score);
-                }
-            }
-        }
-    }
-    rows.table
-}
-
-/// Fault, severity and untouched picture of a number.
-#[derive(Clone, Copy, Default)]
-struct Place<'a> {
-    fault: &'a str,
-    severity: Option<&'a SeverityReport>,
-    untouched: &'a str,
-}
-
-/// Rows of the table for programs.
-struct Rows<'a> {
-    table: Table,
-    report: &'a StressReport,
-}
-
-impl<'a> Rows<'a> {
-    fn unit(&self, channel: &str) -> &'a str {
-        self.report.units.get(channel).copied().unwrap_or("")
-    }
-
-    fn push_cell(&mut self, place: &Place<'_>, channel: &str, score: &CellScore) {
-        let unit = self.unit(channel);
-        self.push(place, channel, "mae", &score.mae, unit);
-        self.push(place, channel, "skill", &score.skill, "1");
-        self.push(place, channel, "degradation", &score.degradation, "1");
-        let capped = Estimate::of_known(score.capped);
-        self.push(place, channel, "capped", &capped, unit);
-    }
-
-    fn push(
-        &mut self,
-        place: &Place<'_>,
-        channel: &str,
-        quantity: &str,
-        of: &Estimate,
-        unit: &str,
-    ) {
-        let number = |value: Option<f64>| {
-            Cell::Number(value.map_or_else(String::new, |value| format!("{value:?}")))
-        };
-        let severity = place.severity;
-        let level = severity.map_or_else(String::new, |of| of.severity.to_string());
-        let reason = of.reason.map_or_else(String::new, |of| of.to_string());
-        self.table.push([
-            Cell::text(place.fault),
-            Cell::Number(level),
-            number(severity.map(|of| of.parameter)),
-            number(severity.and_then(|of| of.stimulus)),
-            Cell::text(place.untouched),
-            Cell::text(channel),
-            Cell::text(quantity),
-            number(of.value),
-            Cell::text(unit),
-            number(of.ci95.map(|[low, _]| low)),
-            number(of.ci95.map(|[_, high]| high)),
-            Cell::text(reason),
-            Cell::text(self.report.subject.source.as_str()),
-        ]);
-    }
 }

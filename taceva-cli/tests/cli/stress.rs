@@ -41,6 +41,15 @@ fn the_table_has_a_row_for_each_severity_and_states_where_skill_ends() {
         let rows = said.lines().filter(|line| line.contains("defocus "));
         assert!(rows.count() >= 2, "{said}");
         assert!(said.contains("skill ends at severity"), "{said}");
+        assert!(
+            said.contains("mean degradation D over severity 1, 4:"),
+            "{said}"
+        );
+        // The drawn recording has no untouched picture.
+        assert!(
+            said.contains("recovers unknown: no untouched picture"),
+            "{said}"
+        );
         assert!(said.contains("Nothing here was measured"), "{said}");
     }
     let csv = bench.ok(&format!("{words} --format csv -q"));
@@ -51,7 +60,32 @@ fn the_table_has_a_row_for_each_severity_and_states_where_skill_ends() {
         rows.clone().any(|row| row.starts_with("defocus,4,0.016,")),
         "{csv}"
     );
-    assert!(rows.clone().any(|row| row.contains(",breaks_at,")), "{csv}");
+    for quantity in ["breaks_at", "check", "note"] {
+        let named = format!(",{quantity},");
+        assert!(rows.clone().any(|row| row.contains(&named)), "{csv}");
+    }
+    let stale = rows.clone().filter(|row| row.contains(",stale,"));
+    assert!(stale.count() > 0, "{csv}");
+}
+
+#[test]
+fn the_end_of_skill_is_bounded_by_the_tested_severities_alone() {
+    let bench = bench();
+    let said = bench
+        .ok("stress unseen --model m.taceva --faults stale_frames --severity 1 --by parameter -q");
+    assert!(!said.contains("never"), "{said}");
+    bench.ok("fit seen --model baseline --out constant.taceva -q");
+    let said = bench
+        .ok("stress unseen --model constant.taceva --faults dust --severity 2 --by parameter -q");
+    assert!(said.contains("no skill without a fault"), "{said}");
+}
+
+#[test]
+fn csv_names_severities_that_are_not_possible_and_draws_of_places() {
+    let bench = bench();
+    let csv = bench.ok("stress unseen --model m.taceva --faults defocus,dust --format csv -q");
+    assert!(csv.contains(",unreached,"), "{csv}");
+    assert!(csv.contains("one draw of places"), "{csv}");
 }
 
 #[test]
@@ -70,6 +104,17 @@ fn explain_names_faults_and_pictures_and_the_origin() {
     assert!(said.contains("60 frames of the part `all`"), "{said}");
     assert!(said.contains("fault    defocus: the lens"), "{said}");
     assert!(said.contains("synthetic"), "{said}");
+}
+
+#[test]
+fn the_help_lists_all_faults_and_only_parts_that_are_accepted() {
+    let said = Bench::new().ok("stress --help");
+    for fault in taceva_stress::FAULTS {
+        let named = format!("  {} ", fault.id);
+        assert!(said.contains(&named), "{named}: {said}");
+    }
+    assert!(said.contains("Unseen samples of the recording"), "{said}");
+    assert!(!said.contains("validation"), "{said}");
 }
 
 #[test]
@@ -95,5 +140,13 @@ fn wrong_faults_severities_models_and_seen_samples_are_refused_by_name() {
         2,
         "part `all`: the model was fitted on these samples",
     );
+    bench.ok("fit seen --model ridge --set size=8x8 --split all --out whole.taceva -q");
+    for part in ["", " --part test"] {
+        bench.refused(
+            &format!("stress seen --model whole.taceva{part}"),
+            2,
+            "fitted on every sample of this recording, so its errors without a fault are too small; stress it on another recording",
+        );
+    }
     bench.refused("stress nowhere --model m.taceva", 3, "nowhere");
 }

@@ -78,7 +78,7 @@ impl Canvas {
 pub(crate) struct Realisation {
     /// Parameter of the fault, above 0.
     pub(crate) parameter: f32,
-    /// Random numbers: of the unit for fixed faults, of the sample for others.
+    /// Random numbers: of the sample for faults of each picture, of the unit for others.
     pub(crate) draws: Draws,
 }
 

@@ -4,6 +4,9 @@ use std::fmt;
 
 use serde::Serialize;
 
+/// Number up to which it is 0 but for rounding errors.
+const ROUNDING: f64 = 1e-9;
+
 /// Reason why a number or its interval is absent.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
@@ -95,6 +98,14 @@ impl Estimate {
             value: None,
             ci95: None,
             reason: Some(reason),
+        }
+    }
+
+    /// True if the number is shown to be above 0; `None` if that is unknown.
+    pub fn is_above_zero(&self) -> Option<bool> {
+        match self.value? {
+            value if value <= ROUNDING => Some(false),
+            _ => Some(self.low()? > 0.0),
         }
     }
 

@@ -5,8 +5,10 @@ use crate::canvas::{Canvas, Realisation};
 /// Random numbers of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Scope {
-    /// Drawn once: the same pixels in every picture.
+    /// None: the same change in every picture.
     Fixed,
+    /// Places drawn once: the same pixels in every picture.
+    Drawn,
     /// Drawn for each picture.
     Each,
 }

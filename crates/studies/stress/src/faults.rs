@@ -20,6 +20,8 @@ use crate::fault::Fault;
 
 /// Name of the list of all faults.
 pub const LIST: &str = "gel-12";
+/// Another name of the list of all faults.
+const ALL: &str = "all";
 /// Version of the list. Scores by lists of different versions are not compared.
 pub(crate) const LIST_VERSION: u32 = 1;
 
@@ -39,24 +41,27 @@ pub static FAULTS: [&Fault; 12] = [
     &stale_frames::FAULT,
 ];
 
-/// Faults called `names`, in the order of the list; all for the name of the list.
+/// Faults called `names`, in the order of the list; all for the name of the list, or for `all`. Spaces around a name do not count.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for an unknown name, or without a name.
 pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
+    let names: Vec<&str> = names.iter().map(|name| name.trim()).collect();
     let ids: Vec<&str> = FAULTS.iter().map(|fault| fault.id).collect();
     let known: Vec<&str> = [LIST].into_iter().chain(ids).collect();
-    if let Some(unknown) = names.iter().find(|name| !known.contains(&name.as_str())) {
+    let is_all = |name: &str| name == ALL || name == LIST;
+    let is_known = |name: &str| is_all(name) || known.contains(&name);
+    if let Some(unknown) = names.iter().find(|name| !is_known(name)) {
         return Err(EvaluateError::Request(format!(
             "fault `{}`: unknown, {}",
             shown(unknown),
             suggestion(unknown, &known)
         )));
     }
-    let is_wanted = |name: &str| names.iter().any(|wanted| wanted == name);
+    let is_every = names.iter().any(|name| is_all(name));
     let chosen: Vec<&'static Fault> = FAULTS
         .into_iter()
-        .filter(|fault| is_wanted(LIST) || is_wanted(fault.id))
+        .filter(|fault| is_every || names.contains(&fault.id))
         .collect();
     match chosen.is_empty() {
         true => Err(EvaluateError::Request(format!(

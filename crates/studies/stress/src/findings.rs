@@ -3,23 +3,17 @@
 use taceva_metrics::elementary::logarithm;
 
 use crate::estimate::{Estimate, Undefined};
-use crate::report::{FaultReport, SeverityReport};
+use crate::report::{CellScore, FaultReport, SeverityReport, Unnoticed};
 use crate::severity::NEVER;
 
 /// Degradation above which a number is wrong.
 const DOUBLE: f64 = 2.0;
-/// Skill up to which a model is a constant but for rounding errors.
-const NO_SKILL: f64 = 1e-9;
 
 /// Least severity whose skill is no longer shown to be above 0; [`NEVER`] if there is none. `None` if that is unknown, or no severity was tested.
 pub(crate) fn breaks_at(severities: &[SeverityReport], channel: &str) -> Option<u8> {
     for of in severities {
         let skill = of.stale.get(channel)?.skill;
-        let is_broken = match (skill.value?, skill.low()) {
-            (value, _) if value <= NO_SKILL => true,
-            (_, low) => low? <= 0.0,
-        };
-        if is_broken {
+        if !skill.is_above_zero()? {
             return Some(of.severity);
         }
     }
@@ -53,18 +47,22 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Faults of whose first severity with a doubled error the check of untouched pictures finds nothing.
-pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<&'static str> {
-    let is_wrong = |of: &&SeverityReport| {
-        let mut ratios = of
-            .stale
-            .values()
-            .filter_map(|score| score.degradation.value);
-        ratios.any(|ratio| ratio >= DOUBLE)
-    };
-    let hidden = faults.iter().filter(|fault| {
-        let first = fault.severities.iter().find(is_wrong);
-        first.is_some_and(|of| of.check.is_empty())
+/// Errors that a fault at least doubles, and of which the check of untouched pictures finds nothing.
+pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
+    let hidden = faults.iter().flat_map(|fault| {
+        let severities = fault.severities.iter().filter(|of| of.check.is_empty());
+        severities.flat_map(move |of| {
+            let is_doubled = |score: &CellScore| {
+                let ratio = score.degradation.value;
+                ratio.is_some_and(|ratio| ratio >= DOUBLE)
+            };
+            let doubled = of.stale.iter().filter(move |(_, score)| is_doubled(score));
+            doubled.map(move |(channel, _)| Unnoticed {
+                fault: fault.id,
+                severity: of.severity,
+                channel: channel.clone(),
+            })
+        })
     });
-    hidden.map(|fault| fault.id).collect()
+    hidden.collect()
 }

@@ -5,6 +5,7 @@ mod estimate;
 mod fault;
 mod faults;
 mod findings;
+mod notes;
 mod pass;
 mod ratio;
 mod report;
@@ -22,7 +23,7 @@ pub use fault::{Fault, Scope};
 pub use faults::{FAULTS, LIST, select};
 pub use report::{
     ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
-    SkippedFault, StressReport,
+    SkippedFault, StressReport, Unnoticed,
 };
 pub use setup::{StressRequest, stress_plan};
 pub use severity::{By, NEVER, TARGETS, Unreached, severities};

@@ -48,6 +48,11 @@ impl Errors {
         }
     }
 
+    /// Number of clusters; `None` if a row has no cluster.
+    pub(crate) fn clusters(&self) -> Option<usize> {
+        self.clusters.as_ref().map(Vec::len)
+    }
+
     /// Mean error; `None` for no errors.
     pub(crate) fn mean(&self) -> Option<f64> {
         (self.count > 0).then_some(self.total / self.count as f64)

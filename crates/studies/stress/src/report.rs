@@ -47,10 +47,12 @@ pub struct StressReport {
     /// Mean degradation over all faults.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Faults that at least double an error, and of which the check of untouched pictures finds nothing. `None` without a reference.
-    pub unnoticed: Option<Vec<&'static str>>,
+    /// Errors that a fault at least doubles, and of which the check of untouched pictures finds nothing. `None` without a reference.
+    pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
+    /// Limits of what the numbers contain, as sentences.
+    pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
 }
@@ -129,6 +131,17 @@ pub struct SeverityReport {
     pub stale: ByChannel<CellScore>,
     /// Scores with an untouched picture from after the fault; `None` without.
     pub fresh: Option<ByChannel<CellScore>>,
+}
+
+/// Error that a fault at least doubles, and of which the check of untouched pictures finds nothing.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Unnoticed {
+    /// Name of the fault.
+    pub fault: &'static str,
+    /// The severity.
+    pub severity: u8,
+    /// Channel or plane of the error.
+    pub channel: String,
 }
 
 /// A skipped fault.

@@ -232,6 +232,11 @@ impl Scored {
         self.mae.keys()
     }
 
+    /// Number of clusters of the channel with most; `None` if a row has no cluster.
+    pub(crate) fn clusters(&self) -> Option<usize> {
+        self.errors.values().filter_map(Errors::clusters).max()
+    }
+
     fn skill_of(&self, name: &str) -> Estimate {
         let known = self.skill.get(name).copied();
         known.unwrap_or(Estimate::undefined(Undefined::Empty))

@@ -57,6 +57,7 @@ impl Setup {
         request: &StressRequest,
     ) -> Result<Setup, EvaluateError> {
         let refused = |words: String| Err(EvaluateError::Request(words));
+        require_testable(dataset, model)?;
         let chosen = select(&request.faults)?;
         if request.severities.is_empty()
             || !request.severities.iter().all(|of| (1..=5).contains(of))
@@ -77,6 +78,26 @@ impl Setup {
             samples,
             faults,
         })
+    }
+}
+
+/// Rejects a recording without pictures, and one whose samples the model has all seen: no request can test them.
+fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
+    let refused = |words: &str| {
+        let path = shown(dataset.path());
+        Err(EvaluateError::Request(format!("{path}: {words}")))
+    };
+    if !dataset.recordings().is_empty() {
+        return Ok(());
+    }
+    if dataset.views().is_empty() && dataset.header().frames.is_none() {
+        return refused("the recording has no pictures: stress cannot test it");
+    }
+    match taceva_evaluate::Divided::by_model(dataset, model)? {
+        Some(divided) if divided.rows(DataPart::Test).is_empty() => refused(
+            "the model was fitted on every sample of this recording, so its errors without a fault are too small; stress it on another recording",
+        ),
+        _ => Ok(()),
     }
 }
 
@@ -111,7 +132,7 @@ pub fn stress_plan(
         plan.step("skip", format!("{}: {}", skipped.fault, skipped.reason));
     }
     let fresh = setup.faults.iter();
-    let fresh = fresh.filter(|fault| compares(model) && fault.scope == Scope::Fixed);
+    let fresh = fresh.filter(|fault| compares(model) && fault.scope != Scope::Each);
     let fresh = fresh.count() * request.severities.len();
     plan.step(
         "predict",

@@ -111,32 +111,28 @@ impl Levels {
         let stimulus = |parameter: f64| reference.stimulus(fault, parameter);
         let greatest = stimulus(fault.most);
         let mut levels = Levels::default();
-        let mut before = 0.0;
         for &severity in severities {
-            let target = TARGETS[usize::from(severity) - 1];
-            let solved = match greatest < target {
-                true => None,
-                false => Some(solve(target, before, fault.most, stimulus)),
-            };
-            match solved {
-                Some(parameter) if parameter > before => {
-                    levels.reached.push(Level {
-                        severity,
-                        parameter,
-                    });
-                    before = parameter;
+            let at = usize::from(severity) - 1;
+            let target = TARGETS[at];
+            let (parameter, most) = match greatest < target {
+                true => (fault.most, greatest),
+                false => {
+                    let parameter = solve(target, fault.most, stimulus);
+                    (parameter, stimulus(parameter))
                 }
-                Some(parameter) => levels.unreached.push(Unreached {
+            };
+            // A parameter of the next target has the severity of that one.
+            let next = TARGETS.get(at + 1).copied().unwrap_or(f64::INFINITY);
+            match (target..next).contains(&most) {
+                true => levels.reached.push(Level {
                     severity,
-                    target,
-                    most: stimulus(parameter),
                     parameter,
                 }),
-                None => levels.unreached.push(Unreached {
+                false => levels.unreached.push(Unreached {
                     severity,
                     target,
-                    most: greatest,
-                    parameter: fault.most,
+                    most,
+                    parameter,
                 }),
             }
         }
@@ -144,9 +140,9 @@ impl Levels {
     }
 }
 
-/// Least known parameter above `before` with a stimulus of at least `target`, by bisection of its logarithm; `before` if that is one.
-fn solve(target: f64, before: f64, most: f64, stimulus: impl Fn(f64) -> f64) -> f64 {
-    let mut low = before.max(LEAST * most);
+/// Least known parameter with a stimulus of at least `target`, by bisection of its logarithm. Depends on no other target.
+fn solve(target: f64, most: f64, stimulus: impl Fn(f64) -> f64) -> f64 {
+    let mut low = LEAST * most;
     let mut high = most;
     if stimulus(low) >= target {
         return low;
@@ -182,7 +178,7 @@ impl Reference<'_> {
             return parameter * self.scale.successive / self.contact;
         }
         let drawn = match fault.scope {
-            Scope::Fixed => 1,
+            Scope::Fixed | Scope::Drawn => 1,
             Scope::Each => (LINES / self.untouched.info().height.max(1)).clamp(1, DRAWN),
         };
         let changes = (0..drawn).map(|number| {

@@ -85,7 +85,7 @@ impl Stress {
     fn draws(&self, sample: &str) -> Draws {
         let of_fault = Draws::new(mix(mix(self.seed) ^ fnv_1a(self.fault.id.as_bytes())));
         match self.fault.scope {
-            Scope::Fixed => of_fault,
+            Scope::Fixed | Scope::Drawn => of_fault,
             Scope::Each => of_fault.of(fnv_1a(sample.as_bytes())),
         }
     }

@@ -11,6 +11,7 @@ use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
 use crate::faults::{FAULTS, LIST, LIST_VERSION};
 use crate::findings::{breaks_at, recovers, unnoticed};
+use crate::notes::notes;
 use crate::pass::{Cell, CellPredictions, UNTOUCHED, predictions};
 use crate::report::{
     ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, StressReport,
@@ -82,6 +83,7 @@ pub fn stress(
         clean,
         mean,
         unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
+        notes: notes(&setup.faults, request.seed, baseline.clusters()),
         faults,
         skipped: setup.skipped,
         provenance,
@@ -128,7 +130,7 @@ fn cells(
     let reference = reference.filter(|_| scale.is_reference && compares(model));
     let mut cells = Vec::new();
     for (position, &fault) in setup.faults.iter().enumerate() {
-        let untouched = reference.filter(|_| fault.scope == Scope::Fixed);
+        let untouched = reference.filter(|_| fault.scope != Scope::Each);
         for level in &levels[position].reached {
             let stress = Stress::new(fault, level.parameter, request.seed);
             cells.push(Cell::new(position, *level, stress, model, untouched));

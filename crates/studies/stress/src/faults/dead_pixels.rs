@@ -7,7 +7,7 @@ pub(super) static FAULT: Fault = Fault {
     id: "dead_pixels",
     title: "pixels stay at zero or at full scale",
     parameter: "share of pixels",
-    scope: Scope::Fixed,
+    scope: Scope::Drawn,
     table: [1e-4, 5e-4, 2e-3, 8e-3, 3e-2],
     most: 1.0,
     note: None,

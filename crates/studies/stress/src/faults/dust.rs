@@ -9,7 +9,7 @@ pub(super) static FAULT: Fault = Fault {
     id: "dust",
     title: "dark spots of 0.5 to 1.5 % of the width",
     parameter: "number of spots",
-    scope: Scope::Fixed,
+    scope: Scope::Drawn,
     table: [1.0, 3.0, 6.0, 12.0, 25.0],
     most: 2000.0,
     note: Some(LIES_STILL),

@@ -7,7 +7,7 @@ pub(super) static FAULT: Fault = Fault {
     id: "scratches",
     title: "bright lines of 5 to 25 % of the width",
     parameter: "number of lines",
-    scope: Scope::Fixed,
+    scope: Scope::Drawn,
     table: [2.0, 5.0, 12.0, 30.0, 70.0],
     most: 2000.0,
     note: Some(LIES_STILL),

@@ -7,7 +7,7 @@ pub(super) static FAULT: Fault = Fault {
     id: "tear",
     title: "a disc reflects a fifth of the light",
     parameter: "radius, share of the width",
-    scope: Scope::Fixed,
+    scope: Scope::Drawn,
     table: [0.02, 0.04, 0.07, 0.11, 0.16],
     most: 1.0,
     note: Some(LIES_STILL),

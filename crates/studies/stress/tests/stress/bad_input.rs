@@ -1,10 +1,10 @@
 //! Requests that are refused by name.
 
-use taceva_core::PixelFormat;
-use taceva_dataset::Dataset;
+use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample};
+use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::DataPart;
 use taceva_models::Model;
-use taceva_stress::{StressRequest, stress};
+use taceva_stress::{FAULTS, StressRequest, select, stress};
 
 use crate::drawing::{WORK, fitted, picture, record, record_with, unseen};
 
@@ -35,6 +35,18 @@ fn a_misspelt_fault_is_refused_with_the_nearest_name() {
         ..StressRequest::default()
     };
     assert!(refused(&dataset, &model, &none).contains("no fault is named"));
+}
+
+#[test]
+fn names_of_faults_may_have_spaces_around_them_and_all_is_every_fault() {
+    let ids = |names: &[&str]| -> Vec<&'static str> {
+        let names: Vec<String> = names.iter().map(|name| (*name).to_owned()).collect();
+        let chosen = select(&names).expect("known names");
+        chosen.into_iter().map(|fault| fault.id).collect()
+    };
+    assert_eq!(ids(&["dust", " tear "]), ["tear", "dust"]);
+    assert_eq!(ids(&["all"]), ids(&["gel-12"]));
+    assert_eq!(ids(&["all"]).len(), FAULTS.len());
 }
 
 #[test]
@@ -80,6 +92,28 @@ fn severity_by_stimulus_needs_contact_that_is_seen() {
     let dataset = record_with(&folder.path().join("flat"), Some(flat()), |_, _, _| flat());
     let said = refused(&dataset, &model, &StressRequest::default());
     assert!(said.contains("use --by parameter"), "{said}");
+}
+
+#[test]
+fn a_recording_without_pictures_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, model) = unseen(folder.path());
+    let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let channels = Channels::new([Channel::FZ]).expect("one");
+    let spec = RecordingSpec::new(facts, channels);
+    let path = folder.path().join("labels");
+    let mut recorder = Recorder::create(&path, &spec).expect("new");
+    for number in 0..6_u32 {
+        let sample = Sample::new(format!("s{number}"));
+        let sample = sample.with_truth(Readings::from_values([f64::from(number)]));
+        recorder.append(&sample).expect("recorded");
+    }
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let said = refused(&dataset, &model, &StressRequest::default());
+    let expected = "the recording has no pictures: stress cannot test it";
+    assert!(said.ends_with(expected), "{said}");
 }
 
 #[test]

@@ -2,10 +2,10 @@
 
 use std::num::NonZeroUsize;
 
-use taceva_core::PixelFormat;
+use taceva_core::{PixelFormat, counted};
 use taceva_evaluate::{EvaluateRequest, ModelChoice, Work, evaluate};
 use taceva_stress::{
-    By, FaultReport, NEVER, StressReport, StressRequest, Undefined, stress, stress_plan,
+    By, FaultReport, NEVER, StressReport, StressRequest, Undefined, Unnoticed, stress, stress_plan,
 };
 
 use crate::drawing::{HEIGHT, PRESSES, WIDTH, WORK, fitted, picture, record, record_with, unseen};
@@ -49,6 +49,12 @@ fn a_constant_model_breaks_at_the_first_severity_of_every_fault_and_never_degrad
         assert!(
             fault.breaks_at.values().all(|at| *at == Some(1)),
             "{fault:?}"
+        );
+        assert!(
+            report
+                .clean
+                .values()
+                .all(|of| of.skill.is_above_zero() == Some(false))
         );
         assert!(fault.mean.values().all(|mean| mean.value == Some(1.0)));
         let mut shares = fault.recovers.values();
@@ -107,7 +113,57 @@ fn a_new_untouched_picture_removes_most_of_the_error_of_lost_light() {
     let reason = noise.recovers["Fz"].reason;
     assert_eq!(reason, Some(Undefined::NoFreshReference));
     let unnoticed = report.unnoticed.as_ref().expect("there is a reference");
-    assert!(!unnoticed.contains(&"exposure_low"), "{unnoticed:?}");
+    let is_dark = |of: &Unnoticed| of.fault == "exposure_low";
+    assert!(!unnoticed.iter().any(is_dark), "{unnoticed:?}");
+    for of in &report.faults {
+        for tested in &of.severities {
+            for (channel, score) in &tested.stale {
+                let is_named = |found: &Unnoticed| {
+                    found.fault == of.id
+                        && found.severity == tested.severity
+                        && found.channel == *channel
+                };
+                let expected = ratio(score) >= 2.0 && tested.check.is_empty();
+                assert_eq!(unnoticed.iter().any(is_named), expected, "{tested:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_note_names_the_faults_whose_places_are_one_draw() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let request = |faults: &[&str]| StressRequest {
+        severities: vec![1],
+        seed: 7,
+        ..by_parameter(faults)
+    };
+    let wanted = request(&["exposure_low", "sensor_noise", "tear", "dust"]);
+    let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
+    let expected = "tear, dust: one draw of places, by seed 7;";
+    assert!(report.notes[0].starts_with(expected), "{:?}", report.notes);
+    let wanted = request(&["exposure_low", "sensor_noise"]);
+    let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
+    assert!(report.notes.is_empty(), "{:?}", report.notes);
+}
+
+#[test]
+fn a_note_counts_clusters_that_are_too_few_for_intervals() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = record(&folder.path().join("seen"), 1);
+    // The test part has two of the twelve points.
+    let model = fitted(&seen, "ridge", &["size=8x8"]);
+    let report = stress(&seen, &model, &by_parameter(&["defocus"]), WORK).expect("tested");
+    let clusters = report.samples / 5;
+    assert!(clusters < 5, "{clusters}");
+    let expected = format!(
+        "No intervals: {}, 5 are needed",
+        counted(clusters, "cluster")
+    );
+    assert!(report.notes[0].starts_with(&expected), "{:?}", report.notes);
+    let mean = &report.faults[0].mean["Fz"];
+    assert_eq!(mean.reason, Some(Undefined::TooFewClusters));
 }
 
 #[test]

@@ -45,6 +45,30 @@ fn the_stimulus_of_a_darker_picture_is_the_target() {
 }
 
 #[test]
+fn a_severity_has_the_same_parameter_beside_any_others() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let of_third = |severities: &[u8]| {
+        let request = StressRequest {
+            severities: severities.to_vec(),
+            ..StressRequest::default()
+        };
+        let report = stress(&dataset, &model, &request, WORK).expect("tested");
+        let third = report.faults.into_iter().map(|fault| {
+            let mut reached = fault.severities.into_iter();
+            let reached = reached.find(|of| of.severity == 3).map(|of| of.parameter);
+            let mut unreached = fault.unreached.into_iter();
+            (reached, unreached.find(|of| of.severity == 3))
+        });
+        third.collect::<Vec<_>>()
+    };
+    let alone = of_third(&[3]);
+    assert!(alone.iter().any(|(reached, _)| reached.is_some()));
+    assert_eq!(alone, of_third(&[1, 3]));
+    assert_eq!(alone, of_third(&[1, 2, 3, 4, 5]));
+}
+
+#[test]
 fn severities_by_parameter_are_those_of_the_table() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());

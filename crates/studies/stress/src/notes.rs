@@ -1,0 +1,28 @@
+//! Limits of what the numbers of a stress test contain.
+
+use taceva_core::counted;
+use taceva_metrics::LEAST_CLUSTERS;
+
+use crate::fault::{Fault, Scope};
+
+/// Limits of the numbers of `faults`, drawn by `seed`. `clusters` is the number of clusters of the samples, if each has one.
+pub(crate) fn notes(faults: &[&'static Fault], seed: u64, clusters: Option<usize>) -> Vec<String> {
+    let mut notes = Vec::new();
+    match clusters {
+        Some(count) if count < LEAST_CLUSTERS => notes.push(format!(
+            "No intervals: {}, {LEAST_CLUSTERS} are needed; a cluster is a contact point or a group.",
+            counted(count, "cluster")
+        )),
+        Some(_) => {}
+        None => notes.push("No intervals of ratios: the samples name no contact points.".to_owned()),
+    }
+    let drawn = faults.iter().filter(|fault| fault.scope == Scope::Drawn);
+    let drawn: Vec<&str> = drawn.map(|fault| fault.id).collect();
+    if !drawn.is_empty() {
+        notes.push(format!(
+            "{}: one draw of places, by seed {seed}; the interval does not contain their chance, so repeat with another --seed.",
+            drawn.join(", ")
+        ));
+    }
+    notes
+}

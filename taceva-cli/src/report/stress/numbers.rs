@@ -1,0 +1,224 @@
+//! Table of every number of a stress test, for programs.
+
+use taceva_report::{Cell, Table};
+use taceva_stress::{CellScore, Estimate, SeverityReport, StressReport, Unnoticed, Unreached};
+
+/// Table for programs: one row for each number, in shortest round-trip form.
+pub(crate) fn numbers(report: &StressReport) -> Table {
+    let columns = [
+        "fault",
+        "severity",
+        "parameter",
+        "stimulus",
+        "untouched",
+        "channel",
+        "quantity",
+        "value",
+        "unit",
+        "ci95_low",
+        "ci95_high",
+        "reason",
+        "source",
+    ];
+    let mut rows = Rows {
+        table: Table::new("Errors with faults", columns),
+        report,
+    };
+    for (channel, score) in &report.clean {
+        let unit = rows.unit(channel);
+        rows.push(&Place::default(), channel, "mae", &score.mae, unit);
+        rows.push(&Place::default(), channel, "skill", &score.skill, "1");
+    }
+    for (channel, mean) in &report.mean {
+        rows.push(&Place::default(), channel, "mD", mean, "1");
+    }
+    for fault in &report.faults {
+        let whole = Place {
+            fault: fault.id,
+            ..Place::default()
+        };
+        for (channel, mean) in &fault.mean {
+            rows.push(&whole, channel, "D", mean, "1");
+        }
+        for (channel, share) in &fault.recovers {
+            rows.push(&whole, channel, "recovers", share, "1");
+        }
+        for (channel, severity) in &fault.breaks_at {
+            let severity = Estimate::of_known(severity.map(f64::from));
+            rows.push(&whole, channel, "breaks_at", &severity, "1");
+        }
+        for of in &fault.severities {
+            rows.push_check(fault.id, of);
+            let sides = [("stale", Some(&of.stale)), ("fresh", of.fresh.as_ref())];
+            for (untouched, scores) in sides {
+                for (channel, score) in scores.into_iter().flatten() {
+                    let place = Place {
+                        fault: fault.id,
+                        strength: Some(Strength::of(of)),
+                        untouched,
+                    };
+                    rows.push_cell(&place, channel, score);
+                }
+            }
+        }
+        for of in &fault.unreached {
+            rows.push_unreached(fault.id, of);
+        }
+    }
+    rows.push_notes();
+    rows.table
+}
+
+/// Fault, strength and untouched picture of a number.
+#[derive(Clone, Copy, Default)]
+struct Place<'a> {
+    fault: &'a str,
+    strength: Option<Strength>,
+    untouched: &'a str,
+}
+
+/// Severity, with its parameter and stimulus.
+#[derive(Clone, Copy)]
+struct Strength {
+    severity: u8,
+    parameter: f64,
+    stimulus: Option<f64>,
+}
+
+impl Strength {
+    fn of(severity: &SeverityReport) -> Strength {
+        Strength {
+            severity: severity.severity,
+            parameter: severity.parameter,
+            stimulus: severity.stimulus,
+        }
+    }
+}
+
+/// Rows of the table for programs.
+struct Rows<'a> {
+    table: Table,
+    report: &'a StressReport,
+}
+
+impl<'a> Rows<'a> {
+    fn unit(&self, channel: &str) -> &'a str {
+        self.report.units.get(channel).copied().unwrap_or("")
+    }
+
+    fn push_cell(&mut self, place: &Place<'_>, channel: &str, score: &CellScore) {
+        let unit = self.unit(channel);
+        self.push(place, channel, "mae", &score.mae, unit);
+        self.push(place, channel, "skill", &score.skill, "1");
+        self.push(place, channel, "degradation", &score.degradation, "1");
+        let capped = Estimate::of_known(score.capped);
+        self.push(place, channel, "capped", &capped, unit);
+    }
+
+    /// Findings of the check of untouched pictures, and the errors that it does not notice.
+    fn push_check(&mut self, fault: &str, of: &SeverityReport) {
+        let place = Place {
+            fault,
+            strength: Some(Strength::of(of)),
+            untouched: "",
+        };
+        let report = self.report;
+        let Some(unnoticed) = &report.unnoticed else {
+            let reason = "no untouched picture";
+            return self.push_words(&place, "", "check", None, reason);
+        };
+        let found = f64::from(u8::from(!of.check.is_empty()));
+        self.push_words(&place, "", "check", Some(found), &of.check.join(" "));
+        let is_own = |hidden: &&Unnoticed| hidden.fault == fault && hidden.severity == of.severity;
+        for hidden in unnoticed.iter().filter(is_own) {
+            self.push_words(&place, &hidden.channel, "unnoticed", Some(1.0), "");
+        }
+    }
+
+    fn push_unreached(&mut self, fault: &str, of: &Unreached) {
+        let place = Place {
+            fault,
+            strength: Some(Strength {
+                severity: of.severity,
+                parameter: of.parameter,
+                stimulus: Some(of.most),
+            }),
+            untouched: "",
+        };
+        let reason = format!("a stimulus of {:?} is not possible", of.target);
+        self.push_words(&place, "", "unreached", Some(of.most), &reason);
+    }
+
+    fn push_notes(&mut self) {
+        let report = self.report;
+        let whole = report
+            .notes
+            .iter()
+            .map(|words| ("", "note", words.as_str()));
+        let own = report.faults.iter();
+        let own = own.filter_map(|fault| Some((fault.id, "note", fault.note?)));
+        let skipped = report.skipped.iter();
+        let skipped = skipped.map(|of| (of.fault, "skipped", of.reason));
+        for (fault, quantity, words) in whole.chain(own).chain(skipped) {
+            let place = Place {
+                fault,
+                ..Place::default()
+            };
+            self.push_words(&place, "", quantity, None, words);
+        }
+    }
+
+    fn push(
+        &mut self,
+        place: &Place<'_>,
+        channel: &str,
+        quantity: &str,
+        of: &Estimate,
+        unit: &str,
+    ) {
+        let reason = of.reason.map_or_else(String::new, |of| of.to_string());
+        self.push_row(place, channel, quantity, of, unit, &reason);
+    }
+
+    /// A number without an interval, or none, with words on it.
+    fn push_words(
+        &mut self,
+        place: &Place<'_>,
+        channel: &str,
+        quantity: &str,
+        value: Option<f64>,
+        words: &str,
+    ) {
+        let unit = if value.is_some() { "1" } else { "" };
+        let number = Estimate::of_known(value);
+        self.push_row(place, channel, quantity, &number, unit, words);
+    }
+
+    fn push_row(
+        &mut self,
+        place: &Place<'_>,
+        channel: &str,
+        quantity: &str,
+        of: &Estimate,
+        unit: &str,
+        reason: &str,
+    ) {
+        let strength = place.strength;
+        let level = strength.map_or_else(String::new, |of| of.severity.to_string());
+        self.table.push([
+            Cell::text(place.fault),
+            Cell::Number(level),
+            Cell::exact(strength.map(|of| of.parameter)),
+            Cell::exact(strength.and_then(|of| of.stimulus)),
+            Cell::text(place.untouched),
+            Cell::text(channel),
+            Cell::text(quantity),
+            Cell::exact(of.value),
+            Cell::text(unit),
+            Cell::exact(of.ci95.map(|[low, _]| low)),
+            Cell::exact(of.ci95.map(|[_, high]| high)),
+            Cell::text(reason),
+            Cell::text(self.report.subject.source.as_str()),
+        ]);
+    }
+}
