@@ -5,7 +5,9 @@ mod numbers;
 use taceva_core::counted;
 use taceva_metrics::plane_of;
 use taceva_report::{Cell, Column, FormattedValue, Table};
-use taceva_stress::{By, ByChannel, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
+use taceva_stress::{
+    By, ByChannel, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined,
+};
 
 pub(crate) use self::numbers::numbers;
 
