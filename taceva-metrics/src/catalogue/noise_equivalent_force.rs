@@ -33,8 +33,8 @@ pub(crate) static NOISE_EQUIVALENT_FORCE: Metric = Metric {
                     0.02 N; δ is the factor for n − 1 degrees of freedom. Forces only, from ten such samples on. It is not a detection \
                     limit, which light presses verify (see detection_limit): other places, other days and the error at zero (see \
                     zero_error) increase it. `critical` is the threshold that zero exceeds in 5 % of cases; `known_deviation` is 3.29 s, as if s \
-                    were known. `independent_low` and `independent_high` are its 95 % limits by the χ² distribution of s if samples are \
-                    independent.",
+                    were known. `independent_low` and `independent_high` are its 95 % limits if samples are independent, by Wilson and \
+                    Hilferty's approximation of the χ² distribution of s.",
     needs: IDLE_NEEDS,
     forces_only: true,
     constants: gate,
