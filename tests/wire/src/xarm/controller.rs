@@ -3,7 +3,7 @@
 use std::collections::VecDeque;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-use taceva_core::Speed;
+use taceva_core::{Speed, single};
 
 use super::client::Push;
 use super::joint_motion::JointMotion;
@@ -383,14 +383,4 @@ impl Controller {
             .lock()
             .unwrap_or_else(PoisonError::into_inner)
     }
-}
-
-/// Converts a number to the controller's precision.
-pub(super) fn single(number: f64) -> f32 {
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "the protocol has no finer numbers; a cast rounds to the nearest"
-    )]
-    let number = number as f32;
-    number
 }

@@ -1,6 +1,6 @@
 //! Place and rotation of the tool, and their composition.
 
-use super::controller::single;
+use taceva_core::single;
 
 /// Place and rotation of one frame in another.
 #[derive(Clone, Copy, Debug, PartialEq)]

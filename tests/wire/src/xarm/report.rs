@@ -4,7 +4,9 @@ use std::io::Write;
 use std::net::TcpStream;
 use std::time::Duration;
 
-use super::controller::{Controller, JOINT_SPEEDS_RAD_S, SPEEDS_MM_S, Snapshot, single};
+use taceva_core::single;
+
+use super::controller::{Controller, JOINT_SPEEDS_RAD_S, SPEEDS_MM_S, Snapshot};
 use super::placement::Placement;
 use crate::fault::{Device, FaultKind};
 use crate::link::Link;

@@ -335,7 +335,7 @@ fn scores_over_seeds_stand_on_the_page_where_there_are_any() {
         "seeds 3, 1, 2; a seed decides first weights. All other scores of this page are of seed 3."
     ));
     assert!(page.contains("</a> ↓</th><td>Pz</td><td>mm</td>") && page.contains("0.05 … 0.35"));
-    assert!(page.contains("Each model was fitted with the seeds 3, 1 and 2;"));
+    assert!(page.contains("Each model was fitted with the seeds 3, 1 and 2."));
     let scope = "between units, and intervals do not include that between trainings.";
     assert!(page.contains(scope), "{page}");
     result["over_seeds"]["scores"][0]["interval"] = serde_json::json!([1]);
