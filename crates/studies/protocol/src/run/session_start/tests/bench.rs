@@ -54,6 +54,8 @@ pub(super) struct State {
     pub(super) late_until_s: f64,
     pub(super) clings_n: f64,
     pub(super) sees: Sees,
+    /// Number of frames, modulo 256.
+    frames: u8,
     /// True if Fx and Fy are swapped after the first touch.
     pub(super) is_swapped: bool,
     touches: u32,
@@ -86,6 +88,7 @@ impl Bench {
             late_until_s: f64::INFINITY,
             clings_n: 0.0,
             sees: Sees::Touches,
+            frames: 0,
             is_swapped: false,
             touches: 0,
         })))
@@ -236,6 +239,11 @@ impl Sensor for Camera {
         };
         for (place, byte) in into.bytes_mut().iter_mut().enumerate() {
             *byte = if is_seen && place < 32 { 90 } else { 60 };
+        }
+        // A camera whose frames are equal is frozen; this one lives.
+        if matches!(state.sees, Sees::Afterwards) {
+            state.frames = state.frames.wrapping_add(1);
+            into.bytes_mut()[255] = state.frames;
         }
         Ok(state.stamp())
     }
