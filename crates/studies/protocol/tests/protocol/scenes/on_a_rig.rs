@@ -148,7 +148,7 @@ fn what_is_wrong_in_a_rig_file_is_refused_with_its_line_and_what_is_expected() {
         (
             "[300.0,",
             "[nan,",
-            "lab.toml, line 5: `origin_mm` holds NaN, expected three numbers from -10000 to 10000 mm",
+            "lab.toml, line 5: `origin_mm` is NaN, expected three numbers from -10000 to 10000 mm",
         ),
         (
             "38.0",
