@@ -119,6 +119,11 @@ impl Certificate {
         range.is_none_or(|[least, most]| (least.value..=most.value).contains(&value))
     }
 
+    /// True from the day of issue to the last day of validity.
+    pub(super) fn is_valid_on(&self, day: Date) -> bool {
+        self.issued <= day && self.valid_until.is_none_or(|until| day <= until)
+    }
+
     /// Checks the certificate for contradictions, as one of `instrument`.
     ///
     /// # Errors
