@@ -105,6 +105,14 @@ fn a_channel_whose_uncertainties_are_all_zero_is_refused() {
         certificate.relative.insert("Fz".to_owned(), 0.0);
     });
     assert_eq!(message, expected);
+    let message = refused(|certificate| {
+        certificate.expanded.clear();
+        certificate.relative.insert("Fz".to_owned(), 0.0);
+    });
+    assert_eq!(
+        message,
+        "`U_relative.Fz` is `0`, expected a number above 0 in `U` or `U_relative`"
+    );
     let mut share_alone = certificate();
     zero(&mut share_alone);
     share_alone.relative.insert("Fz".to_owned(), 0.001);
