@@ -12,7 +12,7 @@ pub(super) fn run(args: &RigCheckArgs, mass_g: f64, context: &Context) -> anyhow
     let rig = read_rig(&args.rig)?;
     let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
-            "a person hangs the weight: start taceva rig check --weight from a terminal",
+            "a person hangs the weight: start `taceva rig check --weight` from a terminal",
         ));
     };
     let _held = HeldRigs::of_file(&rig)?;
