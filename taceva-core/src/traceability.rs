@@ -124,14 +124,16 @@ impl Traceability {
     /// Certificate and its last day, if the certificate had expired before `day`, the last day of the labels. `None` if `all` has a
     /// certificate of the instrument that is valid on `day`: the expired certificate then applies to earlier labels.
     pub fn expired_on(&self, day: Date, all: &[Traceability]) -> Option<(&Certificate, Date)> {
-        let last_day = |of: &Traceability| of.certificate.as_ref()?.valid_until;
-        let until = last_day(self).filter(|until| *until < day)?;
-        let is_replaced = all.iter().any(|other| {
-            let is_certified = other.instrument == self.instrument && other.certificate.is_some();
-            is_certified && last_day(other).is_none_or(|until| until >= day)
-        });
-        let certificate = self.certificate.as_ref().filter(|_| !is_replaced)?;
-        Some((certificate, until))
+        let certificate = self.certificate.as_ref()?;
+        let until = certificate.valid_until.filter(|until| *until < day)?;
+        (!self.is_covered_on(day, all)).then_some((certificate, until))
+    }
+
+    /// True if `all` has a certificate of the instrument that is valid on `day`.
+    fn is_covered_on(&self, day: Date, all: &[Traceability]) -> bool {
+        let of_instrument = all.iter().filter(|of| of.instrument == self.instrument);
+        let mut certificates = of_instrument.filter_map(|of| of.certificate.as_ref());
+        certificates.any(|certificate| certificate.is_valid_on(day))
     }
 }
 

@@ -119,6 +119,11 @@ impl Certificate {
         range.is_none_or(|[least, most]| (least.value..=most.value).contains(&value))
     }
 
+    /// True from the day of issue to the last day of validity.
+    pub(super) fn is_valid_on(&self, day: Date) -> bool {
+        self.issued <= day && self.valid_until.is_none_or(|until| day <= until)
+    }
+
     /// Checks the certificate for contradictions, as one of `instrument`.
     ///
     /// # Errors
@@ -175,7 +180,8 @@ impl Certificate {
             let mut stated = [amount, share].into_iter().flatten();
             if !stated.any(|number| number > 0.0) {
                 let expected = "a number above 0 in `U` or `U_relative`";
-                let key = format!("U.{channel}");
+                let table = if amount.is_some() { "U" } else { "U_relative" };
+                let key = format!("{table}.{channel}");
                 return Err(CertificateError::value(key, "0", expected));
             }
         }

@@ -140,13 +140,10 @@ impl Traceability {
             .collect()
     }
 
-    /// Day of issue of the certificate, if the issue is after `day`, the first day of the labels. `None` if an older certificate of `all`
-    /// covers the earlier labels.
+    /// Day of issue of the certificate, if the issue is after `day`, the first day of the labels. `None` if `all` has a certificate of the
+    /// instrument that is valid on `day`.
     pub fn issued_after(&self, day: Date, all: &[Traceability]) -> Option<Date> {
-        let issued = |of: &Traceability| of.certificate.as_ref().map(|of| of.issued);
-        let own = issued(self).filter(|own| *own > day)?;
-        let mut others = all.iter().filter(|of| of.instrument == self.instrument);
-        let is_covered = others.any(|of| issued(of).is_some_and(|other| other <= day));
-        (!is_covered).then_some(own)
+        let issued = self.certificate.as_ref()?.issued;
+        (issued > day && !self.is_covered_on(day, all)).then_some(issued)
     }
 }

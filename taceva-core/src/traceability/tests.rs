@@ -105,6 +105,14 @@ fn a_channel_whose_uncertainties_are_all_zero_is_refused() {
         certificate.relative.insert("Fz".to_owned(), 0.0);
     });
     assert_eq!(message, expected);
+    let message = refused(|certificate| {
+        certificate.expanded.clear();
+        certificate.relative.insert("Fz".to_owned(), 0.0);
+    });
+    assert_eq!(
+        message,
+        "`U_relative.Fz` is `0`, expected a number above 0 in `U` or `U_relative`"
+    );
     let mut share_alone = certificate();
     zero(&mut share_alone);
     share_alone.relative.insert("Fz".to_owned(), 0.001);
@@ -280,4 +288,27 @@ fn a_certificate_that_a_later_one_of_its_instrument_replaced_has_not_expired() {
     assert!(new.expired_on(day("2028-06-01"), &all).is_some());
     let others = [old.clone(), sensor, none];
     assert!(old.expired_on(day("2027-06-01"), &others).is_some());
+}
+
+#[test]
+fn a_certificate_covers_no_day_before_its_issue_or_after_its_last_day() {
+    let day = |text: &str| text.parse().expect("a day");
+    let traced = |issued: &str, until: &str| {
+        let mut traced = Traceability::new(Instrument::Force);
+        let mut certificate = certificate();
+        certificate.issued = issued.parse().expect("a day");
+        certificate.valid_until = Some(until.parse().expect("a day"));
+        traced.certificate = Some(certificate);
+        traced
+    };
+    let old = traced("2025-05-12", "2026-05-10");
+    let new = traced("2026-05-20", "2027-05-20");
+    let all = [old.clone(), new.clone()];
+    // Between the last day of the old certificate and the issue of the new one.
+    assert!(old.expired_on(day("2026-05-15"), &all).is_some());
+    assert!(new.issued_after(day("2026-05-15"), &all).is_some());
+    let days = day("2026-05-09")..=day("2026-05-21");
+    for of in &all {
+        assert_eq!(of.faults(Some(&days), &all), Vec::new());
+    }
 }

@@ -12,7 +12,7 @@ pub(super) fn run(args: &RigCheckArgs, mass_g: f64, context: &Context) -> anyhow
     let rig = read_rig(&args.rig)?;
     let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
-            "a person hangs the weight: start taceva rig check --weight from a terminal",
+            "a person hangs the weight: start `taceva rig check --weight` from a terminal",
         ));
     };
     let _held = HeldRigs::of_file(&rig)?;
@@ -26,7 +26,7 @@ pub(super) fn run(args: &RigCheckArgs, mass_g: f64, context: &Context) -> anyhow
     let rig = shown(&args.rig);
     let Some(text) = &found.text else {
         anyhow::bail!(
-            "{rig}: cannot add a line after the `driver` of [force]; write force as its own table, [force], and weigh again"
+            "{rig}: cannot write `weighing` after the `driver` of [force]; write force as its own table, [force], delete a table [force.weighing], and weigh again"
         );
     };
     super::write_anew(&args.rig, text)?;

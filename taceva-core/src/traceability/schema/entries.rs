@@ -1,5 +1,6 @@
 //! Reads a certificate from the entries of its table in a file. Errors name the key.
 
+use std::borrow::Borrow;
 use std::collections::BTreeMap;
 use std::fmt::Display;
 
@@ -80,18 +81,20 @@ impl Certificate {
     ///
     /// # Errors
     /// [`CertificateError`] with the key: an unknown key, all missing keys, a value of another type, or an error of [`check`](Certificate::check).
-    pub fn of_entries<'de, V, E>(
+    pub fn of_entries<'de, K, V, E>(
         instrument: Instrument,
-        entries: &BTreeMap<String, V>,
+        entries: &BTreeMap<K, V>,
     ) -> Result<Certificate, CertificateError>
     where
+        K: Borrow<str> + Ord,
         V: IntoDeserializer<'de, E> + Clone + Display,
         E: Error,
     {
         for (key, value) in entries {
-            let Some((_, kind)) = KEYS.iter().find(|(known, _)| known == key) else {
+            let key: &str = key.borrow();
+            let Some((_, kind)) = KEYS.iter().find(|(known, _)| *known == key) else {
                 return Err(CertificateError::UnknownKey {
-                    key: key.clone(),
+                    key: key.to_owned(),
                     known: KEYS.iter().map(|(known, _)| *known).collect(),
                 });
             };
@@ -110,8 +113,10 @@ impl Certificate {
             missing.extend(either.map(|(one, _)| one));
             return Err(CertificateError::MissingKeys(missing));
         }
-        let pairs = entries.iter();
-        let pairs = pairs.map(|(key, value)| (key.as_str(), value.clone()));
+        let pairs = entries.iter().map(|(key, value)| {
+            let key: &str = key.borrow();
+            (key, value.clone())
+        });
         let pairs = MapDeserializer::<'de, _, E>::new(pairs);
         let written = WrittenCertificate::deserialize(pairs).map_err(|error| {
             CertificateError::value("certificate", "a table", error.to_string())

@@ -22,7 +22,7 @@ pub(super) struct Machine {
     pub(super) link: SerialLink<Status>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// Facts that the machine states about itself; empty if the machine was in motion.
+    /// Facts that the machine states about itself; empty if the machine was in motion or in a hold.
     facts: BTreeMap<String, String>,
 }
 
@@ -74,7 +74,7 @@ impl Machine {
                 facts = found;
             }
         });
-        // A machine in motion may refuse.
+        // GRBL answers this only when idle or in alarm.
         drop(stated);
         machine.facts = facts;
         Ok(machine)

@@ -59,9 +59,9 @@ struct Motion {
 /// Reply to a motion.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Taken {
-    /// The arm makes it, or said by an error or a warning why it does not.
+    /// The arm makes the motion, or stated by an error or a warning why it does not.
     Accepted,
-    /// It was only checked: the number of the error that it would end in, or 0.
+    /// The motion was only checked. The number of the error that would end the motion, or 0.
     Checked(u8),
     /// The arm may not move.
     Refused,

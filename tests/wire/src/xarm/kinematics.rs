@@ -99,7 +99,7 @@ pub(super) fn angles_at(target: &Placement, from: Angles) -> Option<Angles> {
     None
 }
 
-/// What is left from the flange to `target`, in decimetres and rad.
+/// Remaining way and turn from the flange to `target`, in decimetres and rad.
 fn left(angles: Angles, target: &Placement) -> [f64; 6] {
     let [x, y, z, rx, ry, rz] = flange(angles).apart(target);
     [x / 100.0, y / 100.0, z / 100.0, rx, ry, rz]

@@ -1,7 +1,7 @@
 //! Checks the certificates of a rig file: compares them with the devices and with today's date, and searches for their files.
 
-use std::fs::File;
-use std::io::ErrorKind;
+use std::fs::{self, File};
+use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use taceva_core::{Certificate, Instrument, shown};
@@ -44,7 +44,15 @@ fn file_problem(
 ) -> Option<String> {
     let name = certificate.file.as_ref()?;
     let path = folder.join(name);
-    let digest = File::open(&path).and_then(|mut file| Digest::of_reader(&mut file));
+    let opened = fs::metadata(&path).and_then(|found| match found.is_file() {
+        true => File::open(&path),
+        // Opening a FIFO would block, and a device may have no end.
+        false => Err(io::Error::new(
+            ErrorKind::InvalidInput,
+            "not a regular file",
+        )),
+    });
+    let digest = opened.and_then(|mut file| Digest::of_reader(&mut file));
     let digest = match digest {
         Ok(digest) => digest.to_string(),
         Err(error) => {
@@ -67,4 +75,24 @@ fn file_problem(
             shown(&path)
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::Coverage;
+
+    use super::*;
+
+    #[test]
+    fn a_folder_or_a_device_in_place_of_a_certificates_file_is_a_warning_and_is_not_read() {
+        let issued = "2026-05-12".parse().expect("a day");
+        let coverage = Coverage::Factor(2.0);
+        let mut certificate = Certificate::new("D-K-1", "a laboratory", issued, "42", coverage);
+        for name in [".", "/dev/zero"] {
+            certificate.file = Some(name.to_owned());
+            let found = file_problem(Path::new(""), Instrument::Force, &certificate);
+            let found = found.expect("a problem");
+            assert!(found.contains("not a regular file"), "{found}");
+        }
+    }
 }

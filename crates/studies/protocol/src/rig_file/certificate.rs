@@ -20,17 +20,13 @@ impl Check<'_> {
         let Some(written) = written else {
             return Ok(None);
         };
-        let at_table = written.at();
-        let (mut places, mut entries) = (BTreeMap::new(), BTreeMap::new());
-        for (key, value) in written.value {
-            places.insert(key.get_ref().clone(), key.span().start);
-            entries.insert(key.into_inner(), value);
-        }
-        match Certificate::of_entries::<Value, toml::de::Error>(of, &entries) {
+        match Certificate::of_entries::<_, Value, toml::de::Error>(of, &written.value) {
             Ok(certificate) => Ok(Some(certificate)),
             Err(error) => {
-                let at_key = error.key().and_then(|key| places.get(key).copied());
-                self.refuse(at_key.or(at_table), format!("[{of}.certificate]: {error}"))
+                let entry = error.key().and_then(|key| written.value.get_key_value(key));
+                let at_key = entry.map(|(key, _)| key.span().start);
+                let at = at_key.or_else(|| written.at());
+                self.refuse(at, format!("[{of}.certificate]: {error}"))
             }
         }
     }

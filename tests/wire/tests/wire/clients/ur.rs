@@ -9,7 +9,7 @@ use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use super::{address, python};
 
-/// What the client reads of an arm of `version`, whose speed slider is at 50 %.
+/// Checks the readings of the client from an arm of `version` whose speed slider is at 50 %.
 fn read(last: u8, version: [u32; 2], polyscope: &str) {
     let Some(python) = python::with("rtde_receive") else {
         return;

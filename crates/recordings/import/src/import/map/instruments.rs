@@ -67,19 +67,15 @@ impl Check<'_> {
         let Some(certificate) = written.certificate else {
             return Ok(traced);
         };
-        let at_table = certificate.span().start;
-        let (mut places, mut entries) = (BTreeMap::new(), BTreeMap::new());
-        for (key, value) in certificate.into_inner() {
-            places.insert(key.get_ref().clone(), key.span().start);
-            entries.insert(key.into_inner(), value);
-        }
-        let read = Certificate::of_entries::<Value, toml::de::Error>(instrument, &entries);
-        let certificate = read.map_err(|error| {
-            let at_key = error.key().and_then(|key| places.get(key).copied());
+        let entries = certificate.get_ref();
+        let read = Certificate::of_entries::<_, Value, toml::de::Error>(instrument, entries);
+        let read = read.map_err(|error| {
+            let entry = error.key().and_then(|key| entries.get_key_value(key));
+            let at = entry.map_or(certificate.span().start, |(key, _)| key.span().start);
             let problem = format!("[{instrument}.certificate]: {error}");
-            self.at(at_key.unwrap_or(at_table), &problem)
+            self.at(at, &problem)
         })?;
-        traced.certificate = Some(certificate);
+        traced.certificate = Some(read);
         Ok(traced)
     }
 }
