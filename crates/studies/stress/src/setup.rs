@@ -10,11 +10,9 @@ use crate::fault::{Fault, Scope};
 use crate::faults::{LIST, select};
 use crate::report::SkippedFault;
 use crate::samples::Unseen;
+use crate::scale::PICTURES;
 use crate::severity::By;
 use crate::stress::Stress;
-
-/// Most pictures that the change by contact is taken from, with the untouched picture.
-const COMPARED: usize = 33;
 
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
@@ -121,7 +119,7 @@ pub fn stress_plan(
             "{} of the part `{}`, each once for all faults; before, {} at most for the change by contact",
             counted(scored, "frame"),
             setup.samples.target.part.name(),
-            counted(COMPARED.min(scored + 1), "frame")
+            counted(PICTURES.min(scored) + 1, "frame")
         ),
     );
     let cells = setup.faults.len() * request.severities.len();
