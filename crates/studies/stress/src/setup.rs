@@ -57,10 +57,12 @@ impl Setup {
         let refused = |words: String| Err(EvaluateError::Request(words));
         require_testable(dataset, model)?;
         let chosen = select(&request.faults)?;
-        if request.severities.is_empty()
-            || !request.severities.iter().all(|of| (1..=5).contains(of))
+        let severities = &request.severities;
+        if severities.is_empty()
+            || !severities.iter().all(|of| (1..=5).contains(of))
+            || !severities.is_sorted_by(|one, next| one < next)
         {
-            return refused("severities: expected some numbers from 1 to 5".to_owned());
+            return refused("severities: expected some numbers from 1 to 5, ascending".to_owned());
         }
         let samples = Unseen::of(dataset, model, request.part)?;
         let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
