@@ -55,7 +55,7 @@ pub struct RecordingWear {
     pub day: Option<Date>,
     /// Presses on the gel, or days from its first recording.
     pub place: f64,
-    /// Number of scored samples.
+    /// Number of predicted samples.
     pub samples: usize,
     /// Number of samples that have no picture.
     pub left_out: usize,
