@@ -8,7 +8,7 @@ use serde_json::Value;
 const IMPORT: &str = "import lab --map map.toml";
 
 /// The folder `lab` in two: `first` with the first seven points, `second` with the last three, and a dataset `data` of the first.
-fn halves() -> Bench {
+pub(crate) fn halves() -> Bench {
     let bench = Bench::new();
     bench.lab();
     // Rows do not store their origin, which differs between folders.

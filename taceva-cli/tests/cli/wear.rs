@@ -86,6 +86,19 @@ fn a_result_is_written_to_a_file_once() {
 }
 
 #[test]
+fn a_recording_and_its_state_before_rows_were_added_are_refused() {
+    let bench = crate::extended::halves();
+    bench.ok("fit data --model ridge --set size=8x8 --out m.taceva -q");
+    bench.ok("import first --map map.toml --out longer -q");
+    bench.ok("import second --map map.toml --extend longer -q");
+    bench.refused(
+        "wear data longer --model m.taceva",
+        2,
+        "data and longer are the same recording or states of it",
+    );
+}
+
+#[test]
 fn one_recording_no_day_wrong_limits_and_models_are_refused_by_name() {
     let bench = bench();
     bench.refused(

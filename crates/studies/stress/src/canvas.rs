@@ -1,7 +1,7 @@
 //! Numbers of a picture, which a fault changes.
 
 use taceva_core::random::Draws;
-use taceva_core::{Frame, FrameInfo};
+use taceva_core::{Frame, FrameInfo, whole_size};
 
 /// Numbers of a picture: row by row, the colours of a pixel side by side.
 pub(crate) struct Canvas {
@@ -118,23 +118,9 @@ fn unit(draws: Draws, counter: u64) -> f32 {
     (draws.bits(counter) >> 40) as f32 / 16_777_216.0
 }
 
-/// Number in single precision.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "pixels need seven digits at most"
-)]
-pub(crate) fn single(number: f64) -> f32 {
-    number as f32
-}
-
 /// Pixels to the left of `place`; 0 for a negative place.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a conversion to integers ends at its bounds"
-)]
 pub(crate) fn index(place: f32) -> usize {
-    place.floor() as usize
+    whole_size(f64::from(place))
 }
 
 /// Nearest whole number, half to even.

@@ -39,6 +39,8 @@ pub enum Undefined {
     NotGrowing,
     /// The growth of the error is not shown.
     GrowthNotShown,
+    /// The error of the last recording is above the limit, and no place is known at which it met the limit.
+    AboveLimit,
 }
 
 impl fmt::Display for Undefined {
@@ -58,6 +60,7 @@ impl fmt::Display for Undefined {
             Undefined::ZeroError => "an error is zero",
             Undefined::NotGrowing => "the error does not grow",
             Undefined::GrowthNotShown => "no growth is shown",
+            Undefined::AboveLimit => "the error of the last recording is above the limit",
         })
     }
 }

@@ -4,11 +4,17 @@ use taceva_core::counted;
 use taceva_metrics::LEAST_CLUSTERS;
 
 use crate::fault::{Fault, Scope};
+use crate::score::Scored;
 
-/// Limits of the numbers of `faults`, drawn by `seed`. `clusters` is the number of clusters of the samples, if each has one.
-pub(crate) fn notes(faults: &[&'static Fault], seed: u64, clusters: Option<usize>) -> Vec<String> {
+/// Limits of the numbers of `faults`, drawn by `seed`. `clean` has the scores of `samples` predicted samples without a fault.
+pub(crate) fn notes(
+    faults: &[&'static Fault],
+    seed: u64,
+    clean: &Scored,
+    samples: usize,
+) -> Vec<String> {
     let mut notes = Vec::new();
-    match clusters {
+    match clean.clusters() {
         Some(count) if count < LEAST_CLUSTERS => notes.push(format!(
             "No intervals: {}, {LEAST_CLUSTERS} are needed; a cluster is a contact point or a group.",
             counted(count, "cluster")
@@ -22,6 +28,17 @@ pub(crate) fn notes(faults: &[&'static Fault], seed: u64, clusters: Option<usize
         notes.push(format!(
             "{}: one draw of places, by seed {seed}; the interval does not contain their chance, so repeat with another --seed.",
             drawn.join(", ")
+        ));
+    }
+    let counts = clean.names().map(|name| (name, clean.count(name)));
+    let partial = counts.filter(|(_, count)| *count < samples as u64);
+    let partial: Vec<String> = partial
+        .map(|(name, count)| format!("{name} {count} of {samples}"))
+        .collect();
+    if !partial.is_empty() {
+        notes.push(format!(
+            "Not every sample has a label; scored samples: {}.",
+            partial.join(", ")
         ));
     }
     notes

@@ -46,7 +46,7 @@ impl Cell {
 /// Name of the untouched picture, for the random numbers of a fault.
 pub(crate) const UNTOUCHED: &str = "untouched";
 
-/// Predictions without a fault, and of every cell.
+/// Predictions without a fault, and of every cell. They stay in memory until all pictures are read, because each picture is decoded once.
 ///
 /// # Shapes
 /// `[rows, channels]`, row after row.

@@ -48,6 +48,11 @@ impl Errors {
         }
     }
 
+    /// Number of rows with an error.
+    pub(crate) fn count(&self) -> u64 {
+        self.count
+    }
+
     /// Number of clusters; `None` if a row has no cluster.
     pub(crate) fn clusters(&self) -> Option<usize> {
         self.clusters.as_ref().map(Vec::len)

@@ -30,7 +30,7 @@ pub struct StressReport {
     pub list: FaultList,
     /// Seed of all faults.
     pub seed: u64,
-    /// Number of scored samples.
+    /// Number of predicted samples.
     pub samples: usize,
     /// Number of samples of the part that have no picture.
     pub left_out: usize,

@@ -4,8 +4,8 @@ use taceva_core::{Frame, Unit};
 use taceva_dataset::Dataset;
 use taceva_evaluate::EvaluateError;
 
-/// Pictures of contact that are compared with the untouched picture.
-const PICTURES: usize = 32;
+/// Most pictures of contact that are compared with the untouched picture.
+pub(crate) const PICTURES: usize = 32;
 /// Share of the greatest load above which a picture shows contact to `check`.
 const PRESSED: f64 = 0.5;
 
@@ -29,7 +29,7 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// The scale of `rows` of `dataset`, which have pictures. Decodes at most 32 of them.
+    /// The scale of `rows` of `dataset`, which have pictures. Decodes at most [`PICTURES`] of them, and the untouched picture.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
         let loads = Loads::of(dataset, rows);
         let picked = loads.picked();

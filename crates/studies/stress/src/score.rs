@@ -237,6 +237,11 @@ impl Scored {
         self.errors.values().filter_map(Errors::clusters).max()
     }
 
+    /// Number of samples with an error of this channel or plane.
+    pub(crate) fn count(&self, name: &str) -> u64 {
+        self.errors.get(name).map_or(0, Errors::count)
+    }
+
     fn skill_of(&self, name: &str) -> Estimate {
         let known = self.skill.get(name).copied();
         known.unwrap_or(Estimate::undefined(Undefined::Empty))

@@ -10,11 +10,9 @@ use crate::fault::{Fault, Scope};
 use crate::faults::{LIST, select};
 use crate::report::SkippedFault;
 use crate::samples::Unseen;
+use crate::scale::PICTURES;
 use crate::severity::By;
 use crate::stress::Stress;
-
-/// Most pictures that the change by contact is taken from, with the untouched picture.
-const COMPARED: usize = 33;
 
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
@@ -59,10 +57,12 @@ impl Setup {
         let refused = |words: String| Err(EvaluateError::Request(words));
         require_testable(dataset, model)?;
         let chosen = select(&request.faults)?;
-        if request.severities.is_empty()
-            || !request.severities.iter().all(|of| (1..=5).contains(of))
+        let severities = &request.severities;
+        if severities.is_empty()
+            || !severities.iter().all(|of| (1..=5).contains(of))
+            || !severities.is_sorted_by(|one, next| one < next)
         {
-            return refused("severities: expected some numbers from 1 to 5".to_owned());
+            return refused("severities: expected some numbers from 1 to 5, ascending".to_owned());
         }
         let samples = Unseen::of(dataset, model, request.part)?;
         let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
@@ -121,7 +121,7 @@ pub fn stress_plan(
             "{} of the part `{}`, each once for all faults; before, {} at most for the change by contact",
             counted(scored, "frame"),
             setup.samples.target.part.name(),
-            counted(COMPARED.min(scored + 1), "frame")
+            counted(PICTURES.min(scored) + 1, "frame")
         ),
     );
     let cells = setup.faults.len() * request.severities.len();

@@ -1,9 +1,9 @@
 //! A fault of one strength, applied to pictures.
 
-use taceva_core::Frame;
 use taceva_core::random::{Draws, fnv_1a, mix};
+use taceva_core::{Frame, single};
 
-use crate::canvas::{Canvas, Realisation, single};
+use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
 /// A fault of one strength, with its random numbers.

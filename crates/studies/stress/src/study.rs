@@ -83,7 +83,12 @@ pub fn stress(
         clean,
         mean,
         unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
-        notes: notes(&setup.faults, request.seed, baseline.clusters()),
+        notes: notes(
+            &setup.faults,
+            request.seed,
+            &baseline,
+            setup.samples.rows.len(),
+        ),
         faults,
         skipped: setup.skipped,
         provenance,

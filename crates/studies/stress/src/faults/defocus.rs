@@ -1,8 +1,9 @@
 //! A lens out of focus.
 
+use taceva_core::single;
 use taceva_metrics::elementary::exponential;
 
-use crate::canvas::{Canvas, Realisation, index, single};
+use crate::canvas::{Canvas, Realisation, index};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {

@@ -1,8 +1,9 @@
 //! Dust and bubbles between camera and gel.
 
+use taceva_core::single;
 use taceva_metrics::elementary::exponential;
 
-use crate::canvas::{Canvas, Defect, Realisation, index, single};
+use crate::canvas::{Canvas, Defect, Realisation, index};
 use crate::fault::{Effect, Fault, LIES_STILL, Scope};
 
 pub(super) static FAULT: Fault = Fault {

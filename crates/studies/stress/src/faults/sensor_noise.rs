@@ -2,9 +2,10 @@
 
 use std::sync::LazyLock;
 
+use taceva_core::single;
 use taceva_metrics::distributions::normal;
 
-use crate::canvas::{Canvas, Realisation, single};
+use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
 pub(super) static FAULT: Fault = Fault {

@@ -91,7 +91,7 @@ fn refused<T>(words: String) -> Result<T, EvaluateError> {
     Err(EvaluateError::Request(words))
 }
 
-/// Refuses fewer than two recordings, the same one twice, and recordings of several units.
+/// Refuses fewer than two recordings, one beside itself or an earlier state of it, and recordings of several units.
 fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
     let expected = "expected two or more recordings of one unit, made at different times";
     let [first, others @ ..] = recordings else {
@@ -102,10 +102,13 @@ fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
         return refused(format!("{path}: one recording, {expected}"));
     }
     for (at, other) in recordings.iter().enumerate() {
-        let mut before = recordings[..at].iter();
-        if let Some(same) = before.find(|before| before.digest() == other.digest()) {
+        let has_state_of = |before: &&Dataset| {
+            let mut states = before.header().stages();
+            states.any(|state| other.header().stages().any(|own| own == state))
+        };
+        if let Some(same) = recordings[..at].iter().find(has_state_of) {
             return refused(format!(
-                "{} and {} are the same recording, {expected}",
+                "{} and {} are the same recording or states of it, {expected}",
                 shown(same.path()),
                 shown(other.path())
             ));

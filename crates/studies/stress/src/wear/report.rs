@@ -36,7 +36,7 @@ pub struct WearReport {
 pub struct GelWear {
     /// Name of the gel.
     pub gel: String,
-    /// Its recordings, the first one first.
+    /// Recordings of the gel, in order.
     pub recordings: Vec<RecordingWear>,
     /// Growth of the error of each channel.
     pub channels: ByChannel<ChannelWear>,
@@ -47,15 +47,15 @@ pub struct GelWear {
 pub struct RecordingWear {
     /// Folder of the recording.
     pub recording: String,
-    /// Origin of its samples, as of [`Subject::source`].
+    /// Origin of the samples, as of [`Subject::source`].
     pub source: String,
-    /// Presses on the gel before it, if they are stated.
+    /// Presses on the gel before the recording, if they are stated.
     pub presses_since_gel: Option<u32>,
-    /// Its first day, if that is known.
+    /// First day of the recording, if it is known.
     pub day: Option<Date>,
     /// Presses on the gel, or days from its first recording.
     pub place: f64,
-    /// Number of scored samples.
+    /// Number of predicted samples.
     pub samples: usize,
     /// Number of samples that have no picture.
     pub left_out: usize,
@@ -104,7 +104,7 @@ pub struct ChannelWear {
 pub struct LimitMet {
     /// The limit, in the unit of the channel.
     pub limit: f64,
-    /// Presses on the gel, or days from its first recording, at which the trend meets the limit; 0 if it did before.
+    /// Presses on the gel, or days from its first recording, at which the trend meets the limit; 0 for a place below 0.
     pub at: Option<f64>,
     /// One-sided 95 % bound: the error of a recording before this place is below the limit.
     pub not_before: Option<f64>,

@@ -21,25 +21,24 @@ pub(crate) struct ErrorAt {
 }
 
 /// Line through the logarithms of the errors of recordings, by least squares. Each recording is one observation, however many samples it has.
-pub(crate) struct Trend(Result<CurveFit, Undefined>);
+pub(crate) struct Trend {
+    line: Result<CurveFit, Undefined>,
+    /// Error of the last recording; `None` if no recording has one.
+    last: Option<f64>,
+}
 
 impl Trend {
+    /// Trend of `errors`, in the order of their places.
     pub(crate) fn of(errors: &[ErrorAt]) -> Trend {
-        if errors.iter().any(|of| of.error <= 0.0) {
-            return Trend(Err(Undefined::ZeroError));
+        Trend {
+            line: line(errors),
+            last: errors.last().map(|of| of.error),
         }
-        let row = |of: &ErrorAt| CurveRow::new(of.steps, logarithm(of.error));
-        let rows: Vec<CurveRow> = errors.iter().map(row).collect();
-        Trend(CurveFit::of(&rows, 1).map_err(|reason| match reason {
-            CurveUndefined::TooFewRows { .. } => Undefined::TooFewRecordings,
-            CurveUndefined::EqualX | CurveUndefined::TooFewX { .. } => Undefined::EqualPlaces,
-            _ => Undefined::NoInterval,
-        }))
     }
 
     /// Growth of the logarithm of the error in one step.
     pub(crate) fn slope(&self) -> Estimate {
-        let line = match &self.0 {
+        let line = match &self.line {
             Ok(line) => line,
             Err(reason) => return Estimate::undefined(*reason),
         };
@@ -53,7 +52,8 @@ impl Trend {
 
     /// Place at which a recording has the error `limit`, in presses or days of `step`. The interval is Fieller's for one further recording.
     pub(crate) fn meets(&self, limit: f64, step: f64) -> LimitMet {
-        let found = self.0.as_ref().map_err(|reason| *reason).and_then(|line| {
+        let found = self.line.as_ref().map_err(|reason| *reason);
+        let found = found.and_then(|line| {
             if line.coefficients()[1] <= 0.0 {
                 return Err(Undefined::NotGrowing);
             }
@@ -61,13 +61,29 @@ impl Trend {
             found.map_err(|_| Undefined::GrowthNotShown)
         });
         let place = |steps: f64| step * steps.max(0.0);
+        let is_above = self.last.is_some_and(|error| error > limit);
+        let reason = found.err();
         LimitMet {
             limit,
             at: found.ok().map(|found| place(found.x)),
             not_before: found.ok().map(|found| place(found.low)),
-            reason: found.err(),
+            reason: reason.map(|of| if is_above { Undefined::AboveLimit } else { of }),
         }
     }
+}
+
+/// Line through the logarithms of `errors`.
+fn line(errors: &[ErrorAt]) -> Result<CurveFit, Undefined> {
+    if errors.iter().any(|of| of.error <= 0.0) {
+        return Err(Undefined::ZeroError);
+    }
+    let row = |of: &ErrorAt| CurveRow::new(of.steps, logarithm(of.error));
+    let rows: Vec<CurveRow> = errors.iter().map(row).collect();
+    CurveFit::of(&rows, 1).map_err(|reason| match reason {
+        CurveUndefined::TooFewRows { .. } => Undefined::TooFewRecordings,
+        CurveUndefined::EqualX | CurveUndefined::TooFewX { .. } => Undefined::EqualPlaces,
+        _ => Undefined::NoInterval,
+    })
 }
 
 #[cfg(test)]
@@ -121,5 +137,23 @@ mod tests {
         assert_eq!(met(&falls), Some(Undefined::NotGrowing));
         let scattered = grown(0.1, &[0.5, -0.7, 0.6, 0.0]);
         assert_eq!(met(&scattered), Some(Undefined::GrowthNotShown));
+    }
+
+    #[test]
+    fn a_last_error_above_its_limit_is_stated_where_no_place_is_known() {
+        let met = |errors: &[ErrorAt], limit| Trend::of(errors).meets(limit, 1.0);
+        let falls = grown(-0.3, &[0.0, 0.01, 0.0]);
+        let scattered = grown(0.1, &[0.5, -0.7, 0.6, 0.0]);
+        for errors in [&falls, &scattered, &grown(0.3, &[0.0; 2])] {
+            let found = met(errors, 0.02);
+            assert_eq!(
+                (found.at, found.reason),
+                (None, Some(Undefined::AboveLimit))
+            );
+        }
+        // The first error is above this limit, and the last below.
+        assert_eq!(met(&falls, 0.04).reason, Some(Undefined::NotGrowing));
+        let grows = met(&grown(0.3, &[0.0; 4]), 0.04);
+        assert_eq!((grows.at, grows.reason), (Some(0.0), None));
     }
 }

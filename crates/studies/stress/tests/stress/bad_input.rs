@@ -50,10 +50,10 @@ fn names_of_faults_may_have_spaces_around_them_and_all_is_every_fault() {
 }
 
 #[test]
-fn severities_outside_of_one_to_five_are_refused() {
+fn severities_outside_of_one_to_five_or_out_of_order_are_refused() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
-    for severities in [vec![], vec![0], vec![1, 6]] {
+    for severities in [vec![], vec![0], vec![1, 6], vec![3, 1], vec![2, 2]] {
         let request = StressRequest {
             severities,
             ..StressRequest::default()

@@ -2,13 +2,16 @@
 
 use std::num::NonZeroUsize;
 
-use taceva_core::{PixelFormat, counted};
+use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample, counted};
+use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::{EvaluateRequest, ModelChoice, Work, evaluate};
 use taceva_stress::{
     By, FaultReport, NEVER, StressReport, StressRequest, Undefined, Unnoticed, stress, stress_plan,
 };
 
-use crate::drawing::{HEIGHT, PRESSES, WIDTH, WORK, fitted, picture, record, record_with, unseen};
+use crate::drawing::{
+    HEIGHT, PRESSES, WIDTH, WORK, fitted, picture, press, record, record_with, unseen,
+};
 
 fn by_parameter(faults: &[&str]) -> StressRequest {
     StressRequest {
@@ -164,6 +167,34 @@ fn a_note_counts_clusters_that_are_too_few_for_intervals() {
     assert!(report.notes[0].starts_with(&expected), "{:?}", report.notes);
     let mean = &report.faults[0].mean["Fz"];
     assert_eq!(mean.reason, Some(Undefined::TooFewClusters));
+}
+
+#[test]
+fn a_note_counts_the_samples_with_a_label_where_others_have_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, model) = unseen(folder.path());
+    let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let channels = Channels::new([Channel::PX, Channel::FZ]).expect("two");
+    let path = folder.path().join("partial");
+    let mut recorder = Recorder::create(&path, &RecordingSpec::new(facts, channels)).expect("new");
+    let reference = press(0.0, 0.0, 903);
+    recorder.append_reference(&reference).expect("recorded");
+    for number in 0..6_u32 {
+        let force = 0.4 + 0.3 * f64::from(number);
+        let labels = vec![Some(2.0 + force), (number < 2).then_some(force)];
+        let sample = Sample::new(format!("s{number}"))
+            .with_point_id(format!("p{number}"))
+            .with_frame(press(force, 4.0 + 2.0 * force, 10 * number + 3))
+            .with_truth(Readings::new(labels));
+        recorder.append(&sample).expect("recorded");
+    }
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("a dataset");
+    let report = stress(&dataset, &model, &by_parameter(&["exposure_low"]), WORK).expect("tested");
+    let expected = "Not every sample has a label; scored samples: Fz 2 of 6.";
+    let last = report.notes.last().map(String::as_str);
+    assert_eq!(last, Some(expected), "{:?}", report.notes);
 }
 
 #[test]

@@ -86,6 +86,43 @@ fn severities_by_parameter_are_those_of_the_table() {
     assert!(report.list.name.starts_with("defocus,dead_pixels,"));
 }
 
+/// Cells of the rows of the tables in `docs/faults.md` whose first cell is `name`, each without that one.
+fn rows_of_page(name: &str) -> Vec<Vec<&'static str>> {
+    let page: &'static str = include_str!("../../../../../docs/faults.md");
+    let rows = page.lines().filter_map(|line| {
+        let cells = line.strip_prefix('|')?.strip_suffix('|')?.split('|');
+        Some(cells.map(str::trim).collect::<Vec<&'static str>>())
+    });
+    let own = rows.filter(|cells| cells[0] == name);
+    own.map(|cells| cells[1..].to_vec()).collect()
+}
+
+/// A number, or the ratio of two.
+fn number(text: &str) -> Option<f64> {
+    match text.split_once('/') {
+        Some((part, whole)) => Some(part.parse::<f64>().ok()? / whole.parse::<f64>().ok()?),
+        None => text.parse::<f64>().ok(),
+    }
+}
+
+#[test]
+fn each_table_of_the_page_names_each_fault_and_one_states_its_parameters() {
+    let numbers = |name: &str| -> Vec<Vec<f64>> {
+        let rows = rows_of_page(name);
+        let numbers = rows.iter().filter_map(|cells| {
+            let cells = cells.iter().map(|cell| number(cell));
+            cells.collect::<Option<Vec<f64>>>()
+        });
+        numbers.collect()
+    };
+    for fault in FAULTS {
+        let name = format!("`{}`", fault.id);
+        assert_eq!(rows_of_page(&name).len(), 3, "{name}");
+        assert_eq!(numbers(&name), [fault.table.to_vec()], "{name}");
+    }
+    assert_eq!(numbers("stimulus"), [TARGETS.to_vec()]);
+}
+
 #[test]
 fn severities_are_read_as_numbers_and_ranges() {
     let read = |text: &str| severities(text).expect(text);
