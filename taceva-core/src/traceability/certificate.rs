@@ -175,7 +175,8 @@ impl Certificate {
             let mut stated = [amount, share].into_iter().flatten();
             if !stated.any(|number| number > 0.0) {
                 let expected = "a number above 0 in `U` or `U_relative`";
-                let key = format!("U.{channel}");
+                let key = amount.map_or("U_relative", |_| "U");
+                let key = format!("{key}.{channel}");
                 return Err(CertificateError::value(key, "0", expected));
             }
         }

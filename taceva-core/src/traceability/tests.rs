@@ -105,6 +105,11 @@ fn a_channel_whose_uncertainties_are_all_zero_is_refused() {
         certificate.relative.insert("Fz".to_owned(), 0.0);
     });
     assert_eq!(message, expected);
+    let message = refused(|certificate| {
+        certificate.expanded.clear();
+        certificate.relative.insert("Fz".to_owned(), 0.0);
+    });
+    assert_eq!(message, expected.replacen("U.", "U_relative.", 1));
     let mut share_alone = certificate();
     zero(&mut share_alone);
     share_alone.relative.insert("Fz".to_owned(), 0.001);
