@@ -58,7 +58,7 @@ impl NormalSample {
     /// Sample of clustered values, which depend on each other within a cluster; `None` without any variation.
     ///
     /// The standard deviation includes both variance components, with degrees of freedom by Satterthwaite. Interval ends are therefore
-    /// approximate.
+    /// approximate, and too narrow if clusters differ in spread.
     #[must_use]
     pub fn of_clusters(model: &OneWay) -> Option<NormalSample> {
         let freedom = model.total_freedom?;

@@ -91,7 +91,9 @@ impl Agreement {
     /// Agreement of clustered pairs. Differences may be correlated within a cluster.
     ///
     /// The standard deviation includes both variance components, with degrees of freedom by Satterthwaite. Interval ends are therefore
-    /// approximate. `None` for fewer than two clusters, no cluster with two pairs, a value that is not finite, or no variation.
+    /// approximate, and too narrow if clusters differ in spread.
+    ///
+    /// `None` for fewer than two clusters, no cluster with two pairs, a value that is not finite, or no variation.
     ///
     /// ```
     /// use taceva_metrology::agreement::{Agreement, Pair};

@@ -1,4 +1,4 @@
-//! Intervals of limits of errors, by leaving out one cluster at a time or from variance components.
+//! Intervals of limits of errors, by leaving out one cluster at a time or by the rule of a metric.
 
 use taceva_core::Unit;
 
@@ -122,7 +122,7 @@ pub(super) fn intervals(
     found
 }
 
-/// Interval with these ends, computed from variance components with `freedom` degrees of freedom.
+/// Interval with these ends, computed from a normal sample with `freedom` degrees of freedom.
 pub(crate) fn of_components([low, high]: [f64; 2], freedom: f64, clusters: usize) -> Interval {
     if clusters < LEAST_CLUSTERS {
         return Interval::Undefined(UndefinedReason::TooFewClusters { have: clusters });

@@ -60,7 +60,7 @@ impl ZarrArray {
         })
     }
 
-    /// Unpacked size of a chunk, bytes; `None` on overflow.
+    /// Unpacked size of a chunk, bytes; `None` above [`limits::CHUNK_BYTES`].
     pub(crate) fn chunk_bytes(&self) -> Option<u64> {
         let bytes = self
             .chunk
