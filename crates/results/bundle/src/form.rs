@@ -316,7 +316,7 @@ fn samples(
         };
         let again = match StudySamples::of_table(&source.path(table), jobs) {
             Ok(again) => again,
-            Err(error) => return refused(error.to_string()),
+            Err(error) => return refused(source.as_named(&error.to_string())),
         };
         if again != *stated {
             return refused(format!(

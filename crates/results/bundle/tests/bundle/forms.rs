@@ -17,7 +17,7 @@ const GENERATED: [&str; 6] = [
     "croissant.json",
     "ro-crate-metadata.json",
 ];
-/// Those with the claims.
+/// Generated files with the claims.
 const WITH_CLAIMS: [&str; 4] = [
     "README.md",
     ".eval_results/taceva.yaml",
