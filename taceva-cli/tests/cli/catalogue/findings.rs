@@ -132,6 +132,30 @@ fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
 }
 
 #[test]
+fn a_number_of_a_bundle_that_no_entry_holds_is_found() {
+    let bench = catalogue();
+    let path = bench.path("c/entries/foo.toml");
+    let rows = text(&bench, "entries/foo.toml")
+        .matches("[[measured]]")
+        .count();
+    edit(&path, |text| {
+        let (others, _) = text.rsplit_once("[[measured]]").expect("rows");
+        others.to_owned()
+    });
+    let words = format!("entries hold {} of its {rows} numbers", rows - 1);
+    let found = findings(&bench);
+    has(&found, &["bundles/", words.as_str()]);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    // The remedy that the finding names.
+    edit(&path, |text| {
+        let (head, _) = text.split_once("[[measured]]").expect("rows");
+        head.to_owned()
+    });
+    bench.ok("catalogue add one --to c");
+    assert!(findings(&bench).is_empty());
+}
+
+#[test]
 fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
     let bench = catalogue();
     forge(&bench, "foo", |manifest| {
