@@ -219,6 +219,18 @@ fn names_alike_are_refused_and_found() {
 }
 
 #[test]
+fn a_name_with_blanks_at_its_ends_is_refused_and_found() {
+    let bench = Bench::new();
+    bundle(&bench, "one", " Foo ", 0.01);
+    let rule = "without blanks at its ends";
+    bench.refused("catalogue add one --to c", 3, rule);
+    assert!(!bench.path("c").exists(), "a refusal leaves no folder");
+    let bench = catalogue();
+    replace_line(&bench, "name = ", "name = \"Foo \"");
+    has(&findings(&bench), &["entries/foo.toml", rule]);
+}
+
+#[test]
 fn bad_toml_is_named_by_file_line_and_expectation() {
     let bench = catalogue();
     let head = "catalogue_version = 2\nname = \"Foo\"\nkind = \"sensor\"\nmechanism = []\n";
