@@ -242,6 +242,7 @@ fn authors_organization_and_licence_that_no_command_states_are_damage() {
         ("/organization/name", json!(""), "organization: "),
         ("/organization/url", json!(address), "organization: "),
         ("/licence", json!("ask me"), "licence: "),
+        ("/licence", json!("LicenseRef-mine"), "licence: "),
     ] {
         let mut manifest = whole.clone();
         *manifest.pointer_mut(place).expect(place) = value;
