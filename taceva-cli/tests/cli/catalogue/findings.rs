@@ -249,6 +249,11 @@ fn bad_toml_is_named_by_file_line_and_expectation() {
             "expected a unit such as mm",
         ),
         (
+            whole.replacen("verified = ", "url = \"https://a b\"\nverified = ", 1),
+            ":6:",
+            "`https://a b`: expected an address",
+        ),
+        (
             whole.replacen("catalogue_version = 2", "catalogue_version = 3", 1),
             "",
             "`3`: expected 1 or 2",
