@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 use taceva_bundle::MOST_BYTES;
+use taceva_report::catalogue::{ADDRESS, is_address};
 
 use super::Output;
 
@@ -82,8 +83,8 @@ pub(crate) struct CatalogueCheckArgs {
 
 /// Parses the address of a bundle.
 fn address(text: &str) -> Result<String, String> {
-    match text.starts_with("https://") {
+    match is_address(text) {
         true => Ok(text.to_owned()),
-        false => Err("expected an address that begins with https://".to_owned()),
+        false => Err(format!("expected {ADDRESS}")),
     }
 }

@@ -19,6 +19,8 @@ use crate::name::{self, check_amount, check_case};
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// Rule of entries.
 const ENTRIES: &str = "a packed bundle holds regular files alone";
+/// Rule of the packed file.
+const WHOLE: &str = "a packed bundle is one whole .tar.gz";
 
 /// Packs the files `names`, ascending, of the folder `root` into a new file at `path`. Equal files give equal bytes.
 ///
@@ -85,7 +87,10 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
                 about.len()
             ),
         ),
-        Fault::Read(error) => damaged(".", &format!("no whole .tar.gz: {error}")),
+        Fault::Read(error) => {
+            let problem = format!("no whole .tar.gz: {error}");
+            BundleError::Damaged(Damage::new(".", WHOLE, problem))
+        }
     })
 }
 

@@ -111,12 +111,14 @@ fn is_orcid(text: &str) -> bool {
     check == expected
 }
 
-/// True if `text` has the form of an SPDX identifier: letters, digits, `.`, `-` and `+`.
+/// True if `text` has the form of an SPDX identifier: letters, digits, `.`, `-` and `+`. A `LicenseRef-…` has no page at SPDX, to which forms link.
 ///
 /// ```
 /// assert!(taceva_bundle::is_licence("CC-BY-4.0") && !taceva_bundle::is_licence("ask me"));
+/// assert!(!taceva_bundle::is_licence("LicenseRef-mine"));
 /// ```
 pub fn is_licence(text: &str) -> bool {
     let is_part = |letter: char| letter.is_ascii_alphanumeric() || ".-+".contains(letter);
-    (1..=MOST_LICENCE).contains(&text.len()) && text.chars().all(is_part)
+    let has_page = !text.starts_with("LicenseRef-");
+    has_page && (1..=MOST_LICENCE).contains(&text.len()) && text.chars().all(is_part)
 }

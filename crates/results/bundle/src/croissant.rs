@@ -36,6 +36,9 @@ const TERMS: [&str; 26] = [
     "transform",
 ];
 
+/// Beginning of the identifier of a numbered column.
+const NUMBERED: &str = "column-";
+
 /// Text of `croissant.json`; `tables` become its record sets.
 pub(crate) fn text(manifest: &Manifest, tables: &[TableColumns]) -> String {
     let files: Vec<Value> = manifest.given_files().map(file).collect();
@@ -134,12 +137,13 @@ fn record_set(table: &TableColumns) -> Value {
     })
 }
 
-/// Field of a column. An identifier holds no blanks, so columns with such names are numbered.
+/// Field of a column. An identifier holds no blanks, so columns with such names are numbered, as are those called like a number.
 fn field(table: &TableColumns, record_set: &str, position: usize, column: &Column) -> Value {
     let is_plain = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
-    let id = match column.name.chars().all(is_plain) {
-        true => format!("{record_set}/{}", column.name),
-        false => format!("{record_set}/column-{position}"),
+    let is_numbered = column.name.starts_with(NUMBERED) || !column.name.chars().all(is_plain);
+    let id = match is_numbered {
+        true => format!("{record_set}/{NUMBERED}{position}"),
+        false => format!("{record_set}/{}", column.name),
     };
     json!({
         "@type": "cr:Field",
@@ -152,4 +156,25 @@ fn field(table: &TableColumns, record_set: &str, position: usize, column: &Colum
             "extract": {"column": column.name},
         },
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_columns_share_an_identifier() {
+        let columns = ["Fz", "my x", "column-1"].map(|name| Column {
+            name: name.to_owned(),
+            data_type: "sc:Float",
+        });
+        let table = TableColumns {
+            path: "tables/truth.csv".to_owned(),
+            columns: columns.into(),
+        };
+        let set = record_set(&table);
+        let fields = set["field"].as_array().expect("fields").iter();
+        let ids: Vec<&Value> = fields.map(|field| &field["@id"]).collect();
+        assert_eq!(ids, ["truth/Fz", "truth/column-1", "truth/column-2"]);
+    }
 }

@@ -45,17 +45,16 @@ impl Environment {
         }
     }
 
-    /// True if this machine has the same instruction sets, and the program uses the fastest.
+    /// True if the program can use the same instruction sets here.
     pub(crate) fn has_same_sets(&self) -> bool {
-        let sets = instruction_sets();
-        let used = Isa::detect();
-        let is_fastest = sets.first().is_some_and(|set| set == used.name());
-        is_fastest && self.arch == std::env::consts::ARCH && self.instruction_sets == sets
+        self.arch == std::env::consts::ARCH && self.instruction_sets == instruction_sets()
     }
 }
 
-/// Instruction sets that the program can use here, the fastest first.
+/// Instruction sets that the program can use here, the fastest first. `TACEVA_ISA` excludes those that are faster than its own.
 fn instruction_sets() -> Vec<String> {
-    let sets = Isa::available();
-    sets.iter().map(|set| set.name().to_owned()).collect()
+    let used = Isa::detect();
+    let sets = Isa::available().into_iter();
+    let sets = sets.skip_while(|set| *set != used);
+    sets.map(|set| set.name().to_owned()).collect()
 }

@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 
 use taceva_results::EvaluationReport;
 
-use crate::author::{MOST_NAME, is_licence};
+use crate::author::{Author, MOST_NAME, is_licence};
 use crate::claim_list;
 use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
@@ -235,6 +235,9 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
         format!(
             "author {number}: expected a printable name of 1 to {MOST_NAME} bytes, and an ORCID with its check digit"
         )
+    } else if let Some(position) = repeated(authors) {
+        let number = position + 1;
+        format!("author {number}: the ORCID of an earlier author, expected each author once")
     } else if organization.is_some_and(|own| !own.is_right()) {
         format!(
             "organization: expected a printable name of 1 to {MOST_NAME} bytes, and the address of its page"
@@ -246,6 +249,13 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     };
     let rule = "authors, organization and licence are those that `taceva bundle` takes";
     Some(Damage::new(MANIFEST, rule, problem))
+}
+
+/// Position of the first author with the ORCID of an earlier one. Forms identify authors by it.
+fn repeated(authors: &[Author]) -> Option<usize> {
+    let mut known = BTreeSet::new();
+    let mut orcids = authors.iter().map(|author| author.orcid.as_ref());
+    orcids.position(|orcid| orcid.is_some_and(|own| !known.insert(own)))
 }
 
 /// Rejects a header without its seal, and one of a dataset that is not in `known`.
@@ -316,7 +326,7 @@ fn samples(
         };
         let again = match StudySamples::of_table(&source.path(table), jobs) {
             Ok(again) => again,
-            Err(error) => return refused(error.to_string()),
+            Err(error) => return refused(source.as_named(&error.to_string())),
         };
         if again != *stated {
             return refused(format!(

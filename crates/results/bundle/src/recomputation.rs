@@ -98,22 +98,30 @@ impl Recomputation {
             (true, false) => Some("the table of samples holds every sample, scored or not"),
             (false, _) => Some("name the tables that were scored by --truth and --pred"),
         };
+        let named = |stop: Stop| Stop {
+            reason: source.as_named(&stop.reason),
+            ..stop
+        };
         Recomputation {
-            states: of_states(states),
+            states: of_states(states).map_err(named),
             tables: match settings.reads_tables {
                 false => Err(Stop::absent("not asked for")),
                 true => match unscored {
                     Some(reason) => Err(Stop::absent(reason)),
-                    None => of_tables(source, files, states, settings.work.jobs),
+                    None => of_tables(source, files, states, settings.work.jobs).map_err(named),
                 },
             },
             model: match settings.datasets {
                 None => Err(Stop::absent("not asked for")),
-                Some(datasets) => of_model(source, files, report, datasets, settings),
+                Some(datasets) => {
+                    of_model(source, files, report, datasets, settings).map_err(named)
+                }
             },
             fit: match settings.datasets.filter(|_| settings.fits) {
                 None => Err(Stop::absent("not asked for")),
-                Some(datasets) => of_fit(source, files, report, states, datasets, settings.work),
+                Some(datasets) => {
+                    of_fit(source, files, report, states, datasets, settings.work).map_err(named)
+                }
             },
         }
     }
@@ -154,7 +162,7 @@ pub(crate) fn states(source: &Source, files: &StudyFiles) -> Result<Vec<ReadStat
     let rule = "states have their schema and seal";
     let read = |name: &String| {
         let read = ReadState::read(&source.path(name));
-        read.map_err(|error| Damage::new(name, rule, error.to_string()))
+        read.map_err(|error| Damage::new(name, rule, source.as_named(&error.to_string())))
     };
     files.states.iter().map(read).collect()
 }

@@ -3,9 +3,10 @@
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::{MAIN_SEPARATOR, Path, PathBuf};
 
 use sha2::{Digest as _, Sha256};
+use taceva_core::shown;
 use taceva_files::TemporaryFolder;
 
 use crate::error::{BundleError, Damage};
@@ -21,7 +22,7 @@ pub(crate) struct Source {
     root: PathBuf,
     files: BTreeMap<String, u64>,
     /// Removed on drop.
-    _unpacked: Option<TemporaryFolder>,
+    unpacked: Option<TemporaryFolder>,
 }
 
 impl Source {
@@ -90,7 +91,7 @@ impl Source {
         Ok(Source {
             root,
             files,
-            _unpacked: unpacked,
+            unpacked,
         })
     }
 
@@ -102,6 +103,14 @@ impl Source {
     /// Names and sizes of all files.
     pub(crate) fn files(&self) -> &BTreeMap<String, u64> {
         &self.files
+    }
+
+    /// `problem` with names in the bundle in place of paths below the folder of an unpacked one.
+    pub(crate) fn as_named(&self, problem: &str) -> String {
+        match self.unpacked {
+            Some(_) => problem.replace(&format!("{}{MAIN_SEPARATOR}", shown(&self.root)), ""),
+            None => problem.to_owned(),
+        }
     }
 
     /// Digest of the file `name`, as `sha256:` and digits.

@@ -17,7 +17,7 @@ mod study;
 mod union;
 
 pub(crate) use bundle_row::short;
-pub use bundle_row::{DEPTHS, Measured, Origin, row_lines, rows_text};
+pub use bundle_row::{ADDRESS, DEPTHS, Measured, Origin, is_address, row_lines, rows_text};
 pub use entry::{Kind, Sensor};
 pub use facts::{Limits, Size};
 pub(crate) use list::{MECHANISMS, prices};

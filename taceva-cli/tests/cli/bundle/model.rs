@@ -68,6 +68,19 @@ fn predictions_by_another_instruction_set_are_equal_or_within() {
 }
 
 #[test]
+fn a_bundle_states_the_instruction_sets_that_its_program_could_use() {
+    let bench = bench();
+    let mut command = bench.command(&format!("{BUNDLE} -q"));
+    let output = command.env("TACEVA_ISA", "portable").output();
+    let output = output.expect("the program starts");
+    assert_eq!(output.status.code(), Some(0));
+    let text = fs::read_to_string(bench.path("b/environment.json")).expect("written");
+    let environment: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let expected = serde_json::json!(["portable"]);
+    assert_eq!(environment["instruction_sets"], expected, "{text}");
+}
+
+#[test]
 fn the_level_of_the_model_says_what_is_missing() {
     let bench = bench();
     bench.ok(&format!("{BUNDLE} --model m.taceva"));

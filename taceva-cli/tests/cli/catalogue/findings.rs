@@ -132,6 +132,30 @@ fn a_manifest_that_is_missing_changed_or_without_numbers_is_found() {
 }
 
 #[test]
+fn a_number_of_a_bundle_that_no_entry_holds_is_found() {
+    let bench = catalogue();
+    let path = bench.path("c/entries/foo.toml");
+    let rows = text(&bench, "entries/foo.toml")
+        .matches("[[measured]]")
+        .count();
+    edit(&path, |text| {
+        let (others, _) = text.rsplit_once("[[measured]]").expect("rows");
+        others.to_owned()
+    });
+    let words = format!("entries hold {} of its {rows} numbers", rows - 1);
+    let found = findings(&bench);
+    has(&found, &["bundles/", words.as_str()]);
+    assert_eq!(found.len(), 1, "{found:#?}");
+    // The remedy that the finding names.
+    edit(&path, |text| {
+        let (head, _) = text.split_once("[[measured]]").expect("rows");
+        head.to_owned()
+    });
+    bench.ok("catalogue add one --to c");
+    assert!(findings(&bench).is_empty());
+}
+
+#[test]
 fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
     let bench = catalogue();
     forge(&bench, "foo", |manifest| {
@@ -195,6 +219,18 @@ fn names_alike_are_refused_and_found() {
 }
 
 #[test]
+fn a_name_with_blanks_at_its_ends_is_refused_and_found() {
+    let bench = Bench::new();
+    bundle(&bench, "one", " Foo ", 0.01);
+    let rule = "without blanks at its ends";
+    bench.refused("catalogue add one --to c", 3, rule);
+    assert!(!bench.path("c").exists(), "a refusal leaves no folder");
+    let bench = catalogue();
+    replace_line(&bench, "name = ", "name = \"Foo \"");
+    has(&findings(&bench), &["entries/foo.toml", rule]);
+}
+
+#[test]
 fn bad_toml_is_named_by_file_line_and_expectation() {
     let bench = catalogue();
     let head = "catalogue_version = 2\nname = \"Foo\"\nkind = \"sensor\"\nmechanism = []\n";
@@ -211,6 +247,11 @@ fn bad_toml_is_named_by_file_line_and_expectation() {
             whole.replacen("unit = \"", "unit = \"x", 1),
             ":6:",
             "expected a unit such as mm",
+        ),
+        (
+            whole.replacen("verified = ", "url = \"https://a b\"\nverified = ", 1),
+            ":6:",
+            "`https://a b`: expected an address",
         ),
         (
             whole.replacen("catalogue_version = 2", "catalogue_version = 3", 1),

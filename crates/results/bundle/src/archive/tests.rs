@@ -137,6 +137,21 @@ fn files_and_bytes_behind_the_end_of_an_archive_are_refused() {
 }
 
 #[test]
+fn an_archive_that_is_cut_off_breaks_the_rule_of_the_packed_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("b.tar.gz");
+    forge(&path, &[plain("a", b"1")]);
+    let whole = fs::read(&path).expect("there");
+    fs::write(&path, &whole[..whole.len() / 2]).expect("room");
+    let into = folder.path().join("into");
+    fs::create_dir(&into).expect("made");
+    match unpack(&path, &into, u64::MAX) {
+        Err(BundleError::Damaged(damage)) => assert_eq!(damage.rule, WHOLE, "{damage}"),
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
 fn names_that_come_twice_or_differ_in_case_alone_are_refused() {
     refused(&[plain("a", b"1"), plain("a", b"2")], "it comes twice");
     refused(

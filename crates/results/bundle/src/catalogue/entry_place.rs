@@ -14,7 +14,7 @@ const RESERVED: [&str; 2] = ["index", "measured"];
 /// Longest name of a sensor, in bytes. Tables cut names of 80 letters, and origin, level and bundle follow this one.
 const MOST_NAME: usize = 40;
 /// Names that [`is_name`] accepts, for messages.
-pub(super) const NAME_RULE: &str = "expected a name of at most 40 bytes with Latin letters or digits, without control characters, other than `index` and `measured`";
+pub(super) const NAME_RULE: &str = "expected a name of at most 40 bytes with Latin letters or digits, without control characters, without blanks at its ends, other than `index` and `measured`";
 
 /// File of an entry, with the text that rows are appended to.
 pub(super) struct EntryPlace {
@@ -113,5 +113,6 @@ pub(super) fn is_name(name: &str) -> bool {
     let slug = Sensor::slug_of(name);
     let has_letter = slug.chars().any(|letter| letter.is_ascii_alphanumeric());
     let is_page = has_letter && !RESERVED.contains(&slug.as_str());
-    is_page && name.len() <= MOST_NAME && !name.chars().any(is_obeyed)
+    let is_plain = name.trim() == name && !name.chars().any(is_obeyed);
+    is_page && is_plain && name.len() <= MOST_NAME
 }

@@ -49,7 +49,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
     let mut index = Index::default();
     let manifests = manifests(root, &mut findings, &mut index)?;
     let mut entries: Vec<EntryFile> = Vec::new();
-    let mut used: BTreeSet<String> = BTreeSet::new();
+    let mut rows: BTreeMap<String, u64> = BTreeMap::new();
     let (mut numbers, mut is_unreadable) = (0, false);
     for file in entry_texts(root)? {
         let text = match file.text {
@@ -73,7 +73,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
         findings.extend(row_faults(&file.path, &text, &sensor, &manifests));
         for row in sensor.all_rows() {
             numbers += 1;
-            used.insert(manifest_path(&row.bundle));
+            *rows.entry(manifest_path(&row.bundle)).or_default() += 1;
         }
         entries.push(EntryFile {
             path: file.path,
@@ -83,12 +83,11 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
     }
     findings.extend(alike(&entries, &built_in));
     // The rows of an entry that cannot be read may be those of any manifest.
-    let unused = manifests
-        .keys()
-        .filter(|path| !is_unreadable && !used.contains(*path));
-    findings.extend(unused.map(|path| {
-        let problem = "no entry has its numbers; add the bundle again, or remove the file";
-        CatalogueFinding::new(path, problem)
+    let known = manifests.iter().filter(|_| !is_unreadable);
+    findings.extend(known.filter_map(|(path, manifest)| {
+        let rows = rows.get(path).copied().unwrap_or_default();
+        let problem = rows_fault(rows, manifest.claims.len() as u64)?;
+        Some(CatalogueFinding::new(path, problem))
     }));
     findings.sort_by(|one, other| (&one.path, one.line).cmp(&(&other.path, other.line)));
     Ok(CatalogueCheck {
@@ -180,6 +179,21 @@ fn manifests(
         known.insert(file.path, manifest);
     }
     Ok(known)
+}
+
+/// Fault of a manifest with `rows` in entries for its `claims`; `None` if each number has its row.
+fn rows_fault(rows: u64, claims: u64) -> Option<String> {
+    match rows {
+        0 => {
+            let problem = "no entry has its numbers; add the bundle again, or remove the file";
+            Some(problem.to_owned())
+        }
+        rows if rows < claims => Some(format!(
+            "entries hold {rows} of its {}: expected all; restore the other rows, or remove every row of the bundle and add it again",
+            counted(claims, "number")
+        )),
+        _ => None,
+    }
 }
 
 /// Faults of the name of an entry, and of its published numbers.

@@ -95,3 +95,15 @@ pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
         row.words()
     ))
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_report::catalogue::DEPTHS;
+
+    use crate::level::Level;
+
+    #[test]
+    fn the_depths_of_rows_are_the_levels_of_a_verification() {
+        assert_eq!(Level::ALL.map(|level| level.to_string()), DEPTHS);
+    }
+}

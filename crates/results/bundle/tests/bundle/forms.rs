@@ -17,7 +17,7 @@ const GENERATED: [&str; 6] = [
     "croissant.json",
     "ro-crate-metadata.json",
 ];
-/// Those with the claims.
+/// Generated files with the claims.
 const WITH_CLAIMS: [&str; 4] = [
     "README.md",
     ".eval_results/taceva.yaml",
@@ -231,14 +231,18 @@ fn authors_organization_and_licence_that_no_command_states_are_damage() {
     let bench = Bench::of(finished);
     let whole = bench.json("bundle.json");
     let crowd = Value::Array(vec![json!({"name": "Ada"}); 1001]);
+    let author = json!({"name": "Ada", "orcid": "0000-0002-1825-0097"});
+    let twice = json!([author, author]);
     let address = format!("https://{}", "x".repeat(1000));
     for (place, value, problem) in [
         ("/authors", crowd, "1001 authors"),
+        ("/authors", twice, "author 2: the ORCID of an earlier"),
         ("/authors/0/name", json!("a\u{1b}[2J"), "author 1: "),
         ("/authors/0/orcid", json!("x".repeat(1000)), "author 1: "),
         ("/organization/name", json!(""), "organization: "),
         ("/organization/url", json!(address), "organization: "),
         ("/licence", json!("ask me"), "licence: "),
+        ("/licence", json!("LicenseRef-mine"), "licence: "),
     ] {
         let mut manifest = whole.clone();
         *manifest.pointer_mut(place).expect(place) = value;

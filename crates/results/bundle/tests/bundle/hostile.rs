@@ -230,3 +230,30 @@ fn no_hostile_bundle_is_a_panic_and_each_is_answered() {
     // Some changes are of no meaning, such as the time in the header of gzip.
     assert!(refused * 2 > wanted, "{refused} of {wanted} were refused");
 }
+
+#[test]
+fn no_message_on_a_packed_bundle_names_the_folder_that_it_was_unpacked_into() {
+    let bench = Bench::new();
+    let mut manifest = bench.json("bundle.json");
+    // Generated files of another version are not compared.
+    manifest["taceva"] = "0.0.0".into();
+    for name in ["states/0.json", "tables/truth.csv", "tables/prediction.csv"] {
+        let whole = bench.text(name);
+        fs::write(bench.path(name), "{}").expect("room");
+        bench.relist(manifest.clone());
+        let mut tar = tar::Builder::new(Vec::new());
+        for path in files(&bench.path("")) {
+            let own = path.strip_prefix(bench.path("")).expect("in the bundle");
+            tar.append_path_with_name(&path, own).expect("into memory");
+        }
+        let archive = bench.folder.path().join("forged.tar.gz");
+        let tar = tar.into_inner().expect("into memory");
+        fs::write(&archive, packed(&tar)).expect("room");
+        let found = verify(&VerifyRequest::new(&archive)).expect("readable");
+        assert_ne!(found.outcome(), Outcome::Verified, "{name}");
+        let found = serde_json::to_string(&found).expect("JSON");
+        assert!(found.contains(name), "{found}");
+        assert!(!found.contains("unpacked-bundle"), "{found}");
+        fs::write(bench.path(name), whole).expect("room");
+    }
+}

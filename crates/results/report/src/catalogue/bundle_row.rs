@@ -12,6 +12,8 @@ pub const DEPTHS: [&str; 6] = ["files", "form", "scores", "predictions", "model"
 const DEPTH: &str = "files, form, scores, predictions, model or fit";
 /// Format of digests, for messages.
 const DIGEST: &str = "sha256: and 64 hexadecimal digits";
+/// Addresses that [`is_address`] accepts, for messages.
+pub const ADDRESS: &str = "an address that begins with https://, in ASCII, with %20 for a blank";
 /// Beginning of a digest.
 const PREFIX: &str = "sha256:";
 /// Digits of a digest in names.
@@ -211,12 +213,24 @@ impl Measured {
         if date.date.is_none() || date.time.is_some() || date.offset.is_some() {
             return fault("date", date.to_string(), "a day such as 2026-11-28");
         }
-        let is_link = |url: &String| url.starts_with("https://");
-        if let Some(url) = self.url.as_ref().filter(|url| !is_link(url)) {
-            return fault("url", url.clone(), "an address that begins with https://");
+        if let Some(url) = self.url.as_ref().filter(|url| !is_address(url)) {
+            return fault("url", url.clone(), ADDRESS);
         }
         None
     }
+}
+
+/// True for an address of the web whose characters need no escape.
+///
+/// ```
+/// use taceva_report::catalogue::is_address;
+/// assert!(is_address("https://example.org/result.tar.gz"));
+/// assert!(!is_address("https://example.org/my result") && !is_address("http://example.org"));
+/// ```
+pub fn is_address(text: &str) -> bool {
+    let is_plain = |letter: char| letter.is_ascii_graphic() && !"\"<>\\^`{|}".contains(letter);
+    let rest = text.strip_prefix("https://");
+    rest.is_some_and(|rest| !rest.is_empty() && rest.chars().all(is_plain))
 }
 
 /// First digits of a digest.
