@@ -20,6 +20,7 @@ mod rig;
 mod stress;
 mod study;
 mod sweep;
+mod task;
 mod wear;
 
 use std::path::PathBuf;
@@ -59,6 +60,7 @@ pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
 };
+pub(crate) use self::task::TaskArgs;
 pub(crate) use self::wear::{Wear, WearByArg};
 
 /// First commands for a new user, by kind of data.

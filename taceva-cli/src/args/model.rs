@@ -8,7 +8,7 @@ use taceva_models::Checkpoints;
 
 use super::{
     CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs,
-    SplitOutArgs, TableArgs, ViewArgs,
+    SplitOutArgs, TableArgs, TaskArgs, ViewArgs,
 };
 
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
@@ -129,6 +129,8 @@ pub(crate) struct Score {
     /// all rows
     #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
     pub(crate) shard: Option<Shard>,
+    #[command(flatten)]
+    pub(crate) task: TaskArgs,
     #[command(flatten)]
     pub(crate) scoring: ScoringArgs,
     #[command(flatten)]

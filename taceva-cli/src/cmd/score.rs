@@ -1,5 +1,7 @@
 //! `taceva score`.
 
+mod task;
+
 use anyhow::Context as _;
 use taceva_core::{SourceUnit, Unit};
 use taceva_evaluate::{
@@ -17,6 +19,9 @@ const UNSTATED: [&str; 2] = [
 ];
 
 pub(crate) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
+    if !args.task.tasks.is_empty() {
+        return task::run(args, context);
+    }
     let asked = &args.scoring;
     let table = super::table_scores(&args.table, args.output.format)?;
     super::check_free(asked, &args.output)?;

@@ -27,6 +27,7 @@ mod site;
 mod spread;
 mod table;
 mod tables_page;
+mod tasks;
 mod tie;
 mod training;
 mod variables;
@@ -69,3 +70,4 @@ pub use table::{
     Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };
 pub use tables_page::{PagePart, PageSection, TablesPage};
+pub use tasks::{task_numbers, task_table};

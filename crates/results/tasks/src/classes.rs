@@ -95,6 +95,18 @@ impl Classes {
         }
     }
 
+    /// Names of the classes, in their order.
+    #[must_use]
+    pub fn names(&self) -> &[String] {
+        self.names.all()
+    }
+
+    /// Class that F1, precision and recall describe.
+    #[must_use]
+    pub fn positive(&self) -> Option<&str> {
+        self.names.positive_name()
+    }
+
     /// Number of samples.
     #[must_use]
     pub fn n(&self) -> u64 {

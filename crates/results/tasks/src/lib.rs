@@ -6,11 +6,13 @@ mod error;
 mod estimate;
 mod names;
 mod quotient;
+mod report;
 mod score;
 mod undefined;
 
 pub use classes::{Classes, ConfusionCell};
 pub use error::TaskError;
 pub use estimate::Estimate;
+pub use report::{ConfusionCount, TASKS_SCHEMA, TaskReport, TaskScores};
 pub use score::{ScoreFlag, TaskScore};
 pub use undefined::Undefined;

@@ -17,6 +17,7 @@ mod shard;
 mod shard_scores;
 mod table_parts;
 mod tables;
+mod task;
 mod whole_columns;
 
 use std::collections::BTreeMap;
@@ -54,6 +55,7 @@ pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};
 pub use shard_scores::ScoreTables;
 pub use tables::read_table;
+pub use task::{PoseThresholds, TaskKind, TaskRequest, TaskRule, TaskSpec, score_tasks};
 
 /// Finished scores of two tables.
 #[derive(Debug)]

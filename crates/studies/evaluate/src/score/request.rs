@@ -33,3 +33,26 @@ pub struct ScoreRequest {
     /// Number of threads.
     pub jobs: NonZeroUsize,
 }
+
+impl ScoreRequest {
+    /// Request for the tables `truth` and `prediction`, with all metrics and defaults.
+    ///
+    /// ```
+    /// let request = taceva_evaluate::ScoreRequest::of_tables("truth.csv", "prediction.csv");
+    /// assert_eq!(request.metrics, ["all"]);
+    /// ```
+    pub fn of_tables(truth: impl Into<PathBuf>, prediction: impl Into<PathBuf>) -> ScoreRequest {
+        ScoreRequest {
+            truth: truth.into(),
+            prediction: prediction.into(),
+            units: Vec::new(),
+            periods: Vec::new(),
+            key: None,
+            is_independent: false,
+            sensor: None,
+            metrics: vec!["all".to_owned()],
+            allow_invalid: false,
+            jobs: NonZeroUsize::MIN,
+        }
+    }
+}

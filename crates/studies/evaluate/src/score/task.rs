@@ -1,0 +1,211 @@
+//! Scores of tasks that another program predicted: classes, events, outcomes and changes of pose, from two tables.
+
+mod classes;
+mod events;
+mod pose;
+mod rule;
+mod spec;
+
+use std::collections::BTreeMap;
+
+use taceva_core::{counted, shown};
+use taceva_import::CsvTable;
+use taceva_tasks::{TaskReport, TaskScores};
+
+use super::agreement::Matching;
+use super::row_key::{KEY_NAMES, RowKeys};
+use super::tables::{self, Pairing};
+use super::ScoreRequest;
+use crate::error::EvaluateError;
+
+pub use rule::TaskRule;
+pub use spec::{PoseThresholds, TaskKind, TaskSpec};
+
+/// Column with the clusters if the caller names none.
+const CLUSTER: &str = "point_id";
+
+/// Request to score the tasks of two tables.
+#[derive(Clone, Debug)]
+pub struct TaskRequest {
+    /// The tables, the key that pairs their rows, and the number of threads. Channels and metrics are not read.
+    pub tables: ScoreRequest,
+    /// Tasks to score, with distinct names.
+    pub tasks: Vec<TaskSpec>,
+    /// Rules that turn scores or classes into the scored classes, by the name of the task.
+    pub rules: BTreeMap<String, TaskRule>,
+    /// Column with the clusters: trajectory, clip or object; `None` for `point_id`.
+    pub cluster: Option<String>,
+}
+
+/// Both tables with their pairs of rows.
+struct TaskTables {
+    truth: CsvTable,
+    prediction: CsvTable,
+    pairs: Vec<RowPair>,
+}
+
+/// Numbers of two paired rows.
+#[derive(Clone, Copy, Debug)]
+struct RowPair {
+    truth: usize,
+    prediction: usize,
+}
+
+/// Scores the tasks of two tables.
+///
+/// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
+/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`.
+///
+/// ```
+/// use taceva_evaluate::{ScoreRequest, TaskRequest, score_tasks};
+/// # let folder = tempfile::tempdir()?;
+/// # let [truth, prediction] = ["truth.csv", "prediction.csv"].map(|name| folder.path().join(name));
+/// std::fs::write(&truth, "id,clip,grasp\n1,a,held\n2,a,lost\n3,b,held\n")?;
+/// std::fs::write(&prediction, "id,grasp\n3,held\n1,held\n2,held\n")?;
+/// let report = score_tasks(&TaskRequest {
+///     tables: ScoreRequest::of_tables(truth, prediction),
+///     tasks: vec!["grasp=outcome:positive=held".parse()?],
+///     rules: Default::default(),
+///     cluster: Some("clip".to_owned()),
+/// })?;
+/// let accuracy = &report.tasks[0].scores[0];
+/// assert_eq!((accuracy.metric, accuracy.estimate.value), ("class_accuracy", Ok(2.0 / 3.0)));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+///
+/// # Errors
+/// [`EvaluateError`] if a table cannot be read, rows do not pair, a column is missing, or a cell is no class, number or rotation.
+pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
+    check_names(request)?;
+    tables::check_distinct(&request.tables)?;
+    let [(truth, of_truth), (prediction, of_prediction)] = tables::read_both(&request.tables)?;
+    tables::check_rows(&truth)?;
+    tables::check_rows(&prediction)?;
+    let keys = RowKeys::of(&truth, &prediction, request.tables.key.as_ref(), |name| {
+        request.tasks.iter().any(|task| task.name == name)
+    })?;
+    let (pairing, key) = tables::pair(&truth, &prediction, &keys)?;
+    let matching = Matching::of([&truth, &prediction], &keys, key)?;
+    let pairs = pairs(&pairing, truth.rows());
+    let numbers = pairs.iter().map(|pair| (pair.truth, pair.prediction));
+    matching.check([&truth, &prediction], numbers)?;
+    let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), matching.by.to_string());
+    let digests = [("truth", of_truth), ("prediction", of_prediction)];
+    report.tables = digests
+        .map(|(role, digest)| (role.to_owned(), digest.to_string()))
+        .into();
+    let tables = TaskTables {
+        truth,
+        prediction,
+        pairs,
+    };
+    let clusters = Clusters::of(&tables, request.cluster.as_deref())?;
+    for task in &request.tasks {
+        let rule = request.rules.get(&task.name);
+        report.tasks.push(match task.kind {
+            TaskKind::Pose => pose::scores(&tables, &clusters, task)?,
+            _ => classes::scores(&tables, &clusters, task, rule)?,
+        });
+    }
+    Ok(report)
+}
+
+/// Refuses no task, a task that is named twice, and a rule of an unknown task.
+fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
+    let names = || request.tasks.iter().map(|task| task.name.as_str());
+    if request.tasks.is_empty() {
+        return Err(EvaluateError::Request("no task to score".to_owned()));
+    }
+    let mut before = Vec::new();
+    for name in names() {
+        if before.contains(&name) {
+            return Err(EvaluateError::Request(format!(
+                "the task `{}` is given twice",
+                shown(name)
+            )));
+        }
+        before.push(name);
+    }
+    match request.rules.keys().find(|of| !names().any(|name| name == *of)) {
+        Some(unknown) => Err(EvaluateError::Request(format!(
+            "a rule is given for `{}`, expected one of the tasks {}",
+            shown(unknown),
+            before.join(", ")
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn pairs(pairing: &Pairing, rows: usize) -> Vec<RowPair> {
+    let pair = |(truth, prediction)| RowPair { truth, prediction };
+    match pairing {
+        Pairing::ByOrder => (0..rows).zip(0..rows).map(pair).collect(),
+        Pairing::ByKey(paired) => (0..).zip(paired.iter().copied()).map(pair).collect(),
+    }
+}
+
+/// Column with the clusters of the rows.
+struct Clusters<'a> {
+    table: &'a CsvTable,
+    is_truth: bool,
+    column: usize,
+}
+
+impl<'a> Clusters<'a> {
+    /// Column `named`, or `point_id`, of the truth, or else of the predictions.
+    fn of(tables: &'a TaskTables, named: Option<&str>) -> Result<Clusters<'a>, EvaluateError> {
+        let name = named.unwrap_or(CLUSTER);
+        let is_truth = tables.truth.has(name) || !tables.prediction.has(name);
+        let table = match is_truth {
+            true => &tables.truth,
+            false => &tables.prediction,
+        };
+        if named.is_none() && !table.has(name) {
+            let beside = table.names().iter().map(String::as_str);
+            let beside = beside.filter(|name| !KEY_NAMES.contains(name) && !name.is_empty());
+            return Err(EvaluateError::Tables {
+                path: table.path().to_owned(),
+                problem: format!(
+                    "no column `{CLUSTER}`: frames of one trajectory, clip or object resemble each other, so name the column that tells them \
+                     apart with --cluster COLUMN; the columns are {}",
+                    beside.map(shown).collect::<Vec<_>>().join(", ")
+                ),
+            });
+        }
+        Ok(Clusters {
+            table,
+            is_truth,
+            column: table.position(name)?,
+        })
+    }
+
+    /// Name of the column.
+    fn name(&self) -> &'a str {
+        &self.table.names()[self.column]
+    }
+
+    /// Cluster of a pair of rows.
+    fn cell(&self, pair: RowPair) -> Result<&'a str, EvaluateError> {
+        let row = match self.is_truth {
+            true => pair.truth,
+            false => pair.prediction,
+        };
+        match self.table.cell(row, self.column) {
+            "" => {
+                let expected = "expected the cluster of the row";
+                Err(self.table.refuse(row, self.column, expected).into())
+            }
+            cluster => Ok(cluster),
+        }
+    }
+}
+
+/// Remark on `left_out` rows without a label, if any.
+fn unlabelled(left_out: usize) -> Option<String> {
+    (left_out > 0).then(|| format!("{} without a label, left out", counted(left_out, "row")))
+}
+
+/// Empty scores of `task`.
+fn empty(task: &TaskSpec, clusters: &Clusters<'_>) -> TaskScores {
+    TaskScores::new(task.name.as_str(), task.kind.name(), clusters.name())
+}

@@ -1,0 +1,179 @@
+//! Columns of classes and of their scores, as states of a task.
+
+mod labels;
+mod score_columns;
+
+use taceva_core::shown;
+use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskScores, TopK};
+
+use super::{Clusters, RowPair, TaskKind, TaskRule, TaskSpec, TaskTables, empty, events, unlabelled};
+use crate::error::EvaluateError;
+use labels::{ClassNames, ClassColumn};
+use score_columns::ScoreColumns;
+
+/// Places of `top_k`.
+const PLACES: [u64; 2] = [2, 3];
+
+/// A labelled sample of a task.
+#[derive(Clone, Debug)]
+pub(super) struct ClassRow<'a> {
+    /// Cluster of the sample.
+    pub(super) cluster: &'a str,
+    /// Rows of both tables.
+    pub(super) pair: RowPair,
+    /// Position of the true class.
+    pub(super) truth: u32,
+    /// Position of the predicted class, after the rule.
+    pub(super) predicted: u32,
+    /// Scores of the classes; empty if the predictions have none.
+    pub(super) scores: Vec<f64>,
+}
+
+/// Scores of a task with classes.
+pub(super) fn scores(
+    tables: &TaskTables,
+    clusters: &Clusters<'_>,
+    task: &TaskSpec,
+    rule: Option<&TaskRule>,
+) -> Result<TaskScores, EvaluateError> {
+    let names = ClassNames::of(tables, task)?;
+    let refused = |error: TaskError| {
+        EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
+    };
+    let mut classes = Classes::new(names.all(), task.positive.as_deref()).map_err(refused)?;
+    if let Some(rule) = rule.filter(|rule| !rule.is_empty()) {
+        classes = classes.after_rule(rule.to_string());
+    }
+    let is_by_threshold = rule.is_some_and(|rule| rule.threshold.is_some());
+    let (mut rows, left_out) = rows(tables, clusters, task, &names, is_by_threshold)?;
+    let positive = names.positive(task);
+    if let Some(rule) = rule {
+        apply(rule, &mut rows, positive, task)?;
+    }
+    for row in &rows {
+        let [truth, predicted] = [row.truth, row.predicted];
+        classes
+            .push_positions(row.cluster, &[truth], &[predicted])
+            .map_err(refused)?;
+    }
+    let mut scores = empty(task, clusters).of_classes(&classes);
+    scores.notes.extend(names.note());
+    scores.notes.extend(unlabelled(left_out));
+    let with_scores = ScoreColumns::of(&tables.prediction, task, &names)?;
+    if let Some(columns) = with_scores {
+        of_scores(&mut scores, &rows, &columns, &names, task).map_err(refused)?;
+    }
+    if task.kind == TaskKind::Event {
+        events::add(&mut scores, tables, &rows, positive)?;
+    }
+    Ok(scores)
+}
+
+/// Labelled rows in the order of the truth, and the number of rows without a label.
+fn rows<'a>(
+    tables: &'a TaskTables,
+    clusters: &Clusters<'a>,
+    task: &TaskSpec,
+    names: &ClassNames,
+    is_by_threshold: bool,
+) -> Result<(Vec<ClassRow<'a>>, usize), EvaluateError> {
+    let of_truth = ClassColumn::of(&tables.truth, &task.name, names)?;
+    let columns = ScoreColumns::of(&tables.prediction, task, names)?;
+    let of_prediction = match &columns {
+        _ if is_by_threshold => None,
+        Some(_) if !tables.prediction.has(&task.name) => None,
+        _ => Some(ClassColumn::of(&tables.prediction, &task.name, names)?),
+    };
+    let mut rows = Vec::with_capacity(tables.pairs.len());
+    let mut left_out = 0;
+    for pair in &tables.pairs {
+        let Some(truth) = of_truth.class(pair.truth)? else {
+            left_out += 1;
+            continue;
+        };
+        let scores = match &columns {
+            Some(columns) => columns.scores(pair.prediction)?,
+            None => Vec::new(),
+        };
+        let predicted = match &of_prediction {
+            // The threshold decides below.
+            _ if is_by_threshold => 0,
+            Some(column) => column.stated(pair.prediction)?,
+            None => ScoreColumns::greatest(&scores, task, names)?,
+        };
+        rows.push(ClassRow {
+            cluster: clusters.cell(*pair)?,
+            pair: *pair,
+            truth,
+            predicted,
+            scores,
+        });
+    }
+    Ok((rows, left_out))
+}
+
+/// Applies the threshold to the scores of the positive class, then the debounce to the rows of each cluster in their order.
+fn apply(
+    rule: &TaskRule,
+    rows: &mut [ClassRow<'_>],
+    positive: Option<u32>,
+    task: &TaskSpec,
+) -> Result<(), EvaluateError> {
+    let name = shown(&task.name);
+    let refused = |problem: &str| Err(EvaluateError::Request(format!("task `{name}`: {problem}")));
+    let Some(positive) = positive.filter(|of| *of < 2) else {
+        return refused("a threshold or a debounce needs two classes and a positive one: state positive=CLASS");
+    };
+    let negative = 1 - positive;
+    if let Some(threshold) = rule.threshold {
+        for row in rows.iter_mut() {
+            let Some(score) = ScoreColumns::of_class(&row.scores, positive) else {
+                return refused(&format!(
+                    "a threshold needs the scores of the positive class, expected a column {name}.p.CLASS in the predictions"
+                ));
+            };
+            row.predicted = match score > threshold {
+                true => positive,
+                false => negative,
+            };
+        }
+    }
+    if let Some(least) = rule.debounce {
+        events::debounce(rows, positive, negative, least);
+    }
+    Ok(())
+}
+
+/// Adds the scores that ranks, probabilities and places of classes have.
+fn of_scores(
+    scores: &mut TaskScores,
+    rows: &[ClassRow<'_>],
+    columns: &ScoreColumns<'_>,
+    names: &ClassNames,
+    task: &TaskSpec,
+) -> Result<(), TaskError> {
+    let positive = names.positive(task);
+    if let Some(positive) = positive {
+        let mut ranking = Ranking::default();
+        for row in rows {
+            if let Some(score) = ScoreColumns::of_class(&row.scores, positive) {
+                ranking.push(row.cluster, score, row.truth == positive)?;
+            }
+        }
+        scores.scores.extend(ranking.scores());
+    }
+    if !columns.are_all() {
+        return Ok(());
+    }
+    let mut probabilities = Probabilities::new(names.all(), task.positive.as_deref())?;
+    let mut places = TopK::new(names.all())?;
+    for row in rows {
+        let truth = names.name(row.truth);
+        probabilities.push(row.cluster, truth, &row.scores)?;
+        places.push(row.cluster, truth, &row.scores)?;
+    }
+    scores.scores.extend(probabilities.scores());
+    let some = PLACES.into_iter().filter(|k| *k < names.all().len() as u64);
+    scores.scores.extend(some.flat_map(|k| places.scores(k)));
+    Ok(())
+}

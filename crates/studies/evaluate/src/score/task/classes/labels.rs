@@ -1,0 +1,142 @@
+//! Names of the classes of a task, and columns of classes.
+
+use std::collections::BTreeSet;
+
+use taceva_core::{nearest, shown};
+use taceva_import::CsvTable;
+
+use super::super::{TaskSpec, TaskTables};
+use crate::error::EvaluateError;
+
+/// Greatest number of classes that a table may introduce without names.
+const MOST_CLASSES: usize = 1000;
+
+/// Names of the classes, in their order.
+pub(super) struct ClassNames {
+    names: Vec<String>,
+    are_stated: bool,
+}
+
+impl ClassNames {
+    /// The stated names, or those of both tables in the order of letters or of numbers.
+    pub(super) fn of(tables: &TaskTables, task: &TaskSpec) -> Result<ClassNames, EvaluateError> {
+        if !task.names.is_empty() {
+            return Ok(ClassNames {
+                names: task.names.clone(),
+                are_stated: true,
+            });
+        }
+        let mut found = BTreeSet::new();
+        for (table, is_needed) in [(&tables.truth, true), (&tables.prediction, false)] {
+            if !is_needed && !table.has(&task.name) {
+                continue;
+            }
+            let column = table.position(&task.name)?;
+            for row in 0..table.rows() {
+                let cell = table.cell(row, column);
+                if !cell.is_empty() && !found.contains(cell) {
+                    found.insert(cell.to_owned());
+                }
+                if found.len() > MOST_CLASSES {
+                    let expected = format!(
+                        "class {} of column `{}`, expected at most {MOST_CLASSES}: state them with --task {}=KIND:names=A|B, or name another column",
+                        found.len(),
+                        shown(&task.name),
+                        shown(&task.name)
+                    );
+                    return Err(table.refuse(row, column, &expected).into());
+                }
+            }
+        }
+        let mut names: Vec<String> = found.into_iter().collect();
+        let numbers: Option<Vec<i64>> = names.iter().map(|name| name.parse().ok()).collect();
+        if numbers.is_some() {
+            names.sort_by_key(|name| name.parse::<i64>().unwrap_or_default());
+        }
+        Ok(ClassNames {
+            names,
+            are_stated: false,
+        })
+    }
+
+    /// All names.
+    pub(super) fn all(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Name of the class at `position`.
+    pub(super) fn name(&self, position: u32) -> &str {
+        &self.names[position as usize]
+    }
+
+    /// Position of the positive class of `task`.
+    pub(super) fn positive(&self, task: &TaskSpec) -> Option<u32> {
+        self.position(task.positive.as_deref()?)
+    }
+
+    fn position(&self, name: &str) -> Option<u32> {
+        (0..).zip(&self.names).find(|(_, known)| *known == name).map(|(at, _)| at)
+    }
+
+    /// Class in a cell: a name, or the position of a stated name.
+    fn class(&self, cell: &str) -> Option<u32> {
+        self.position(cell).or_else(|| {
+            let position: u32 = cell.parse().ok()?;
+            (self.are_stated && (position as usize) < self.names.len()).then_some(position)
+        })
+    }
+
+    /// Remark on names that the caller did not state.
+    pub(super) fn note(&self) -> Option<String> {
+        (!self.are_stated).then(|| {
+            "the classes are those of the tables, because no names are stated; a class that never occurs is unknown".to_owned()
+        })
+    }
+}
+
+/// Column of classes.
+pub(super) struct ClassColumn<'a> {
+    table: &'a CsvTable,
+    column: usize,
+    names: &'a ClassNames,
+}
+
+impl<'a> ClassColumn<'a> {
+    /// Column `name` of `table`.
+    pub(super) fn of(
+        table: &'a CsvTable,
+        name: &str,
+        names: &'a ClassNames,
+    ) -> Result<ClassColumn<'a>, EvaluateError> {
+        Ok(ClassColumn {
+            table,
+            column: table.position(name)?,
+            names,
+        })
+    }
+
+    /// Class in a row; `None` for an empty cell.
+    pub(super) fn class(&self, row: usize) -> Result<Option<u32>, EvaluateError> {
+        let cell = self.table.cell(row, self.column);
+        if cell.is_empty() {
+            return Ok(None);
+        }
+        let class = self.names.class(cell);
+        class.map(Some).ok_or_else(|| {
+            let names = self.names.all().iter().map(String::as_str);
+            let meant = nearest(cell, names.clone())
+                .map_or_else(String::new, |name| format!("; did you mean `{}`?", shown(name)));
+            let names: Vec<String> = names.map(shown).collect();
+            let expected = format!("expected a class of the task, {}{meant}", names.join(", "));
+            self.table.refuse(row, self.column, &expected).into()
+        })
+    }
+
+    /// Class in a row whose cell may not be empty.
+    pub(super) fn stated(&self, row: usize) -> Result<u32, EvaluateError> {
+        self.class(row)?.ok_or_else(|| {
+            let expected = "expected a class, because the truth has one";
+            self.table.refuse(row, self.column, expected).into()
+        })
+    }
+}

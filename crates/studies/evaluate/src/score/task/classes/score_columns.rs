@@ -1,0 +1,108 @@
+//! Columns `NAME.p.CLASS`: scores of the classes of a task.
+
+use taceva_core::shown;
+use taceva_import::CsvTable;
+
+use super::super::TaskSpec;
+use super::labels::ClassNames;
+use crate::error::EvaluateError;
+
+/// Scores of the classes in a table of predictions.
+pub(super) struct ScoreColumns<'a> {
+    table: &'a CsvTable,
+    /// Column of each class, in the order of the names.
+    columns: Vec<Option<usize>>,
+}
+
+impl<'a> ScoreColumns<'a> {
+    /// Columns of the scores of `task`; `None` if the table has none.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Tables`] for a column of an unknown class, or if some classes have a column and others have none. Of two classes, the
+    /// positive one suffices.
+    pub(super) fn of(
+        table: &'a CsvTable,
+        task: &TaskSpec,
+        names: &ClassNames,
+    ) -> Result<Option<ScoreColumns<'a>>, EvaluateError> {
+        let prefix = format!("{}.p.", task.name);
+        let refused = |problem: String| EvaluateError::Tables {
+            path: table.path().to_owned(),
+            problem,
+        };
+        let of_classes = table.names().iter().filter_map(|name| name.strip_prefix(&prefix));
+        for class in of_classes {
+            if !names.all().iter().any(|name| name == class) {
+                return Err(refused(format!(
+                    "column `{}` has the scores of no class of the task, expected one of {}",
+                    shown(format!("{prefix}{class}")),
+                    names.all().iter().map(shown).collect::<Vec<_>>().join(", ")
+                )));
+            }
+        }
+        let position = |class: &String| {
+            let name = format!("{prefix}{class}");
+            table.names().iter().position(|known| *known == name)
+        };
+        let columns: Vec<Option<usize>> = names.all().iter().map(position).collect();
+        let positive = names.positive(task).map(|at| at as usize);
+        let suffices = columns.len() == 2 && positive.is_some_and(|at| columns[at].is_some());
+        let missing = names.all().iter().zip(&columns).find(|(_, column)| column.is_none());
+        match (missing, columns.iter().any(Option::is_some)) {
+            (_, false) => Ok(None),
+            (Some((class, _)), true) if !suffices => Err(refused(format!(
+                "no column `{}`, although other classes have scores: write a column for each class, or none",
+                shown(format!("{prefix}{class}"))
+            ))),
+            _ => Ok(Some(ScoreColumns { table, columns })),
+        }
+    }
+
+    /// True if each class has a column.
+    pub(super) fn are_all(&self) -> bool {
+        self.columns.iter().all(Option::is_some)
+    }
+
+    /// Scores of all classes in a row; NaN for a class without a column.
+    pub(super) fn scores(&self, row: usize) -> Result<Vec<f64>, EvaluateError> {
+        let score = |column: &Option<usize>| match column {
+            None => Ok(f64::NAN),
+            Some(column) => self.table.number(row, *column)?.ok_or_else(|| {
+                let expected = "expected a score, because the truth has a class";
+                EvaluateError::from(self.table.refuse(row, *column, expected))
+            }),
+        };
+        self.columns.iter().map(score).collect()
+    }
+
+    /// Score of the class at `position`; `None` without a column.
+    pub(super) fn of_class(scores: &[f64], position: u32) -> Option<f64> {
+        scores
+            .get(position as usize)
+            .copied()
+            .filter(|score| !score.is_nan())
+    }
+
+    /// Class with the greatest score, the first of equal ones.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Request`] if only the positive class has scores, which predict no class without a threshold.
+    pub(super) fn greatest(
+        scores: &[f64],
+        task: &TaskSpec,
+        names: &ClassNames,
+    ) -> Result<u32, EvaluateError> {
+        if scores.iter().any(|score| score.is_nan()) {
+            return Err(EvaluateError::Request(format!(
+                "task `{0}`: only the positive class has scores; add --threshold {0}=0.5, the scores of the other class, or a column `{0}`",
+                shown(&task.name)
+            )));
+        }
+        let places = (0_u32..).zip(scores).take(names.all().len());
+        let first = |best: (u32, f64), (at, score): (u32, &f64)| match *score > best.1 {
+            true => (at, *score),
+            false => best,
+        };
+        Ok(places.fold((0, f64::NEG_INFINITY), first).0)
+    }
+}

@@ -1,0 +1,164 @@
+//! Tasks as a caller writes them: `slip=event:positive=slip:names=no_slip|slip`.
+
+use std::fmt;
+use std::str::FromStr;
+
+use taceva_core::{nearest, shown};
+
+/// Kinds of tasks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum TaskKind {
+    /// A class for each sample, such as the textile.
+    Class,
+    /// A state that begins and ends, such as slip.
+    Event,
+    /// The end of an attempt, such as a grasp that holds.
+    Outcome,
+    /// A change of pose: a translation and a rotation.
+    Pose,
+}
+
+impl TaskKind {
+    /// All kinds.
+    pub const ALL: [TaskKind; 4] = [
+        TaskKind::Class,
+        TaskKind::Event,
+        TaskKind::Outcome,
+        TaskKind::Pose,
+    ];
+
+    /// Name of the kind, as written in maps.
+    pub const fn name(self) -> &'static str {
+        match self {
+            TaskKind::Class => "class",
+            TaskKind::Event => "event",
+            TaskKind::Outcome => "outcome",
+            TaskKind::Pose => "pose",
+        }
+    }
+}
+
+impl fmt::Display for TaskKind {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.name())
+    }
+}
+
+/// A task of two tables: its column, its kind, and its classes.
+///
+/// ```
+/// use taceva_evaluate::{TaskKind, TaskSpec};
+/// let slip: TaskSpec = "slip=event:positive=slip:names=no_slip|slip".parse()?;
+/// assert_eq!((slip.name.as_str(), slip.kind), ("slip", TaskKind::Event));
+/// assert_eq!(slip.positive.as_deref(), Some("slip"));
+/// let refused = "slip=evnt".parse::<TaskSpec>();
+/// assert!(refused.is_err_and(|error| error.contains("did you mean event")));
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct TaskSpec {
+    /// Name of the task, which is the name of its column.
+    pub name: String,
+    /// Kind of the task.
+    pub kind: TaskKind,
+    /// Class that F1, precision and recall describe; `None` if no class is positive.
+    pub positive: Option<String>,
+    /// Classes in their order; empty to take those of both tables.
+    pub names: Vec<String>,
+    /// Thresholds between the classes of a pose; `None` scores a pose by its errors alone.
+    pub thresholds: Option<PoseThresholds>,
+}
+
+/// Thresholds of a pose as decimals, as in `t=0.1|0.5|1:r=0.03|0.2|0.5`.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct PoseThresholds {
+    /// Thresholds along x and y, mm.
+    pub translation_mm: Vec<String>,
+    /// Thresholds of the yaw, degrees.
+    pub rotation_deg: Vec<String>,
+}
+
+/// Form of a task, for messages.
+const FORM: &str = "expected NAME=KIND[:positive=CLASS][:names=A|B][:t=MM|MM][:r=DEG|DEG], such as slip=event:positive=slip or \
+     moved=pose:t=0.1|0.5|1:r=0.2|0.5|1";
+
+impl FromStr for TaskSpec {
+    type Err = String;
+
+    fn from_str(word: &str) -> Result<TaskSpec, String> {
+        let mut parts = word.split(':');
+        let (name, kind) = parts
+            .next()
+            .and_then(|first| first.split_once('='))
+            .filter(|(name, _)| !name.is_empty())
+            .ok_or_else(|| format!("`{}`: {FORM}", shown(word)))?;
+        let mut spec = TaskSpec {
+            name: name.to_owned(),
+            kind: kind_of(kind)?,
+            positive: None,
+            names: Vec::new(),
+            thresholds: None,
+        };
+        for part in parts {
+            match part.split_once('=') {
+                Some(("positive", class)) if !class.is_empty() => {
+                    spec.positive = Some(class.to_owned());
+                }
+                Some(("names", names)) if !names.is_empty() => {
+                    spec.names = listed(names);
+                }
+                Some(("t", cuts)) if !cuts.is_empty() => {
+                    spec.thresholds.get_or_insert_default().translation_mm = listed(cuts);
+                }
+                Some(("r", cuts)) if !cuts.is_empty() => {
+                    spec.thresholds.get_or_insert_default().rotation_deg = listed(cuts);
+                }
+                _ => return Err(format!("`{}` of `{}`: {FORM}", shown(part), shown(word))),
+            }
+        }
+        spec.check()?;
+        Ok(spec)
+    }
+}
+
+impl TaskSpec {
+    fn check(&self) -> Result<(), String> {
+        let name = shown(&self.name);
+        match self.kind {
+            TaskKind::Pose if self.positive.is_some() || !self.names.is_empty() => Err(format!(
+                "`{name}`: a pose has no classes; omit `positive` and `names`"
+            )),
+            TaskKind::Class | TaskKind::Event | TaskKind::Outcome if self.thresholds.is_some() => {
+                Err(format!(
+                    "`{name}`: `t` and `r` are thresholds of a pose, but its kind is {}",
+                    self.kind
+                ))
+            }
+            TaskKind::Event | TaskKind::Outcome if self.positive.is_none() => Err(format!(
+                "`{name}`: no positive class; an {} needs one, such as {name}={}:positive=CLASS",
+                self.kind, self.kind
+            )),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn listed(words: &str) -> Vec<String> {
+    words.split('|').map(|word| word.trim().to_owned()).collect()
+}
+
+fn kind_of(word: &str) -> Result<TaskKind, String> {
+    let known = TaskKind::ALL.into_iter().find(|kind| kind.name() == word);
+    known.ok_or_else(|| {
+        let names = TaskKind::ALL.map(TaskKind::name);
+        let meant = nearest(word, names).map_or_else(String::new, |kind| format!("; did you mean {kind}?"));
+        format!(
+            "`{}`: expected a kind of task among {}{meant}",
+            shown(word),
+            names.join(", ")
+        )
+    })
+}

@@ -1,0 +1,38 @@
+//! Arguments of tasks.
+
+use clap::Args;
+use taceva_evaluate::TaskSpec;
+
+/// Options that concern channels, which tasks do not have.
+const OF_CHANNELS: [&str; 12] = [
+    "units",
+    "periods",
+    "allow_invalid",
+    "shard",
+    "metrics",
+    "independent",
+    "sensor",
+    "state_out",
+    "html",
+    "figures",
+    "samples_out",
+    "table",
+];
+
+/// Tasks to score in the place of channels.
+#[derive(Debug, Args)]
+pub(crate) struct TaskArgs {
+    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome or pose; may be repeated. The
+    /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw
+    #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
+    pub(crate) tasks: Vec<TaskSpec>,
+    /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]
+    #[arg(long, value_name = "COLUMN", requires = "task")]
+    pub(crate) cluster: Option<String>,
+    /// Predict the positive class where its score is above LIMIT, as NAME=LIMIT; may be repeated
+    #[arg(id = "threshold", long, value_name = "NAME=LIMIT", requires = "task")]
+    pub(crate) thresholds: Vec<String>,
+    /// Predict the positive class from the Nth positive frame in a row on, as NAME=N; may be repeated
+    #[arg(id = "debounce", long, value_name = "NAME=N", requires = "task")]
+    pub(crate) debounces: Vec<String>,
+}

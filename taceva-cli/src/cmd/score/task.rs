@@ -1,0 +1,72 @@
+//! `taceva score --task`.
+
+use std::collections::BTreeMap;
+use std::str::FromStr;
+
+use taceva_core::shown;
+use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, read_table, score_tasks};
+use taceva_report::{task_numbers, task_table};
+
+use super::super::{Context, Usage, origin, results};
+use crate::args::{Format, Score};
+use crate::{exit, output};
+
+pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
+    output::check_all_free(&args.output.path, args.output.force)?;
+    let request = TaskRequest {
+        tables: ScoreRequest {
+            key: args.key.clone(),
+            jobs: context.jobs,
+            ..ScoreRequest::of_tables(&args.truth, &args.pred)
+        },
+        tasks: args.task.tasks.clone(),
+        rules: rules(args)?,
+        cluster: args.task.cluster.clone(),
+    };
+    let mut report = score_tasks(&request)?;
+    report.sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
+    let written = match args.output.format {
+        Format::Csv => task_numbers(&report),
+        _ => task_table(&report),
+    };
+    let json = serde_json::to_string_pretty(&report)?;
+    results::write(&written, &args.output, || format!("{json}\n"))?;
+    Ok(exit::DONE)
+}
+
+/// Rules by the name of the task.
+fn rules(args: &Score) -> anyhow::Result<BTreeMap<String, TaskRule>> {
+    let mut rules: BTreeMap<String, TaskRule> = BTreeMap::new();
+    for word in &args.task.thresholds {
+        let (name, limit) = read::<f64>("--threshold", word, "a number", f64::is_finite)?;
+        rules.entry(name).or_default().threshold = Some(limit);
+    }
+    for word in &args.task.debounces {
+        let (name, count) = read::<u32>(
+            "--debounce",
+            word,
+            "a number of frames, 1 or more",
+            |count| *count > 0,
+        )?;
+        rules.entry(name).or_default().debounce = Some(count);
+    }
+    Ok(rules)
+}
+
+/// Parses `NAME=VALUE`.
+fn read<T: FromStr>(
+    option: &str,
+    word: &str,
+    expected: &str,
+    is_allowed: impl Fn(&T) -> bool,
+) -> anyhow::Result<(String, T)> {
+    let parts = word.split_once('=');
+    let read = parts.and_then(|(name, value)| Some((name.to_owned(), value.parse().ok()?)));
+    let read = read.filter(|(name, value)| !name.is_empty() && is_allowed(value));
+    read.ok_or_else(|| {
+        Usage::error(format!(
+            "{option} `{}`: expected NAME=VALUE with the name of a task and {expected}",
+            shown(word)
+        ))
+    })
+}
