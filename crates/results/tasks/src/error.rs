@@ -73,6 +73,18 @@ pub enum TaskError {
         /// Value found.
         value: f64,
     },
+    /// Scores for some of the classes only.
+    #[error("row {row}: {have} scores for {expected} classes{}; give one score for each class", no_score_of(.missing))]
+    SomeScores {
+        /// Number of the sample, from 1.
+        row: u64,
+        /// Number of scores found.
+        have: usize,
+        /// Number of classes.
+        expected: usize,
+        /// First class without a score; `None` for too many scores.
+        missing: Option<String>,
+    },
     /// Columns of different length.
     #[error("{column} has {have} rows, expected {expected} as in the truth")]
     OtherLength {
@@ -128,6 +140,13 @@ fn nearest_name(name: &str, names: &[String]) -> Option<String> {
 fn did_you_mean(nearest: &Option<String>) -> String {
     match nearest {
         Some(name) => format!("; did you mean \"{}\"?", shown(name)),
+        None => String::new(),
+    }
+}
+
+fn no_score_of(missing: &Option<String>) -> String {
+    match missing {
+        Some(name) => format!(", none of \"{}\"", shown(name)),
         None => String::new(),
     }
 }
