@@ -44,6 +44,7 @@ pub(crate) use ends::Estimated;
 pub use error::ComparisonError;
 pub use estimate::{Estimate, StatedInterval};
 pub use holm::holm;
+pub use jackknife::LeftOut;
 pub use method::IntervalMethod;
 pub use normal_sample::NormalSample;
 pub use one_way::{OneWay, OneWaySums};

@@ -225,6 +225,8 @@ pub enum UndefinedReason {
     },
     /// A sample has no contact point, so the clusters are unknown.
     NoClusters,
+    /// Without one of the clusters the score has no value.
+    HangsOnOneCluster,
 }
 
 impl fmt::Display for UndefinedReason {
@@ -322,6 +324,9 @@ impl fmt::Display for UndefinedReason {
                 )
             }
             UndefinedReason::NoClusters => f.write_str("samples without point_id"),
+            UndefinedReason::HangsOnOneCluster => {
+                f.write_str("without one of the clusters the score has no value")
+            }
         }
     }
 }

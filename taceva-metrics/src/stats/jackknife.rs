@@ -12,12 +12,47 @@ use crate::score::{ClusteredBy, Interval};
 const LEAST_FREEDOM: f64 = 3.0;
 
 /// Score with one cluster left out.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LeftOut {
+///
+/// ```
+/// use taceva_metrics::LeftOut;
+/// let without = LeftOut::new(25, Ok(0.8));
+/// assert_eq!((without.count, without.value), (25, Ok(0.8)));
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct LeftOut {
     /// Number of samples of the cluster, at least one.
-    pub(crate) count: u64,
+    pub count: u64,
     /// Score of all other clusters.
-    pub(crate) value: Result<f64, UndefinedReason>,
+    pub value: Result<f64, UndefinedReason>,
+}
+
+impl LeftOut {
+    /// Score `value` of all clusters but one, which has `count` samples.
+    #[must_use]
+    pub fn new(count: u64, value: Result<f64, UndefinedReason>) -> LeftOut {
+        LeftOut { count, value }
+    }
+}
+
+impl Interval {
+    /// Interval of `value`, the score of all clusters, by the delete-one-cluster jackknife.
+    ///
+    /// `left_out` has an entry for each cluster. Fewer than [`LEAST_CLUSTERS`] clusters give no interval.
+    ///
+    /// ```
+    /// use taceva_metrics::{ClusteredBy, Interval, LeftOut, Range};
+    /// let left_out = [0.62, 0.58, 0.60, 0.61, 0.59].map(|share| LeftOut::new(10, Ok(share)));
+    /// let interval = Interval::jackknife(0.6, Range::Ratio, &left_out, ClusteredBy::Group);
+    /// let [low, high] = interval.ends().ok_or("five clusters")?;
+    /// assert!(0.5 < low && low < 0.6 && 0.6 < high && high < 0.7);
+    /// assert_eq!(interval.method().as_deref(), Some("jackknife by group, G=5, logit"));
+    /// # Ok::<(), &str>(())
+    /// ```
+    #[must_use]
+    pub fn jackknife(value: f64, range: Range, left_out: &[LeftOut], by: ClusteredBy) -> Interval {
+        interval(value, range, left_out).clustered_by(by)
+    }
 }
 
 /// Interval of an estimate from the scores with one cluster left out each.

@@ -16,6 +16,28 @@ pub(crate) fn interval(hits: u64, trials: u64) -> Interval {
     Interval::Wilson { low, high }
 }
 
+impl Interval {
+    /// Interval of the share `hits` / `trials` by Wilson, as if all trials were independent.
+    ///
+    /// ```
+    /// use taceva_metrics::Interval;
+    /// let [low, high] = Interval::wilson(1229, 1500).ends().ok_or("1500 trials")?;
+    /// assert!((low - 0.7991).abs() < 5e-5 && (high - 0.8380).abs() < 5e-5);
+    /// # Ok::<(), &str>(())
+    /// ```
+    ///
+    /// # Panics
+    /// If there is no trial, or more hits than trials.
+    #[must_use]
+    pub fn wilson(hits: u64, trials: u64) -> Interval {
+        assert!(
+            trials > 0 && hits <= trials,
+            "{hits} hits of {trials} trials"
+        );
+        interval(hits, trials)
+    }
+}
+
 /// Shares within `z` standard errors of `share` for `n` trials; `n` may be fractional.
 pub(super) fn ends(share: f64, n: f64, z: f64) -> [f64; 2] {
     let scale = 1.0 + z * z / n;

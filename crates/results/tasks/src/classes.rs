@@ -1,0 +1,237 @@
+//! Confusions of classes by cluster, and their scores.
+
+mod margins;
+mod table;
+
+use std::collections::BTreeMap;
+
+use crate::classes::margins::Margins;
+use crate::clusters::ByCluster;
+use crate::error::TaskError;
+use crate::names::{Names, same};
+use crate::score::TaskScore;
+
+/// Counts of true and predicted classes by cluster, from which all scores of classes are computed.
+///
+/// A cluster is what is alike: a trajectory, a clip, an object. The counts are sparse: classes that never meet take no memory. Any order of
+/// samples, and any merge of states, gives the same counts.
+///
+/// ```
+/// use taceva_tasks::Classes;
+/// let mut textile = Classes::new(["corduroy", "denim", "silk"], None)?;
+/// textile.push("clip 1", "denim", "denim")?;
+/// textile.push("clip 2", "silk", "denim")?;
+/// let scores = textile.scores();
+/// assert_eq!((scores[0].metric, scores[0].estimate.value), ("class_accuracy", Ok(0.5)));
+/// # Ok::<(), taceva_tasks::TaskError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Classes {
+    names: Names,
+    rule: String,
+    n: u64,
+    clusters: ByCluster<Cells>,
+}
+
+/// Samples by their true and their predicted class.
+type Cells = BTreeMap<Cell, u64>;
+
+/// Position of the true class, then of the predicted class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Cell {
+    truth: u32,
+    predicted: u32,
+}
+
+/// Number of samples of one class that are predicted as one class.
+///
+/// ```
+/// use taceva_tasks::Classes;
+/// let mut grasp = Classes::new(["lost", "held"], None)?;
+/// grasp.push("cup", "held", "lost")?;
+/// let cells = grasp.confusion();
+/// assert_eq!((cells[0].truth, cells[0].predicted, cells[0].count), ("held", "lost", 1));
+/// # Ok::<(), taceva_tasks::TaskError>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct ConfusionCell<'a> {
+    /// True class.
+    pub truth: &'a str,
+    /// Predicted class.
+    pub predicted: &'a str,
+    /// Number of samples, above 0.
+    pub count: u64,
+}
+
+/// Greatest number of classes whose columns are counted in a full table.
+const MOST_DENSE: usize = 256;
+
+impl Classes {
+    /// No samples of the classes `names`; F1, precision, recall and specificity of the task are those of `positive`.
+    ///
+    /// # Errors
+    /// [`TaskError::TooFewNames`], [`TaskError::SameName`] or [`TaskError::UnknownPositive`].
+    pub fn new<N: Into<String>>(
+        names: impl IntoIterator<Item = N>,
+        positive: Option<&str>,
+    ) -> Result<Classes, TaskError> {
+        Ok(Classes {
+            names: Names::new(names, positive)?,
+            rule: String::new(),
+            n: 0,
+            clusters: ByCluster::default(),
+        })
+    }
+
+    /// The same state for predictions after the rule in words `rule`, such as `threshold 0.4 strict, debounce 3`.
+    ///
+    /// The rule stands in each definition. States of different rules do not merge.
+    #[must_use]
+    pub fn after_rule(self, rule: impl Into<String>) -> Classes {
+        Classes {
+            rule: rule.into(),
+            ..self
+        }
+    }
+
+    /// Number of samples.
+    #[must_use]
+    pub fn n(&self) -> u64 {
+        self.n
+    }
+
+    /// Adds a sample of `cluster` by the names of both classes.
+    ///
+    /// # Errors
+    /// [`TaskError::UnknownClass`] with the nearest name. Nothing is added then.
+    pub fn push(&mut self, cluster: &str, truth: &str, predicted: &str) -> Result<(), TaskError> {
+        let row = self.n + 1;
+        let cell = Cell {
+            truth: self.names.position(row, "truth", truth)?,
+            predicted: self.names.position(row, "prediction", predicted)?,
+        };
+        self.add(cluster, cell, 1);
+        Ok(())
+    }
+
+    /// Adds the samples of `cluster` by the positions of both classes among the names.
+    ///
+    /// # Errors
+    /// [`TaskError::OtherLength`] or [`TaskError::UnknownPosition`]. Nothing is added then.
+    ///
+    /// ```
+    /// use taceva_tasks::Classes;
+    /// let mut slip = Classes::new(["no_slip", "slip"], Some("slip"))?;
+    /// slip.push_positions("stroke 1", &[0, 0, 1, 1], &[0, 1, 1, 1])?;
+    /// assert_eq!(slip.n(), 4);
+    /// assert!(slip.push_positions("stroke 1", &[2], &[0]).is_err());
+    /// # Ok::<(), taceva_tasks::TaskError>(())
+    /// ```
+    pub fn push_positions(
+        &mut self,
+        cluster: &str,
+        truth: &[u32],
+        predicted: &[u32],
+    ) -> Result<(), TaskError> {
+        if truth.len() != predicted.len() {
+            return Err(TaskError::OtherLength {
+                column: "the prediction",
+                have: predicted.len(),
+                expected: truth.len(),
+            });
+        }
+        let columns = [("truth", truth), ("prediction", predicted)];
+        for (name, column) in columns {
+            for (row, position) in (self.n + 1..).zip(column) {
+                self.names.check(row, name, *position)?;
+            }
+        }
+        let classes = self.names.len();
+        let cells = truth.iter().zip(predicted);
+        if classes <= MOST_DENSE && classes * classes <= truth.len() {
+            let mut counts = vec![0_u64; classes * classes];
+            for (truth, predicted) in cells {
+                counts[*truth as usize * classes + *predicted as usize] += 1;
+            }
+            let mut counts = counts.into_iter();
+            for truth in (0_u32..).take(classes) {
+                for (predicted, count) in (0_u32..).zip(counts.by_ref().take(classes)) {
+                    self.add(cluster, Cell { truth, predicted }, count);
+                }
+            }
+            return Ok(());
+        }
+        for (truth, predicted) in cells {
+            let cell = Cell {
+                truth: *truth,
+                predicted: *predicted,
+            };
+            self.add(cluster, cell, 1);
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, cluster: &str, cell: Cell, count: u64) {
+        if count > 0 {
+            self.n += count;
+            *self.clusters.entry(cluster).entry(cell).or_insert(0) += count;
+        }
+    }
+
+    /// Adds all samples of `other`.
+    ///
+    /// # Errors
+    /// [`TaskError::OtherDefinition`] if names, the positive class or the rule differ.
+    pub fn merge(mut self, other: Classes) -> Result<Classes, TaskError> {
+        self.names.check_same(&other.names)?;
+        same("rule", self.rule.clone(), other.rule)?;
+        self.n += other.n;
+        self.clusters.merge(other.clusters, |ours, theirs| {
+            for (cell, count) in theirs {
+                *ours.entry(cell).or_insert(0) += count;
+            }
+        });
+        Ok(self)
+    }
+
+    /// All counts above 0, in the order of the names of the true class, then of the predicted class.
+    #[must_use]
+    pub fn confusion(&self) -> Vec<ConfusionCell<'_>> {
+        let mut all = Cells::new();
+        for cells in self.clusters.values() {
+            for (cell, count) in cells {
+                *all.entry(*cell).or_insert(0) += count;
+            }
+        }
+        let names = self.names.all();
+        let cells = all.into_iter().map(|(cell, count)| ConfusionCell {
+            truth: &names[cell.truth as usize],
+            predicted: &names[cell.predicted as usize],
+            count,
+        });
+        cells.collect()
+    }
+
+    /// All scores: of the task first, then of each class.
+    ///
+    /// | metric | variants | constant to beat |
+    /// |---|---|---|
+    /// | `class_accuracy` | | share of the most frequent class |
+    /// | `balanced_accuracy` | | 1 / classes in the truth |
+    /// | `f1`, `precision`, `recall`, `specificity` of the positive class | | of `f1`: all positive |
+    /// | `f1_macro` | `in_truth`, `all_names`, `weighted`, `class NAME` | best constant |
+    /// | `precision`, `recall` | `class NAME` | |
+    /// | `kappa`, `mcc` | | 0 |
+    #[must_use]
+    pub fn scores(&self) -> Vec<TaskScore> {
+        let parts = self.clusters.values().map(|cells| {
+            let mut margins = Margins::empty(self.names.len());
+            for (cell, count) in cells {
+                margins.add(cell.truth, cell.predicted, *count);
+            }
+            margins
+        });
+        table::scores(&self.names, &self.rule, &parts.collect::<Vec<_>>())
+    }
+}

@@ -1,0 +1,133 @@
+//! Refused samples and definitions of tasks.
+
+use taceva_core::{nearest, shown};
+use thiserror::Error;
+
+/// Reason why a task refuses a definition, a sample or a merge. A row is the number of the sample in its state, from 1.
+///
+/// ```
+/// use taceva_tasks::{Classes, TaskError};
+/// let mut slip = Classes::new(["no_slip", "slip"], Some("slip"))?;
+/// let refused = slip.push("stroke 1", "slpi", "slip").err().ok_or("no class")?;
+/// assert!(matches!(refused, TaskError::UnknownClass { row: 1, .. }));
+/// assert_eq!(
+///     refused.to_string(),
+///     "row 1: the truth is \"slpi\", expected a name of the task; did you mean \"slip\"?"
+/// );
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum TaskError {
+    /// A class that the task does not name.
+    #[error("row {row}: the {column} is \"{}\", expected a name of the task{}", shown(.name), did_you_mean(.nearest))]
+    UnknownClass {
+        /// Number of the sample, from 1.
+        row: u64,
+        /// `truth` or `prediction`.
+        column: &'static str,
+        /// Name found.
+        name: String,
+        /// Nearest name of the task.
+        nearest: Option<String>,
+    },
+    /// A position beyond the names of the task.
+    #[error("row {row}: the {column} is position {position}, expected less than {classes}")]
+    UnknownPosition {
+        /// Number of the sample, from 1.
+        row: u64,
+        /// `truth` or `prediction`.
+        column: &'static str,
+        /// Position found.
+        position: u64,
+        /// Number of classes.
+        classes: u64,
+    },
+    /// Fewer than two names.
+    #[error("the task has {have} names, expected two or more")]
+    TooFewNames {
+        /// Number of names.
+        have: usize,
+    },
+    /// One name twice.
+    #[error("names: \"{}\" stands twice, expected each name once", shown(.name))]
+    SameName {
+        /// The name.
+        name: String,
+    },
+    /// A positive class that the task does not name.
+    #[error("positive is \"{}\", expected a name of the task{}", shown(.name), did_you_mean(.nearest))]
+    UnknownPositive {
+        /// Name found.
+        name: String,
+        /// Nearest name of the task.
+        nearest: Option<String>,
+    },
+    /// A number that is not finite.
+    #[error("row {row}: {column} is {value}, expected a finite number")]
+    NotFinite {
+        /// Number of the sample, from 1.
+        row: u64,
+        /// Name of the number, such as `score`.
+        column: String,
+        /// Value found.
+        value: f64,
+    },
+    /// Columns of different length.
+    #[error("{column} has {have} rows, expected {expected} as in the truth")]
+    OtherLength {
+        /// Name of the column.
+        column: &'static str,
+        /// Number of rows found.
+        have: usize,
+        /// Number of rows of the truth.
+        expected: usize,
+    },
+    /// A merge of states with different definitions.
+    #[error("states of different {what} do not merge: {} and {}; score both parts with the same {what}", shown(.ours), shown(.theirs))]
+    OtherDefinition {
+        /// Name of the part that differs, such as `names`.
+        what: &'static str,
+        /// Definition of the state.
+        ours: String,
+        /// Definition of the other state.
+        theirs: String,
+    },
+}
+
+impl TaskError {
+    /// Class `name` of `column`, which is not among `names`.
+    pub(crate) fn unknown_class(
+        row: u64,
+        column: &'static str,
+        name: &str,
+        names: &[String],
+    ) -> TaskError {
+        TaskError::UnknownClass {
+            row,
+            column,
+            name: name.to_owned(),
+            nearest: nearest_name(name, names),
+        }
+    }
+
+    /// Positive class `name`, which is not among `names`.
+    pub(crate) fn unknown_positive(name: &str, names: &[String]) -> TaskError {
+        TaskError::UnknownPositive {
+            name: name.to_owned(),
+            nearest: nearest_name(name, names),
+        }
+    }
+}
+
+fn nearest_name(name: &str, names: &[String]) -> Option<String> {
+    nearest(name, names.iter().map(String::as_str)).map(str::to_owned)
+}
+
+/// The suggestion at the end of a message; empty without one.
+fn did_you_mean(nearest: &Option<String>) -> String {
+    match nearest {
+        Some(name) => format!("; did you mean \"{}\"?", shown(name)),
+        None => String::new(),
+    }
+}

@@ -1,0 +1,106 @@
+//! Scores of tasks with intervals over clusters.
+
+use serde::ser::{Serialize, SerializeStruct, Serializer};
+use taceva_metrics::{ClusteredBy, Interval, LeftOut, Range, UndefinedReason};
+
+use crate::undefined::Undefined;
+
+/// Score of a task with its interval.
+///
+/// ```
+/// use taceva_tasks::Classes;
+/// let mut slip = Classes::new(["no_slip", "slip"], Some("slip"))?;
+/// for stroke in ["a", "b", "c", "d", "e"] {
+///     slip.push(stroke, "slip", "slip")?;
+///     slip.push(stroke, "no_slip", if stroke == "a" { "slip" } else { "no_slip" })?;
+/// }
+/// let scores = slip.scores();
+/// let f1 = scores.iter().find(|score| score.metric == "f1").ok_or("two classes")?;
+/// assert_eq!((f1.estimate.value, f1.estimate.n, f1.estimate.clusters), (Ok(10.0 / 11.0), 10, 5));
+/// assert!(f1.estimate.beats_constant());
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Estimate {
+    /// The score, rounded once, or the reason for a missing one.
+    pub value: Result<f64, Undefined>,
+    /// 95 % interval over choices of clusters.
+    pub interval: Interval,
+    /// Number of samples.
+    pub n: u64,
+    /// Number of clusters with samples.
+    pub clusters: u64,
+    /// Score of the best constant prediction; `None` if no constant has a score.
+    pub of_constant: Option<f64>,
+}
+
+impl Estimate {
+    /// True if the whole interval lies above the score of the best constant, for scores whose greater values are better.
+    #[must_use]
+    pub fn beats_constant(&self) -> bool {
+        match (self.interval.ends(), self.of_constant) {
+            (Some([low, _]), Some(of_constant)) => low > of_constant,
+            _ => false,
+        }
+    }
+}
+
+/// `{value, undefined, interval, n, clusters, of_constant}`; `undefined` is the reason of a missing value.
+impl Serialize for Estimate {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut into = serializer.serialize_struct("Estimate", 6)?;
+        into.serialize_field("value", &self.value.ok())?;
+        let reason = self.value.err().map(|reason| reason.to_string());
+        into.serialize_field("undefined", &reason)?;
+        into.serialize_field("interval", &self.interval)?;
+        into.serialize_field("n", &self.n)?;
+        into.serialize_field("clusters", &self.clusters)?;
+        into.serialize_field("of_constant", &self.of_constant)?;
+        into.end()
+    }
+}
+
+/// Score with one cluster left out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Part {
+    /// Number of samples of the cluster.
+    pub(crate) n: u64,
+    /// Score of all other clusters.
+    pub(crate) value: Result<f64, Undefined>,
+}
+
+/// Estimate from the score of all clusters and the scores with one cluster left out each. Clusters without a sample are skipped.
+pub(crate) fn estimate(
+    value: Result<f64, Undefined>,
+    range: Range,
+    left_out: &[Part],
+    of_constant: Option<f64>,
+) -> Estimate {
+    let parts = left_out.iter().filter(|part| part.n > 0);
+    let left_out: Vec<LeftOut> = parts
+        .map(|part| {
+            let value = part.value.map_err(|_| UndefinedReason::HangsOnOneCluster);
+            LeftOut::new(part.n, value)
+        })
+        .collect();
+    let interval = match value {
+        Ok(value) => Interval::jackknife(value, range, &left_out, ClusteredBy::Group),
+        Err(reason) => Interval::Undefined(reason.of_interval()),
+    };
+    Estimate {
+        value,
+        interval,
+        n: left_out.iter().map(|part| part.count).sum(),
+        clusters: left_out.len() as u64,
+        of_constant,
+    }
+}
+
+/// Range of a share: between its ends by odds, at an end by Wilson's interval with as many samples as clusters.
+pub(crate) fn share(value: Result<f64, Undefined>) -> Range {
+    match value {
+        Ok(value) if 0.0 < value && value < 1.0 => Range::Ratio,
+        _ => Range::Share,
+    }
+}

@@ -1,0 +1,112 @@
+//! Names of the classes of a task, and the positive one.
+
+use std::collections::BTreeMap;
+
+use crate::error::TaskError;
+
+/// Names of classes in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Names {
+    names: Vec<String>,
+    positions: BTreeMap<String, u32>,
+    positive: Option<u32>,
+}
+
+impl Names {
+    /// Names, with the positive one if the task has one.
+    ///
+    /// # Errors
+    /// [`TaskError::TooFewNames`], [`TaskError::SameName`] or [`TaskError::UnknownPositive`].
+    pub(crate) fn new<N: Into<String>>(
+        names: impl IntoIterator<Item = N>,
+        positive: Option<&str>,
+    ) -> Result<Names, TaskError> {
+        let names: Vec<String> = names.into_iter().map(Into::into).collect();
+        if names.len() < 2 {
+            return Err(TaskError::TooFewNames { have: names.len() });
+        }
+        let mut positions = BTreeMap::new();
+        for (position, name) in (0..).zip(&names) {
+            if positions.insert(name.clone(), position).is_some() {
+                return Err(TaskError::SameName { name: name.clone() });
+            }
+        }
+        let positive = match positive {
+            Some(name) => match positions.get(name) {
+                Some(position) => Some(*position),
+                None => return Err(TaskError::unknown_positive(name, &names)),
+            },
+            None => None,
+        };
+        Ok(Names {
+            names,
+            positions,
+            positive,
+        })
+    }
+
+    /// All names in their order.
+    pub(crate) fn all(&self) -> &[String] {
+        &self.names
+    }
+
+    /// Number of classes.
+    pub(crate) fn len(&self) -> usize {
+        self.names.len()
+    }
+
+    /// Position of the positive class.
+    pub(crate) fn positive(&self) -> Option<usize> {
+        self.positive.map(|position| position as usize)
+    }
+
+    /// Name of the positive class.
+    pub(crate) fn positive_name(&self) -> Option<&str> {
+        let position = self.positive()?;
+        self.names.get(position).map(String::as_str)
+    }
+
+    /// Position of the class `name` in `column` of `row`.
+    pub(crate) fn position(
+        &self,
+        row: u64,
+        column: &'static str,
+        name: &str,
+    ) -> Result<u32, TaskError> {
+        let position = self.positions.get(name).copied();
+        position.ok_or_else(|| TaskError::unknown_class(row, column, name, &self.names))
+    }
+
+    /// Refuses a position beyond the names.
+    pub(crate) fn check(
+        &self,
+        row: u64,
+        column: &'static str,
+        position: u32,
+    ) -> Result<(), TaskError> {
+        match (position as usize) < self.names.len() {
+            true => Ok(()),
+            false => Err(TaskError::UnknownPosition {
+                row,
+                column,
+                position: u64::from(position),
+                classes: self.names.len() as u64,
+            }),
+        }
+    }
+
+    /// Refuses other names or another positive class.
+    pub(crate) fn check_same(&self, other: &Names) -> Result<(), TaskError> {
+        same("names", self.names.join(", "), other.names.join(", "))?;
+        let positive = |of: &Names| of.positive_name().unwrap_or("none").to_owned();
+        same("positive", positive(self), positive(other))
+    }
+}
+
+/// Refuses definitions of `what` that differ.
+pub(crate) fn same(what: &'static str, ours: String, theirs: String) -> Result<(), TaskError> {
+    match ours == theirs {
+        true => Ok(()),
+        false => Err(TaskError::OtherDefinition { what, ours, theirs }),
+    }
+}

@@ -1,0 +1,108 @@
+//! Named scores of tasks.
+
+use serde::Serialize;
+use taceva_metrics::Interval;
+
+use crate::estimate::Estimate;
+
+/// A named score of a task.
+///
+/// ```
+/// use taceva_tasks::Classes;
+/// let grasp = Classes::new(["lost", "held"], Some("held"))?;
+/// let accuracy = &grasp.scores()[0];
+/// assert_eq!(accuracy.metric, "class_accuracy");
+/// assert_eq!(accuracy.definition, "share of samples with the right class");
+/// # Ok::<(), taceva_tasks::TaskError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct TaskScore {
+    /// Name of the metric, such as `f1`.
+    pub metric: &'static str,
+    /// Second number of the metric, such as `in_truth`, or the class.
+    pub variant: Option<String>,
+    /// Unit of the value; `None` for a pure number.
+    pub unit: Option<&'static str>,
+    /// Definition in words, with the rules that were applied before.
+    pub definition: String,
+    /// Value, interval and counts.
+    pub estimate: Estimate,
+    /// Interval of a share if frames were independent. Frames of one cluster are not, so this is never the interval of the score.
+    pub if_frames_were_independent: Option<Interval>,
+    /// Properties of the samples that limit the score.
+    pub flags: Vec<ScoreFlag>,
+}
+
+impl TaskScore {
+    /// Score `estimate` of `metric`, a pure number without a variant.
+    pub(crate) fn new(
+        metric: &'static str,
+        definition: impl Into<String>,
+        estimate: Estimate,
+    ) -> TaskScore {
+        TaskScore {
+            metric,
+            variant: None,
+            unit: None,
+            definition: definition.into(),
+            estimate,
+            if_frames_were_independent: None,
+            flags: Vec::new(),
+        }
+    }
+
+    /// The same score as the variant `name` of its metric.
+    pub(crate) fn variant(self, name: impl Into<String>) -> TaskScore {
+        TaskScore {
+            variant: Some(name.into()),
+            ..self
+        }
+    }
+
+    /// The same score with Wilson's interval of `hits` of `trials` beside; without for no trial.
+    pub(crate) fn beside(self, hits: u64, trials: u64) -> TaskScore {
+        let wilson = (trials > 0).then(|| Interval::wilson(hits, trials));
+        TaskScore {
+            if_frames_were_independent: wilson,
+            ..self
+        }
+    }
+
+    /// The same score with `flags`.
+    pub(crate) fn flagged(self, flags: &[ScoreFlag]) -> TaskScore {
+        TaskScore {
+            flags: flags.to_vec(),
+            ..self
+        }
+    }
+}
+
+/// Property of the samples that limits a score.
+///
+/// ```
+/// use taceva_tasks::ScoreFlag;
+/// assert_eq!(ScoreFlag::AllScoresEqual.words(), "all scores equal");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[non_exhaustive]
+pub enum ScoreFlag {
+    /// All scores are equal.
+    AllScoresEqual,
+    /// More than 65,536 different scores, which were rounded to multiples of 2⁻¹⁶.
+    ScoresOnGrid,
+    /// All scores lie outside 0 to 1, as log-odds do.
+    OutsideUnit,
+}
+
+impl ScoreFlag {
+    /// The flag in words.
+    #[must_use]
+    pub const fn words(self) -> &'static str {
+        match self {
+            ScoreFlag::AllScoresEqual => "all scores equal",
+            ScoreFlag::ScoresOnGrid => "scores on a grid of 2^-16",
+            ScoreFlag::OutsideUnit => "all scores outside 0 to 1",
+        }
+    }
+}

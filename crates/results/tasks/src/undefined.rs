@@ -1,0 +1,55 @@
+//! Reasons for a missing score of a task.
+
+use std::fmt;
+
+use serde::Serialize;
+use taceva_metrics::UndefinedReason;
+
+/// Reason why samples determine no score of a task.
+///
+/// ```
+/// use taceva_tasks::Undefined;
+/// assert_eq!(Undefined::OneClass.to_string(), "one class only");
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[non_exhaustive]
+pub enum Undefined {
+    /// There is no sample.
+    Empty,
+    /// All samples are of one class.
+    OneClass,
+    /// No sample is of the positive class, or none is predicted so.
+    NoPositive,
+    /// No sample is of the negative class.
+    NoNegative,
+    /// Some scores are no probabilities: outside 0 to 1, or with another sum than 1 over the classes.
+    NotProbabilities,
+    /// A class of probability 0 came true, so the logarithmic loss is infinite.
+    InfiniteLoss,
+    /// The first k places contain all classes.
+    TooManyPlaces,
+}
+
+impl Undefined {
+    /// The reason for the interval of a score without a value.
+    pub(crate) fn of_interval(self) -> UndefinedReason {
+        match self {
+            Undefined::Empty => UndefinedReason::Empty,
+            _ => UndefinedReason::NoInterval,
+        }
+    }
+}
+
+impl fmt::Display for Undefined {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Undefined::Empty => "no sample",
+            Undefined::OneClass => "one class only",
+            Undefined::NoPositive => "no positive sample",
+            Undefined::NoNegative => "no negative sample",
+            Undefined::NotProbabilities => "the scores are no probabilities",
+            Undefined::InfiniteLoss => "a class of probability 0 is true",
+            Undefined::TooManyPlaces => "as many places as classes, or more",
+        })
+    }
+}

@@ -1,0 +1,3 @@
+//! Scores of tasks beside exact fractions and beside those of other libraries.
+
+mod classes;
