@@ -5,9 +5,12 @@ mod clusters;
 mod error;
 mod estimate;
 mod names;
+pub mod pose;
 mod quotient;
 mod score;
+mod totals;
 mod undefined;
+mod vector;
 
 pub use classes::{Classes, ConfusionCell};
 pub use error::TaskError;
