@@ -1,3 +1,5 @@
 //! Scores of tasks beside exact fractions and beside those of other libraries.
 
+mod cases;
 mod classes;
+mod pose;
