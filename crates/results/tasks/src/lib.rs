@@ -2,6 +2,7 @@
 
 mod classes;
 mod clusters;
+pub mod depth;
 mod error;
 mod estimate;
 mod names;

@@ -34,6 +34,8 @@ pub enum Undefined {
     NoPoints,
     /// No pixel is valid in both maps.
     NoValidPixel,
+    /// The truth has no contact.
+    NoContact,
     /// Neither truth nor prediction has contact.
     BothEmpty,
     /// The task states no size of a pixel.
@@ -69,6 +71,7 @@ impl fmt::Display for Undefined {
             Undefined::NoThresholds => "the task has no thresholds",
             Undefined::NoPoints => "no points",
             Undefined::NoValidPixel => "no pixel is valid in truth and prediction",
+            Undefined::NoContact => "no contact in the truth",
             Undefined::BothEmpty => "no contact in truth and prediction",
             Undefined::NoPixelSize => "the task has no size of a pixel",
             Undefined::NoOnset => "no onset",
