@@ -10,6 +10,6 @@ mod rigid;
 
 pub(crate) use growing_hull::GrowingHull;
 pub(crate) use hull::Hull;
-pub(crate) use nearest::NearestPoints;
+pub use nearest::{Nearest, NearestPoints};
 pub(crate) use registration::{Registration, register_clouds};
 pub(crate) use rigid::{Motion, Point};

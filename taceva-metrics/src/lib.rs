@@ -26,6 +26,7 @@ pub use exact::{
 pub use families::accuracy::pair_sums::{PairSpec, PairSums};
 pub use families::accuracy::plane::{PLANES, plane_axes, plane_of};
 pub use families::intrinsic::times::STREAM_S;
+pub use geometry::{Nearest, NearestPoints};
 pub use pair::{EPSILON, GREATEST, Paired};
 pub use score::curve::{Band, Curve};
 pub use score::direction::Better;

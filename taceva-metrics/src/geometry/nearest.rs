@@ -5,26 +5,43 @@ use super::rigid::Point;
 use crate::exact::number_key::ranked;
 
 /// Points sorted for a nearest-point search that skips most points.
+///
+/// The search leaves out points by their x alone. Points that share one x are all visited.
+///
+/// ```
+/// use taceva_metrics::NearestPoints;
+/// let search = NearestPoints::new([[0.0, 0.0, 0.0], [3.0, 4.0, 0.0]]);
+/// let found = search.nearest([3.0, 3.0, 0.0]).ok_or("two points")?;
+/// assert_eq!((found.index, found.squared), (1, 1.0));
+/// # Ok::<(), &str>(())
+/// ```
 #[derive(Clone, Debug)]
-pub(crate) struct NearestPoints {
+pub struct NearestPoints {
     /// Points with their indices, sorted by x, then by index.
     sorted: Vec<(Point, usize)>,
 }
 
 /// Nearest point of a search.
+///
+/// ```
+/// use taceva_metrics::NearestPoints;
+/// let nearest = NearestPoints::new([[1.0, 2.0, 3.0]]).nearest([0.0; 3]);
+/// assert_eq!(nearest.map(|found| found.squared.sqrt()), Some(14.0_f64.sqrt()));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Nearest {
+#[non_exhaustive]
+pub struct Nearest {
     /// Index of the point.
-    pub(crate) index: usize,
+    pub index: usize,
     /// Coordinates of the point.
-    pub(crate) point: Point,
+    pub point: [f64; 3],
     /// RN of the squared distance, as the rounded sum of three rounded squares.
-    pub(crate) squared: f64,
+    pub squared: f64,
 }
 
 impl NearestPoints {
     /// Sorts the points. Of equally near points, the search returns the first in the given order.
-    pub(crate) fn new(points: impl IntoIterator<Item = Point>) -> NearestPoints {
+    pub fn new(points: impl IntoIterator<Item = [f64; 3]>) -> NearestPoints {
         let points: Vec<Point> = points.into_iter().collect();
         let order = ranked(points.len(), &|left, right| {
             points[left][0].total_cmp(&points[right][0])
@@ -36,7 +53,7 @@ impl NearestPoints {
     }
 
     /// Point nearest to `place`; `None` without points.
-    pub(crate) fn nearest(&self, place: Point) -> Option<Nearest> {
+    pub fn nearest(&self, place: [f64; 3]) -> Option<Nearest> {
         let middle = self
             .sorted
             .partition_point(|(point, _)| point[0] < place[0]);

@@ -2,25 +2,29 @@
 
 mod classes;
 mod clusters;
+pub mod depth;
 mod error;
 mod estimate;
 mod names;
+pub mod pose;
 mod probabilities;
 mod published;
 mod quotient;
-mod report;
 mod ranking;
+mod report;
 mod score;
 mod top_k;
+mod totals;
 mod undefined;
+mod vector;
 
 pub use classes::{Classes, ConfusionCell};
 pub use error::TaskError;
 pub use estimate::Estimate;
-pub use report::{ConfusionCount, TASKS_SCHEMA, TaskReport, TaskScores};
 pub use probabilities::Probabilities;
 pub use published::PublishedShare;
 pub use ranking::Ranking;
+pub use report::{ConfusionCount, TASKS_SCHEMA, TaskReport, TaskScores};
 pub use score::{ScoreFlag, TaskScore};
 pub use top_k::TopK;
 pub use undefined::Undefined;

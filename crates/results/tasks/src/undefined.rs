@@ -28,6 +28,24 @@ pub enum Undefined {
     InfiniteLoss,
     /// The first k places contain all classes.
     TooManyPlaces,
+    /// The task has no thresholds for bins.
+    NoThresholds,
+    /// The object, or a cloud, has no point.
+    NoPoints,
+    /// No pixel is valid in both maps.
+    NoValidPixel,
+    /// The truth has no contact.
+    NoContact,
+    /// Neither truth nor prediction has contact.
+    BothEmpty,
+    /// The task states no size of a pixel.
+    NoPixelSize,
+    /// No onset, neither true nor predicted.
+    NoOnset,
+    /// A sequence has no times.
+    NoTimes,
+    /// No time passes in any sequence.
+    NoDuration,
 }
 
 impl Undefined {
@@ -50,6 +68,15 @@ impl fmt::Display for Undefined {
             Undefined::NotProbabilities => "the scores are no probabilities",
             Undefined::InfiniteLoss => "a class of probability 0 is true",
             Undefined::TooManyPlaces => "as many places as classes, or more",
+            Undefined::NoThresholds => "the task has no thresholds",
+            Undefined::NoPoints => "no points",
+            Undefined::NoValidPixel => "no pixel is valid in truth and prediction",
+            Undefined::NoContact => "no contact in the truth",
+            Undefined::BothEmpty => "no contact in truth and prediction",
+            Undefined::NoPixelSize => "the task has no size of a pixel",
+            Undefined::NoOnset => "no onset",
+            Undefined::NoTimes => "frames without times",
+            Undefined::NoDuration => "no time passes",
         })
     }
 }

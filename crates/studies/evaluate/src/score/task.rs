@@ -12,10 +12,10 @@ use taceva_core::{counted, shown};
 use taceva_import::CsvTable;
 use taceva_tasks::{TaskReport, TaskScores};
 
+use super::ScoreRequest;
 use super::agreement::Matching;
 use super::row_key::{KEY_NAMES, RowKeys};
 use super::tables::{self, Pairing};
-use super::ScoreRequest;
 use crate::error::EvaluateError;
 
 pub use rule::TaskRule;
@@ -126,7 +126,11 @@ fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
         }
         before.push(name);
     }
-    match request.rules.keys().find(|of| !names().any(|name| name == *of)) {
+    match request
+        .rules
+        .keys()
+        .find(|of| !names().any(|name| name == *of))
+    {
         Some(unknown) => Err(EvaluateError::Request(format!(
             "a rule is given for `{}`, expected one of the tasks {}",
             shown(unknown),

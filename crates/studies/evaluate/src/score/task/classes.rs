@@ -6,9 +6,11 @@ mod score_columns;
 use taceva_core::shown;
 use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskScores, TopK};
 
-use super::{Clusters, RowPair, TaskKind, TaskRule, TaskSpec, TaskTables, empty, events, unlabelled};
+use super::{
+    Clusters, RowPair, TaskKind, TaskRule, TaskSpec, TaskTables, empty, events, unlabelled,
+};
 use crate::error::EvaluateError;
-use labels::{ClassNames, ClassColumn};
+use labels::{ClassColumn, ClassNames};
 use score_columns::ScoreColumns;
 
 /// Places of `top_k`.
@@ -37,9 +39,8 @@ pub(super) fn scores(
     rule: Option<&TaskRule>,
 ) -> Result<TaskScores, EvaluateError> {
     let names = ClassNames::of(tables, task)?;
-    let refused = |error: TaskError| {
-        EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
-    };
+    let refused =
+        |error: TaskError| EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)));
     let mut classes = Classes::new(names.all(), task.positive.as_deref()).map_err(refused)?;
     if let Some(rule) = rule.filter(|rule| !rule.is_empty()) {
         classes = classes.after_rule(rule.to_string());
@@ -122,7 +123,9 @@ fn apply(
     let name = shown(&task.name);
     let refused = |problem: &str| Err(EvaluateError::Request(format!("task `{name}`: {problem}")));
     let Some(positive) = positive.filter(|of| *of < 2) else {
-        return refused("a threshold or a debounce needs two classes and a positive one: state positive=CLASS");
+        return refused(
+            "a threshold or a debounce needs two classes and a positive one: state positive=CLASS",
+        );
     };
     let negative = 1 - positive;
     if let Some(threshold) = rule.threshold {

@@ -32,7 +32,16 @@ impl<'a> PoseColumns<'a> {
         for (number, column) in numbers.iter_mut().zip(self.columns) {
             *number = self.table.number(row, column)?;
         }
-        let [Some(x), Some(y), Some(z), Some(qx), Some(qy), Some(qz), Some(qw)] = numbers else {
+        let [
+            Some(x),
+            Some(y),
+            Some(z),
+            Some(qx),
+            Some(qy),
+            Some(qz),
+            Some(qw),
+        ] = numbers
+        else {
             return match numbers.iter().position(Option::is_none) {
                 Some(missing) if numbers.iter().any(Option::is_some) => {
                     let expected = "expected a number, as in the other columns of the pose";
@@ -93,7 +102,8 @@ fn definition(task: &TaskSpec) -> Result<PoseTask, EvaluateError> {
     let Some(of) = &task.thresholds else {
         return Ok(PoseTask::default());
     };
-    let texts = |texts: &'_ [String]| -> Vec<&'_ str> { texts.iter().map(String::as_str).collect() };
+    let texts =
+        |texts: &'_ [String]| -> Vec<&'_ str> { texts.iter().map(String::as_str).collect() };
     let thresholds = Thresholds::new(&texts(&of.translation_mm), &texts(&of.rotation_deg));
     let thresholds = thresholds.map_err(|error| {
         EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))

@@ -147,14 +147,18 @@ impl TaskSpec {
 }
 
 fn listed(words: &str) -> Vec<String> {
-    words.split('|').map(|word| word.trim().to_owned()).collect()
+    words
+        .split('|')
+        .map(|word| word.trim().to_owned())
+        .collect()
 }
 
 fn kind_of(word: &str) -> Result<TaskKind, String> {
     let known = TaskKind::ALL.into_iter().find(|kind| kind.name() == word);
     known.ok_or_else(|| {
         let names = TaskKind::ALL.map(TaskKind::name);
-        let meant = nearest(word, names).map_or_else(String::new, |kind| format!("; did you mean {kind}?"));
+        let meant =
+            nearest(word, names).map_or_else(String::new, |kind| format!("; did you mean {kind}?"));
         format!(
             "`{}`: expected a kind of task among {}{meant}",
             shown(word),

@@ -75,7 +75,10 @@ impl ClassNames {
     }
 
     fn position(&self, name: &str) -> Option<u32> {
-        (0..).zip(&self.names).find(|(_, known)| *known == name).map(|(at, _)| at)
+        (0..)
+            .zip(&self.names)
+            .find(|(_, known)| *known == name)
+            .map(|(at, _)| at)
     }
 
     /// Class in a cell: a name, or the position of a stated name.
@@ -124,8 +127,9 @@ impl<'a> ClassColumn<'a> {
         let class = self.names.class(cell);
         class.map(Some).ok_or_else(|| {
             let names = self.names.all().iter().map(String::as_str);
-            let meant = nearest(cell, names.clone())
-                .map_or_else(String::new, |name| format!("; did you mean `{}`?", shown(name)));
+            let meant = nearest(cell, names.clone()).map_or_else(String::new, |name| {
+                format!("; did you mean `{}`?", shown(name))
+            });
             let names: Vec<String> = names.map(shown).collect();
             let expected = format!("expected a class of the task, {}{meant}", names.join(", "));
             self.table.refuse(row, self.column, &expected).into()

@@ -30,7 +30,10 @@ impl<'a> ScoreColumns<'a> {
             path: table.path().to_owned(),
             problem,
         };
-        let of_classes = table.names().iter().filter_map(|name| name.strip_prefix(&prefix));
+        let of_classes = table
+            .names()
+            .iter()
+            .filter_map(|name| name.strip_prefix(&prefix));
         for class in of_classes {
             if !names.all().iter().any(|name| name == class) {
                 return Err(refused(format!(
@@ -47,7 +50,11 @@ impl<'a> ScoreColumns<'a> {
         let columns: Vec<Option<usize>> = names.all().iter().map(position).collect();
         let positive = names.positive(task).map(|at| at as usize);
         let suffices = columns.len() == 2 && positive.is_some_and(|at| columns[at].is_some());
-        let missing = names.all().iter().zip(&columns).find(|(_, column)| column.is_none());
+        let missing = names
+            .all()
+            .iter()
+            .zip(&columns)
+            .find(|(_, column)| column.is_none());
         match (missing, columns.iter().any(Option::is_some)) {
             (_, false) => Ok(None),
             (Some((class, _)), true) if !suffices => Err(refused(format!(

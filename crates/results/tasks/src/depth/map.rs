@@ -1,0 +1,118 @@
+//! Depth maps with invalid pixels.
+
+use serde::Serialize;
+
+use super::error::DepthError;
+
+/// Greatest magnitude of a depth and of a pixel size, mm. Squares and quotients of such numbers are finite.
+pub(super) const GREATEST_MM: f64 = 1e9;
+
+/// Depths in mm by row and column of pixels; NaN marks an invalid pixel.
+///
+/// ```
+/// use taceva_tasks::depth::DepthMap;
+/// let map = DepthMap::in_unit(1, 2, vec![250.0, f64::NAN], "um")?;
+/// assert_eq!((map.size(), map.mm()[0]), ([1, 2], 0.25));
+/// # Ok::<(), taceva_tasks::depth::DepthError>(())
+/// ```
+#[derive(Clone, Debug, Serialize)]
+pub struct DepthMap {
+    rows: usize,
+    columns: usize,
+    mm: Vec<f64>,
+}
+
+impl DepthMap {
+    /// Map of `rows` × `columns` depths in mm, row by row. Negative depths are kept.
+    ///
+    /// # Errors
+    /// [`DepthError::NoPixel`], [`DepthError::Pixels`] for another number of depths, [`DepthError::Depth`] for an infinite one.
+    pub fn new(rows: usize, columns: usize, mm: Vec<f64>) -> Result<DepthMap, DepthError> {
+        if rows == 0 || columns == 0 {
+            return Err(DepthError::NoPixel { rows, columns });
+        }
+        if rows.checked_mul(columns) != Some(mm.len()) {
+            let have = mm.len();
+            return Err(DepthError::Pixels {
+                have,
+                rows,
+                columns,
+            });
+        }
+        match mm.iter().position(|depth| depth.abs() > GREATEST_MM) {
+            Some(at) => Err(DepthError::Depth {
+                row: at / columns,
+                column: at % columns,
+                value: mm[at],
+            }),
+            None => Ok(DepthMap { rows, columns, mm }),
+        }
+    }
+
+    /// Map of depths in the unit `mm`, `um` or `m`.
+    ///
+    /// # Errors
+    /// [`DepthError::Unit`] for another or an empty text; those of [`new`](DepthMap::new).
+    pub fn in_unit(
+        rows: usize,
+        columns: usize,
+        values: Vec<f64>,
+        unit: &str,
+    ) -> Result<DepthMap, DepthError> {
+        let to_mm: fn(f64) -> f64 = match unit {
+            "mm" => |mm| mm,
+            "um" | "µm" => |um| um / 1000.0,
+            "m" => |m| m * 1000.0,
+            found => {
+                let found = found.to_owned();
+                return Err(DepthError::Unit { found });
+            }
+        };
+        let mm = values.into_iter().map(to_mm);
+        DepthMap::new(rows, columns, mm.collect())
+    }
+
+    /// Number of rows and of columns of pixels.
+    #[must_use]
+    pub fn size(&self) -> [usize; 2] {
+        [self.rows, self.columns]
+    }
+
+    /// Depths in mm, row by row; NaN for invalid pixels.
+    #[must_use]
+    pub fn mm(&self) -> &[f64] {
+        &self.mm
+    }
+
+    /// Depth of a pixel in mm, which is within the map.
+    pub(super) fn at(&self, row: usize, column: usize) -> f64 {
+        self.mm[row * self.columns + column]
+    }
+
+    /// The map with the pixels alone that are valid in `other`, which is of the same size.
+    pub(super) fn where_valid(&self, other: &DepthMap) -> DepthMap {
+        let pixels = self.mm.iter().zip(&other.mm);
+        let mm = pixels.map(|(&depth, other)| match other.is_nan() {
+            true => f64::NAN,
+            false => depth,
+        });
+        DepthMap {
+            mm: mm.collect(),
+            ..*self
+        }
+    }
+
+    /// Size for messages: `240 x 320`.
+    pub(super) fn size_text(&self) -> String {
+        format!("{} x {}", self.rows, self.columns)
+    }
+}
+
+/// Equality of sizes and depths. Two invalid pixels are equal.
+impl PartialEq for DepthMap {
+    fn eq(&self, other: &DepthMap) -> bool {
+        let bits = |depth: &f64| (!depth.is_nan()).then_some((depth + 0.0).to_bits());
+        let same = self.mm.iter().map(bits).eq(other.mm.iter().map(bits));
+        self.size() == other.size() && same
+    }
+}

@@ -1,0 +1,148 @@
+//! Sums of a task of depth maps.
+
+use serde::Serialize;
+
+use super::error::DepthError;
+use super::map::DepthMap;
+use super::normals::NormalAngles;
+use super::pixels::{ALL_MAPS, ANGLES, DepthTotals, EMPTY_MAPS, MAPS, MapSums, NEGATIVE, NORMALS};
+use super::task::DepthTask;
+use crate::clusters::ByCluster;
+use crate::error::TaskError;
+
+/// Sums of a task of depth maps by cluster. Order and merges do not change a bit of the scores.
+///
+/// ```
+/// use taceva_tasks::depth::{DepthMap, DepthState, DepthTask};
+/// let mut state = DepthState::new(DepthTask::default());
+/// let flat = DepthMap::new(1, 2, vec![0.0, -0.01])?;
+/// state.push("press 1", 1, &flat, &flat)?;
+/// assert_eq!((state.maps(), state.maps_without_contact(), state.negative_pixels()), (1, 1, 1));
+/// # Ok::<(), taceva_tasks::depth::DepthError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DepthState {
+    pub(super) task: DepthTask,
+    pub(super) clusters: ByCluster<DepthTotals>,
+    /// Greatest errors of all valid pixels and of those in contact, mm.
+    pub(super) greatest: [f64; 2],
+    /// Totals of the constant as the prediction, and of a flat surface for normals.
+    pub(super) constant: DepthTotals,
+    /// Greatest errors of the constant, mm.
+    pub(super) greatest_of_constant: [f64; 2],
+}
+
+impl DepthState {
+    /// State of `task` without a map.
+    #[must_use]
+    pub fn new(task: DepthTask) -> DepthState {
+        DepthState {
+            task,
+            clusters: ByCluster::default(),
+            greatest: [0.0; 2],
+            constant: DepthTotals::default(),
+            greatest_of_constant: [0.0; 2],
+        }
+    }
+
+    /// Adds the true and the predicted map of row `row`, of `cluster`.
+    ///
+    /// # Errors
+    /// [`DepthError::OtherSize`] if the maps, or the constant, are of another size.
+    pub fn push(
+        &mut self,
+        cluster: &str,
+        row: u64,
+        truth: &DepthMap,
+        prediction: &DepthMap,
+    ) -> Result<(), DepthError> {
+        let other_size = |which, of, found: &DepthMap, expected: &DepthMap| {
+            let is_other = found.size() != expected.size();
+            is_other.then(|| DepthError::OtherSize {
+                row,
+                which,
+                have: found.size_text(),
+                expected: expected.size_text(),
+                of,
+            })
+        };
+        let constant = self.task.constant();
+        let refused = other_size("prediction", "in the truth", prediction, truth);
+        let of_constant = constant.and_then(|constant| {
+            other_size("truth", "in the mean map of training", truth, constant)
+        });
+        if let Some(error) = refused.or(of_constant) {
+            return Err(error);
+        }
+        let gate_mm = self.task.gate_mm();
+        if let Some(constant) = constant {
+            let compared = truth.where_valid(prediction);
+            let sums = MapSums::of(&compared, constant, gate_mm);
+            self.constant.merge(&sums.totals);
+            raise(&mut self.greatest_of_constant, sums.greatest);
+        }
+        let sums = MapSums::of(truth, prediction, gate_mm);
+        let totals = self.clusters.entry(cluster);
+        totals.merge(&sums.totals);
+        raise(&mut self.greatest, sums.greatest);
+        if let Some(pixel_mm) = self.task.pixel_mm() {
+            let angles = NormalAngles::of(truth, prediction, pixel_mm);
+            totals.sums[ANGLES].merge(&angles.prediction);
+            totals.counts[NORMALS] += angles.count;
+            self.constant.sums[ANGLES].merge(&angles.flat);
+            self.constant.counts[NORMALS] += angles.count;
+        }
+        Ok(())
+    }
+
+    /// Both states as one.
+    ///
+    /// # Errors
+    /// [`TaskError::OtherDefinition`] if the tasks differ.
+    pub fn merge(mut self, other: DepthState) -> Result<DepthState, TaskError> {
+        self.task.check_same(&other.task)?;
+        self.clusters
+            .merge(other.clusters, |own, other| own.merge(&other));
+        raise(&mut self.greatest, other.greatest);
+        self.constant.merge(&other.constant);
+        raise(&mut self.greatest_of_constant, other.greatest_of_constant);
+        Ok(self)
+    }
+
+    /// Number of pairs of maps.
+    #[must_use]
+    pub fn maps(&self) -> u64 {
+        self.count(ALL_MAPS)
+    }
+
+    /// Number of pairs of maps without a pixel that is valid in both. No score includes them.
+    #[must_use]
+    pub fn maps_without_pixel(&self) -> u64 {
+        self.count(ALL_MAPS) - self.count(MAPS)
+    }
+
+    /// Number of pairs of maps with valid pixels and no contact in either. `contact_iou` leaves them out.
+    #[must_use]
+    pub fn maps_without_contact(&self) -> u64 {
+        self.count(EMPTY_MAPS)
+    }
+
+    /// Number of valid pixels with a negative depth in truth or prediction. Scores include them.
+    #[must_use]
+    pub fn negative_pixels(&self) -> u64 {
+        self.count(NEGATIVE)
+    }
+
+    /// Count `index` of all clusters.
+    fn count(&self, index: usize) -> u64 {
+        let clusters = self.clusters.values();
+        clusters.map(|cluster| cluster.counts[index]).sum()
+    }
+}
+
+/// Raises `greatest` to `others` where these are greater.
+fn raise(greatest: &mut [f64; 2], others: [f64; 2]) {
+    for (own, other) in greatest.iter_mut().zip(others) {
+        *own = own.max(other);
+    }
+}

@@ -1,0 +1,186 @@
+//! Sums of a task of poses.
+
+use serde::Serialize;
+use taceva_core::counted;
+
+use super::cloud::PointDistances;
+use super::error::PoseError;
+use super::rigid::{Pose, check_point};
+use super::thresholds::Thresholds;
+use crate::clusters::ByCluster;
+use crate::error::TaskError;
+use crate::totals::Totals;
+use crate::vector::{length, minus};
+
+/// Index of the sum of lengths of differences of translations, mm.
+pub(super) const TRANSLATION: usize = 0;
+/// Index of the sum of absolute differences along x, mm; those along y and z follow.
+pub(super) const AXES: usize = 1;
+/// Index of the sum of angles, degrees.
+pub(super) const ROTATION: usize = 4;
+/// Index of the sum of distances of points, mm.
+pub(super) const ADD: usize = 5;
+/// Index of the sum of distances to the nearest point, mm.
+pub(super) const ADD_S: usize = 6;
+/// Index of the number of poses.
+pub(super) const POSES: usize = 0;
+/// Index of the number of right bins along x; those along y and of yaw follow.
+pub(super) const RIGHT: usize = 1;
+
+/// Totals of a cluster of poses.
+pub(super) type PoseTotals = Totals<7, 4>;
+
+/// Definition of a task of poses: thresholds for bins, and points of the object. Both may be missing.
+///
+/// ```
+/// use taceva_tasks::pose::{PoseTask, Thresholds};
+/// let task = PoseTask::default()
+///     .with_thresholds(Thresholds::new(&["1"], &["0.5"])?)
+///     .with_points(vec![[0.0, 0.0, 10.0]])?;
+/// assert_ne!(task, PoseTask::default());
+/// # Ok::<(), taceva_tasks::pose::PoseError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct PoseTask {
+    pub(super) thresholds: Option<Thresholds>,
+    pub(super) points: Vec<[f64; 3]>,
+}
+
+impl PoseTask {
+    /// The same task with bins between `thresholds`.
+    #[must_use]
+    pub fn with_thresholds(self, thresholds: Thresholds) -> PoseTask {
+        PoseTask {
+            thresholds: Some(thresholds),
+            ..self
+        }
+    }
+
+    /// The same task with the points x, y, z of the object, in mm.
+    ///
+    /// # Errors
+    /// [`PoseError::Coordinate`] with the number of the point, from 1.
+    pub fn with_points(self, points: Vec<[f64; 3]>) -> Result<PoseTask, PoseError> {
+        for (row, point) in (1..).zip(&points) {
+            check_point(row, *point)?;
+        }
+        Ok(PoseTask { points, ..self })
+    }
+}
+
+/// Sums of a task of poses by cluster. Order and merges do not change a bit of the scores.
+///
+/// ```
+/// use taceva_tasks::pose::{Pose, PoseState, PoseTask};
+/// let mut one = PoseState::new(PoseTask::default());
+/// one.push("stroke 1", &Pose::ZERO, &Pose::ZERO);
+/// let both = one.clone().merge(one)?;
+/// assert_eq!(both.scores()[0].estimate.n, 2);
+/// # Ok::<(), taceva_tasks::TaskError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PoseState {
+    pub(super) task: PoseTask,
+    pub(super) clusters: ByCluster<PoseTotals>,
+    /// Totals of zero motion as the prediction.
+    pub(super) still: PoseTotals,
+    /// Number of true poses by bin along x, along y and of yaw.
+    pub(super) bins: [Vec<u64>; 3],
+}
+
+impl PoseState {
+    /// State of `task` without a pose.
+    #[must_use]
+    pub fn new(task: PoseTask) -> PoseState {
+        let bins = task.thresholds.as_ref().map(Thresholds::bins);
+        let [translation, rotation] = bins.unwrap_or_default();
+        PoseState {
+            task,
+            clusters: ByCluster::default(),
+            still: PoseTotals::default(),
+            bins: [translation, translation, rotation].map(|bins| vec![0; bins]),
+        }
+    }
+
+    /// Adds a true and a predicted pose of `cluster`.
+    pub fn push(&mut self, cluster: &str, truth: &Pose, prediction: &Pose) {
+        let totals = self.clusters.entry(cluster);
+        add_errors(totals, truth, prediction);
+        if let Some(thresholds) = &self.task.thresholds {
+            let bins = |pose: &Pose| {
+                let [x, y, _] = pose.translation_mm();
+                [
+                    thresholds.bin_of_mm(x),
+                    thresholds.bin_of_mm(y),
+                    thresholds.bin_of_degrees(pose.rotation().yaw_degrees()),
+                ]
+            };
+            for (axis, [truth, prediction]) in pairs(bins(truth), bins(prediction)) {
+                self.bins[axis][truth] += 1;
+                totals.counts[RIGHT + axis] += u64::from(truth == prediction);
+            }
+        }
+        if !self.task.points.is_empty() {
+            let distances = PointDistances::of(&self.task.points, truth, prediction);
+            totals.sums[ADD].merge(&distances.same);
+            totals.sums[ADD_S].merge(&distances.nearest);
+        }
+        add_errors(&mut self.still, truth, &Pose::ZERO);
+    }
+
+    /// Both states as one.
+    ///
+    /// # Errors
+    /// [`TaskError::OtherDefinition`] if thresholds or points differ.
+    pub fn merge(mut self, other: PoseState) -> Result<PoseState, TaskError> {
+        self.task.check_same(&other.task)?;
+        self.clusters
+            .merge(other.clusters, |own, other| own.merge(&other));
+        self.still.merge(&other.still);
+        for (own, other) in self.bins.iter_mut().zip(other.bins) {
+            for (own, other) in own.iter_mut().zip(other) {
+                *own += other;
+            }
+        }
+        Ok(self)
+    }
+}
+
+impl PoseTask {
+    /// Checks that `other` is the same task.
+    fn check_same(&self, other: &PoseTask) -> Result<(), TaskError> {
+        let [ours, theirs] = [self, other].map(|task| {
+            let thresholds = task.thresholds.as_ref();
+            thresholds.map_or_else(|| "none".to_owned(), Thresholds::words)
+        });
+        let other_definition =
+            |what, ours, theirs| TaskError::OtherDefinition { what, ours, theirs };
+        if ours != theirs {
+            return Err(other_definition("thresholds", ours, theirs));
+        }
+        if self.points != other.points {
+            let [ours, theirs] = [self, other].map(|task| counted(task.points.len(), "point"));
+            return Err(other_definition("points", ours, theirs));
+        }
+        Ok(())
+    }
+}
+
+/// Values of x, y and yaw side by side, with the number of the axis.
+fn pairs(truth: [usize; 3], prediction: [usize; 3]) -> impl Iterator<Item = (usize, [usize; 2])> {
+    let both = truth.into_iter().zip(prediction);
+    both.map(|(truth, prediction)| [truth, prediction])
+        .enumerate()
+}
+
+/// Adds the errors of translation and rotation of one pose.
+fn add_errors(totals: &mut PoseTotals, truth: &Pose, prediction: &Pose) {
+    let apart = minus(prediction.translation_mm(), truth.translation_mm());
+    totals.sums[TRANSLATION].add(length(apart));
+    for (axis, off) in apart.into_iter().enumerate() {
+        totals.sums[AXES + axis].add(off.abs());
+    }
+    let angle = truth.rotation().degrees_to(prediction.rotation());
+    totals.sums[ROTATION].add(angle);
+    totals.counts[POSES] += 1;
+}
