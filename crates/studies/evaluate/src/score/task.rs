@@ -172,7 +172,7 @@ impl<'a> Clusters<'a> {
                 problem: format!(
                     "no column `{CLUSTER}`: frames of one trajectory, clip or object resemble each other, so name the column that tells them \
                      apart with --cluster COLUMN; the columns are {}",
-                    beside.map(shown).collect::<Vec<_>>().join(", ")
+                    listed(beside)
                 ),
             });
         }
@@ -202,6 +202,12 @@ impl<'a> Clusters<'a> {
             cluster => Ok(cluster),
         }
     }
+}
+
+/// Names for a message, separated by commas.
+fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    let names: Vec<String> = names.map(|name| shown(name).to_string()).collect();
+    names.join(", ")
 }
 
 /// Remark on `left_out` rows without a label, if any.

@@ -102,9 +102,9 @@ fn definition(task: &TaskSpec) -> Result<PoseTask, EvaluateError> {
     let Some(of) = &task.thresholds else {
         return Ok(PoseTask::default());
     };
-    let texts =
-        |texts: &'_ [String]| -> Vec<&'_ str> { texts.iter().map(String::as_str).collect() };
-    let thresholds = Thresholds::new(&texts(&of.translation_mm), &texts(&of.rotation_deg));
+    let [translation, rotation] = [&of.translation_mm, &of.rotation_deg]
+        .map(|texts| texts.iter().map(String::as_str).collect::<Vec<_>>());
+    let thresholds = Thresholds::new(&translation, &rotation);
     let thresholds = thresholds.map_err(|error| {
         EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
     })?;

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use taceva_core::{nearest, shown};
 use taceva_import::CsvTable;
 
-use super::super::{TaskSpec, TaskTables};
+use super::super::{TaskSpec, TaskTables, listed};
 use crate::error::EvaluateError;
 
 /// Greatest number of classes that a table may introduce without names.
@@ -130,8 +130,7 @@ impl<'a> ClassColumn<'a> {
             let meant = nearest(cell, names.clone()).map_or_else(String::new, |name| {
                 format!("; did you mean `{}`?", shown(name))
             });
-            let names: Vec<String> = names.map(shown).collect();
-            let expected = format!("expected a class of the task, {}{meant}", names.join(", "));
+            let expected = format!("expected a class of the task, {}{meant}", listed(names));
             self.table.refuse(row, self.column, &expected).into()
         })
     }

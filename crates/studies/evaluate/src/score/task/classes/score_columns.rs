@@ -3,7 +3,7 @@
 use taceva_core::shown;
 use taceva_import::CsvTable;
 
-use super::super::TaskSpec;
+use super::super::{TaskSpec, listed};
 use super::labels::ClassNames;
 use crate::error::EvaluateError;
 
@@ -38,8 +38,8 @@ impl<'a> ScoreColumns<'a> {
             if !names.all().iter().any(|name| name == class) {
                 return Err(refused(format!(
                     "column `{}` has the scores of no class of the task, expected one of {}",
-                    shown(format!("{prefix}{class}")),
-                    names.all().iter().map(shown).collect::<Vec<_>>().join(", ")
+                    shown(&format!("{prefix}{class}")),
+                    listed(names.all().iter().map(String::as_str))
                 )));
             }
         }
@@ -59,7 +59,7 @@ impl<'a> ScoreColumns<'a> {
             (_, false) => Ok(None),
             (Some((class, _)), true) if !suffices => Err(refused(format!(
                 "no column `{}`, although other classes have scores: write a column for each class, or none",
-                shown(format!("{prefix}{class}"))
+                shown(&format!("{prefix}{class}"))
             ))),
             _ => Ok(Some(ScoreColumns { table, columns })),
         }
