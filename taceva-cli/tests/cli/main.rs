@@ -47,6 +47,7 @@ mod support;
 mod sweep;
 mod sweep_scenes;
 mod sweep_tables;
+mod tasks;
 mod taxels;
 mod threads;
 mod uncertainty;

@@ -47,14 +47,14 @@ impl Estimate {
     }
 }
 
-/// `{value, undefined, interval, n, clusters, of_constant}`; `undefined` is the reason of a missing value.
+/// `{value, undefined, ci95, n, clusters, of_constant}`; `undefined` is the reason of a missing value.
 impl Serialize for Estimate {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut into = serializer.serialize_struct("Estimate", 6)?;
         into.serialize_field("value", &self.value.ok())?;
         let reason = self.value.err().map(|reason| reason.to_string());
         into.serialize_field("undefined", &reason)?;
-        into.serialize_field("interval", &self.interval)?;
+        into.serialize_field("ci95", &self.interval)?;
         into.serialize_field("n", &self.n)?;
         into.serialize_field("clusters", &self.clusters)?;
         into.serialize_field("of_constant", &self.of_constant)?;

@@ -42,6 +42,8 @@ pub enum Undefined {
     NoPixelSize,
     /// No onset, neither true nor predicted.
     NoOnset,
+    /// No predicted onset matches a true one.
+    NoMatch,
     /// A sequence has no times.
     NoTimes,
     /// No time passes in any sequence.
@@ -75,6 +77,7 @@ impl fmt::Display for Undefined {
             Undefined::BothEmpty => "no contact in truth and prediction",
             Undefined::NoPixelSize => "the task has no size of a pixel",
             Undefined::NoOnset => "no onset",
+            Undefined::NoMatch => "no matched onset",
             Undefined::NoTimes => "frames without times",
             Undefined::NoDuration => "no time passes",
         })

@@ -38,7 +38,8 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
 fn rules(args: &Score) -> anyhow::Result<BTreeMap<String, TaskRule>> {
     let mut rules: BTreeMap<String, TaskRule> = BTreeMap::new();
     for word in &args.task.thresholds {
-        let (name, limit) = read::<f64>("--threshold", word, "a number", f64::is_finite)?;
+        let (name, limit) =
+            read::<f64>("--threshold", word, "a number", |limit| limit.is_finite())?;
         rules.entry(name).or_default().threshold = Some(limit);
     }
     for word in &args.task.debounces {

@@ -3,4 +3,6 @@
 mod cases;
 mod classes;
 mod depth;
+mod events;
 mod pose;
+mod shape;

@@ -2,8 +2,10 @@
 
 mod classes;
 mod events;
+mod labels;
 mod pose;
 mod rule;
+mod score_columns;
 mod spec;
 
 use std::collections::BTreeMap;

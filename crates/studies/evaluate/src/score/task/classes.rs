@@ -1,17 +1,15 @@
 //! Columns of classes and of their scores, as states of a task.
 
-mod labels;
-mod score_columns;
-
 use taceva_core::shown;
+use taceva_tasks::events::EventRule;
 use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskScores, TopK};
 
+use super::labels::{ClassColumn, ClassNames};
+use super::score_columns::ScoreColumns;
 use super::{
     Clusters, RowPair, TaskKind, TaskRule, TaskSpec, TaskTables, empty, events, unlabelled,
 };
 use crate::error::EvaluateError;
-use labels::{ClassColumn, ClassNames};
-use score_columns::ScoreColumns;
 
 /// Places of `top_k`.
 const PLACES: [u64; 2] = [2, 3];
@@ -64,8 +62,8 @@ pub(super) fn scores(
     if let Some(columns) = with_scores {
         of_scores(&mut scores, &rows, &columns, &names, task).map_err(refused)?;
     }
-    if task.kind == TaskKind::Event {
-        events::add(&mut scores, tables, &rows, positive)?;
+    if let (TaskKind::Event, Some(positive)) = (task.kind, positive) {
+        events::add(&mut scores, tables, &rows, positive, rule)?;
     }
     Ok(scores)
 }
@@ -121,19 +119,20 @@ fn apply(
     task: &TaskSpec,
 ) -> Result<(), EvaluateError> {
     let name = shown(&task.name);
-    let refused = |problem: &str| Err(EvaluateError::Request(format!("task `{name}`: {problem}")));
+    let refused = |problem: String| EvaluateError::Request(format!("task `{name}`: {problem}"));
     let Some(positive) = positive.filter(|of| *of < 2) else {
-        return refused(
-            "a threshold or a debounce needs two classes and a positive one: state positive=CLASS",
-        );
+        return Err(refused(
+            "a threshold or a debounce needs two classes and a positive one: state positive=CLASS"
+                .to_owned(),
+        ));
     };
     let negative = 1 - positive;
     if let Some(threshold) = rule.threshold {
         for row in rows.iter_mut() {
             let Some(score) = ScoreColumns::of_class(&row.scores, positive) else {
-                return refused(&format!(
+                return Err(refused(format!(
                     "a threshold needs the scores of the positive class, expected a column {name}.p.CLASS in the predictions"
-                ));
+                )));
             };
             row.predicted = match score > threshold {
                 true => positive,
@@ -142,7 +141,9 @@ fn apply(
         }
     }
     if let Some(least) = rule.debounce {
-        events::debounce(rows, positive, negative, least);
+        let rule = EventRule::default().with_debounce(least);
+        let rule = rule.map_err(|error| refused(error.to_string()))?;
+        events::debounce(rows, positive, negative, rule);
     }
     Ok(())
 }

@@ -1,18 +1,105 @@
-//! Events of a task.
+//! Onsets of events, and the debounce of classes.
 
+use std::collections::BTreeMap;
+
+use taceva_import::CsvTable;
 use taceva_tasks::TaskScores;
+use taceva_tasks::events::{EventError, EventRule, EventState, Frame};
 
-use super::TaskTables;
 use super::classes::ClassRow;
+use super::score_columns::ScoreColumns;
+use super::{TaskRule, TaskTables};
 use crate::error::EvaluateError;
 
-pub(super) fn debounce(_rows: &mut [ClassRow<'_>], _positive: u32, _negative: u32, _least: u32) {}
+/// Column with the time of a sample, s.
+const TIME: &str = "t_s";
 
+/// Replaces the predicted classes of each cluster, in the order of rows, by those after `least` positive ones in a row.
+pub(super) fn debounce(rows: &mut [ClassRow<'_>], positive: u32, negative: u32, rule: EventRule) {
+    for numbers in by_cluster(rows).into_values() {
+        let scores: Vec<f64> = numbers
+            .iter()
+            .map(|number| f64::from(u8::from(rows[*number].predicted == positive)))
+            .collect();
+        for (number, label) in numbers.into_iter().zip(rule.labels(&scores)) {
+            rows[number].predicted = match label {
+                true => positive,
+                false => negative,
+            };
+        }
+    }
+}
+
+/// Rule of onsets from the rule of a task.
+pub(super) fn event_rule(rule: Option<&TaskRule>) -> Result<EventRule, EventError> {
+    let rule = rule.copied().unwrap_or_default();
+    let mut found = EventRule::default();
+    if let Some(threshold) = rule.threshold {
+        found = found.with_threshold(threshold)?;
+    }
+    if let Some(debounce) = rule.debounce {
+        found = found.with_debounce(debounce)?;
+    }
+    Ok(found)
+}
+
+/// Adds the scores of onsets, or a remark if the truth has no times.
 pub(super) fn add(
-    _scores: &mut TaskScores,
-    _tables: &TaskTables,
-    _rows: &[ClassRow<'_>],
-    _positive: Option<u32>,
+    scores: &mut TaskScores,
+    tables: &TaskTables,
+    rows: &[ClassRow<'_>],
+    positive: u32,
+    rule: Option<&TaskRule>,
 ) -> Result<(), EvaluateError> {
+    let truth = &tables.truth;
+    if !truth.has(TIME) {
+        scores.notes.push(format!(
+            "onsets, delays and false alarms are skipped: the truth has no column `{TIME}` with the time in s"
+        ));
+        return Ok(());
+    }
+    let refused = |error: EventError| EvaluateError::Tables {
+        path: truth.path().to_owned(),
+        problem: error.to_string(),
+    };
+    let time = truth.position(TIME)?;
+    let has_threshold = rule.is_some_and(|rule| rule.threshold.is_some());
+    let mut state = EventState::new(event_rule(rule).map_err(refused)?);
+    for (cluster, numbers) in by_cluster(rows) {
+        let mut frames = Vec::with_capacity(numbers.len());
+        for row in numbers.into_iter().map(|number| &rows[number]) {
+            let score = match has_threshold {
+                true => ScoreColumns::of_class(&row.scores, positive),
+                false => None,
+            };
+            let score = score.unwrap_or(f64::from(u8::from(row.predicted == positive)));
+            let number = row.pair.truth as u64 + 1;
+            let time_s = stated_time(truth, row.pair.truth, time)?;
+            frames.push(Frame::new(
+                number,
+                Some(time_s),
+                row.truth == positive,
+                score,
+            ));
+        }
+        state.push(cluster, &frames).map_err(refused)?;
+    }
+    scores.scores.extend(state.scores());
     Ok(())
+}
+
+fn stated_time(table: &CsvTable, row: usize, column: usize) -> Result<f64, EvaluateError> {
+    table.number(row, column)?.ok_or_else(|| {
+        let expected = "expected the time of the sample in s";
+        table.refuse(row, column, expected).into()
+    })
+}
+
+/// Positions of the rows of each cluster, in their order.
+fn by_cluster<'a>(rows: &[ClassRow<'a>]) -> BTreeMap<&'a str, Vec<usize>> {
+    let mut clusters: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+    for (number, row) in rows.iter().enumerate() {
+        clusters.entry(row.cluster).or_default().push(number);
+    }
+    clusters
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use taceva_core::{nearest, shown};
 use taceva_import::CsvTable;
 
-use super::super::{TaskSpec, TaskTables, listed};
+use super::{TaskSpec, TaskTables, listed};
 use crate::error::EvaluateError;
 
 /// Greatest number of classes that a table may introduce without names.

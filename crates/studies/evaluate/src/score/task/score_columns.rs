@@ -3,8 +3,8 @@
 use taceva_core::shown;
 use taceva_import::CsvTable;
 
-use super::super::{TaskSpec, listed};
 use super::labels::ClassNames;
+use super::{TaskSpec, listed};
 use crate::error::EvaluateError;
 
 /// Scores of the classes in a table of predictions.

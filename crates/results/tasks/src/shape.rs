@@ -1,0 +1,21 @@
+//! Shapes as clouds of points: Chamfer distances and F scores.
+//!
+//! Four distances are called Chamfer in publications. The score is ½ (mean + mean) of the distances to the nearest point, both ways.
+//! The variant `sum` is mean + mean, and `squared` is the sum of the means of squared distances.
+//!
+//! ```
+//! use taceva_tasks::shape::{ShapeState, ShapeTask};
+//! let mut state = ShapeState::new(ShapeTask::default().with_tau_mm(0.5)?);
+//! state.push("object 1", 1, &[[0.0, 0.0, 0.0]], &[[0.0, 0.0, 0.25], [0.0, 0.0, 1.0]])?;
+//! let scores = state.scores();
+//! // 0.25 mm one way, the mean of 0.25 mm and 1 mm the other way.
+//! assert_eq!(scores[0].estimate.value, Ok((0.25 + 0.625) / 2.0));
+//! # Ok::<(), taceva_tasks::shape::ShapeError>(())
+//! ```
+
+mod distances;
+mod error;
+mod state;
+
+pub use error::ShapeError;
+pub use state::{ShapeState, ShapeTask};
