@@ -1,6 +1,6 @@
 //! Refused samples and definitions of tasks.
 
-use taceva_core::{nearest, shown};
+use taceva_core::{counted, nearest, shown};
 use thiserror::Error;
 
 /// Reason why a task refuses a definition, a sample or a merge. A row is the number of the sample in its state, from 1.
@@ -44,7 +44,7 @@ pub enum TaskError {
         classes: u64,
     },
     /// Fewer than two names.
-    #[error("the task has {have} names, expected two or more")]
+    #[error("the task has {}, expected two or more", names(.have))]
     TooFewNames {
         /// Number of names.
         have: usize,
@@ -74,7 +74,7 @@ pub enum TaskError {
         value: f64,
     },
     /// Scores for some of the classes only.
-    #[error("row {row}: {have} scores for {expected} classes{}; give one score for each class", no_score_of(.missing))]
+    #[error("row {row}: {} for {expected} classes{}; give one score for each class", scores(.have), no_score_of(.missing))]
     SomeScores {
         /// Number of the sample, from 1.
         row: u64,
@@ -86,7 +86,7 @@ pub enum TaskError {
         missing: Option<String>,
     },
     /// Columns of different length.
-    #[error("{column} has {have} rows, expected {expected} as in the truth")]
+    #[error("{column} has {}, expected {expected}, as many as truths", rows(.have))]
     OtherLength {
         /// Name of the column.
         column: &'static str,
@@ -94,6 +94,12 @@ pub enum TaskError {
         have: usize,
         /// Number of rows of the truth.
         expected: usize,
+    },
+    /// A stored state that no samples give.
+    #[error("a stored state has {}, which no samples give; score the samples again", shown(.found))]
+    Damaged {
+        /// Part found.
+        found: String,
     },
     /// A merge of states with different definitions.
     #[error("states of different {what} do not merge: {} and {}; score both parts with the same {what}", shown(.ours), shown(.theirs))]
@@ -123,6 +129,20 @@ impl TaskError {
         }
     }
 
+    /// Stored state with the part `found`.
+    pub(crate) fn damaged(found: impl Into<String>) -> TaskError {
+        TaskError::Damaged {
+            found: found.into(),
+        }
+    }
+
+    /// `n` + `count`, for counts of a stored state.
+    pub(crate) fn checked_count(n: u64, count: u64) -> Result<u64, TaskError> {
+        // Twice the number of samples occurs in formulas, and their products in 128 bits.
+        let sum = n.checked_add(count).filter(|sum| *sum < 1 << 53);
+        sum.ok_or_else(|| TaskError::damaged("more than 2^53 samples"))
+    }
+
     /// Positive class `name`, which is not among `names`.
     pub(crate) fn unknown_positive(name: &str, names: &[String]) -> TaskError {
         TaskError::UnknownPositive {
@@ -149,4 +169,16 @@ fn no_score_of(missing: &Option<String>) -> String {
         Some(name) => format!(", none of \"{}\"", shown(name)),
         None => String::new(),
     }
+}
+
+fn names(count: &usize) -> String {
+    counted(*count, "name")
+}
+
+fn rows(count: &usize) -> String {
+    counted(*count, "row")
+}
+
+fn scores(count: &usize) -> String {
+    counted(*count, "score")
 }
