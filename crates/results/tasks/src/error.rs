@@ -1,6 +1,6 @@
 //! Refused samples and definitions of tasks.
 
-use taceva_core::{nearest, shown};
+use taceva_core::{counted, nearest, shown};
 use thiserror::Error;
 
 /// Reason why a task refuses a definition, a sample or a merge. A row is the number of the sample in its state, from 1.
@@ -44,7 +44,7 @@ pub enum TaskError {
         classes: u64,
     },
     /// Fewer than two names.
-    #[error("the task has {have} names, expected two or more")]
+    #[error("the task has {}, expected two or more", names(.have))]
     TooFewNames {
         /// Number of names.
         have: usize,
@@ -73,8 +73,20 @@ pub enum TaskError {
         /// Value found.
         value: f64,
     },
+    /// Scores for some of the classes only.
+    #[error("row {row}: {} for {expected} classes{}; give one score for each class", scores(.have), no_score_of(.missing))]
+    SomeScores {
+        /// Number of the sample, from 1.
+        row: u64,
+        /// Number of scores found.
+        have: usize,
+        /// Number of classes.
+        expected: usize,
+        /// First class without a score; `None` for too many scores.
+        missing: Option<String>,
+    },
     /// Columns of different length.
-    #[error("{column} has {have} rows, expected {expected} as in the truth")]
+    #[error("{column} has {}, expected {expected}, as many as truths", rows(.have))]
     OtherLength {
         /// Name of the column.
         column: &'static str,
@@ -130,4 +142,23 @@ fn did_you_mean(nearest: &Option<String>) -> String {
         Some(name) => format!("; did you mean \"{}\"?", shown(name)),
         None => String::new(),
     }
+}
+
+fn no_score_of(missing: &Option<String>) -> String {
+    match missing {
+        Some(name) => format!(", none of \"{}\"", shown(name)),
+        None => String::new(),
+    }
+}
+
+fn names(count: &usize) -> String {
+    counted(*count, "name")
+}
+
+fn rows(count: &usize) -> String {
+    counted(*count, "row")
+}
+
+fn scores(count: &usize) -> String {
+    counted(*count, "score")
 }

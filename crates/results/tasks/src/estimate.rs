@@ -17,7 +17,8 @@ use crate::undefined::Undefined;
 /// let scores = slip.scores();
 /// let f1 = scores.iter().find(|score| score.metric == "f1").ok_or("two classes")?;
 /// assert_eq!((f1.estimate.value, f1.estimate.n, f1.estimate.clusters), (Ok(10.0 / 11.0), 10, 5));
-/// assert!(f1.estimate.beats_constant());
+/// // Five clusters do not show that it is better than all positive, which has 2/3.
+/// assert!(!f1.estimate.beats_constant());
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -41,6 +42,15 @@ impl Estimate {
     pub fn beats_constant(&self) -> bool {
         match (self.interval.ends(), self.of_constant) {
             (Some([low, _]), Some(of_constant)) => low > of_constant,
+            _ => false,
+        }
+    }
+
+    /// True if the whole interval lies below the error of the best constant, for errors, whose smaller values are better.
+    #[must_use]
+    pub fn is_below_constant(&self) -> bool {
+        match (self.interval.ends(), self.of_constant) {
+            (Some([_, high]), Some(of_constant)) => high < of_constant,
             _ => false,
         }
     }

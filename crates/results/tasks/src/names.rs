@@ -2,6 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use taceva_core::shown;
+
 use crate::error::TaskError;
 
 /// Names of classes in their order.
@@ -60,6 +62,11 @@ impl Names {
         self.positive.map(|position| position as usize)
     }
 
+    /// Position of the positive class if there are two classes.
+    pub(crate) fn positive_of_two(&self) -> Option<usize> {
+        self.positive().filter(|_| self.len() == 2)
+    }
+
     /// Name of the positive class.
     pub(crate) fn positive_name(&self) -> Option<&str> {
         let position = self.positive()?;
@@ -93,6 +100,28 @@ impl Names {
                 classes: self.names.len() as u64,
             }),
         }
+    }
+
+    /// Refuses a number of scores other than that of the classes, and a score that is not finite.
+    pub(crate) fn check_scores(&self, row: u64, scores: &[f64]) -> Result<(), TaskError> {
+        if scores.len() != self.len() {
+            return Err(TaskError::SomeScores {
+                row,
+                have: scores.len(),
+                expected: self.len(),
+                missing: self.names.get(scores.len()).cloned(),
+            });
+        }
+        for (name, value) in self.names.iter().zip(scores) {
+            if !value.is_finite() {
+                return Err(TaskError::NotFinite {
+                    row,
+                    column: format!("the score of \"{}\"", shown(name)),
+                    value: *value,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Refuses other names or another positive class.

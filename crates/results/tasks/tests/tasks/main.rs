@@ -2,7 +2,17 @@
 
 mod cases;
 mod classes;
+mod coverage;
 mod depth;
 mod events;
+mod golden;
+mod laws;
+mod other_libraries;
 mod pose;
+mod probabilities;
+mod published;
+mod ranking;
+mod refused;
 mod shape;
+mod simulated;
+mod top_k;

@@ -173,6 +173,29 @@ fn four_clusters_have_no_interval_and_five_have_one_about_the_value() {
 }
 
 #[test]
+fn an_error_is_below_that_of_zero_motion_with_its_whole_interval() {
+    let mut state = PoseState::new(PoseTask::default());
+    for (cluster, off) in [
+        ("a", 0.1),
+        ("b", 0.12),
+        ("c", 0.09),
+        ("d", 0.11),
+        ("e", 0.1),
+    ] {
+        state.push(cluster, &shifted(2.0), &shifted(2.0 + off));
+    }
+    let scores = state.scores();
+    let translation = &score(&scores, "pose_translation", None).estimate;
+    assert!(translation.is_below_constant() && !translation.beats_constant());
+    // Zero motion along y is right, so no error is below it.
+    assert!(
+        !score(&scores, "pose_axis", Some("y"))
+            .estimate
+            .is_below_constant()
+    );
+}
+
+#[test]
 fn order_and_merges_do_not_change_a_bit_of_the_state() {
     let task = || {
         let points = vec![[0.0, 0.0, 1.0], [0.3, 0.1, 0.2]];

@@ -1,0 +1,250 @@
+//! Scores of two classes by cluster, and how well they rank the positive class above the negative one.
+
+mod key;
+mod levels;
+
+use std::collections::BTreeMap;
+
+use crate::clusters::ByCluster;
+use crate::error::TaskError;
+use crate::estimate::{Part, estimate, share};
+use crate::ranking::key::ScoreKey;
+pub(crate) use crate::ranking::levels::{Level, Sides};
+use crate::ranking::levels::{average_precision, roc_auc};
+use crate::score::{ScoreFlag, TaskScore};
+use crate::undefined::Undefined;
+
+/// Scores of positive and negative samples by cluster. A score is any finite number, greater for the positive class.
+///
+/// The state counts samples of each different score. Beyond 65,536 different scores, all scores are rounded to multiples of 2⁻¹⁶, half to
+/// even, and flagged. Whether this occurs depends on the samples alone, so order and merges change nothing.
+///
+/// ```
+/// use taceva_tasks::Ranking;
+/// let mut slip = Ranking::default();
+/// slip.push_rows("stroke 1", &[0.1, 0.4, 0.35, 0.8], &[false, false, true, true])?;
+/// let scores = slip.scores();
+/// assert_eq!((scores[0].metric, scores[0].estimate.value), ("roc_auc", Ok(0.75)));
+/// assert_eq!((scores[1].metric, scores[1].estimate.value), ("average_precision", Ok(5.0 / 6.0)));
+/// # Ok::<(), taceva_tasks::TaskError>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Ranking {
+    n: u64,
+    is_on_grid: bool,
+    all: Counts,
+    clusters: ByCluster<Counts>,
+}
+
+/// Score of levels in ascending order.
+type Value = fn(&[Level]) -> Result<f64, Undefined>;
+
+/// Samples by their score.
+type Counts = BTreeMap<ScoreKey, Sides>;
+
+/// Most different scores that are kept as they are.
+const MOST_SCORES: usize = 65_536;
+
+fn add(counts: &mut Counts, key: ScoreKey, sides: Sides) {
+    let found = counts.entry(key).or_default();
+    found.positive += sides.positive;
+    found.negative += sides.negative;
+}
+
+/// A sample: its score and its class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Row {
+    key: ScoreKey,
+    is_positive: bool,
+}
+
+impl Ranking {
+    /// Number of samples.
+    #[must_use]
+    pub fn n(&self) -> u64 {
+        self.n
+    }
+
+    /// Adds a sample of `cluster`.
+    ///
+    /// # Errors
+    /// [`TaskError::NotFinite`] for a score that is NaN or infinite. Nothing is added then.
+    pub fn push(&mut self, cluster: &str, score: f64, is_positive: bool) -> Result<(), TaskError> {
+        self.push_rows(cluster, &[score], &[is_positive])
+    }
+
+    /// Adds the samples of `cluster`, sorted once.
+    ///
+    /// # Errors
+    /// [`TaskError::OtherLength`], or [`TaskError::NotFinite`] for a score that is NaN or infinite. Nothing is added then.
+    pub fn push_rows(
+        &mut self,
+        cluster: &str,
+        scores: &[f64],
+        is_positive: &[bool],
+    ) -> Result<(), TaskError> {
+        if scores.len() != is_positive.len() {
+            return Err(TaskError::OtherLength {
+                column: "the score",
+                have: scores.len(),
+                expected: is_positive.len(),
+            });
+        }
+        let mut rows = Vec::with_capacity(scores.len());
+        for (row, (score, is_positive)) in (self.n + 1..).zip(scores.iter().zip(is_positive)) {
+            if !score.is_finite() {
+                return Err(TaskError::NotFinite {
+                    row,
+                    column: "the score".to_owned(),
+                    value: *score,
+                });
+            }
+            rows.push(Row {
+                key: ScoreKey::of(*score),
+                is_positive: *is_positive,
+            });
+        }
+        if rows.is_empty() {
+            return Ok(());
+        }
+        rows.sort_unstable();
+        let different = rows.chunk_by(|one, next| one.key == next.key).count();
+        if different > MOST_SCORES {
+            self.round_to_grid();
+        }
+        if self.is_on_grid {
+            // Rounding keeps the order.
+            for row in &mut rows {
+                row.key = row.key.on_grid();
+            }
+        }
+        let counts = self.clusters.entry(cluster);
+        for level in rows.chunk_by(|one, next| one.key == next.key) {
+            let positive: u64 = level.iter().map(|row| u64::from(row.is_positive)).sum();
+            let sides = Sides {
+                positive,
+                negative: level.len() as u64 - positive,
+            };
+            add(counts, level[0].key, sides);
+            add(&mut self.all, level[0].key, sides);
+        }
+        self.n += rows.len() as u64;
+        self.round_if_many();
+        Ok(())
+    }
+
+    /// All samples of both states.
+    #[must_use]
+    pub fn merge(mut self, mut other: Ranking) -> Ranking {
+        if self.is_on_grid {
+            other.round_to_grid();
+        } else if other.is_on_grid {
+            self.round_to_grid();
+        }
+        self.n += other.n;
+        for (key, sides) in other.all {
+            add(&mut self.all, key, sides);
+        }
+        self.clusters.merge(other.clusters, |ours, theirs| {
+            for (key, sides) in theirs {
+                add(ours, key, sides);
+            }
+        });
+        self.round_if_many();
+        self
+    }
+
+    fn round_if_many(&mut self) {
+        if !self.is_on_grid && self.all.len() > MOST_SCORES {
+            self.round_to_grid();
+        }
+    }
+
+    fn round_to_grid(&mut self) {
+        if self.is_on_grid {
+            return;
+        }
+        self.is_on_grid = true;
+        for counts in self.clusters.values_mut().chain([&mut self.all]) {
+            let mut rounded = Counts::new();
+            for (key, sides) in std::mem::take(counts) {
+                add(&mut rounded, key.on_grid(), sides);
+            }
+            *counts = rounded;
+        }
+    }
+
+    /// `roc_auc` and `average_precision`.
+    #[must_use]
+    pub fn scores(&self) -> Vec<TaskScore> {
+        let sides = Sides::of(&self.levels());
+        let flags = self.flags();
+        let score = |metric, definition: &str, value: Value, of_constant| {
+            let (value, parts) = self.value_and_parts(value);
+            let found = estimate(value, share(value), &parts, of_constant);
+            TaskScore::new(metric, definition, found).flagged(&flags)
+        };
+        let auc_words = "share of pairs of a positive and a negative sample in which the positive one has the greater score, equal scores counted half";
+        let precision_words = "sum over the different scores, greatest first, of the precision down to each times the recall that it adds";
+        vec![
+            score("roc_auc", auc_words, roc_auc, Some(0.5)),
+            score(
+                "average_precision",
+                precision_words,
+                average_precision,
+                sides.prevalence(),
+            ),
+        ]
+    }
+
+    /// Properties of the scores that limit what is computed from them.
+    pub(crate) fn flags(&self) -> Vec<ScoreFlag> {
+        let mut flags = Vec::new();
+        if self.all.len() == 1 {
+            flags.push(ScoreFlag::AllScoresEqual);
+        }
+        if self.is_on_grid {
+            flags.push(ScoreFlag::ScoresOnGrid);
+        }
+        let unit = ScoreKey::of(0.0)..=ScoreKey::of(1.0);
+        if self.n > 0 && self.all.range(unit).next().is_none() {
+            flags.push(ScoreFlag::OutsideUnit);
+        }
+        flags
+    }
+
+    /// `value` of all samples, and of all but those of each cluster.
+    pub(crate) fn value_and_parts(&self, value: Value) -> (Result<f64, Undefined>, Vec<Part>) {
+        let parts = self.clusters.values().map(|counts| {
+            let left = self.levels_without(counts);
+            Part {
+                n: self.n - Sides::of(&left).n(),
+                value: value(&left),
+            }
+        });
+        (value(&self.levels()), parts.collect())
+    }
+
+    fn levels(&self) -> Vec<Level> {
+        self.levels_without(&Counts::new())
+    }
+
+    /// Levels in ascending order without the samples of `part`.
+    fn levels_without(&self, part: &Counts) -> Vec<Level> {
+        let mut part = part.iter().peekable();
+        let mut levels = Vec::with_capacity(self.all.len());
+        for (key, all) in &self.all {
+            let of_part = part.next_if(|(of, _)| *of == key);
+            let less = of_part.map_or(Sides::default(), |(_, sides)| *sides);
+            let level = Level {
+                score: key.score(),
+                positive: all.positive - less.positive,
+                negative: all.negative - less.negative,
+            };
+            if level.positive + level.negative > 0 {
+                levels.push(level);
+            }
+        }
+        levels
+    }
+}

@@ -1,0 +1,196 @@
+//! Shares of samples whose class is among the k greatest scores.
+
+use std::collections::BTreeMap;
+
+use crate::clusters::ByCluster;
+use crate::error::TaskError;
+use crate::estimate::{Part, estimate, share};
+use crate::names::Names;
+use crate::quotient::{Quotient, sum_over};
+use crate::score::TaskScore;
+use crate::undefined::Undefined;
+
+/// Places of the true class among the scores of all classes, by cluster.
+///
+/// ```
+/// use taceva_tasks::TopK;
+/// let mut textile = TopK::new(["corduroy", "denim", "silk"])?;
+/// textile.push("clip 1", "denim", &[0.5, 0.25, 0.25])?;
+/// let scores = textile.scores(2);
+/// // Two classes share the second and the third place.
+/// let values: Vec<_> = scores.iter().map(|score| score.estimate.value).collect();
+/// assert_eq!(values, [Ok(0.5), Ok(1.0), Ok(0.0)]);
+/// assert_eq!(scores[1].variant.as_deref(), Some("k=2 ties_for"));
+/// # Ok::<(), taceva_tasks::TaskError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct TopK {
+    names: Names,
+    n: u64,
+    clusters: ByCluster<Places>,
+}
+
+/// Samples by the place of their class.
+type Places = BTreeMap<Place, u64>;
+
+/// Place of the true class.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Place {
+    /// Classes with a greater score.
+    above: u64,
+    /// Classes with an equal score, with the true class itself.
+    equal: u64,
+}
+
+/// Value of a score that is equal to others for the first k places.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ties {
+    /// The expected share if equal scores are ordered at random.
+    Expected,
+    /// The class stands before all equal ones.
+    For,
+    /// The class stands after all equal ones.
+    Against,
+}
+
+impl Place {
+    /// Part of a sample that counts as found within the first `k` places.
+    fn found(self, k: u64, ties: Ties) -> Quotient {
+        let free = k.saturating_sub(self.above).min(self.equal);
+        let whole = |is_found: bool| Quotient {
+            above: u128::from(is_found),
+            below: 1,
+        };
+        match ties {
+            Ties::Expected => Quotient {
+                above: u128::from(free),
+                below: self.equal,
+            },
+            Ties::For => whole(free > 0),
+            Ties::Against => whole(free == self.equal),
+        }
+    }
+}
+
+impl TopK {
+    /// No samples of the classes `names`.
+    ///
+    /// # Errors
+    /// [`TaskError::TooFewNames`] or [`TaskError::SameName`].
+    pub fn new<N: Into<String>>(names: impl IntoIterator<Item = N>) -> Result<TopK, TaskError> {
+        Ok(TopK {
+            names: Names::new(names, None)?,
+            n: 0,
+            clusters: ByCluster::default(),
+        })
+    }
+
+    /// Adds a sample of `cluster` with a score of each class, in the order of the names. Scores are any finite numbers.
+    ///
+    /// # Errors
+    /// [`TaskError::UnknownClass`], [`TaskError::SomeScores`] or [`TaskError::NotFinite`]. Nothing is added then.
+    pub fn push(&mut self, cluster: &str, truth: &str, scores: &[f64]) -> Result<(), TaskError> {
+        let row = self.n + 1;
+        let truth = self.names.position(row, "truth", truth)?;
+        self.names.check_scores(row, scores)?;
+        let of_truth = scores[truth as usize];
+        let count = |is: fn(&f64, &f64) -> bool| -> u64 {
+            scores
+                .iter()
+                .map(|score| u64::from(is(score, &of_truth)))
+                .sum()
+        };
+        let place = Place {
+            above: count(f64::gt),
+            equal: count(f64::eq),
+        };
+        self.n += 1;
+        *self.clusters.entry(cluster).entry(place).or_insert(0) += 1;
+        Ok(())
+    }
+
+    /// Adds all samples of `other`.
+    ///
+    /// # Errors
+    /// [`TaskError::OtherDefinition`] if the names differ.
+    pub fn merge(mut self, other: TopK) -> Result<TopK, TaskError> {
+        self.names.check_same(&other.names)?;
+        self.n += other.n;
+        self.clusters.merge(other.clusters, |ours, theirs| {
+            for (place, count) in theirs {
+                *ours.entry(place).or_insert(0) += count;
+            }
+        });
+        Ok(self)
+    }
+
+    /// `top_k` with equal scores shared, then its variants `ties_for` and `ties_against`.
+    #[must_use]
+    pub fn scores(&self, k: u64) -> Vec<TaskScore> {
+        let score = |ties, name: &str, words: &str| {
+            let definition =
+                format!("share of samples whose class has one of the {k} greatest scores; {words}");
+            let found = self.estimate(k, ties);
+            TaskScore::new("top_k", definition, found).variant(format!("k={k}{name}"))
+        };
+        vec![
+            score(
+                Ties::Expected,
+                "",
+                "equal scores share their places, so that a sample counts in part",
+            ),
+            score(
+                Ties::For,
+                " ties_for",
+                "among equal scores the true class stands first",
+            ),
+            score(
+                Ties::Against,
+                " ties_against",
+                "among equal scores the true class stands last",
+            ),
+        ]
+    }
+
+    fn estimate(&self, k: u64, ties: Ties) -> crate::Estimate {
+        let mut all = Places::new();
+        for places in self.clusters.values() {
+            for (place, count) in places {
+                *all.entry(*place).or_insert(0) += count;
+            }
+        }
+        let value = |places: &Places| self.share_of(places, k, ties);
+        let parts = self.clusters.values().map(|part| {
+            let mut left = all.clone();
+            for (place, count) in part {
+                if let Some(left) = left.get_mut(place) {
+                    *left -= count;
+                }
+            }
+            Part {
+                n: part.values().sum(),
+                value: value(&left),
+            }
+        });
+        let found = value(&all);
+        estimate(found, share(found), &parts.collect::<Vec<_>>(), None)
+    }
+
+    fn share_of(&self, places: &Places, k: u64, ties: Ties) -> Result<f64, Undefined> {
+        let n: u64 = places.values().sum();
+        if k >= self.names.len() as u64 {
+            return Err(Undefined::TooManyPlaces);
+        }
+        let found = places.iter().map(|(place, count)| {
+            let Quotient { above, below } = place.found(k, ties);
+            Quotient {
+                above: above * u128::from(*count),
+                below,
+            }
+        });
+        match n {
+            0 => Err(Undefined::Empty),
+            n => Ok(sum_over(found, n)),
+        }
+    }
+}

@@ -1,0 +1,55 @@
+//! Intervals by stroke hold the expected score as often as stated; intervals by frame do not. `examples/coverage_of_tasks.rs` runs more.
+
+use crate::simulated::{Cluster, METRICS, Strokes};
+
+#[test]
+fn intervals_by_stroke_hold_95_percent() {
+    const RUNS: u32 = 400;
+    for rate in [0.3, 0.5] {
+        let strokes = Strokes { rate, strokes: 20 };
+        for (metric, held) in METRICS.iter().zip(strokes.held(Cluster::Stroke, RUNS)) {
+            assert_eq!(held.intervals, RUNS, "{metric}");
+            // Four standard errors of 400 runs are 0.044.
+            assert!(
+                (0.906..=0.994).contains(&held.share()),
+                "{rate} {metric}: {held:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn intervals_of_a_rare_slip_hold_95_percent() {
+    const RUNS: u32 = 400;
+    let strokes = Strokes {
+        rate: 0.05,
+        strokes: 40,
+    };
+    let [f1, balanced, precision] = strokes.held(Cluster::Stroke, RUNS);
+    for held in [f1, balanced] {
+        assert!(
+            held.intervals > RUNS - 20 && held.share() >= 0.906,
+            "{held:?}"
+        );
+    }
+    // Few strokes slip, and one of them may have most positive frames.
+    assert!(
+        precision.intervals > RUNS - 20 && precision.share() >= 0.85,
+        "{precision:?}"
+    );
+}
+
+#[test]
+fn intervals_by_frame_hold_too_little() {
+    const RUNS: u32 = 150;
+    let strokes = Strokes {
+        rate: 0.3,
+        strokes: 20,
+    };
+    let [f1, balanced, _] = strokes.held(Cluster::Frame, RUNS);
+    // About 0.75 and 0.83: four standard errors of 150 runs below 0.906, where intervals by stroke are accepted.
+    assert!(
+        f1.share() < 0.88 && balanced.share() < 0.906,
+        "{f1:?} {balanced:?}"
+    );
+}
