@@ -3,9 +3,7 @@
 use serde::Serialize;
 
 use super::error::DepthError;
-
-/// Greatest magnitude of a depth and of a pixel size, mm. Squares and quotients of such numbers are finite.
-pub(super) const GREATEST_MM: f64 = 1e9;
+use crate::vector::GREATEST_MM;
 
 /// Depths in mm by row and column of pixels; NaN marks an invalid pixel.
 ///

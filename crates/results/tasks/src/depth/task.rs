@@ -3,8 +3,9 @@
 use serde::Serialize;
 
 use super::error::DepthError;
-use super::map::{DepthMap, GREATEST_MM};
+use super::map::DepthMap;
 use crate::error::TaskError;
+use crate::vector::GREATEST_MM;
 
 /// Definition of a task of depth maps: the gate of contact, the size of a pixel, the constant to beat.
 ///

@@ -10,9 +10,7 @@ use crate::estimate::{Estimate, share};
 use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, Totals, error};
 use crate::undefined::Undefined;
-
-/// Greatest magnitude of a coordinate, mm. Squares of such coordinates are finite.
-const GREATEST_MM: f64 = 1e9;
+use crate::vector::GREATEST_MM;
 
 /// Index of the sum of ½ (mean + mean), mm.
 const HALF_SUM: usize = 0;

@@ -213,11 +213,11 @@ fn order_and_merges_do_not_change_a_bit_of_the_state() {
     let mut whole = PoseState::new(task());
     (0..60).for_each(|at| push(&mut whole, at));
     let [mut left, mut right] = [PoseState::new(task()), PoseState::new(task())];
-    (0..60)
+    (0..60_usize)
         .rev()
-        .filter(|at| at % 3 == 0)
+        .filter(|at| at.is_multiple_of(3))
         .for_each(|at| push(&mut left, at));
-    (0..60)
+    (0..60_usize)
         .rev()
         .filter(|at| at % 3 > 0)
         .for_each(|at| push(&mut right, at));
