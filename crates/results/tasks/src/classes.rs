@@ -5,6 +5,8 @@ mod table;
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::classes::margins::Margins;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
@@ -25,22 +27,75 @@ use crate::score::TaskScore;
 /// assert_eq!((scores[0].metric, scores[0].estimate.value), ("class_accuracy", Ok(0.5)));
 /// # Ok::<(), taceva_tasks::TaskError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct Classes {
     names: Names,
     rule: String,
+    #[serde(skip_serializing)]
     n: u64,
     clusters: ByCluster<Cells>,
+}
+
+/// A state as read, with counts that may contradict the names.
+#[derive(Deserialize)]
+struct Stored {
+    names: Names,
+    rule: String,
+    clusters: ByCluster<Cells>,
+}
+
+impl TryFrom<Stored> for Classes {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<Classes, TaskError> {
+        let mut n = 0;
+        for cells in stored.clusters.values() {
+            for (cell, count) in cells {
+                stored.names.check(n + 1, "truth", cell.truth)?;
+                stored.names.check(n + 1, "prediction", cell.predicted)?;
+                if *count == 0 {
+                    return Err(TaskError::damaged("a count of 0"));
+                }
+                n = TaskError::checked_count(n, *count)?;
+            }
+        }
+        Ok(Classes {
+            names: stored.names,
+            rule: stored.rule,
+            n,
+            clusters: stored.clusters,
+        })
+    }
 }
 
 /// Samples by their true and their predicted class.
 type Cells = BTreeMap<Cell, u64>;
 
-/// Position of the true class, then of the predicted class.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// Position of the true class, then of the predicted class; in files `truth>predicted`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
 struct Cell {
     truth: u32,
     predicted: u32,
+}
+
+impl From<Cell> for String {
+    fn from(cell: Cell) -> String {
+        format!("{}>{}", cell.truth, cell.predicted)
+    }
+}
+
+impl TryFrom<String> for Cell {
+    type Error = TaskError;
+    fn try_from(text: String) -> Result<Cell, TaskError> {
+        let parsed = text.split_once('>').and_then(|(truth, predicted)| {
+            Some(Cell {
+                truth: truth.parse().ok()?,
+                predicted: predicted.parse().ok()?,
+            })
+        });
+        parsed.ok_or_else(|| TaskError::damaged(format!("the cell \"{text}\"")))
+    }
 }
 
 /// Number of samples of one class that are predicted as one class.

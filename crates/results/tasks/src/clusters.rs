@@ -21,6 +21,11 @@ impl<T> ByCluster<T> {
         self.0.values()
     }
 
+    /// Names and sums of all clusters, in the order of the names.
+    pub(crate) fn into_sums(self) -> impl Iterator<Item = (String, T)> {
+        self.0.into_iter()
+    }
+
     /// Sums of all clusters, to be changed.
     pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.0.values_mut()

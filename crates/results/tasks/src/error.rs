@@ -95,6 +95,12 @@ pub enum TaskError {
         /// Number of rows of the truth.
         expected: usize,
     },
+    /// A stored state that no samples give.
+    #[error("a stored state has {}, which no samples give; score the samples again", shown(.found))]
+    Damaged {
+        /// Part found.
+        found: String,
+    },
     /// A merge of states with different definitions.
     #[error("states of different {what} do not merge: {} and {}; score both parts with the same {what}", shown(.ours), shown(.theirs))]
     OtherDefinition {
@@ -121,6 +127,20 @@ impl TaskError {
             name: name.to_owned(),
             nearest: nearest_name(name, names),
         }
+    }
+
+    /// Stored state with the part `found`.
+    pub(crate) fn damaged(found: impl Into<String>) -> TaskError {
+        TaskError::Damaged {
+            found: found.into(),
+        }
+    }
+
+    /// `n` + `count`, for counts of a stored state.
+    pub(crate) fn checked_count(n: u64, count: u64) -> Result<u64, TaskError> {
+        // Twice the number of samples occurs in formulas, and their products in 128 bits.
+        let sum = n.checked_add(count).filter(|sum| *sum < 1 << 53);
+        sum.ok_or_else(|| TaskError::damaged("more than 2^53 samples"))
     }
 
     /// Positive class `name`, which is not among `names`.

@@ -17,8 +17,8 @@ use crate::undefined::Undefined;
 /// let scores = slip.scores();
 /// let f1 = scores.iter().find(|score| score.metric == "f1").ok_or("two classes")?;
 /// assert_eq!((f1.estimate.value, f1.estimate.n, f1.estimate.clusters), (Ok(10.0 / 11.0), 10, 5));
-/// // Five clusters do not show that it is better than all positive, which has 2/3.
-/// assert!(!f1.estimate.beats_constant());
+/// // All positive.
+/// assert_eq!(f1.estimate.of_constant, Some(2.0 / 3.0));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq)]
@@ -34,26 +34,6 @@ pub struct Estimate {
     pub clusters: u64,
     /// Score of the best constant prediction; `None` if no constant has a score.
     pub of_constant: Option<f64>,
-}
-
-impl Estimate {
-    /// True if the whole interval lies above the score of the best constant, for scores whose greater values are better.
-    #[must_use]
-    pub fn beats_constant(&self) -> bool {
-        match (self.interval.ends(), self.of_constant) {
-            (Some([low, _]), Some(of_constant)) => low > of_constant,
-            _ => false,
-        }
-    }
-
-    /// True if the whole interval lies below the error of the best constant, for errors, whose smaller values are better.
-    #[must_use]
-    pub fn is_below_constant(&self) -> bool {
-        match (self.interval.ends(), self.of_constant) {
-            (Some([_, high]), Some(of_constant)) => high < of_constant,
-            _ => false,
-        }
-    }
 }
 
 /// `{value, undefined, interval, n, clusters, of_constant}`; `undefined` is the reason of a missing value.

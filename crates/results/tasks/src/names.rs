@@ -2,16 +2,41 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
 use taceva_core::shown;
 
 use crate::error::TaskError;
 
 /// Names of classes in their order.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Stored", try_from = "Stored")]
 pub(crate) struct Names {
     names: Vec<String>,
     positions: BTreeMap<String, u32>,
     positive: Option<u32>,
+}
+
+/// Names in a file.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    all: Vec<String>,
+    positive: Option<String>,
+}
+
+impl From<Names> for Stored {
+    fn from(names: Names) -> Stored {
+        Stored {
+            positive: names.positive_name().map(str::to_owned),
+            all: names.names,
+        }
+    }
+}
+
+impl TryFrom<Stored> for Names {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<Names, TaskError> {
+        Names::new(stored.all, stored.positive.as_deref())
+    }
 }
 
 impl Names {

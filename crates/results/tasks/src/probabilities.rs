@@ -3,6 +3,8 @@
 mod calibration;
 mod losses;
 
+use serde::{Deserialize, Serialize};
+
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::estimate::{Part, estimate};
@@ -29,12 +31,46 @@ use taceva_metrics::Range;
 /// assert_eq!(slip.scores()[0].estimate.value, Err(Undefined::NotProbabilities));
 /// # Ok::<(), taceva_tasks::TaskError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct Probabilities {
     names: Names,
+    #[serde(skip_serializing)]
     n: u64,
     clusters: ByCluster<Losses>,
     ranking: Ranking,
+}
+
+/// A state as read, with counts that may contradict each other.
+#[derive(Deserialize)]
+struct Stored {
+    names: Names,
+    clusters: ByCluster<Losses>,
+    ranking: Ranking,
+}
+
+impl TryFrom<Stored> for Probabilities {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<Probabilities, TaskError> {
+        let mut n = 0;
+        for losses in stored.clusters.values() {
+            losses.check(stored.names.len())?;
+            n = TaskError::checked_count(n, losses.n())?;
+        }
+        let expected = stored.names.positive().map_or(0, |_| n);
+        if stored.ranking.n() != expected {
+            let ranked = stored.ranking.n();
+            return Err(TaskError::damaged(format!(
+                "{ranked} scores, not {expected}"
+            )));
+        }
+        Ok(Probabilities {
+            names: stored.names,
+            n,
+            clusters: stored.clusters,
+            ranking: stored.ranking,
+        })
+    }
 }
 
 /// Greatest difference of the sum of probabilities from 1.

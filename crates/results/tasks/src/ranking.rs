@@ -2,8 +2,11 @@
 
 mod key;
 mod levels;
+mod stored;
 
 use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
 
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
@@ -11,6 +14,7 @@ use crate::estimate::{Part, estimate, share};
 use crate::ranking::key::ScoreKey;
 pub(crate) use crate::ranking::levels::{Level, Sides};
 use crate::ranking::levels::{average_precision, roc_auc};
+use crate::ranking::stored::Stored;
 use crate::score::{ScoreFlag, TaskScore};
 use crate::undefined::Undefined;
 
@@ -28,7 +32,8 @@ use crate::undefined::Undefined;
 /// assert_eq!((scores[1].metric, scores[1].estimate.value), ("average_precision", Ok(5.0 / 6.0)));
 /// # Ok::<(), taceva_tasks::TaskError>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(into = "Stored", try_from = "Stored")]
 pub struct Ranking {
     n: u64,
     is_on_grid: bool,

@@ -1,7 +1,7 @@
 //! Named scores of tasks.
 
 use serde::Serialize;
-use taceva_metrics::Interval;
+use taceva_metrics::{Better, Interval};
 
 use crate::estimate::Estimate;
 
@@ -35,6 +35,38 @@ pub struct TaskScore {
 }
 
 impl TaskScore {
+    /// Direction of good values.
+    #[must_use]
+    pub fn better(&self) -> Better {
+        match (self.metric, self.unit) {
+            ("depth_bias" | "onset_delay", _) => Better::NearZero,
+            ("brier" | "log_loss" | "ece", _) | (_, Some(_)) => Better::Lower,
+            _ => Better::Higher,
+        }
+    }
+
+    /// True if the whole interval is better than the score of the best constant.
+    ///
+    /// ```
+    /// use taceva_tasks::Classes;
+    /// let mut grasp = Classes::new(["lost", "held"], None)?;
+    /// for object in 0..20 {
+    ///     grasp.push(&format!("object {object}"), "held", "held")?;
+    ///     grasp.push(&format!("object {object}"), "lost", "lost")?;
+    /// }
+    /// assert!(grasp.scores()[0].beats_constant());
+    /// # Ok::<(), taceva_tasks::TaskError>(())
+    /// ```
+    #[must_use]
+    pub fn beats_constant(&self) -> bool {
+        let ends = self.estimate.interval.ends();
+        match (self.better(), ends, self.estimate.of_constant) {
+            (Better::Higher, Some([low, _]), Some(of_constant)) => low > of_constant,
+            (Better::Lower, Some([_, high]), Some(of_constant)) => high < of_constant,
+            _ => false,
+        }
+    }
+
     /// Score `estimate` of `metric`, a pure number without a variant.
     pub(crate) fn new(
         metric: &'static str,

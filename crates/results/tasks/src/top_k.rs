@@ -2,9 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use serde::{Deserialize, Serialize};
+
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
-use crate::estimate::{Part, estimate, share};
+use crate::estimate::{Estimate, Part, estimate, share};
 use crate::names::Names;
 use crate::quotient::{Quotient, sum_over};
 use crate::score::TaskScore;
@@ -23,23 +25,76 @@ use crate::undefined::Undefined;
 /// assert_eq!(scores[1].variant.as_deref(), Some("k=2 ties_for"));
 /// # Ok::<(), taceva_tasks::TaskError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct TopK {
     names: Names,
+    #[serde(skip_serializing)]
     n: u64,
     clusters: ByCluster<Places>,
+}
+
+/// A state as read, with counts that may contradict the names.
+#[derive(Deserialize)]
+struct Stored {
+    names: Names,
+    clusters: ByCluster<Places>,
+}
+
+impl TryFrom<Stored> for TopK {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<TopK, TaskError> {
+        let classes = stored.names.len() as u64;
+        let mut n = 0_u64;
+        for places in stored.clusters.values() {
+            for (Place { above, equal }, count) in places {
+                let last = above.saturating_add(*equal);
+                if *equal == 0 || last > classes || *count == 0 {
+                    return Err(TaskError::damaged(format!(
+                        "{count} samples on the places {above} to {last} of {classes}"
+                    )));
+                }
+                n = TaskError::checked_count(n, *count)?;
+            }
+        }
+        Ok(TopK {
+            names: stored.names,
+            n,
+            clusters: stored.clusters,
+        })
+    }
 }
 
 /// Samples by the place of their class.
 type Places = BTreeMap<Place, u64>;
 
-/// Place of the true class.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+/// Place of the true class; in files `above+equal`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(into = "String", try_from = "String")]
 struct Place {
     /// Classes with a greater score.
     above: u64,
     /// Classes with an equal score, with the true class itself.
     equal: u64,
+}
+
+impl From<Place> for String {
+    fn from(place: Place) -> String {
+        format!("{}+{}", place.above, place.equal)
+    }
+}
+
+impl TryFrom<String> for Place {
+    type Error = TaskError;
+    fn try_from(text: String) -> Result<Place, TaskError> {
+        let parsed = text.split_once('+').and_then(|(above, equal)| {
+            Some(Place {
+                above: above.parse().ok()?,
+                equal: equal.parse().ok()?,
+            })
+        });
+        parsed.ok_or_else(|| TaskError::damaged(format!("the place \"{text}\"")))
+    }
 }
 
 /// Value of a score that is equal to others for the first k places.
@@ -152,7 +207,7 @@ impl TopK {
         ]
     }
 
-    fn estimate(&self, k: u64, ties: Ties) -> crate::Estimate {
+    fn estimate(&self, k: u64, ties: Ties) -> Estimate {
         let mut all = Places::new();
         for places in self.clusters.values() {
             for (place, count) in places {

@@ -1,13 +1,15 @@
 //! Exact sums of the losses of probabilities.
 
+use serde::{Deserialize, Serialize};
 use taceva_metrics::elementary::logarithm;
 use taceva_metrics::{Dyadic, ExactSum};
 
+use crate::error::TaskError;
 use crate::quotient::{Quotient, ratio, sum_over};
 use crate::undefined::Undefined;
 
 /// Sums of the losses of some samples.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Losses {
     /// Samples with probabilities.
     n: u64,
@@ -81,6 +83,23 @@ impl Losses {
             *count -= part;
         }
         left
+    }
+
+    /// Refuses counts of a file that contradict each other or the number of classes.
+    pub(super) fn check(&self, classes: usize) -> Result<(), TaskError> {
+        let mut n = 0;
+        for count in &self.classes {
+            n = TaskError::checked_count(n, *count)?;
+        }
+        TaskError::checked_count(n, self.others)?;
+        match n == self.n && self.impossible <= n && [0, classes].contains(&self.classes.len()) {
+            true => Ok(()),
+            false => Err(TaskError::damaged(format!(
+                "{} samples with probabilities, {n} of {} classes",
+                self.n,
+                self.classes.len()
+            ))),
+        }
     }
 
     /// Number of samples.

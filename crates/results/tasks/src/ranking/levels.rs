@@ -1,10 +1,12 @@
 //! Scores of a ranking from the counts of each different score.
 
+use serde::{Deserialize, Serialize};
+
 use crate::quotient::{Quotient, ratio, sum_over};
 use crate::undefined::Undefined;
 
 /// Samples of one score.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Level {
     /// The score.
     pub(crate) score: f64,

@@ -152,8 +152,8 @@ fn fewer_than_five_clusters_give_no_interval() {
 #[test]
 fn a_perfect_accuracy_has_an_interval_from_as_many_samples_as_clusters() {
     let scores = of_two(20, [[3, 0], [0, 2]]).scores();
-    let found = &score(&scores, "class_accuracy", None).estimate;
-    let [low, high] = found.interval.ends().expect("twenty clusters");
+    let found = score(&scores, "class_accuracy", None);
+    let [low, high] = found.estimate.interval.ends().expect("twenty clusters");
     // t(19)² = 4.381: 20 / 24.381.
     assert!((low - 0.8203).abs() < 5e-5 && high >= 1.0, "{low} {high}");
     assert!(found.beats_constant());

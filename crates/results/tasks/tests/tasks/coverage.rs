@@ -25,29 +25,24 @@ fn intervals_of_a_rare_slip_hold_95_percent() {
         rate: 0.05,
         strokes: 40,
     };
-    let [f1, balanced, precision] = strokes.held(Cluster::Stroke, RUNS);
-    for held in [f1, balanced] {
+    for (metric, held) in METRICS.iter().zip(strokes.held(Cluster::Stroke, RUNS)) {
+        assert!(held.intervals > RUNS - 20, "{metric}: {held:?}");
         assert!(
-            held.intervals > RUNS - 20 && held.share() >= 0.906,
-            "{held:?}"
+            (0.906..=0.994).contains(&held.share()),
+            "{metric}: {held:?}"
         );
     }
-    // Few strokes slip, and one of them may have most positive frames.
-    assert!(
-        precision.intervals > RUNS - 20 && precision.share() >= 0.85,
-        "{precision:?}"
-    );
 }
 
 #[test]
 fn intervals_by_frame_hold_too_little() {
-    const RUNS: u32 = 150;
+    const RUNS: u32 = 200;
     let strokes = Strokes {
-        rate: 0.3,
+        rate: 0.5,
         strokes: 20,
     };
     let [f1, balanced, _] = strokes.held(Cluster::Frame, RUNS);
-    // About 0.75 and 0.83: four standard errors of 150 runs below 0.906, where intervals by stroke are accepted.
+    // About 0.77 and 0.81. Intervals by stroke are accepted from 0.906.
     assert!(
         f1.share() < 0.88 && balanced.share() < 0.906,
         "{f1:?} {balanced:?}"

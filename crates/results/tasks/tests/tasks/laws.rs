@@ -5,6 +5,8 @@ mod measured;
 use std::fmt::Debug;
 
 use proptest::prelude::*;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use taceva_core::random::SplitMix64;
 use taceva_tasks::{Classes, Probabilities, Ranking, TopK};
 
@@ -37,7 +39,7 @@ impl Row {
 }
 
 /// A state that is filled row by row and merged.
-trait State: Clone + Debug + PartialEq {
+trait State: Clone + Debug + PartialEq + Serialize + DeserializeOwned {
     fn empty() -> Self;
     fn add(&mut self, row: &Row);
     fn join(self, other: Self) -> Self;
@@ -138,7 +140,11 @@ fn hold<S: State>(rows: &[Row], seed: u64) {
     }
     let found = parts.pop().expect("one part");
     assert_eq!(found, expected);
-    assert_eq!(format!("{found:?}"), format!("{expected:?}"));
+    let [written, expected_text] =
+        [&found, &expected].map(|state| serde_json::to_string(state).expect("JSON"));
+    assert_eq!(written, expected_text);
+    let read: S = serde_json::from_str(&written).expect("a state");
+    assert_eq!(read, expected);
     assert_eq!(found.all_scores(), expected.all_scores());
 }
 

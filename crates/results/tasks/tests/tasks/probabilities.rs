@@ -130,3 +130,19 @@ fn no_sample_has_no_loss() {
         );
     }
 }
+
+#[test]
+fn losses_beat_a_constant_from_below() {
+    let mut slip = slip();
+    for stroke in 0..20_u32 {
+        let p = 0.875 + f64::from(stroke % 3) / 32.0;
+        slip.push(&stroke.to_string(), "slip", &[1.0 - p, p])
+            .expect("probabilities");
+        slip.push(&stroke.to_string(), "no_slip", &[p, 1.0 - p])
+            .expect("probabilities");
+    }
+    let scores = slip.scores();
+    assert!(score(&scores, "brier", None).beats_constant());
+    assert!(score(&scores, "log_loss", None).beats_constant());
+    assert!(!score(&scores, "ece", None).beats_constant());
+}

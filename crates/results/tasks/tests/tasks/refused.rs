@@ -1,5 +1,7 @@
 //! Refused definitions, samples and merges.
 
+use serde::Serialize;
+use serde::de::DeserializeOwned;
 use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TopK};
 
 /// Text of the error of `result`.
@@ -138,4 +140,36 @@ fn states_of_other_names_or_another_positive_class_do_not_merge() {
 fn control_characters_of_a_class_are_escaped() {
     let text = refusal(slip().push("stroke", "sl\u{1b}ip", "slip"));
     assert!(text.contains("sl\\u{1b}ip"), "{text}");
+}
+
+/// Text of the error of reading `state` with `part` in the place of `whole`.
+fn damage<S: Serialize + DeserializeOwned>(state: &S, whole: &str, part: &str) -> String {
+    let text = serde_json::to_string(state).expect("JSON");
+    assert!(text.contains(whole), "{text}");
+    match serde_json::from_str::<S>(&text.replace(whole, part)) {
+        Ok(_) => panic!("accepted: {part}"),
+        Err(error) => error.to_string(),
+    }
+}
+
+#[test]
+fn stored_states_that_no_samples_give_are_refused() {
+    let mut slip = slip();
+    slip.push("stroke", "slip", "no_slip").expect("names");
+    assert!(damage(&slip, "1>0", "1>2").contains("position 2"));
+    assert!(damage(&slip, "1>0", "1-0").contains("the cell \"1-0\""));
+    assert!(damage(&slip, "\"1>0\":1", "\"1>0\":0").contains("a count of 0"));
+    assert!(damage(&slip, ":1}", ":18446744073709551615}").contains("2^53"));
+    let mut top_k = TopK::new(["a", "b"]).expect("names");
+    top_k.push("clip", "b", &[0.75, 0.25]).expect("scores");
+    assert!(damage(&top_k, "1+1", "1+0").contains("which no samples give"));
+    assert!(damage(&top_k, "1+1", "1+2").contains("1 samples on the places 1 to 3 of 2"));
+    let mut ranking = Ranking::default();
+    ranking.push("clip", 0.3, true).expect("a score");
+    assert!(damage(&ranking, "false", "true").contains("the level"));
+    let mut probabilities = Probabilities::new(["a", "b"], Some("b")).expect("names");
+    probabilities
+        .push("clip", "b", &[0.75, 0.25])
+        .expect("scores");
+    assert!(damage(&probabilities, "\"n\":1", "\"n\":2").contains("which no samples give"));
 }
