@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
+use taceva_core::counted;
 
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
@@ -50,9 +51,10 @@ impl TryFrom<Stored> for TopK {
             for (Place { above, equal }, count) in places {
                 let last = above.saturating_add(*equal);
                 if *equal == 0 || last > classes || *count == 0 {
-                    return Err(TaskError::damaged(format!(
-                        "{count} samples on the places {above} to {last} of {classes}"
-                    )));
+                    let samples = counted(*count, "sample");
+                    let places = format!("{} to {last} of {classes}", above.saturating_add(1));
+                    let found = format!("{samples} on the places {places}");
+                    return Err(TaskError::damaged(found));
                 }
                 n = TaskError::checked_count(n, *count)?;
             }

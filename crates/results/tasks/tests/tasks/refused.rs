@@ -163,7 +163,7 @@ fn stored_states_that_no_samples_give_are_refused() {
     let mut top_k = TopK::new(["a", "b"]).expect("names");
     top_k.push("clip", "b", &[0.75, 0.25]).expect("scores");
     assert!(damage(&top_k, "1+1", "1+0").contains("which no samples give"));
-    assert!(damage(&top_k, "1+1", "1+2").contains("1 samples on the places 1 to 3 of 2"));
+    assert!(damage(&top_k, "1+1", "1+2").contains("1 sample on the places 2 to 3 of 2"));
     let mut ranking = Ranking::default();
     ranking.push("clip", 0.3, true).expect("a score");
     assert!(damage(&ranking, "false", "true").contains("the level"));
