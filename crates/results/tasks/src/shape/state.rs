@@ -1,6 +1,6 @@
 //! Sums and scores of a task of shapes.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::distances::{BothWays, OneWay};
 use super::error::ShapeError;
@@ -8,7 +8,7 @@ use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::estimate::{Estimate, share};
 use crate::score::TaskScore;
-use crate::totals::{LeaveOneOut, Totals, error};
+use crate::totals::{LeaveOneOut, Totals, checked_counts, error};
 use crate::undefined::Undefined;
 use crate::vector::GREATEST_MM;
 
@@ -34,7 +34,7 @@ type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
 /// use taceva_tasks::shape::ShapeTask;
 /// assert!(ShapeTask::default().with_tau_mm(0.0).is_err());
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShapeTask {
     tau_mm: Option<f64>,
 }
@@ -71,10 +71,33 @@ impl ShapeTask {
 /// assert_eq!(state.scores()[0].estimate.value, Ok(0.0));
 /// # Ok::<(), taceva_tasks::shape::ShapeError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct ShapeState {
     task: ShapeTask,
     clusters: ByCluster<ShapeTotals>,
+}
+
+/// A state as read, with a τ and counts that may be out of range.
+#[derive(Deserialize)]
+struct Stored {
+    task: ShapeTask,
+    clusters: ByCluster<ShapeTotals>,
+}
+
+impl TryFrom<Stored> for ShapeState {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<ShapeState, TaskError> {
+        let Stored { task, clusters } = stored;
+        let is_right = task
+            .tau_mm
+            .is_none_or(|tau| ShapeTask::default().with_tau_mm(tau).is_ok());
+        if !is_right {
+            return Err(TaskError::damaged(task.words()));
+        }
+        checked_counts(&clusters)?;
+        Ok(ShapeState { task, clusters })
+    }
 }
 
 impl ShapeState {
