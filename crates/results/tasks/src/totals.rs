@@ -1,9 +1,11 @@
 //! Exact totals of clusters, and scores from the totals without one of them.
 
-use serde::{Serialize, Serializer};
+use serde::de::Error;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 use taceva_metrics::{Dyadic, ExactSum, Interval, Range, UndefinedReason};
 
 use crate::clusters::ByCluster;
+use crate::error::TaskError;
 use crate::estimate::{Estimate, Part, estimate};
 use crate::undefined::Undefined;
 
@@ -59,6 +61,36 @@ impl<const SUMS: usize, const COUNTS: usize> Serialize for Totals<SUMS, COUNTS> 
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         (self.sums.as_slice(), self.counts.as_slice()).serialize(serializer)
     }
+}
+
+impl<'de, const SUMS: usize, const COUNTS: usize> Deserialize<'de> for Totals<SUMS, COUNTS> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let (sums, counts) = <(Vec<ExactSum>, Vec<u64>)>::deserialize(deserializer)?;
+        let sums: Result<[ExactSum; SUMS], _> = sums.try_into();
+        let counts: Result<[u64; COUNTS], _> = counts.try_into();
+        match (sums, counts) {
+            (Ok(sums), Ok(counts)) => Ok(Totals { sums, counts }),
+            _ => Err(D::Error::custom(format!(
+                "expected {SUMS} sums and {COUNTS} counts"
+            ))),
+        }
+    }
+}
+
+/// Counts of all clusters of a stored state.
+///
+/// # Errors
+/// [`TaskError::Damaged`] for more than 2⁵³.
+pub(crate) fn checked_counts<const SUMS: usize, const COUNTS: usize>(
+    clusters: &ByCluster<Totals<SUMS, COUNTS>>,
+) -> Result<[u64; COUNTS], TaskError> {
+    let mut all = [0; COUNTS];
+    for cluster in clusters.values() {
+        for (sum, count) in all.iter_mut().zip(cluster.counts) {
+            *sum = TaskError::checked_count(*sum, count)?;
+        }
+    }
+    Ok(all)
 }
 
 /// Totals of one cluster, and of all others.

@@ -1,5 +1,8 @@
 //! Lengths and angles of vectors in space, with the same bits on every machine.
 
+/// Greatest magnitude of a coordinate, a depth and a size, mm. Their squares and quotients are finite.
+pub(crate) const GREATEST_MM: f64 = 1e9;
+
 /// Length of a vector, in the unit of its parts.
 pub(crate) fn length([x, y, z]: [f64; 3]) -> f64 {
     (x * x + y * y + z * z).sqrt()

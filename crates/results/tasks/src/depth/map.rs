@@ -1,11 +1,9 @@
 //! Depth maps with invalid pixels.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::error::DepthError;
-
-/// Greatest magnitude of a depth and of a pixel size, mm. Squares and quotients of such numbers are finite.
-pub(super) const GREATEST_MM: f64 = 1e9;
+use crate::vector::GREATEST_MM;
 
 /// Depths in mm by row and column of pixels; NaN marks an invalid pixel.
 ///
@@ -15,11 +13,39 @@ pub(super) const GREATEST_MM: f64 = 1e9;
 /// assert_eq!((map.size(), map.mm()[0]), ([1, 2], 0.25));
 /// # Ok::<(), taceva_tasks::depth::DepthError>(())
 /// ```
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
+#[serde(into = "Stored", try_from = "Stored")]
 pub struct DepthMap {
     rows: usize,
     columns: usize,
     mm: Vec<f64>,
+}
+
+/// A map as written; invalid pixels are missing numbers.
+#[derive(Serialize, Deserialize)]
+struct Stored {
+    rows: usize,
+    columns: usize,
+    mm: Vec<Option<f64>>,
+}
+
+impl From<DepthMap> for Stored {
+    fn from(map: DepthMap) -> Stored {
+        let valid = |depth: f64| (!depth.is_nan()).then_some(depth);
+        Stored {
+            rows: map.rows,
+            columns: map.columns,
+            mm: map.mm.into_iter().map(valid).collect(),
+        }
+    }
+}
+
+impl TryFrom<Stored> for DepthMap {
+    type Error = DepthError;
+    fn try_from(stored: Stored) -> Result<DepthMap, DepthError> {
+        let mm = stored.mm.into_iter().map(|depth| depth.unwrap_or(f64::NAN));
+        DepthMap::new(stored.rows, stored.columns, mm.collect())
+    }
 }
 
 impl DepthMap {

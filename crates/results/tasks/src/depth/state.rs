@@ -1,14 +1,17 @@
 //! Sums of a task of depth maps.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::error::DepthError;
 use super::map::DepthMap;
 use super::normals::NormalAngles;
-use super::pixels::{ALL_MAPS, ANGLES, DepthTotals, EMPTY_MAPS, MAPS, MapSums, NEGATIVE, NORMALS};
+use super::pixels::{
+    ALL_MAPS, ANGLES, BOTH, DepthTotals, EITHER, EMPTY_MAPS, MAPS, MapSums, NEGATIVE, NORMALS,
+};
 use super::task::DepthTask;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
+use crate::totals::checked_counts;
 
 /// Sums of a task of depth maps by cluster. Order and merges do not change a bit of the scores.
 ///
@@ -20,7 +23,8 @@ use crate::error::TaskError;
 /// assert_eq!((state.maps(), state.maps_without_contact(), state.negative_pixels()), (1, 1, 1));
 /// # Ok::<(), taceva_tasks::depth::DepthError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct DepthState {
     pub(super) task: DepthTask,
     pub(super) clusters: ByCluster<DepthTotals>,
@@ -30,6 +34,41 @@ pub struct DepthState {
     pub(super) constant: DepthTotals,
     /// Greatest errors of the constant, mm.
     pub(super) greatest_of_constant: [f64; 2],
+}
+
+/// A state as read, with counts that may contradict each other.
+#[derive(Deserialize)]
+struct Stored {
+    task: DepthTask,
+    clusters: ByCluster<DepthTotals>,
+    greatest: [f64; 2],
+    constant: DepthTotals,
+    greatest_of_constant: [f64; 2],
+}
+
+impl TryFrom<Stored> for DepthState {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<DepthState, TaskError> {
+        let counts = checked_counts(&stored.clusters)?;
+        for count in stored.constant.counts {
+            TaskError::checked_count(0, count)?;
+        }
+        if counts[BOTH] > counts[EITHER] {
+            return Err(TaskError::damaged(
+                "more contact in both maps than in either",
+            ));
+        }
+        if counts[MAPS] > counts[ALL_MAPS] {
+            return Err(TaskError::damaged("more maps with valid pixels than maps"));
+        }
+        Ok(DepthState {
+            task: stored.task,
+            clusters: stored.clusters,
+            greatest: stored.greatest,
+            constant: stored.constant,
+            greatest_of_constant: stored.greatest_of_constant,
+        })
+    }
 }
 
 impl DepthState {

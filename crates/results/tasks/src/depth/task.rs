@@ -1,10 +1,11 @@
 //! Definition of a task of depth maps.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::error::DepthError;
-use super::map::{DepthMap, GREATEST_MM};
+use super::map::DepthMap;
 use crate::error::TaskError;
+use crate::vector::GREATEST_MM;
 
 /// Definition of a task of depth maps: the gate of contact, the size of a pixel, the constant to beat.
 ///
@@ -18,11 +19,34 @@ use crate::error::TaskError;
 /// assert_eq!(task.gate_mm(), 0.05);
 /// # Ok::<(), taceva_tasks::depth::DepthError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct DepthTask {
     gate_mm: f64,
     pixel_mm: Option<[f64; 2]>,
     constant: Option<DepthMap>,
+}
+
+/// A task as read, with numbers that may be out of range.
+#[derive(Deserialize)]
+struct Stored {
+    gate_mm: f64,
+    pixel_mm: Option<[f64; 2]>,
+    constant: Option<DepthMap>,
+}
+
+impl TryFrom<Stored> for DepthTask {
+    type Error = DepthError;
+    fn try_from(stored: Stored) -> Result<DepthTask, DepthError> {
+        let mut task = DepthTask::default().with_gate_mm(stored.gate_mm)?;
+        if let Some(pixel_mm) = stored.pixel_mm {
+            task = task.with_pixel_mm(pixel_mm)?;
+        }
+        Ok(DepthTask {
+            constant: stored.constant,
+            ..task
+        })
+    }
 }
 
 impl Default for DepthTask {

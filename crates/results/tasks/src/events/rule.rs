@@ -1,6 +1,6 @@
 //! Rules from scores to labels of events.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::error::EventError;
 use crate::error::TaskError;
@@ -17,11 +17,29 @@ use crate::error::TaskError;
 /// assert_eq!(rule.words(), "threshold 0.4 strict, debounce 3, tolerance 0.2 s");
 /// # Ok::<(), taceva_tasks::events::EventError>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct EventRule {
     threshold: f64,
     debounce: u32,
     tolerance_s: f64,
+}
+
+/// A rule as read, with numbers that may be out of range.
+#[derive(Deserialize)]
+struct Stored {
+    threshold: f64,
+    debounce: u32,
+    tolerance_s: f64,
+}
+
+impl TryFrom<Stored> for EventRule {
+    type Error = EventError;
+    fn try_from(stored: Stored) -> Result<EventRule, EventError> {
+        let rule = EventRule::default().with_threshold(stored.threshold)?;
+        let rule = rule.with_debounce(stored.debounce)?;
+        rule.with_tolerance_s(stored.tolerance_s)
+    }
 }
 
 impl Default for EventRule {

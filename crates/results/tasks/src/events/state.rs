@@ -1,6 +1,6 @@
 //! Sums of a task of events.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::error::EventError;
 use super::frame::{Frame, checked_times};
@@ -8,7 +8,7 @@ use super::onsets::{match_onsets, onset_times};
 use super::rule::EventRule;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
-use crate::totals::Totals;
+use crate::totals::{Totals, checked_counts};
 
 /// Index of the sum of delays of matched onsets, s.
 pub(super) const DELAYS: usize = 0;
@@ -40,12 +40,47 @@ pub(super) type EventTotals = Totals<2, 6>;
 /// assert_eq!(delay.estimate.value.map_err(|reason| reason.to_string()), Err("frames without times".to_owned()));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct EventState {
     pub(super) rule: EventRule,
     pub(super) clusters: ByCluster<EventTotals>,
     /// Delays of all matched onsets in ascending order, s.
     pub(super) delays: Vec<f64>,
+}
+
+/// A state as read, with counts and delays that may contradict each other.
+#[derive(Deserialize)]
+struct Stored {
+    rule: EventRule,
+    clusters: ByCluster<EventTotals>,
+    delays: Vec<f64>,
+}
+
+impl TryFrom<Stored> for EventState {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<EventState, TaskError> {
+        let Stored {
+            rule,
+            clusters,
+            delays,
+        } = stored;
+        let matched = checked_counts(&clusters)?[MATCHED];
+        if delays.len() as u64 != matched || !delays.is_sorted() {
+            return Err(TaskError::damaged("other delays than matched onsets"));
+        }
+        let is_right = |totals: &EventTotals| totals.counts[MATCHED] <= totals.counts[PREDICTED];
+        if !clusters.values().all(is_right) {
+            return Err(TaskError::damaged(
+                "more matched onsets than predicted ones",
+            ));
+        }
+        Ok(EventState {
+            rule,
+            clusters,
+            delays,
+        })
+    }
 }
 
 impl EventState {

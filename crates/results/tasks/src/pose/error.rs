@@ -1,8 +1,5 @@
 //! Refused poses and thresholds.
 
-/// Greatest magnitude of a coordinate, mm. Squares of such coordinates are finite.
-pub(super) const GREATEST_MM: f64 = 1e9;
-
 /// Reason why a pose, a point or a threshold is refused.
 ///
 /// ```

@@ -1,7 +1,8 @@
 //! Pose: a rotation and a translation.
 
-use super::error::{GREATEST_MM, PoseError};
+use super::error::PoseError;
 use super::rotation::Rotation;
+use crate::vector::GREATEST_MM;
 
 /// Pose of a body, or a change of pose: points are rotated, then shifted.
 ///

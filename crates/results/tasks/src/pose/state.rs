@@ -1,6 +1,6 @@
 //! Sums of a task of poses.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use taceva_core::counted;
 
 use super::cloud::PointDistances;
@@ -9,7 +9,7 @@ use super::rigid::{Pose, check_point};
 use super::thresholds::Thresholds;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
-use crate::totals::Totals;
+use crate::totals::{Totals, checked_counts};
 use crate::vector::{length, minus};
 
 /// Index of the sum of lengths of differences of translations, mm.
@@ -40,10 +40,29 @@ pub(super) type PoseTotals = Totals<7, 4>;
 /// assert_ne!(task, PoseTask::default());
 /// # Ok::<(), taceva_tasks::pose::PoseError>(())
 /// ```
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "StoredTask")]
 pub struct PoseTask {
     pub(super) thresholds: Option<Thresholds>,
     pub(super) points: Vec<[f64; 3]>,
+}
+
+/// A task as read, with points that may be no numbers.
+#[derive(Deserialize)]
+struct StoredTask {
+    thresholds: Option<Thresholds>,
+    points: Vec<[f64; 3]>,
+}
+
+impl TryFrom<StoredTask> for PoseTask {
+    type Error = PoseError;
+    fn try_from(stored: StoredTask) -> Result<PoseTask, PoseError> {
+        let task = PoseTask {
+            thresholds: stored.thresholds,
+            points: Vec::new(),
+        };
+        task.with_points(stored.points)
+    }
 }
 
 impl PoseTask {
@@ -78,7 +97,8 @@ impl PoseTask {
 /// assert_eq!(both.scores()[0].estimate.n, 2);
 /// # Ok::<(), taceva_tasks::TaskError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct PoseState {
     pub(super) task: PoseTask,
     pub(super) clusters: ByCluster<PoseTotals>,
@@ -86,6 +106,56 @@ pub struct PoseState {
     pub(super) still: PoseTotals,
     /// Number of true poses by bin along x, along y and of yaw.
     pub(super) bins: [Vec<u64>; 3],
+}
+
+/// A state as read, with counts that may contradict each other.
+#[derive(Deserialize)]
+struct Stored {
+    task: PoseTask,
+    clusters: ByCluster<PoseTotals>,
+    still: PoseTotals,
+    bins: [Vec<u64>; 3],
+}
+
+impl TryFrom<Stored> for PoseState {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<PoseState, TaskError> {
+        let Stored {
+            task,
+            clusters,
+            still,
+            bins,
+        } = stored;
+        let n = checked_counts(&clusters)?[POSES];
+        let mut expected = [0; 4];
+        expected[POSES] = n;
+        if still.counts != expected {
+            return Err(TaskError::damaged("another number of poses without motion"));
+        }
+        let empty = PoseState::new(task);
+        for (bins, known) in bins.iter().zip(&empty.bins) {
+            let mut sum = 0;
+            for count in bins {
+                sum = TaskError::checked_count(sum, *count)?;
+            }
+            if bins.len() != known.len() || !bins.is_empty() && sum != n {
+                return Err(TaskError::damaged("other bins than the task"));
+            }
+        }
+        let is_right = |totals: &PoseTotals| {
+            let [poses, right @ ..] = totals.counts;
+            right.iter().all(|right| *right <= poses)
+        };
+        if !clusters.values().all(is_right) {
+            return Err(TaskError::damaged("more right bins than poses"));
+        }
+        Ok(PoseState {
+            clusters,
+            still,
+            bins,
+            ..empty
+        })
+    }
 }
 
 impl PoseState {

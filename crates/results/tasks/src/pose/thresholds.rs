@@ -1,6 +1,6 @@
 //! Bins of translations and rotations between decimal thresholds.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::error::PoseError;
 
@@ -20,7 +20,8 @@ const FINE: f64 = 1e9;
 /// assert_eq!([-6.0, -0.1, 0.0999999, 5.0].map(|mm| bench.bin_of_mm(mm)), [0, 5, 5, 10]);
 /// # Ok::<(), taceva_tasks::pose::PoseError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(into = "Decimals", try_from = "Decimals")]
 pub struct Thresholds {
     /// Ascending thresholds of translations, nm.
     translation: Vec<u64>,
@@ -61,12 +62,43 @@ impl Thresholds {
 
     /// Texts of both lists for a definition: `t 0.1 0.5 mm, r 0.03 0.2 deg`.
     pub(super) fn words(&self) -> String {
-        let list = |cuts: &[u64]| {
-            let texts: Vec<String> = cuts.iter().copied().map(decimal).collect();
-            texts.join(" ")
-        };
-        let [translation, rotation] = [&self.translation, &self.rotation].map(|cuts| list(cuts));
+        let Decimals {
+            translation,
+            rotation,
+        } = Decimals::from(self.clone());
+        let [translation, rotation] = [translation, rotation].map(|texts| texts.join(" "));
         format!("t {translation} mm, r {rotation} deg")
+    }
+}
+
+/// Thresholds as written: decimals in mm and in degrees.
+#[derive(Serialize, Deserialize)]
+struct Decimals {
+    translation: Vec<String>,
+    rotation: Vec<String>,
+}
+
+impl From<Thresholds> for Decimals {
+    fn from(thresholds: Thresholds) -> Decimals {
+        let texts = |cuts: Vec<u64>| -> Vec<String> { cuts.into_iter().map(decimal).collect() };
+        Decimals {
+            translation: texts(thresholds.translation),
+            rotation: texts(thresholds.rotation),
+        }
+    }
+}
+
+impl TryFrom<Decimals> for Thresholds {
+    type Error = PoseError;
+    fn try_from(decimals: Decimals) -> Result<Thresholds, PoseError> {
+        let list = |texts: &[String], axis| {
+            let texts: Vec<&str> = texts.iter().map(String::as_str).collect();
+            millionths(axis, &texts)
+        };
+        Ok(Thresholds {
+            translation: list(&decimals.translation, "translation")?,
+            rotation: list(&decimals.rotation, "rotation")?,
+        })
     }
 }
 

@@ -1,6 +1,6 @@
 //! Sums and scores of a task of shapes.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::distances::{BothWays, OneWay};
 use super::error::ShapeError;
@@ -8,11 +8,9 @@ use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::estimate::{Estimate, share};
 use crate::score::TaskScore;
-use crate::totals::{LeaveOneOut, Totals, error};
+use crate::totals::{LeaveOneOut, Totals, checked_counts, error};
 use crate::undefined::Undefined;
-
-/// Greatest magnitude of a coordinate, mm. Squares of such coordinates are finite.
-const GREATEST_MM: f64 = 1e9;
+use crate::vector::GREATEST_MM;
 
 /// Index of the sum of ½ (mean + mean), mm.
 const HALF_SUM: usize = 0;
@@ -36,7 +34,7 @@ type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
 /// use taceva_tasks::shape::ShapeTask;
 /// assert!(ShapeTask::default().with_tau_mm(0.0).is_err());
 /// ```
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct ShapeTask {
     tau_mm: Option<f64>,
 }
@@ -73,10 +71,33 @@ impl ShapeTask {
 /// assert_eq!(state.scores()[0].estimate.value, Ok(0.0));
 /// # Ok::<(), taceva_tasks::shape::ShapeError>(())
 /// ```
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Stored")]
 pub struct ShapeState {
     task: ShapeTask,
     clusters: ByCluster<ShapeTotals>,
+}
+
+/// A state as read, with a τ and counts that may be out of range.
+#[derive(Deserialize)]
+struct Stored {
+    task: ShapeTask,
+    clusters: ByCluster<ShapeTotals>,
+}
+
+impl TryFrom<Stored> for ShapeState {
+    type Error = TaskError;
+    fn try_from(stored: Stored) -> Result<ShapeState, TaskError> {
+        let Stored { task, clusters } = stored;
+        let is_right = task
+            .tau_mm
+            .is_none_or(|tau| ShapeTask::default().with_tau_mm(tau).is_ok());
+        if !is_right {
+            return Err(TaskError::damaged(task.words()));
+        }
+        checked_counts(&clusters)?;
+        Ok(ShapeState { task, clusters })
+    }
 }
 
 impl ShapeState {

@@ -3,17 +3,15 @@
 use serde_json::Value;
 use taceva_tasks::TaskScore;
 
+use super::golden;
+pub(crate) use super::golden::score;
+
 /// The golden case of `section` whose name begins with `name`.
 pub(crate) fn case(section: &str, name: &str) -> Value {
-    let file: Value =
-        serde_json::from_str(include_str!("../golden/tasks.json")).expect("golden values");
-    let cases = file[section].as_array().expect("a section of cases");
-    let is_it = |case: &&Value| {
-        case["name"]
-            .as_str()
-            .is_some_and(|text| text.starts_with(name))
-    };
-    cases.iter().find(is_it).expect("a case").clone()
+    let file = golden::tasks();
+    let mut cases = golden::entries(&file, section).iter();
+    let found = cases.find(|case| golden::name(case).starts_with(name));
+    found.expect("a case").clone()
 }
 
 /// The number `key` of a case.
@@ -23,7 +21,7 @@ pub(crate) fn number(case: &Value, key: &str) -> f64 {
         .unwrap_or_else(|| panic!("no number {key} in {case}"))
 }
 
-/// The list `key` of a case; null is NaN.
+/// The numbers of a list; null is NaN.
 pub(crate) fn numbers(list: &Value) -> Vec<f64> {
     let list = list.as_array().expect("a list");
     list.iter()
@@ -46,18 +44,6 @@ pub(crate) fn close(found: f64, expected: f64, relative: f64, name: &str) {
         off <= relative * expected.abs(),
         "{name}: {found} is not {expected}"
     );
-}
-
-/// The score `metric` of `variant`.
-pub(crate) fn score<'a>(
-    scores: &'a [TaskScore],
-    metric: &str,
-    variant: Option<&str>,
-) -> &'a TaskScore {
-    scores
-        .iter()
-        .find(|score| score.metric == metric && score.variant.as_deref() == variant)
-        .unwrap_or_else(|| panic!("no score {metric} {variant:?}"))
 }
 
 /// The value of the score `metric` of `variant`.

@@ -50,10 +50,8 @@ fn a_map_with_an_invalid_pixel_has_the_golden_errors() {
         ("depth_max", Some("in_contact"), "max"),
         ("contact_iou", None, "iou_at_0.1"),
     ] {
-        // The golden bias is the mean of rounded differences, which nearly cancel.
-        let relative = if key == "bias" { 1e-13 } else { 1e-15 };
         let found = value(&scores, metric, variant);
-        close(found, number(&case, key), relative, key);
+        close(found, number(&case, key), 1e-15, key);
     }
     let all = score(&scores, "depth_mae", None);
     assert_eq!(Some(all.estimate.n), case["n_valid"].as_u64());

@@ -1,5 +1,7 @@
 //! Any order of samples, any division and any merge give the same state and the same scores.
 
+mod measured;
+
 use std::fmt::Debug;
 
 use proptest::prelude::*;

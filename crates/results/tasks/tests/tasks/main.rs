@@ -15,4 +15,5 @@ mod ranking;
 mod refused;
 mod shape;
 mod simulated;
+mod stored;
 mod top_k;

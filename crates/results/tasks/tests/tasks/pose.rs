@@ -173,6 +173,24 @@ fn four_clusters_have_no_interval_and_five_have_one_about_the_value() {
 }
 
 #[test]
+fn a_small_error_beats_zero_motion_with_its_whole_interval() {
+    let mut state = PoseState::new(PoseTask::default());
+    for (cluster, off) in [
+        ("a", 0.1),
+        ("b", 0.12),
+        ("c", 0.09),
+        ("d", 0.11),
+        ("e", 0.1),
+    ] {
+        state.push(cluster, &shifted(2.0), &shifted(2.0 + off));
+    }
+    let scores = state.scores();
+    assert!(score(&scores, "pose_translation", None).beats_constant());
+    // Zero motion along y is right, so no error is below it.
+    assert!(!score(&scores, "pose_axis", Some("y")).beats_constant());
+}
+
+#[test]
 fn order_and_merges_do_not_change_a_bit_of_the_state() {
     let task = || {
         let points = vec![[0.0, 0.0, 1.0], [0.3, 0.1, 0.2]];
@@ -190,11 +208,11 @@ fn order_and_merges_do_not_change_a_bit_of_the_state() {
     let mut whole = PoseState::new(task());
     (0..60).for_each(|at| push(&mut whole, at));
     let [mut left, mut right] = [PoseState::new(task()), PoseState::new(task())];
-    (0..60)
+    (0..60_usize)
         .rev()
-        .filter(|at| at % 3 == 0)
+        .filter(|at| at.is_multiple_of(3))
         .for_each(|at| push(&mut left, at));
-    (0..60)
+    (0..60_usize)
         .rev()
         .filter(|at| at % 3 > 0)
         .for_each(|at| push(&mut right, at));

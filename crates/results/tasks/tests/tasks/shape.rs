@@ -144,13 +144,13 @@ fn order_and_merges_do_not_change_a_bit_and_other_taus_do_not_merge() {
     let new = || ShapeState::new(ShapeTask::default().with_tau_mm(0.3).expect("tau"));
     let [mut whole, mut left, mut right] = [new(), new(), new()];
     (0..20).for_each(|at| push(&mut whole, at));
-    (0..20)
+    (0..20_usize)
         .rev()
         .filter(|at| at % 2 > 0)
         .for_each(|at| push(&mut left, at));
-    (0..20)
+    (0..20_usize)
         .rev()
-        .filter(|at| at % 2 == 0)
+        .filter(|at| at.is_multiple_of(2))
         .for_each(|at| push(&mut right, at));
     let merged = left.merge(right).expect("one task");
     let bytes = |state: &ShapeState| serde_json::to_string(state).expect("a state");
