@@ -13,7 +13,6 @@ type Score = Result<f64, Undefined>;
 
 /// Margins of all clusters, and those with one cluster left out.
 struct Confusion<'a> {
-    names: &'a Names,
     rule: &'a str,
     all: Margins,
     left_out: Vec<Margins>,
@@ -27,7 +26,6 @@ pub(super) fn scores(names: &Names, rule: &str, parts: &[Margins]) -> Vec<TaskSc
     }
     let left_out = parts.iter().map(|part| all.without(part)).collect();
     let confusion = Confusion {
-        names,
         rule,
         all,
         left_out,
