@@ -21,7 +21,7 @@ use crate::undefined::Undefined;
 /// Scores of positive and negative samples by cluster. A score is any finite number, greater for the positive class.
 ///
 /// The state counts samples of each different score. Beyond 65,536 different scores, all scores are rounded to multiples of 2⁻¹⁶, half to
-/// even, and flagged. Whether this occurs depends on the samples alone, so order and merges change nothing.
+/// even, and flagged. This depends on the samples alone, so order and merges change nothing.
 ///
 /// ```
 /// use taceva_tasks::Ranking;

@@ -123,7 +123,7 @@ impl Strokes {
         [classes.scores(), ranking.scores()].concat()
     }
 
-    /// How often intervals hold the expected scores in `runs` recordings, in the order of [`METRICS`].
+    /// Counts of intervals that hold the expected scores in `runs` recordings, in the order of [`METRICS`].
     pub(crate) fn held(self, cluster: Cluster, runs: u32) -> [Held; 3] {
         let expected = self.expected();
         let mut held = [Held::default(); 3];
