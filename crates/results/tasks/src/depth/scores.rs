@@ -15,101 +15,39 @@ use crate::undefined::Undefined;
 
 /// Totals of all clusters of maps, and without each.
 type Clusters<'a> = LeaveOneOut<'a, SUMS, COUNTS>;
-/// Function from totals to a value.
-type ValueOf = fn(&DepthTotals) -> Result<f64, Undefined>;
 
-/// Definition of an error of depth with an interval.
-struct Definition {
+/// An error of depth over pixels, and over the maps' own.
+struct Measure {
     metric: &'static str,
-    variant: Option<&'static str>,
     words: &'static str,
-    /// Index of the number of samples.
-    count: usize,
     range: fn(Result<f64, Undefined>) -> Range,
-    value: ValueOf,
+    of_pixels: fn(&DepthTotals, Area) -> Option<f64>,
+    /// Index of the sum over maps.
+    of_maps: usize,
 }
 
 /// Errors of depth with an interval, in order.
-const ERRORS: [Definition; 10] = [
-    Definition {
+const MEASURES: [Measure; 3] = [
+    Measure {
         metric: "depth_mae",
-        variant: None,
-        words: "mean |truth - prediction| over valid pixels",
-        count: ALL.pixels,
+        words: "mean |truth - prediction|",
         range: error,
-        value: |totals| of_area(totals, ALL, mean(totals, ALL, 0)),
+        of_pixels: |totals, area| mean(totals, area, 0),
+        of_maps: MAP_MAE,
     },
-    Definition {
-        metric: "depth_mae",
-        variant: Some("per_map"),
-        words: "mean of the maps' own mean |truth - prediction|",
-        count: MAPS,
-        range: error,
-        value: |totals| of_maps(totals, MAP_MAE),
-    },
-    Definition {
-        metric: "depth_mae",
-        variant: Some("in_contact"),
-        words: "mean |truth - prediction| over pixels with contact in the truth",
-        count: CONTACT.pixels,
-        range: error,
-        value: |totals| of_area(totals, CONTACT, mean(totals, CONTACT, 0)),
-    },
-    Definition {
+    Measure {
         metric: "depth_rmse",
-        variant: None,
-        words: "root of the mean squared error over valid pixels",
-        count: ALL.pixels,
+        words: "root of the mean squared error",
         range: error,
-        value: |totals| of_area(totals, ALL, root_mean_square(totals, ALL)),
+        of_pixels: root_mean_square,
+        of_maps: MAP_RMSE,
     },
-    Definition {
-        metric: "depth_rmse",
-        variant: Some("per_map"),
-        words: "mean of the maps' own root mean squared errors",
-        count: MAPS,
-        range: error,
-        value: |totals| of_maps(totals, MAP_RMSE),
-    },
-    Definition {
-        metric: "depth_rmse",
-        variant: Some("in_contact"),
-        words: "root of the mean squared error over pixels with contact in the truth",
-        count: CONTACT.pixels,
-        range: error,
-        value: |totals| of_area(totals, CONTACT, root_mean_square(totals, CONTACT)),
-    },
-    Definition {
-        metric: "depth_rmse",
-        variant: Some("scaled"),
-        words: "root of the mean squared error of predictions times the one best factor",
-        count: ALL.pixels,
-        range: error,
-        value: |totals| of_area(totals, ALL, scaled_root_mean_square(totals)),
-    },
-    Definition {
+    Measure {
         metric: "depth_bias",
-        variant: None,
-        words: "mean truth - prediction over valid pixels",
-        count: ALL.pixels,
+        words: "mean truth - prediction",
         range: signed,
-        value: |totals| of_area(totals, ALL, mean(totals, ALL, 1)),
-    },
-    Definition {
-        metric: "depth_bias",
-        variant: Some("per_map"),
-        words: "mean of the maps' own mean truth - prediction",
-        count: MAPS,
-        range: signed,
-        value: |totals| of_maps(totals, MAP_BIAS),
-    },
-    Definition {
-        metric: "depth_bias",
-        variant: Some("in_contact"),
-        words: "mean truth - prediction over pixels with contact in the truth",
-        count: CONTACT.pixels,
-        range: signed,
-        value: |totals| of_area(totals, CONTACT, mean(totals, CONTACT, 1)),
+        of_pixels: |totals, area| mean(totals, area, 1),
+        of_maps: MAP_BIAS,
     },
 ];
 
@@ -119,20 +57,24 @@ impl DepthState {
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
         let mut scores: Vec<TaskScore> = Vec::new();
-        for definition in &ERRORS {
-            let estimate = clusters.estimate(
-                definition.count,
-                definition.range,
-                definition.value,
-                (definition.value)(&self.constant).ok(),
-            );
-            let words = self.gated(definition.words);
-            let score = millimetres(definition.metric, words, estimate);
-            scores.push(match definition.variant {
-                Some(variant) => score.variant(variant),
-                None => score,
-            });
+        for measure in &MEASURES {
+            let of_pixels = |area: Area| {
+                let pixels =
+                    |totals: &DepthTotals| of_area(totals, area, (measure.of_pixels)(totals, area));
+                let constant = pixels(&self.constant).ok();
+                clusters.estimate(area.pixels, measure.range, pixels, constant)
+            };
+            let maps = |totals: &DepthTotals| of_maps(totals, measure.of_maps);
+            let constant = maps(&self.constant).ok();
+            let per_map = clusters.estimate(MAPS, measure.range, maps, constant);
+            let all = [of_pixels(ALL), per_map, of_pixels(CONTACT)];
+            scores.extend(self.three(measure.metric, measure.words, all));
         }
+        let scaled = |totals: &DepthTotals| of_area(totals, ALL, scaled_root_mean_square(totals));
+        let constant = scaled(&self.constant).ok();
+        let estimate = clusters.estimate(ALL.pixels, error, scaled, constant);
+        let words = "root of the mean squared error of predictions times the one best factor";
+        scores.push(millimetres("depth_rmse", words.to_owned(), estimate).variant("scaled"));
         scores.extend(self.greatest_scores(&clusters));
         scores.extend(self.overlap_scores(&clusters));
         scores.push(self.normal_score(&clusters));
@@ -150,23 +92,26 @@ impl DepthState {
             let value = of(clusters.total(), &self.greatest);
             clusters.without_interval(area.pixels, value, constant.ok())
         };
-        let per_map = |totals: &DepthTotals| of_maps(totals, MAP_MAX);
-        let of_maps = clusters.estimate(MAPS, error, per_map, per_map(&self.constant).ok());
-        let words = "greatest |truth - prediction| over";
+        let maps = |totals: &DepthTotals| of_maps(totals, MAP_MAX);
+        let per_map = clusters.estimate(MAPS, error, maps, maps(&self.constant).ok());
+        let all = [greatest(ALL), per_map, greatest(CONTACT)];
+        self.three("depth_max", "greatest |truth - prediction|", all)
+    }
+
+    /// Scores of a metric: over valid pixels, the mean of maps, and in contact.
+    fn three(
+        &self,
+        metric: &'static str,
+        words: &str,
+        [all, per_map, in_contact]: [Estimate; 3],
+    ) -> [TaskScore; 3] {
+        let gate = self.task.gate_mm();
+        let contact = format!("{words} over pixels with contact in the truth (above {gate} mm)");
         [
-            millimetres("depth_max", format!("{words} valid pixels"), greatest(ALL)),
-            millimetres(
-                "depth_max",
-                "mean of the maps' own greatest |truth - prediction|".to_owned(),
-                of_maps,
-            )
-            .variant("per_map"),
-            millimetres(
-                "depth_max",
-                self.gated(&format!("{words} pixels with contact in the truth")),
-                greatest(CONTACT),
-            )
-            .variant("in_contact"),
+            millimetres(metric, format!("{words} over valid pixels"), all),
+            millimetres(metric, format!("mean of the maps' own {words}"), per_map)
+                .variant("per_map"),
+            millimetres(metric, contact, in_contact).variant("in_contact"),
         ]
     }
 
@@ -207,14 +152,6 @@ impl DepthState {
         TaskScore {
             unit: Some("deg"),
             ..TaskScore::new("normal_angle", words, estimate)
-        }
-    }
-
-    /// `words`, with the gate behind a definition of contact.
-    fn gated(&self, words: &str) -> String {
-        match words.contains("contact") {
-            true => format!("{words} (above {} mm)", self.task.gate_mm()),
-            false => words.to_owned(),
         }
     }
 }

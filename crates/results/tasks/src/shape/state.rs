@@ -6,7 +6,7 @@ use super::distances::{BothWays, OneWay};
 use super::error::ShapeError;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
-use crate::estimate::{Estimate, share};
+use crate::estimate::share;
 use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, Totals, checked_counts, error};
 use crate::undefined::Undefined;
@@ -27,6 +27,8 @@ const CLOUDS: usize = 0;
 type ShapeTotals = Totals<4, 1>;
 /// Totals of all clusters of clouds, and without each.
 type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
+/// Function from totals to a value.
+type ValueOf = fn(&ShapeTotals) -> Result<f64, Undefined>;
 
 /// Definition of a task of shapes: the threshold τ of F scores, by default none.
 ///
@@ -158,41 +160,30 @@ impl ShapeState {
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
-        let half = |totals: &ShapeTotals| totals.mean(HALF_SUM, CLOUDS);
-        let sum = |totals: &ShapeTotals| half(totals).map(|half| 2.0 * half);
-        let squared = |totals: &ShapeTotals| totals.mean(SQUARED, CLOUDS);
         let distance = "of the distances to the nearest point, both ways";
-        let chamfer =
-            |words: String, estimate: Estimate| TaskScore::new("chamfer", words, estimate);
-        let in_unit = |unit: &'static str, score: TaskScore| TaskScore {
-            unit: Some(unit),
-            ..score
+        let squares = "of the squared distances to the nearest point, both ways";
+        let chamfer = |variant, unit, words: String, value: ValueOf| {
+            let estimate = clusters.estimate(CLOUDS, error, value, None);
+            TaskScore {
+                variant,
+                unit: Some(unit),
+                ..TaskScore::new("chamfer", words, estimate)
+            }
         };
+        let [sum, squared] = ["sum", "squared"].map(|variant| Some(variant.to_owned()));
         vec![
-            in_unit(
+            chamfer(
+                None,
                 "mm",
-                chamfer(
-                    format!("1/2 (mean + mean) {distance}"),
-                    clusters.estimate(CLOUDS, error, half, None),
-                ),
+                format!("1/2 (mean + mean) {distance}"),
+                half_sum,
             ),
-            in_unit(
-                "mm",
-                chamfer(
-                    format!("mean + mean {distance}"),
-                    clusters.estimate(CLOUDS, error, sum, None),
-                )
-                .variant("sum"),
-            ),
-            in_unit(
-                "mm²",
-                chamfer(
-                    "mean + mean of the squared distances to the nearest point, both ways"
-                        .to_owned(),
-                    clusters.estimate(CLOUDS, error, squared, None),
-                )
-                .variant("squared"),
-            ),
+            chamfer(sum, "mm", format!("mean + mean {distance}"), |totals| {
+                half_sum(totals).map(|half| 2.0 * half)
+            }),
+            chamfer(squared, "mm²", format!("mean + mean {squares}"), |totals| {
+                totals.mean(SQUARED, CLOUDS)
+            }),
             self.f_score(&clusters, "fscore_strict", "below", F_STRICT),
             self.f_score(&clusters, "fscore_inclusive", "not above", F_INCLUSIVE),
         ]
@@ -218,6 +209,11 @@ impl ShapeState {
         );
         TaskScore::new("chamfer", words, estimate).variant(variant)
     }
+}
+
+/// Mean of ½ (mean + mean) of pairs of clouds, mm.
+fn half_sum(totals: &ShapeTotals) -> Result<f64, Undefined> {
+    totals.mean(HALF_SUM, CLOUDS)
 }
 
 /// Checks the points of a cloud.
