@@ -35,6 +35,7 @@ mod signals;
 pub mod staging;
 mod store;
 mod table;
+mod task;
 mod text;
 mod toml_file;
 mod version;
@@ -59,7 +60,8 @@ pub use replacement::settle;
 pub use sensor_file::SensorFile;
 pub use session_table::{RecordedSessions, Session, SessionTable};
 pub use signals::{SignalsInfo, SignalsSpec};
-pub use table::{FrameEntry, Row, RowFrame, Table, ViewFrames};
+pub use table::{FrameEntry, Row, RowFrame, Table, TaskColumn, ViewFrames};
+pub use task::{PoseThresholds, Task, TaskKind, TaskLabel};
 pub use toml_file::read_toml;
 pub use version::Version;
 
