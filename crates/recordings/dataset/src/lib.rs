@@ -83,6 +83,7 @@ pub mod internal {
     pub use crate::table::{
         Cells, NamedColumn, RESERVED, RowNames, column_kind, column_of, is_attribute_name,
     };
+    pub use crate::task::is_task_column;
     pub use crate::text::{first_names, listed, shown, shown_path};
     pub use crate::toml_file::{line_of, parse_toml, read_toml_text, toml_error, utf8};
     pub use crate::{layout, limits, staging};

@@ -12,7 +12,7 @@ const PREFIX: &str = "task.";
 const POSE_PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
 /// True if the column `name` of a table contains labels of a task.
-pub(crate) fn is_task_column(name: &str) -> bool {
+pub fn is_task_column(name: &str) -> bool {
     name.starts_with(PREFIX)
 }
 
