@@ -123,7 +123,10 @@ impl<'a> MappedTable<'a> {
             tasks: map
                 .tasks
                 .iter()
-                .map(|own| own.task.from.iter().map(find).collect())
+                .map(|own| {
+                    let columns = own.task.from.iter().map(find);
+                    columns.collect::<Result<Vec<usize>, ImportError>>()
+                })
                 .collect::<Result<_, _>>()?,
             time: map
                 .time
