@@ -18,7 +18,8 @@ pub struct RowNames {
 }
 
 impl Table {
-    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute or a task that only one table has is missing in the rows from the other.
+    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute or a task that only one table has is missing in the rows from the
+    /// other.
     ///
     /// # Panics
     /// Panics if `other` lacks a channel, or if the row does not exist.
