@@ -1,7 +1,7 @@
 //! Table of a recording in Arrow columns.
 
 use taceva_core::shown;
-use taceva_dataset::{Dataset, Table};
+use taceva_dataset::{Dataset, Table, TaskColumn, TaskKind, TaskLabel};
 
 use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
@@ -26,6 +26,15 @@ pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<
             columns.push(ArrowColumn::new(name, cells, unit)?);
         }
     }
+    for own in table.tasks() {
+        for (part, name) in own.task().columns().iter().enumerate() {
+            columns.push(ArrowColumn::new(
+                name,
+                of_task(own, part, table.rows()),
+                &[],
+            )?);
+        }
+    }
     for (position, channel) in table.channels().iter().enumerate() {
         let truth = table.truth(position);
         let labels = (0..table.rows()).map(|row| truth.get(row)).collect();
@@ -48,6 +57,24 @@ pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<
         ("taceva.path", &path),
     ];
     arrow::stream(py, table.rows(), columns, &metadata)
+}
+
+/// Labels of a task: names of classes, or the number at `part` of each pose.
+fn of_task(own: &TaskColumn, part: usize, rows: usize) -> Cells {
+    match own.task().kind {
+        TaskKind::Pose => {
+            let number = |row: usize| match own.label(row)? {
+                TaskLabel::Pose(pose) => Some(pose[part]),
+                _ => None,
+            };
+            Cells::Numbers((0..rows).map(number).collect())
+        }
+        _ => Cells::Texts(
+            (0..rows)
+                .map(|row| own.class(row).map(str::to_owned))
+                .collect(),
+        ),
+    }
 }
 
 /// Cells of the column called `name`.

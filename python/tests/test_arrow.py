@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 import taceva
+from conftest import taceva as command
 
 
 def made(path: Path, rows: int = 40) -> taceva.Dataset:
@@ -145,3 +146,23 @@ def test_an_export_comes_back_the_same(tmp_path: Path) -> None:
         dataset.export(tmp_path / "csv", "csv")
     with pytest.raises(ValueError, match="expected csv, huggingface, hdf5, lerobot"):
         dataset.export(tmp_path / "other", "xlsx")
+
+
+def test_labels_of_tasks_are_columns_with_names_of_classes_and_numbers_of_poses(tmp_path: Path) -> None:
+    pyarrow = pytest.importorskip("pyarrow")
+    lab = tmp_path / "lab"
+    lab.mkdir()
+    (lab / "t.csv").write_text("stroke,slip,x,y,z,qx,qy,qz,qw\na,1,0.5,0,0,0,0,0,1\nb,,,,,,,,\n")
+    (lab / "map.toml").write_text(
+        'map_version = 2\ntable = "t.csv"\n[ids]\npoint_id = "stroke"\n[time]\nclock = "unknown"\n'
+        '[task.slip]\nkind = "event"\nfrom = "slip"\nnames = ["no_slip", "slip"]\npositive = "slip"\n'
+        '[task.moved]\nkind = "pose"\nunit = "mm"\nfrom = { t = ["x", "y", "z"], q = ["qx", "qy", "qz", "qw"] }\n'
+        '[sensor]\nmodel = "drawn gel"\nserial = "unknown"\ngel = "unknown"\nopaque = true\n'
+    )
+    out = tmp_path / "recording"
+    done = command("import", lab, "--map", lab / "map.toml", "--out", out)
+    assert done.returncode == 0, done.stderr
+    table = pyarrow.table(taceva.open(out))
+    assert table.column("task.slip").to_pylist() == ["slip", None]
+    assert table.column("task.moved.x").to_pylist() == [0.5, None]
+    assert table.column("task.moved.qw").to_pylist() == [1.0, None]

@@ -10,6 +10,7 @@ mod channel_order;
 mod clipped_taxel;
 mod clock_jumps;
 mod clusters;
+mod contradictory_labels;
 pub(crate) mod damaged_frames;
 mod dead_zone;
 mod doubled_frames;
@@ -31,6 +32,7 @@ mod omissions;
 mod placeholder;
 mod pressed_reference;
 mod pressed_rest;
+mod quaternion_norms;
 mod repeated_stamps;
 mod saturation;
 mod sensor_facts;
@@ -40,12 +42,13 @@ mod stuck_taxel;
 mod timing;
 mod units;
 mod unmentioned_columns;
+pub(crate) mod unseen_classes;
 mod zero_shift;
 
 use crate::finding::Check;
 
 /// All checks, in the order of their codes.
-pub static ALL: [&Check; 41] = [
+pub static ALL: [&Check; 44] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -75,6 +78,9 @@ pub static ALL: [&Check; 41] = [
     &dead_zone::CHECK,
     &certificates::CHECK,
     &certified_range::CHECK,
+    &unseen_classes::CHECK,
+    &contradictory_labels::CHECK,
+    &quaternion_norms::CHECK,
     &changed_rest::CHECK,
     &zero_shift::CHECK,
     &repeated_stamps::CHECK,

@@ -15,6 +15,8 @@ pub struct Evidence<'a> {
     pub header: &'a Header,
     /// Labels of the recording.
     pub table: &'a Table,
+    /// Cluster of each row for each task of the table.
+    pub clusters: &'a [Vec<Option<String>>],
     /// Division of the recording into parts; `None` without a split.
     pub divided: Option<&'a Divided>,
     /// Division whose test part an evaluation scores: all folds of the default split, or `divided`.

@@ -6,7 +6,7 @@ use taceva_core::shown;
 use taceva_core::{Field, Progress, SkipReason, Skipped, counted};
 use taceva_dataset::{Dataset, Pass, RecordedSessions};
 
-use crate::checks::{ALL, blank, damaged_frames, leakage};
+use crate::checks::{ALL, blank, damaged_frames, leakage, unseen_classes};
 use crate::evidence::{Evidence, FrameFacts};
 use crate::finding::{Check, CheckReport, Finding};
 use crate::signal_facts::SignalFacts;
@@ -86,7 +86,8 @@ pub(crate) fn check_seen(
         // No split was requested, and this recording has none: checks of splits are skipped.
         Err(EvaluateError::Split(error)) if request.split.is_none() => {
             wanted.retain(|check| {
-                let reads_split = check.code == leakage::CHECK.code;
+                let reads_split = check.code == leakage::CHECK.code
+                    || check.code == unseen_classes::CHECK.code && !dataset.tasks().is_empty();
                 if reads_split {
                     skipped.push(Skipped::new(
                         format!("check:{}", check.code),
@@ -123,9 +124,12 @@ pub(crate) fn check_seen(
         false => None,
     };
     let sessions = RecordedSessions::of(dataset.path());
+    let tasks = dataset.tasks().iter();
+    let clusters: Vec<_> = tasks.map(|own| dataset.clusters_of(own.task())).collect();
     let evidence = Evidence {
         header: dataset.header(),
         table: dataset.table(),
+        clusters: &clusters,
         divided: divided.as_ref(),
         scored: folds.as_ref().or(divided.as_ref()),
         frames: &frames,

@@ -3,6 +3,7 @@
 mod frames;
 mod pass;
 mod signals;
+mod tasks;
 mod union;
 mod verify;
 mod views;
@@ -88,8 +89,9 @@ impl Dataset {
         }
         let header = Header::read(&folder)?;
         let table = read_table(&folder, &header)?;
-        let dataset = Dataset::of(folder, header, table);
+        let mut dataset = Dataset::of(folder, header, table);
         dataset.check_consistency()?;
+        dataset.header.digest = dataset.table.with_tasks_digest(dataset.header.digest);
         Ok(dataset)
     }
 

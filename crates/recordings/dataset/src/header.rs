@@ -32,6 +32,7 @@ use crate::folder_handle::HeldFolder;
 use crate::layout;
 use crate::limits;
 use crate::signals::{SignalsInfo, WrittenSignals};
+use crate::task::{self, Task};
 use crate::toml_file::{parse_toml, toml_error, utf8};
 use crate::version::Version;
 use taceva_files::seal::{Edit, Opened, toml_text};
@@ -135,6 +136,8 @@ pub struct Header {
     pub pictures: Vec<MappedPictures>,
     /// Closed lists of classes, from all imports; empty for a recording.
     pub classes: Vec<MappedClass>,
+    /// Definitions of the tasks, sorted by name; empty without tasks.
+    pub tasks: Vec<Task>,
     /// Channels that together form one rotation: a rotation vector x, y, z or a quaternion x, y, z, w.
     pub rotations: Vec<Vec<String>>,
     /// Data that the import left out; empty for a recording.
@@ -159,7 +162,7 @@ pub struct Header {
     pub sources: Option<SourcesInfo>,
     /// Number of rows and digests of `samples.parquet`.
     pub table: TableInfo,
-    /// Digest of the table, frames and signals of the dataset.
+    /// Digest of the table, frames, signals and tasks of the dataset. The file contains the digest without tasks.
     pub digest: Digest,
     /// State of the seal, with the accepted edits of the header.
     pub seal: Opened,
@@ -218,6 +221,12 @@ struct Written {
     classes: Vec<MappedClass>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     traceability: Vec<Traceability>,
+    #[serde(
+        default,
+        deserialize_with = "task::known",
+        skip_serializing_if = "BTreeMap::is_empty"
+    )]
+    task: BTreeMap<String, Task>,
     /// Edits accepted before rows were added; parsed with the seal.
     #[serde(default, skip_deserializing, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
@@ -285,6 +294,7 @@ impl Header {
             joins: written.joins,
             pictures: written.pictures,
             classes: written.classes,
+            tasks: written.task.into_values().collect(),
             rotations: written.rotations,
             left_out: written.left_out,
             warnings: written.warnings,
@@ -334,6 +344,8 @@ impl Header {
 
     /// Text of the header without its seal.
     fn body(&self) -> String {
+        let tasks = self.tasks.iter();
+        let tasks = tasks.map(|task| (task.name.clone(), task.clone()));
         let written = Written {
             format: self.format,
             source: self.source,
@@ -364,6 +376,7 @@ impl Header {
             pictures: self.pictures.clone(),
             classes: self.classes.clone(),
             traceability: self.traceability.clone(),
+            task: tasks.collect(),
             history: self.seal.history.clone(),
         };
         toml::to_string(&written).expect("text, numbers and tables of them can be written as TOML")

@@ -35,6 +35,7 @@ mod signals;
 pub mod staging;
 mod store;
 mod table;
+mod task;
 mod text;
 mod toml_file;
 mod version;
@@ -59,7 +60,8 @@ pub use replacement::settle;
 pub use sensor_file::SensorFile;
 pub use session_table::{RecordedSessions, Session, SessionTable};
 pub use signals::{SignalsInfo, SignalsSpec};
-pub use table::{FrameEntry, Row, RowFrame, Table, ViewFrames};
+pub use table::{FrameEntry, Row, RowFrame, Table, TaskColumn, ViewFrames};
+pub use task::{PoseThresholds, Task, TaskKind, TaskLabel};
 pub use toml_file::read_toml;
 pub use version::Version;
 
@@ -81,6 +83,7 @@ pub mod internal {
     pub use crate::table::{
         Cells, NamedColumn, RESERVED, RowNames, column_kind, column_of, is_attribute_name,
     };
+    pub use crate::task::is_task_column;
     pub use crate::text::{first_names, listed, shown, shown_path};
     pub use crate::toml_file::{line_of, parse_toml, read_toml_text, toml_error, utf8};
     pub use crate::{layout, limits, staging};

@@ -365,6 +365,7 @@ impl Recorder {
             attributes: Vec::new(),
             frame,
             views: Vec::new(),
+            tasks: Vec::new(),
         }
     }
 }

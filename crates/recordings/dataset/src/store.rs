@@ -61,7 +61,10 @@ pub fn write_table_and_header(
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
     let mut written = Header {
-        format: Version::CURRENT,
+        format: match table.tasks().is_empty() {
+            true => Version::CURRENT,
+            false => Version::WITH_TASKS,
+        },
         source: facts.source,
         clock: facts.clock,
         recorded_on: facts.recorded_on,
@@ -78,6 +81,7 @@ pub fn write_table_and_header(
         pictures: beside.mapping.pictures,
         classes: beside.mapping.classes,
         rotations: beside.mapping.rotations,
+        tasks: table.tasks().iter().map(|own| own.task().clone()).collect(),
         left_out: beside.left_out,
         warnings: beside.warnings,
         digest: dataset_digest(
@@ -112,5 +116,6 @@ pub fn write_table_and_header(
             source,
         })?;
     write_durable(header, text.as_bytes())?;
+    written.digest = table.with_tasks_digest(written.digest);
     Ok(written)
 }

@@ -4,6 +4,7 @@ mod cells;
 mod fields;
 mod row;
 mod row_union;
+mod tasks;
 mod views;
 
 use taceva_core::{
@@ -12,10 +13,12 @@ use taceva_core::{
 };
 
 use crate::digest::{Digest, PartsDigest};
+use crate::task::is_task_column;
 
 pub use cells::{Cells, NamedColumn, RESERVED, is_attribute_name};
 pub use row::{FrameEntry, Row, RowFrame};
 pub use row_union::RowNames;
+pub use tasks::TaskColumn;
 pub(crate) use views::digest_of;
 pub use views::{ViewFrames, column_kind, column_of};
 
@@ -60,6 +63,8 @@ pub struct Table {
     frames: Vec<Option<FrameEntry>>,
     /// Pictures of each view, if rows have several pictures.
     views: Vec<ViewFrames>,
+    /// Labels of each task.
+    tasks: Vec<TaskColumn>,
 }
 
 impl Table {
@@ -85,7 +90,8 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// Panics if the row does not have one value for each channel, one text for each attribute and one picture for each view.
+    /// Panics if the row does not have one value for each channel, one text for each attribute, one picture for each view and one label
+    /// of the right kind for each task.
     pub fn push(&mut self, row: Row) {
         assert_eq!(row.truth.len(), self.truth.len(), "a value a channel");
         assert_eq!(
@@ -94,6 +100,7 @@ impl Table {
             "a text an attribute"
         );
         assert_eq!(row.views.len(), self.views.len(), "a picture a view");
+        assert_eq!(row.tasks.len(), self.tasks.len(), "a label a task");
         self.sample.push(row.sample);
         self.point_id.push(row.point_id);
         self.unit_id.push(row.unit_id);
@@ -120,6 +127,9 @@ impl Table {
         }
         for (view, frame) in self.views.iter_mut().zip(row.views) {
             view.push(frame);
+        }
+        for (task, label) in self.tasks.iter_mut().zip(row.tasks) {
+            task.push(label);
         }
     }
 
@@ -261,32 +271,6 @@ impl Table {
         Some((0..self.rows()).map(|row| named.cells.text(row)).collect())
     }
 
-    /// Fields that at least one row has.
-    pub fn fields(&self) -> FieldSet {
-        let carried = [
-            (Field::Frame, self.frames.iter().any(Option::is_some)),
-            (Field::Truth, !self.channels.is_empty() && self.rows() > 0),
-            (Field::Point, self.point_id.iter().any(Option::is_some)),
-            (
-                Field::DepthStep,
-                self.depth_step.iter().any(Option::is_some),
-            ),
-            (Field::Repeat, self.repeat.iter().any(Option::is_some)),
-            (Field::Phase, self.phase.iter().any(Option::is_some)),
-            (Field::Scene, self.scene.iter().any(Option::is_some)),
-            (Field::UnitId, self.unit_id.iter().any(Option::is_some)),
-            (Field::Stamp, self.t_s.iter().any(Option::is_some)),
-            (Field::Kind, self.kind.iter().any(Option::is_some)),
-            (Field::Spacing, self.spacing.iter().any(Option::is_some)),
-            (Field::Intensity, self.intensity.iter().any(Option::is_some)),
-            (Field::FrameDigest, self.frames.iter().any(Option::is_some)),
-        ];
-        carried
-            .into_iter()
-            .filter_map(|(field, is_carried)| is_carried.then_some(field))
-            .collect()
-    }
-
     /// Sample of a row, with the fields in `fields` and the given frame.
     pub fn sample(&self, row: usize, fields: FieldSet, frame: Option<Frame>) -> Sample {
         let wanted = |field| fields.contains(field);
@@ -327,7 +311,7 @@ impl Table {
         sample
     }
 
-    /// Digest of the table content, independent of storage and of the location of frames.
+    /// Digest of the table content without tasks, independent of storage and of the location of frames.
     pub fn digest(&self) -> Digest {
         let mut digest = PartsDigest::default();
         digest.part(b"taceva.table/1");
@@ -337,7 +321,7 @@ impl Table {
             digest.part(channel.unit().symbol().as_bytes());
         }
         for column in self.columns() {
-            if views::column_kind(column.name) == "frame" {
+            if views::column_kind(column.name) == "frame" || is_task_column(column.name) {
                 continue;
             }
             digest.part(column.name.as_bytes());
@@ -382,6 +366,7 @@ impl Table {
                 .zip(&self.attributes)
                 .map(|(name, cells)| named(name, Cells::Text(cells))),
         );
+        columns.extend(self.tasks.iter().flat_map(TaskColumn::named_columns));
         columns.push(named("frame", Cells::FramePath(&self.frames)));
         columns.push(named("frame_sha256", Cells::FrameDigest(&self.frames)));
         columns.extend(self.views.iter().flat_map(ViewFrames::named_columns));

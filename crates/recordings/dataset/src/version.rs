@@ -27,8 +27,14 @@ pub struct Version {
 }
 
 impl Version {
-    /// Newest format version. This crate writes it.
+    /// Format version of a dataset without tasks.
     pub const CURRENT: Version = Version { major: 1, minor: 0 };
+
+    /// Format version of a dataset with tasks. A reader of [`CURRENT`](Version::CURRENT) reads everything else of it.
+    pub const WITH_TASKS: Version = Version {
+        major: 1,
+        minor: 11,
+    };
 
     /// Last minor version before release 0.2.0, which restarted at 1.0.
     const LAST_BEFORE_RELEASE: u32 = 10;

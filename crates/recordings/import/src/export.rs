@@ -9,6 +9,7 @@ mod hugging_face;
 mod lerobot;
 mod map;
 mod picture;
+mod tasks;
 
 use std::io::{self, Write};
 use std::num::NonZeroUsize;

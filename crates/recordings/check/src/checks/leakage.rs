@@ -1,16 +1,17 @@
-//! TAC007: test samples that are nearly equal to training samples.
+//! TAC007: test samples that are nearly equal to training samples, or of the same cluster of a task.
 
 use std::collections::BTreeSet;
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
+use taceva_dataset::TaskColumn;
 use taceva_evaluate::{Division, Note};
 
 pub(crate) static CHECK: Check = Check {
     code: "TAC007",
     name: "leakage",
-    looks_for: "contact points, neighbours or identical frames in both the training and the test part",
-    hint: "divide with --split by-point, by-block, or by-column with a session or an object; scores on samples similar to training \
+    looks_for: "contact points, clusters of a task, neighbours or identical frames in both the training and the test part",
+    hint: "divide with --split by-point, by-block, or by-column with a session, an object or the cluster of a task; scores on samples similar to training \
         samples are optimistic",
     reads: None,
     find,
@@ -64,6 +65,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let known: Vec<usize> = split.test.iter().copied().filter(is_known).collect();
     let what = "samples share a contact point with the training or validation part";
     report(Severity::Warning, &known, what);
+    for (own, clusters) in table.tasks().iter().zip(evidence.clusters) {
+        found.extend(shared_clusters(evidence, &seen, own, clusters));
+    }
     if let Some(note @ Note::Neighbours { division, .. }) = &divided.neighbours {
         let severity = match division {
             Division::Separated { .. } => Severity::Warning,
@@ -72,4 +76,33 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         found.push(Found::overall(severity, note.to_string()));
     }
     found
+}
+
+/// Finding for labelled test samples whose cluster also has labelled samples among the rows `seen`.
+fn shared_clusters(
+    evidence: &Evidence<'_>,
+    seen: &[usize],
+    own: &TaskColumn,
+    clusters: &[Option<String>],
+) -> Option<Found> {
+    let labelled = |row: &usize| own.label(*row).is_some();
+    let cluster = |row: &usize| clusters[*row].as_deref();
+    let learnt: BTreeSet<&str> = { seen.iter() }
+        .filter(|row| labelled(row))
+        .filter_map(cluster)
+        .collect();
+    let tested = &evidence.divided?.split.test;
+    let tested: Vec<usize> = tested.iter().copied().filter(labelled).collect();
+    let all: BTreeSet<&str> = tested.iter().filter_map(cluster).collect();
+    let shared = all.intersection(&learnt).count();
+    let is_shared = |row: &usize| cluster(row).is_some_and(|cluster| learnt.contains(cluster));
+    let rows: Vec<usize> = tested.into_iter().filter(is_shared).collect();
+    let task = own.task();
+    let message = format!(
+        "task `{}`: {shared} of {} clusters (`{}`) of the test part are also in the training or validation part",
+        task.name,
+        all.len(),
+        task.cluster
+    );
+    (shared > 0).then(|| evidence.found(Severity::Error, message, &rows))
 }

@@ -44,6 +44,16 @@ pub(super) fn pictures(presses: &[f64]) -> Vec<u8> {
 
 /// Imports a folder with `files` by this map, and runs the checks with the codes `only`.
 pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> CheckReport {
+    imported_and_split(files, map, only, None)
+}
+
+/// Imports and checks like [`imported`], with this split.
+pub(super) fn imported_and_split(
+    files: &[(&str, Vec<u8>)],
+    map: &str,
+    only: &[&str],
+    split: Option<&str>,
+) -> CheckReport {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {
         std::fs::write(folder.path().join(name), bytes).expect("written");
@@ -56,7 +66,7 @@ pub(super) fn imported(files: &[(&str, Vec<u8>)], map: &str, only: &[&str]) -> C
     let dataset = Dataset::open(&target).expect("a dataset");
     let request = CheckRequest {
         only: only.iter().map(|code| (*code).to_owned()).collect(),
-        split: None,
+        split: split.map(str::to_owned),
         seed: 0,
         jobs: NonZeroUsize::MIN,
     };

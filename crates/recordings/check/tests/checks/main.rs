@@ -12,6 +12,7 @@ mod rest;
 mod single_files;
 mod stamps;
 mod streams;
+mod tasks;
 #[path = "../../../../studies/evaluate/tests/evaluations/taxel_drawing.rs"]
 mod taxel_drawing;
 mod taxels;

@@ -11,15 +11,18 @@ use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::header::Header;
 use crate::table::{FrameEntry, RowNames, Table};
+use crate::task::Task;
 use crate::text::shown;
 
 mod agreement;
+mod shared_tasks;
 
 use agreement::differences;
 pub use agreement::{Difference, differences_of_added};
+use shared_tasks::shared_tasks;
 
 /// Separator between the name of a recording and the name of a sample, contact point or frame of the recording. Names of recordings do not contain it.
-const SEPARATOR: char = '/';
+pub(super) const SEPARATOR: char = '/';
 
 /// Recording that is part of a dataset from [`Dataset::joined`].
 ///
@@ -76,8 +79,8 @@ impl Dataset {
     /// number, camera settings, attributes, pictures without contact and clocks may differ between recordings.
     ///
     /// # Errors
-    /// [`DatasetError::Unlike`] for two recordings that share samples, or differ in source, sensor model, opacity, footprint, channels, units, or the kind and
-    /// size of frames or signals; [`DatasetError::Request`] if `recordings` is empty.
+    /// [`DatasetError::Unlike`] for two recordings that share samples, or differ in source, sensor model, opacity, footprint, channels, units, the kind and
+    /// size of frames or signals, or the definition of a task; [`DatasetError::Request`] if `recordings` is empty.
     pub fn joined(recordings: Vec<Dataset>) -> Result<Dataset, DatasetError> {
         let mut recordings = recordings;
         if recordings.len() < 2 {
@@ -92,8 +95,9 @@ impl Dataset {
         for other in &recordings[1..] {
             check_alike(&recordings[0], other)?;
         }
+        let tasks = shared_tasks(&recordings)?;
         let names = names(recordings.iter().map(Dataset::path));
-        let table = joined_table(&recordings, &names);
+        let table = joined_table(&recordings, &names, tasks);
         let seen = recordings[0].seen.clone();
         let header = joined_header(&recordings, &table);
         let folder = recordings[0].folder.without_files();
@@ -254,7 +258,7 @@ fn names<'a>(paths: impl Iterator<Item = &'a Path>) -> Vec<String> {
 }
 
 /// Labels of all recordings. Names of samples, contact points and frames get the recording as prefix.
-fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
+fn joined_table(recordings: &[Dataset], names: &[String], tasks: Vec<Task>) -> Table {
     let attributes = recordings
         .iter()
         .flat_map(|one| one.table.attribute_names());
@@ -263,7 +267,7 @@ fn joined_table(recordings: &[Dataset], names: &[String]) -> Table {
         .filter(|name| seen.insert(name.as_str()))
         .cloned();
     let channels: &Channels = recordings[0].table.channels();
-    let mut table = Table::new(channels.clone(), attributes.collect());
+    let mut table = Table::new(channels.clone(), attributes.collect()).with_tasks(tasks);
     for (name, recording) in names.iter().zip(recordings) {
         let own = &recording.table;
         let called = |text: &str| format!("{name}{SEPARATOR}{text}");
@@ -343,6 +347,7 @@ fn joined_header(recordings: &[Dataset], table: &Table) -> Header {
         }
     }
     header.attributes = table.attribute_names().to_vec();
+    header.tasks = table.tasks().iter().map(|own| own.task().clone()).collect();
     header.unmentioned_columns.clear();
     header.stream = None;
     header.predictions = None;

@@ -51,7 +51,8 @@ impl Dataset {
         check_digest(path, predictions.sha256, found)
     }
 
-    /// Checks that header and table agree and that all paths are valid. Later reads of frames need no further check.
+    /// Checks that header and table agree and that all paths are valid. The digest of the header is still that without tasks. Later reads of frames need no
+    /// further check.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged =
             |name: &str, problem: String| DatasetError::damaged(&self.path().join(name), problem);
@@ -124,8 +125,14 @@ pub(super) fn read_table(folder: &HeldFolder, header: &Header) -> Result<Table, 
     file.seek(SeekFrom::Start(0))
         .map_err(DatasetError::io("read", path))?;
     let views: Vec<&str> = header.views.iter().map(|view| view.name.as_str()).collect();
-    from_parquet(file, &header.channels, &header.attributes, &views)
-        .map_err(|problem| DatasetError::damaged(path, problem))
+    let read = from_parquet(
+        file,
+        &header.channels,
+        &header.attributes,
+        &views,
+        &header.tasks,
+    );
+    read.map_err(|problem| DatasetError::damaged(path, problem))
 }
 
 pub(super) fn check_digest(

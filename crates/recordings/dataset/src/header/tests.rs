@@ -8,6 +8,19 @@ fn yaw() -> Channel {
     yaw.expect("an angle")
 }
 
+fn slip() -> Task {
+    let mut slip = Task::new("slip", task::TaskKind::Event, "trajectory");
+    slip.names = ["no_slip", "slip"].map(str::to_owned).to_vec();
+    slip.positive = Some("slip".to_owned());
+    slip.is_timed = true;
+    slip.rule = Some("shear > 1.6 normal".to_owned());
+    slip.thresholds = Some(task::PoseThresholds::new(
+        vec!["0.1".to_owned()],
+        Vec::new(),
+    ));
+    slip
+}
+
 fn header() -> Header {
     Header {
         format: Version::CURRENT,
@@ -56,6 +69,7 @@ fn header() -> Header {
             "path.class",
             vec!["smooth".to_owned(), "rough".to_owned()],
         )],
+        tasks: vec![slip()],
         rotations: vec![["Rx", "Ry", "Rz"].map(str::to_owned).to_vec()],
         left_out: LeftOut::default(),
         warnings: vec!["zone-unstated: `t` states no time zone".to_owned()],
@@ -150,6 +164,15 @@ fn a_newer_minor_may_say_more() {
             minor: 11
         }
     );
+}
+
+#[test]
+fn a_kind_of_task_of_a_later_minor_is_skipped_and_the_others_are_read() {
+    let later = "[task.shape]\nkind = \"depth\"\narray = \"depth.npy\"\n";
+    let text = format!("{}\n{later}", header().body());
+    let text = taceva_files::seal::toml_text::seal(&text).expect("TOML");
+    let read = Header::parse(Path::new("dataset.toml"), text.into_bytes());
+    assert_eq!(read.expect("reads").tasks, [slip()]);
 }
 
 #[test]

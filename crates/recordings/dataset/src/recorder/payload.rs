@@ -293,6 +293,7 @@ impl WrittenSample {
                 .frame
                 .map(|frame| FrameEntry::at(frame.path, frame.sha256)),
             views: Vec::new(),
+            tasks: Vec::new(),
         };
         #[expect(
             clippy::cast_possible_truncation,

@@ -7,6 +7,7 @@ use taceva_core::{Channels, GratingKind, Limit, MAGNITUDE_MAX, Nanometre, Phase,
 use super::read::Stored;
 use crate::digest::Digest;
 use crate::table::{FrameEntry, Row, RowFrame, Table, column_of};
+use crate::task::{Task, TaskKind, TaskLabel};
 
 /// Columns of a file, by name.
 struct Columns(BTreeMap<String, Stored>);
@@ -63,6 +64,39 @@ impl Columns {
             Some(_) => Err(format!("column `{name}` holds no counts")),
         }
     }
+
+    /// Label of a task, whose columns on disk are `names`.
+    fn label(
+        &self,
+        task: &Task,
+        names: &[String],
+        row: usize,
+    ) -> Result<Option<TaskLabel>, String> {
+        let name = names.first().map_or("", String::as_str);
+        if task.kind != TaskKind::Pose {
+            return match self.count(name, row)? {
+                Some(class) if class as usize >= task.names.len() => Err(format!(
+                    "column `{name}`, row {row}: class {class}, but the task has {} names, from 0",
+                    task.names.len()
+                )),
+                class => Ok(class.map(TaskLabel::Class)),
+            };
+        }
+        let parts = names.iter().map(|name| self.number(name, row));
+        let parts: Vec<Option<f64>> = parts.collect::<Result<_, _>>()?;
+        if parts.iter().all(Option::is_none) {
+            return Ok(None);
+        }
+        let parts: Option<Vec<f64>> = parts.into_iter().collect();
+        let pose: Option<[f64; 7]> = parts.and_then(|parts| parts.try_into().ok());
+        match pose {
+            Some(pose) => Ok(Some(TaskLabel::Pose(pose))),
+            None => Err(format!(
+                "row {row}: the pose of `{}` lacks a number",
+                task.name
+            )),
+        }
+    }
 }
 
 /// Table with the rows of `columns`.
@@ -71,6 +105,7 @@ pub(super) fn assemble(
     channels: &Channels,
     attributes: &[String],
     views: &[&str],
+    tasks: &[Task],
 ) -> Result<Table, String> {
     let rows = columns.values().map(Stored::len).max().unwrap_or(0);
     if rows > 0 {
@@ -83,7 +118,13 @@ pub(super) fn assemble(
     }
     let mut columns = Columns(columns);
     let table = Table::new(channels.clone(), attributes.to_vec());
-    let mut table = table.with_views(views.iter().copied());
+    let table = table.with_views(views.iter().copied());
+    let mut table = table.with_tasks(tasks.iter().cloned());
+    let labels: Vec<(Task, Vec<String>)> = table
+        .tasks()
+        .iter()
+        .map(|own| (own.task().clone(), own.task().columns()))
+        .collect();
     for row in 0..rows {
         let frame = columns.frame("frame", "frame_sha256", row)?;
         let own = views.iter().map(|view| columns.view(view, row));
@@ -127,6 +168,10 @@ pub(super) fn assemble(
                 .collect::<Result<_, _>>()?,
             frame,
             views: own,
+            tasks: labels
+                .iter()
+                .map(|(task, names)| columns.label(task, names, row))
+                .collect::<Result<_, _>>()?,
         });
     }
     Ok(table)

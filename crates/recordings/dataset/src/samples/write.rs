@@ -56,7 +56,7 @@ fn properties(metadata: Vec<KeyValue>) -> WriterProperties {
 fn field(column: &NamedColumn<'_>) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.cells {
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => (PhysicalType::DOUBLE, None),
-        Cells::Count(_) => (PhysicalType::INT64, None),
+        Cells::Count(_) | Cells::Class(..) => (PhysicalType::INT64, None),
         _ => (PhysicalType::BYTE_ARRAY, Some(LogicalType::String)),
     };
     Type::primitive_type_builder(column.name, physical)
@@ -75,7 +75,7 @@ fn write_column<W: Write + Send>(
         Cells::Number(_) | Cells::Measured(_) | Cells::Spacing(_) => {
             write_values::<DoubleType, W>(group, rows.map(|row| cells.number(row)), 1)
         }
-        Cells::Count(counts) => write_values::<Int64Type, W>(
+        Cells::Count(counts) | Cells::Class(counts, _) => write_values::<Int64Type, W>(
             group,
             counts[rows].iter().map(|count| count.map(i64::from)),
             1,

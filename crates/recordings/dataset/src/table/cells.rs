@@ -56,6 +56,8 @@ pub enum Cells<'a> {
     Number(&'a Column),
     FramePath(&'a [Option<FrameEntry>]),
     FrameDigest(&'a [Option<FrameEntry>]),
+    /// Positions of classes, and the names of the classes.
+    Class(&'a [Option<u32>], &'a [String]),
 }
 
 impl Cells<'_> {
@@ -63,7 +65,7 @@ impl Cells<'_> {
         match self {
             Cells::Name(_) => true,
             Cells::Text(cells) => cells[row].is_some(),
-            Cells::Count(cells) => cells[row].is_some(),
+            Cells::Count(cells) | Cells::Class(cells, _) => cells[row].is_some(),
             Cells::Phase(cells) => cells[row].is_some(),
             Cells::Limit(cells) => cells[row].is_some(),
             Cells::Kind(cells) => cells[row].is_some(),
@@ -95,6 +97,7 @@ impl Cells<'_> {
             Cells::Name(cells) => Some(cells[row].clone()),
             Cells::Text(cells) => cells[row].clone(),
             Cells::Count(cells) => cells[row].map(|count| count.to_string()),
+            Cells::Class(cells, names) => names.get(cells[row]? as usize).cloned(),
             Cells::Phase(cells) => cells[row].map(|phase| phase.to_string()),
             Cells::Limit(cells) => cells[row].map(|limit| limit.to_string()),
             Cells::Kind(cells) => cells[row].map(|kind| kind.to_string()),

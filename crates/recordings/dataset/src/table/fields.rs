@@ -1,10 +1,36 @@
 //! Fields of selected rows as columns for metrics.
 
-use taceva_core::{Column, Field, Labels, Nanometre};
+use taceva_core::{Column, Field, FieldSet, Labels, Nanometre};
 
 use super::Table;
 
 impl Table {
+    /// Fields that at least one row has.
+    pub fn fields(&self) -> FieldSet {
+        let carried = [
+            (Field::Frame, self.frames.iter().any(Option::is_some)),
+            (Field::Truth, !self.channels.is_empty() && self.rows() > 0),
+            (Field::Point, self.point_id.iter().any(Option::is_some)),
+            (
+                Field::DepthStep,
+                self.depth_step.iter().any(Option::is_some),
+            ),
+            (Field::Repeat, self.repeat.iter().any(Option::is_some)),
+            (Field::Phase, self.phase.iter().any(Option::is_some)),
+            (Field::Scene, self.scene.iter().any(Option::is_some)),
+            (Field::UnitId, self.unit_id.iter().any(Option::is_some)),
+            (Field::Stamp, self.t_s.iter().any(Option::is_some)),
+            (Field::Kind, self.kind.iter().any(Option::is_some)),
+            (Field::Spacing, self.spacing.iter().any(Option::is_some)),
+            (Field::Intensity, self.intensity.iter().any(Option::is_some)),
+            (Field::FrameDigest, self.frames.iter().any(Option::is_some)),
+        ];
+        carried
+            .into_iter()
+            .filter_map(|(field, is_carried)| is_carried.then_some(field))
+            .collect()
+    }
+
     /// Texts of `field` in `rows`, in order: contact point, unit, scene, phase, kind of grating or digest of the frame. `None` if the field has no text.
     ///
     /// # Panics

@@ -7,6 +7,7 @@ use taceva_core::{GratingKind, Limit, Nanometre, Phase};
 use crate::digest::Digest;
 use crate::layout;
 use crate::pack::Span;
+use crate::task::TaskLabel;
 
 /// Location of a frame in the dataset, with the digest of its bytes.
 ///
@@ -141,6 +142,8 @@ pub struct Row {
     pub frame: Option<FrameEntry>,
     /// Pictures of all views of the table. If there are views, `frame` is unused.
     pub views: Vec<RowFrame>,
+    /// One label for each task of the table.
+    pub tasks: Vec<Option<TaskLabel>>,
 }
 
 impl Row {

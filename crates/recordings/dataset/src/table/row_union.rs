@@ -3,7 +3,7 @@
 use taceva_core::Channel;
 
 use super::views::{ViewFrames, column_kind};
-use super::{FrameEntry, Row, Table};
+use super::{FrameEntry, Row, Table, TaskColumn};
 use crate::digest::{Digest, PartsDigest};
 
 /// Names for a row of another table in this table, and the new location of the frame.
@@ -18,7 +18,8 @@ pub struct RowNames {
 }
 
 impl Table {
-    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute that only one table has is missing in the rows from the other.
+    /// Adds row `row` of `other`, a table with the same channels in any order. An attribute or a task that only one table has is missing in the rows from the
+    /// other.
     ///
     /// # Panics
     /// Panics if `other` lacks a channel, or if the row does not exist.
@@ -32,6 +33,7 @@ impl Table {
             let own = other.view(view.name());
             own.map(|own| own.row(row)).unwrap_or_default()
         };
+        let label = |own: &TaskColumn| other.task(&own.task().name)?.label(row);
         let row = Row {
             sample: names.sample,
             point_id: names.point_id,
@@ -54,6 +56,7 @@ impl Table {
             attributes: self.attribute_names.iter().map(attribute).collect(),
             frame: names.frame,
             views: self.views.iter().map(view).collect(),
+            tasks: self.tasks.iter().map(label).collect(),
         };
         self.push(row);
     }

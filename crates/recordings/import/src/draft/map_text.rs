@@ -4,6 +4,7 @@ mod column_lists;
 mod ids;
 mod sections;
 mod signals;
+mod tasks;
 
 use super::channels::{self, Offered};
 use super::clips;
@@ -192,6 +193,9 @@ pub(super) fn of_table(
     let comments = lists(&free, &lines, &keys);
     add_section(&mut text, "columns", &format!("{comments}{channels}"));
     text.push_str(&rest);
+    if let Some(comment) = tasks::suggestion(columns.iter().map(|column| column.name.as_str())) {
+        line(&mut text, &comment);
+    }
     ended(text)
 }
 

@@ -8,8 +8,8 @@ use taceva_core::{Certificate, Instrument, SourceUnit, Traceability};
 use super::content::Exported;
 use crate::import::IdMap;
 use crate::unit_suffix::UnitSuffix;
-use taceva_dataset::internal::{RESERVED, column_kind, column_of};
-use taceva_dataset::{Header, ReducedFrames, SensorFacts};
+use taceva_dataset::internal::{RESERVED, column_kind, column_of, is_task_column};
+use taceva_dataset::{Header, ReducedFrames, SensorFacts, TaskColumn};
 
 /// Names of the exported items, to be written in the map.
 pub(super) struct Written {
@@ -151,7 +151,9 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     let attributes = exported.columns.iter().map(|column| column.name);
     let attributes: Vec<&str> = attributes
         .filter(|name| {
-            !RESERVED.contains(&column_kind(name)) && table.channels().position(name).is_none()
+            !RESERVED.contains(&column_kind(name))
+                && !is_task_column(name)
+                && table.channels().position(name).is_none()
         })
         .collect();
     if !attributes.is_empty() {
@@ -159,6 +161,13 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
     }
     for name in attributes {
         line(format_args!("{name} = {}", quoted(&(written.names)(name))));
+    }
+    let tasks = table.tasks().iter().map(TaskColumn::task);
+    for task in tasks.filter(|task| task.columns().iter().all(|column| has(column))) {
+        line(format_args!(
+            "\n{}",
+            super::tasks::section(task, written.names)
+        ));
     }
     if let (Some(from), Some(signals)) = (&written.signals, &header.signals) {
         let info = signals.spec.info;

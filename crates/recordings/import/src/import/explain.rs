@@ -43,6 +43,9 @@ impl fmt::Display for ImportSummary {
                 self.rows_kept - conversion.present
             )?;
         }
+        for task in &self.tasks {
+            writeln!(f, "task     {task}")?;
+        }
         for zero in &self.zeros {
             writeln!(f, "{zero}")?;
         }

@@ -181,6 +181,8 @@ impl ImportPlan {
         planned.footprint = self.facts.footprint;
         planned.channels = self.table.channels().clone();
         planned.attributes = self.table.attribute_names().to_vec();
+        let tasks = self.table.tasks().iter();
+        planned.tasks = tasks.map(|own| own.task().clone()).collect();
         let views = |names: &mut dyn Iterator<Item = &str>| {
             let mut names: Vec<&str> = names.collect();
             names.sort_unstable();

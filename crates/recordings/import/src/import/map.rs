@@ -15,6 +15,7 @@ mod schema;
 mod sections;
 mod signals;
 mod table_schema;
+mod tasks;
 #[cfg(test)]
 mod tests;
 mod zero;
@@ -37,6 +38,7 @@ pub(crate) use path_pattern::PathPattern;
 pub(crate) use rotation::{RotationMap, turn_in};
 pub(crate) use signals::{SignalsFrom, SignalsMap};
 pub(crate) use table_schema::converter;
+pub(crate) use tasks::{TaskMap, no_name};
 pub(crate) use zero::{GravityMap, ZeroMap, ZeroRows};
 
 pub use crate::frame_names::{
@@ -105,6 +107,8 @@ pub struct ImportMap {
     pub(crate) origin: Option<OriginMap>,
     /// Text columns with a closed list of values: name, column and list.
     pub(crate) classes: BTreeMap<String, ClassMap>,
+    /// Tasks, sorted by name.
+    pub(crate) tasks: Vec<TaskMap>,
     /// Channels that are parts of one rotation.
     pub(crate) rotations: Vec<RotationMap>,
     /// Rows at zero force, whose mean is subtracted.
@@ -160,6 +164,7 @@ impl ImportMap {
             signals: None,
             origin: None,
             classes: BTreeMap::new(),
+            tasks: Vec::new(),
             rotations: Vec::new(),
             zero: None,
             gravity: None,

@@ -7,6 +7,7 @@ mod name_order;
 mod pictures;
 mod reading;
 mod row_frames;
+mod tasks;
 mod view;
 
 use std::collections::BTreeSet;

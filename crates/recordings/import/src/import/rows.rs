@@ -2,6 +2,7 @@
 
 mod labels;
 mod point;
+mod tasks;
 mod views;
 mod zero;
 
@@ -55,6 +56,8 @@ pub(super) struct MappedTable<'a> {
     classes: Vec<usize>,
     /// Interpretation of the cells of each class.
     class_cells: Vec<ClassCells>,
+    /// Columns of each task.
+    tasks: Vec<Vec<usize>>,
     time: Option<usize>,
     /// Columns with the original table, row and picture; `None` if the map does not name them.
     origin: [Option<usize>; 3],
@@ -116,6 +119,14 @@ impl<'a> MappedTable<'a> {
                 .classes
                 .values()
                 .map(|class| find(&class.from))
+                .collect::<Result<_, _>>()?,
+            tasks: map
+                .tasks
+                .iter()
+                .map(|own| {
+                    let columns = own.task.from.iter().map(find);
+                    columns.collect::<Result<Vec<usize>, ImportError>>()
+                })
                 .collect::<Result<_, _>>()?,
             time: map
                 .time
@@ -262,6 +273,7 @@ impl<'a> MappedTable<'a> {
         read.spacing = self.spacing(row)?;
         read.truth = self.truth(row)?;
         read.attributes = self.texts(row)?;
+        read.tasks = self.labels_of_tasks(row, &read)?;
         Ok(read)
     }
 

@@ -44,6 +44,8 @@ pub struct ImportSummary {
     pub joins: Vec<JoinSummary>,
     /// Conversion and number of values of each channel.
     pub conversions: Vec<Conversion>,
+    /// Tasks, each with its kind, number of labels and cluster, in words.
+    pub tasks: Vec<String>,
     /// Zero subtracted from each force, if the map sets one.
     pub zeros: Vec<ZeroSummary>,
     /// Weight subtracted from forces and torques, in words.

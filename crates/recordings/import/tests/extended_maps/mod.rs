@@ -13,6 +13,7 @@ mod patterns;
 mod references;
 mod signals;
 mod stated;
+mod tasks;
 mod texts;
 mod times;
 

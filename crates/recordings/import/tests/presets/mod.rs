@@ -87,7 +87,12 @@ const EXPECTED: [Expected; 14] = [
         // The last two are in the second pickle.
         pictures: &[1, 2, 4, 5],
         point: Some("sphere:batch_1:0"),
-        attributes: &[("slip", 1, "1"), ("shape", 0, "sphere")],
+        attributes: &[
+            ("slip", 1, "1"),
+            ("shape", 0, "sphere"),
+            ("task.slip", 0, "no_slip"),
+            ("task.slip", 3, "slip"),
+        ],
         time: None,
     },
     Expected {

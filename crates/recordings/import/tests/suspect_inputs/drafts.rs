@@ -49,6 +49,22 @@ fn a_counter_beside_the_force_is_no_force() {
 }
 
 #[test]
+fn a_column_of_slip_is_suggested_as_a_task_in_a_comment() {
+    let draft = drafted("Fz_N,slip_label", |row| {
+        format!("{},{}", wave(row), row / 7 % 2)
+    });
+    let comment = line(&draft, "# \"slip_label\" can be a task: [task.slip]");
+    assert!(
+        comment.contains("kind = \"event\", from = \"slip_label\""),
+        "{draft}"
+    );
+    let draft = drafted("Fz_N,slippery", |row| {
+        format!("{},{}", wave(row), row / 7 % 2)
+    });
+    assert!(!draft.contains("[task."), "{draft}");
+}
+
+#[test]
 fn a_force_that_counts_up_is_no_force_whatever_its_name() {
     let draft = drafted("force_z,Fx", |row| format!("{row},{}", wave(row)));
     assert_eq!(taken(&draft, "Fz"), "");

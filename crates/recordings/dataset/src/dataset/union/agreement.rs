@@ -1,6 +1,7 @@
 //! Differences between two recordings that prevent joining them.
 
 use crate::header::{Footprint, Header};
+use crate::task::Task;
 
 /// Header key with different values in two recordings.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -22,7 +23,8 @@ pub(super) fn differences(one: &Header, other: &Header) -> impl Iterator<Item = 
         .map(|((key, own), (_, other))| Difference { key, own, other })
 }
 
-/// Further differences that prevent adding rows to a recording. Serial number, gel, clock, text columns and the order of colours must also agree.
+/// Further differences that prevent adding rows to a recording. Serial number, gel, clock, text columns, tasks and the order of colours must also
+/// agree.
 pub fn differences_of_added(one: &Header, added: &Header) -> impl Iterator<Item = Difference> {
     let more = more(one).into_iter().zip(more(added));
     let more = more.filter(|((_, own), (_, other))| own != other);
@@ -30,7 +32,7 @@ pub fn differences_of_added(one: &Header, added: &Header) -> impl Iterator<Item 
     differences(one, added).chain(more)
 }
 
-fn more(header: &Header) -> [(&'static str, String); 5] {
+fn more(header: &Header) -> [(&'static str, String); 6] {
     let mut attributes = header.attributes.clone();
     attributes.sort();
     let views = header.views.iter().map(|view| &view.frames);
@@ -41,6 +43,7 @@ fn more(header: &Header) -> [(&'static str, String); 5] {
         ("sensor.gel", format!("`{}`", header.sensor.gel)),
         ("clock", format!("{:?}", header.clock).to_lowercase()),
         ("attributes", format!("[{}]", attributes.join(", "))),
+        ("task", tasks(header)),
         (
             "frames.channel_order",
             match order.is_empty() {
@@ -49,6 +52,16 @@ fn more(header: &Header) -> [(&'static str, String); 5] {
             },
         ),
     ]
+}
+
+/// Definitions of the tasks as text.
+fn tasks(header: &Header) -> String {
+    let tasks = header.tasks.iter().map(Task::definition);
+    let tasks: Vec<String> = tasks.collect();
+    match tasks.is_empty() {
+        true => "absent".to_owned(),
+        false => tasks.join("; "),
+    }
 }
 
 /// Header keys that must be equal, with their values as text.

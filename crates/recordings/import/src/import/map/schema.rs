@@ -15,6 +15,7 @@ use super::rotation::WrittenRotations;
 use super::sections::{WrittenClass, WrittenJoin, WrittenMatrix, WrittenPath};
 use super::signals::WrittenSignals;
 use super::table_schema::WrittenTable;
+use super::tasks::{TaskContext, WrittenTask};
 use super::zero::{WrittenGravity, WrittenZero};
 use crate::instant::zone_seconds;
 use crate::open_places::open_places;
@@ -48,6 +49,8 @@ struct WrittenMap {
     matrix: Vec<Spanned<WrittenMatrix>>,
     #[serde(default)]
     classes: BTreeMap<String, Spanned<WrittenClass>>,
+    #[serde(default)]
+    task: BTreeMap<String, Spanned<WrittenTask>>,
     signals: Option<Spanned<WrittenSignals>>,
     origin: Option<Spanned<OriginMap>>,
     time: WrittenTime,
@@ -111,7 +114,8 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let (table, form) = check.table(&written.table)?;
     let matrices = check.matrices(&written.matrix)?;
     let (channels, columns) = check.columns(&written.columns, &matrices)?;
-    if channels.is_empty() && written.frame.is_none() && written.signals.is_none() {
+    let is_labelled = !channels.is_empty() || !written.task.is_empty();
+    if !is_labelled && written.frame.is_none() && written.signals.is_none() {
         return Err(toml_error(
             path,
             None,
@@ -163,6 +167,8 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
     let gravity = written
         .gravity
         .map(|gravity| check.gravity(gravity, &channels));
+    let attributes = written.attributes.keys().chain(written.classes.keys());
+    let context = TaskContext::new(&written.ids, attributes, written.time.column.is_some());
     Ok(ImportMap {
         rotations,
         zero: zero.transpose()?,
@@ -176,6 +182,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         path: check.path_pattern(written.path)?,
         joins: check.joins(written.join)?,
         classes: check.classes(&written.classes)?,
+        tasks: check.tasks(written.task, &context)?,
         signals: written
             .signals
             .map(|signals| check.signals(signals))

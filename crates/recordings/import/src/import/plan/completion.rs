@@ -53,6 +53,7 @@ impl Reading<'_> {
         let frames = self.planned_frames()?;
         self.warn_of_pictures();
         self.describe_channels();
+        self.describe_tasks();
         self.warn_of_unused_names();
         self.summary.joins = self.joins.iter().map(JoinMatches::summary).collect();
         let warnings = self.joins.iter().flat_map(JoinMatches::warnings);

@@ -60,7 +60,8 @@ impl<'a> Reading<'a> {
             count: 0,
             current: PathBuf::new(),
             table: Table::new(map.channels.clone(), attributes)
-                .with_views(map.frames.iter().filter_map(|frame| frame.view.as_deref())),
+                .with_views(map.frames.iter().filter_map(|frame| frame.view.as_deref()))
+                .with_tasks(map.tasks.iter().map(|own| own.task.clone())),
             views: map.frames.iter().map(ViewReading::new).collect(),
             signals: None,
             unequal: None,

@@ -45,6 +45,11 @@ pub(super) fn mentioned(map: &ImportMap, main: &ForeignTable) -> Vec<String> {
     names.extend(single.into_iter().flatten().cloned());
     names.extend(ids.point_id.iter().chain(map.attributes.values()).cloned());
     names.extend(map.classes.values().map(|class| class.from.clone()));
+    names.extend(
+        map.tasks
+            .iter()
+            .flat_map(|own| own.task.from.iter().cloned()),
+    );
     let origin = map.origin.iter().flat_map(|origin| origin.columns());
     names.extend(origin.cloned());
     names.extend(map.time.iter().map(|time| time.column.clone()));

@@ -1,0 +1,157 @@
+//! Labels of tasks, in one column for classes and in seven for poses.
+
+use super::{Cells, NamedColumn, Table};
+use crate::digest::{Digest, PartsDigest};
+use crate::task::{Task, TaskKind, TaskLabel};
+
+/// Labels of one task, one per row.
+///
+/// ```
+/// use taceva_core::Channels;
+/// use taceva_dataset::{Row, Table, Task, TaskKind, TaskLabel};
+///
+/// let mut slip = Task::new("slip", TaskKind::Event, "point_id");
+/// slip.names = vec!["no_slip".to_owned(), "slip".to_owned()];
+/// let mut table = Table::new(Channels::default(), Vec::new()).with_tasks([slip]);
+/// let mut row = Row::new("stroke 1");
+/// row.tasks = vec![Some(TaskLabel::Class(1))];
+/// table.push(row);
+/// assert_eq!(table.tasks()[0].class(0), Some("slip"));
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct TaskColumn {
+    task: Task,
+    /// Column names on disk.
+    columns: Vec<String>,
+    cells: TaskCells,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum TaskCells {
+    Classes(Vec<Option<u32>>),
+    Poses([Vec<Option<f64>>; 7]),
+}
+
+impl TaskColumn {
+    fn new(task: Task) -> TaskColumn {
+        TaskColumn {
+            columns: task.columns(),
+            cells: match task.kind {
+                TaskKind::Pose => TaskCells::Poses(Default::default()),
+                _ => TaskCells::Classes(Vec::new()),
+            },
+            task,
+        }
+    }
+
+    /// Definition of the labels.
+    pub fn task(&self) -> &Task {
+        &self.task
+    }
+
+    /// Label of a row; `None` if the row has no label.
+    ///
+    /// # Panics
+    /// Panics if the row does not exist.
+    pub fn label(&self, row: usize) -> Option<TaskLabel> {
+        match &self.cells {
+            TaskCells::Classes(classes) => classes[row].map(TaskLabel::Class),
+            TaskCells::Poses(parts) => {
+                let mut pose = [0.0; 7];
+                for (number, part) in pose.iter_mut().zip(parts) {
+                    *number = part[row]?;
+                }
+                Some(TaskLabel::Pose(pose))
+            }
+        }
+    }
+
+    /// Name of the class of a row; `None` if the row has no label, and for a pose.
+    ///
+    /// # Panics
+    /// Panics if the row does not exist.
+    pub fn class(&self, row: usize) -> Option<&str> {
+        let TaskLabel::Class(class) = self.label(row)? else {
+            return None;
+        };
+        self.task.names.get(class as usize).map(String::as_str)
+    }
+
+    pub(super) fn push(&mut self, label: Option<TaskLabel>) {
+        match (&mut self.cells, label) {
+            (TaskCells::Classes(classes), None) => classes.push(None),
+            (TaskCells::Classes(classes), Some(TaskLabel::Class(class))) => {
+                assert!(
+                    (class as usize) < self.task.names.len(),
+                    "a class of the task"
+                );
+                classes.push(Some(class));
+            }
+            (TaskCells::Poses(parts), None) => parts.iter_mut().for_each(|part| part.push(None)),
+            (TaskCells::Poses(parts), Some(TaskLabel::Pose(pose))) => {
+                for (part, number) in parts.iter_mut().zip(pose) {
+                    part.push(Some(number));
+                }
+            }
+            (_, Some(_)) => panic!("a label of the kind of `{}`", self.task.name),
+        }
+    }
+
+    pub(super) fn named_columns(&self) -> Vec<NamedColumn<'_>> {
+        let cells: Vec<Cells<'_>> = match &self.cells {
+            TaskCells::Classes(classes) => vec![Cells::Class(classes, &self.task.names)],
+            TaskCells::Poses(parts) => parts.iter().map(|part| Cells::Measured(part)).collect(),
+        };
+        let names = self.columns.iter();
+        names
+            .zip(cells)
+            .map(|(name, cells)| NamedColumn { name, cells })
+            .collect()
+    }
+}
+
+impl Table {
+    /// The same table, for rows with a label of each of `tasks`, which are sorted by name. The table must be empty.
+    ///
+    /// # Panics
+    /// Panics if the table has rows.
+    #[must_use]
+    pub fn with_tasks(mut self, tasks: impl IntoIterator<Item = Task>) -> Table {
+        assert_eq!(self.rows(), 0, "no row has labels of other tasks");
+        self.tasks = tasks.into_iter().map(TaskColumn::new).collect();
+        self.tasks
+            .sort_by(|one, other| one.task.name.cmp(&other.task.name));
+        self
+    }
+
+    /// Labels of each task, by name; empty without tasks.
+    pub fn tasks(&self) -> &[TaskColumn] {
+        &self.tasks
+    }
+
+    /// Labels of the task called `name`.
+    pub fn task(&self, name: &str) -> Option<&TaskColumn> {
+        self.tasks.iter().find(|own| own.task.name == name)
+    }
+
+    /// Digest of the dataset with the digest `dataset`, and of the labels and definitions of its tasks.
+    ///
+    /// The file keeps `dataset`, the digest without tasks. A reader of an earlier minor version reads no tasks, and checks that digest.
+    pub(crate) fn with_tasks_digest(&self, dataset: Digest) -> Digest {
+        if self.tasks.is_empty() {
+            return dataset;
+        }
+        let mut digest = PartsDigest::default();
+        digest.part(b"taceva.dataset/1 with tasks");
+        digest.fixed(dataset.as_bytes());
+        for own in &self.tasks {
+            digest.part(own.task.definition().as_bytes());
+            for column in own.named_columns() {
+                for row in 0..self.rows() {
+                    column.cells.digest(row, &mut digest);
+                }
+            }
+        }
+        digest.finish()
+    }
+}

@@ -1,0 +1,231 @@
+//! Tasks of a recording: labels that are no measured quantities, such as slip, an object or a pose, and their definitions.
+
+use std::collections::BTreeMap;
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// Begin of the name of each column with labels of a task. Attributes and channels contain no `.`.
+const PREFIX: &str = "task.";
+
+/// Parts of a pose, in the order of storage: a position in mm and a unit quaternion.
+const POSE_PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
+
+/// True if the column `name` of a table contains labels of a task.
+pub fn is_task_column(name: &str) -> bool {
+    name.starts_with(PREFIX)
+}
+
+/// Kind of the labels of a task.
+///
+/// ```
+/// use taceva_dataset::TaskKind;
+///
+/// assert_eq!(TaskKind::from_name("event"), Some(TaskKind::Event));
+/// assert_eq!(TaskKind::ALL.map(TaskKind::name), ["class", "event", "outcome", "pose"]);
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum TaskKind {
+    /// One of several classes, such as a material.
+    Class,
+    /// One of two classes that changes within a trajectory, such as slip.
+    Event,
+    /// One of two classes that holds for a whole trajectory, such as a grasp that holds.
+    Outcome,
+    /// Position and orientation of an object.
+    Pose,
+}
+
+impl TaskKind {
+    /// Every kind.
+    pub const ALL: [TaskKind; 4] = [
+        TaskKind::Class,
+        TaskKind::Event,
+        TaskKind::Outcome,
+        TaskKind::Pose,
+    ];
+
+    /// Word for the kind in maps and headers.
+    pub const fn name(self) -> &'static str {
+        match self {
+            TaskKind::Class => "class",
+            TaskKind::Event => "event",
+            TaskKind::Outcome => "outcome",
+            TaskKind::Pose => "pose",
+        }
+    }
+
+    /// Kind with the word `name`.
+    pub fn from_name(name: &str) -> Option<TaskKind> {
+        TaskKind::ALL.into_iter().find(|kind| kind.name() == name)
+    }
+}
+
+/// Definition of the labels of a task.
+///
+/// ```
+/// use taceva_dataset::{Task, TaskKind};
+///
+/// let mut slip = Task::new("slip", TaskKind::Event, "trajectory");
+/// slip.names = vec!["no_slip".to_owned(), "slip".to_owned()];
+/// slip.positive = Some("slip".to_owned());
+/// assert_eq!(slip.columns(), ["task.slip"]);
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Task {
+    /// Name of the task: a letter, then letters, digits or `_`.
+    #[serde(skip)]
+    pub name: String,
+    /// Kind of the labels.
+    pub kind: TaskKind,
+    /// Source columns of the labels; empty if nothing was imported.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub from: Vec<String>,
+    /// Names of the classes, in the order of their positions; empty for poses.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub names: Vec<String>,
+    /// Name of the class that a model should find; `None` if no class is preferred.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub positive: Option<String>,
+    /// Id or attribute with equal values in samples that resemble each other, such as a trajectory. Intervals and splits go by it.
+    pub cluster: String,
+    /// True if the times of the samples are meaningful for the task.
+    #[serde(rename = "time", default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_timed: bool,
+    /// Rule that made the labels, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub rule: Option<String>,
+    /// Number of frames between the two poses of a pose change; `None` for other tasks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<u32>,
+    /// Coordinate frame of the poses, in words.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub frame: Option<String>,
+    /// Limits between the classes of a pose change; `None` without such classes.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub thresholds: Option<PoseThresholds>,
+}
+
+/// Limits between the classes of a pose change, as decimals. A decimal has no rounding, so limits of different programs compare exactly.
+///
+/// ```
+/// let thresholds = taceva_dataset::PoseThresholds::new(vec!["0.5".to_owned()], vec!["2".to_owned()]);
+/// assert_eq!(thresholds.t, ["0.5"]);
+/// ```
+///
+/// # Units
+/// `t` in mm, `r` in degrees.
+#[non_exhaustive]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct PoseThresholds {
+    /// Limits of a translation, in ascending order.
+    pub t: Vec<String>,
+    /// Limits of a rotation, in ascending order.
+    pub r: Vec<String>,
+}
+
+impl PoseThresholds {
+    /// Limits `t` of a translation and `r` of a rotation.
+    pub fn new(t: Vec<String>, r: Vec<String>) -> PoseThresholds {
+        PoseThresholds { t, r }
+    }
+}
+
+impl Task {
+    /// Task `name` without classes. Samples with the same value of `cluster` resemble each other.
+    pub fn new(name: impl Into<String>, kind: TaskKind, cluster: impl Into<String>) -> Task {
+        Task {
+            name: name.into(),
+            kind,
+            from: Vec::new(),
+            names: Vec::new(),
+            positive: None,
+            cluster: cluster.into(),
+            is_timed: false,
+            rule: None,
+            over: None,
+            frame: None,
+            thresholds: None,
+        }
+    }
+
+    /// Names of the columns with the labels in the table of a dataset.
+    pub fn columns(&self) -> Vec<String> {
+        let column = format!("{PREFIX}{}", self.name);
+        match self.kind {
+            TaskKind::Pose => {
+                let parts = POSE_PARTS.iter();
+                parts.map(|part| format!("{column}.{part}")).collect()
+            }
+            _ => vec![column],
+        }
+    }
+
+    /// Definition as one line, without the source columns. Labels of two recordings are alike if their definitions are equal.
+    pub fn definition(&self) -> String {
+        let own = Task {
+            from: Vec::new(),
+            ..self.clone()
+        };
+        let text = toml::to_string(&own).expect("texts and numbers can be written as TOML");
+        let lines: Vec<&str> = text.lines().filter(|line| !line.is_empty()).collect();
+        format!("{}: {}", self.name, lines.join(", "))
+    }
+}
+
+/// Label of a task in one row.
+///
+/// ```
+/// use taceva_dataset::TaskLabel;
+///
+/// let turned = TaskLabel::Pose([1.0, 0.0, 0.0, 0.0, 0.0, 0.6, 0.8]);
+/// assert_eq!(turned.quaternion_norm(), Some(1.0));
+/// assert_eq!(TaskLabel::Class(1).quaternion_norm(), None);
+/// ```
+#[non_exhaustive]
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum TaskLabel {
+    /// Position in the names of the task, from 0.
+    Class(u32),
+    /// Position x, y, z in mm, and quaternion x, y, z, w.
+    Pose([f64; 7]),
+}
+
+impl TaskLabel {
+    /// Greatest deviation from 1 of the norm of a quaternion. Quaternions in single precision stay below it.
+    pub const NORM_TOLERANCE: f64 = 1e-6;
+
+    /// Norm of the quaternion of a pose; `None` for a class.
+    pub fn quaternion_norm(&self) -> Option<f64> {
+        match self {
+            TaskLabel::Class(_) => None,
+            TaskLabel::Pose(pose) => {
+                let squares = pose[3..].iter().map(|part| part * part);
+                Some(squares.sum::<f64>().sqrt())
+            }
+        }
+    }
+}
+
+/// Tasks of a header by name. A kind of a later minor version is skipped.
+pub(crate) fn known<'de, D: Deserializer<'de>>(
+    deserializer: D,
+) -> Result<BTreeMap<String, Task>, D::Error> {
+    let written = BTreeMap::<String, toml::Value>::deserialize(deserializer)?;
+    let mut tasks = BTreeMap::new();
+    for (name, value) in written {
+        let kind = value.get("kind").and_then(toml::Value::as_str);
+        if kind.is_none_or(|kind| TaskKind::from_name(kind).is_some()) {
+            let task: Task = value.try_into().map_err(D::Error::custom)?;
+            let named = Task {
+                name: name.clone(),
+                ..task
+            };
+            tasks.insert(name, named);
+        }
+    }
+    Ok(tasks)
+}

@@ -1,0 +1,78 @@
+//! Names of classes, and limits of pose changes, checked.
+
+use std::collections::BTreeSet;
+
+use taceva_core::{Nanometre, nearest};
+
+use crate::import::map::ClassMap;
+use taceva_dataset::TaskKind;
+use taceva_dataset::internal::{listed, shown};
+
+/// Maximum number of classes of a task, and maximum bytes of a name, because a header contains all of them.
+const NAMES: usize = 4_096;
+const NAME_BYTES: usize = 128;
+
+/// Text that lists `names`, and the nearest of them to `wrong`.
+pub(crate) fn no_name(wrong: &str, names: &[String]) -> String {
+    let guess = nearest(wrong, names.iter().map(String::as_str));
+    let guess = guess.map_or_else(
+        || "; its names are".to_owned(),
+        |guess| format!(", did you mean `{}`? Its names are", shown(guess)),
+    );
+    format!("no name of the task{guess} {}", listed(names))
+}
+
+/// Problem with the names of a task.
+pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<String> {
+    let names = &class.names;
+    let mut seen = BTreeSet::new();
+    if names.is_empty() || names.len() > NAMES {
+        return Some(format!(
+            "`names` has {} names, expected 1 to {NAMES}",
+            names.len()
+        ));
+    }
+    if let Some(twice) = names.iter().find(|name| !seen.insert(name.as_str())) {
+        return Some(format!("`names` has `{}` twice", shown(twice)));
+    }
+    let is_wrong =
+        |name: &&String| name.is_empty() || name.trim() != *name || name.len() > NAME_BYTES;
+    if let Some(wrong) = names.iter().find(is_wrong) {
+        return Some(format!(
+            "the name `{}` is empty, begins or ends with a blank, or is longer than {NAME_BYTES} bytes",
+            shown(wrong)
+        ));
+    }
+    if kind != TaskKind::Class && names.len() != 2 {
+        return Some(format!(
+            "`{}` has two names, such as [\"no_slip\", \"slip\"]; for {} names write `kind = \"class\"`",
+            kind.name(),
+            names.len()
+        ));
+    }
+    let (name, position) = class.ambiguous()?;
+    let other = names.get(position).map_or("", String::as_str);
+    Some(format!(
+        "the name `{0}` is also the position of `{1}`, so a cell `{0}` is ambiguous: use names that are no positions, such as `class {0}`",
+        shown(name),
+        shown(other)
+    ))
+}
+
+/// Problem with limits of a pose change, which are positive decimals in ascending order.
+pub(super) fn problem_of_limits(limits: &[String]) -> Option<String> {
+    let mut before = Nanometre(0);
+    for limit in limits {
+        let number = limit.parse::<Nanometre>().ok();
+        match number.filter(|number| *number > before) {
+            Some(number) => before = number,
+            None => {
+                return Some(format!(
+                    "`thresholds` has `{}`, expected decimals in ascending order above 0, such as [\"0.1\", \"0.5\", \"1\"], to a millionth",
+                    shown(limit)
+                ));
+            }
+        }
+    }
+    None
+}
