@@ -52,6 +52,14 @@ pub(crate) struct Evaluate {
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
+    /// Fit a classifier to a task of the dataset in the place of channels: lda [default] or linfa/logistic. The split keeps clusters whole
+    /// [default: cv:5 by the cluster of the task]
+    #[arg(
+        long,
+        value_name = "NAME",
+        conflicts_with_all = ["with", "metrics", "independent", "sensor", "state_out", "html", "figures", "samples_out", "table", "part", "split_out", "explain"]
+    )]
+    pub(crate) task: Option<String>,
     #[command(flatten)]
     pub(crate) model: OptionalModelArgs,
     #[command(flatten)]

@@ -1,5 +1,7 @@
 //! `taceva evaluate`.
 
+mod task;
+
 use std::path::PathBuf;
 
 use anyhow::Context as _;
@@ -12,6 +14,9 @@ use crate::args::Evaluate;
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
+    if let Some(name) = &args.task {
+        return task::run(name, args, context);
+    }
     let scoring = &args.scoring;
     let table = super::table_scores(&args.table, args.output.format)?;
     super::check_free(scoring, &args.output)?;

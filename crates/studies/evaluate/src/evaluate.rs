@@ -9,6 +9,7 @@ mod passes;
 mod plan;
 mod request;
 mod scores;
+mod task;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::catalogue;
@@ -25,6 +26,7 @@ pub use divisions::{fold_divisions, scored_by_default};
 pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};
+pub use task::{CLASSIFIERS, evaluate_task, task_division};
 
 /// Evaluates `dataset`: fits the model if requested, predicts the samples that the model has not seen, and scores them.
 ///

@@ -50,8 +50,9 @@ pub use claim::{Claim, Watch, clear_dead_claims};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
-    Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
-    evaluate, evaluate_plan, fold_divisions, score, scored_by_default,
+    Asked, Behind, CLASSIFIERS, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows,
+    ModelChoice, evaluate, evaluate_plan, evaluate_task, fold_divisions, score, scored_by_default,
+    task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
@@ -79,8 +80,7 @@ pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, PoseThresholds, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError,
-    TaskKind, TaskRequest, TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass,
-    score_tasks,
+    TaskRequest, TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};

@@ -5,10 +5,9 @@ use std::str::FromStr;
 
 use taceva_core::shown;
 use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, read_table, score_tasks};
-use taceva_report::{task_numbers, task_table};
 
-use super::super::{Context, Usage, origin, results};
-use crate::args::{Format, Score};
+use super::super::{Context, Usage, origin, task_scores};
+use crate::args::Score;
 use crate::{exit, output};
 
 pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
@@ -25,12 +24,7 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     };
     let mut report = score_tasks(&request)?;
     report.sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
-    let written = match args.output.format {
-        Format::Csv => task_numbers(&report),
-        _ => task_table(&report),
-    };
-    let json = serde_json::to_string_pretty(&report)?;
-    results::write(&written, &args.output, || format!("{json}\n"))?;
+    task_scores::write(&report, &args.output)?;
     Ok(exit::DONE)
 }
 

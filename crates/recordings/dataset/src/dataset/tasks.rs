@@ -1,9 +1,13 @@
 //! Tasks of a dataset: their labels by row, and the cluster of each row.
 
+use taceva_core::{Channel, Unit, nearest, shown};
+
 use super::Dataset;
 use super::union::SEPARATOR;
+use crate::digest::{Digest, PartsDigest};
+use crate::error::DatasetError;
 use crate::table::TaskColumn;
-use crate::task::Task;
+use crate::task::{Task, TaskKind};
 
 /// Columns whose values [`Dataset::joined`] makes distinct between recordings.
 const DISTINCT: [&str; 2] = ["sample", "point_id"];
@@ -28,4 +32,77 @@ impl Dataset {
         }
         clusters
     }
+
+    /// The same dataset with one channel in the place of all others: the position of the class of the task called `name`.
+    ///
+    /// A row without a label of the task has no label. The digest depends on the dataset and on the task.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] for an unknown task, and for a task of poses, which has no classes.
+    pub fn of_task(&self, name: &str) -> Result<Dataset, DatasetError> {
+        let own = self
+            .table
+            .task(name)
+            .ok_or_else(|| self.unknown_task(name))?;
+        if own.task().kind == TaskKind::Pose {
+            return Err(DatasetError::request(
+                self.path(),
+                format!(
+                    "the task `{}` is a pose, expected a task with classes",
+                    shown(name)
+                ),
+            ));
+        }
+        if !self.joined.is_empty() {
+            let recordings = self.joined.iter();
+            let of_task = recordings.map(|own| own.dataset().of_task(name));
+            return Dataset::joined(of_task.collect::<Result<_, _>>()?);
+        }
+        let channel = Channel::named(name, Unit::One)
+            .map_err(|error| DatasetError::request(self.path(), error.to_string()))?;
+        let table = self.table.of_classes(name, channel);
+        let table = table.ok_or_else(|| self.unknown_task(name))?;
+        let mut header = self.header.clone();
+        header.channels = table.channels().clone();
+        header.rotations.clear();
+        header.digest = digest_of_task(header.digest, name);
+        for before in &mut header.extended {
+            before.digest = digest_of_task(before.digest, name);
+        }
+        Ok(Dataset {
+            seen: self.seen.clone(),
+            ..Dataset::of(self.folder.again()?, header, table)
+        })
+    }
+
+    fn unknown_task(&self, name: &str) -> DatasetError {
+        let known: Vec<&str> = self
+            .tasks()
+            .iter()
+            .map(|own| own.task().name.as_str())
+            .collect();
+        let problem = match known.as_slice() {
+            [] => "the recording has no task: state `[task.NAME]` in the map and import again"
+                .to_owned(),
+            _ => {
+                let meant = nearest(name, known.iter().copied())
+                    .map_or_else(String::new, |task| format!("; did you mean `{task}`?"));
+                format!(
+                    "no task `{}`, expected one of {}{meant}",
+                    shown(name),
+                    known.join(", ")
+                )
+            }
+        };
+        DatasetError::request(self.path(), problem)
+    }
+}
+
+/// Digest of a dataset whose channel is the class of `task`.
+fn digest_of_task(dataset: Digest, task: &str) -> Digest {
+    let mut digest = PartsDigest::default();
+    digest.part(b"taceva.dataset/1 classes of");
+    digest.fixed(dataset.as_bytes());
+    digest.part(task.as_bytes());
+    digest.finish()
 }

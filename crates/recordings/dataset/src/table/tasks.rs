@@ -1,5 +1,7 @@
 //! Labels of tasks, in one column for classes and in seven for poses.
 
+use taceva_core::{Channel, Channels, Column};
+
 use super::{Cells, NamedColumn, Table};
 use crate::digest::{Digest, PartsDigest};
 use crate::task::{Task, TaskKind, TaskLabel};
@@ -132,6 +134,23 @@ impl Table {
     /// Labels of the task called `name`.
     pub fn task(&self, name: &str) -> Option<&TaskColumn> {
         self.tasks.iter().find(|own| own.task.name == name)
+    }
+
+    /// The same rows with `channel` as the only channel: positions of the classes of `task`. `None` for an unknown task, and for poses.
+    pub(crate) fn of_classes(&self, task: &str, channel: Channel) -> Option<Table> {
+        let own = self.task(task)?;
+        let TaskCells::Classes(classes) = &own.cells else {
+            return None;
+        };
+        let mut positions = Column::default();
+        for class in classes {
+            positions.push(class.map(f64::from));
+        }
+        Some(Table {
+            channels: Channels::new([channel]).ok()?,
+            truth: vec![positions],
+            ..self.clone()
+        })
     }
 
     /// Digest of the dataset with the digest `dataset`, and of the labels and definitions of its tasks.

@@ -11,6 +11,7 @@ mod spec;
 use std::collections::BTreeMap;
 
 use taceva_core::{counted, shown};
+use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
 use taceva_tasks::{TaskReport, TaskScores};
 
@@ -21,7 +22,7 @@ use super::tables::{self, Pairing};
 use crate::error::EvaluateError;
 
 pub use rule::TaskRule;
-pub use spec::{PoseThresholds, TaskKind, TaskSpec};
+pub use spec::{PoseThresholds, TaskSpec};
 
 /// Column with the clusters if the caller names none.
 const CLUSTER: &str = "point_id";

@@ -1,14 +1,13 @@
 //! Columns of classes and of their scores, as states of a task.
 
 use taceva_core::shown;
+use taceva_dataset::TaskKind;
 use taceva_tasks::events::EventRule;
 use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskScores, TopK};
 
 use super::labels::{ClassColumn, ClassNames};
 use super::score_columns::ScoreColumns;
-use super::{
-    Clusters, RowPair, TaskKind, TaskRule, TaskSpec, TaskTables, empty, events, unlabelled,
-};
+use super::{Clusters, RowPair, TaskRule, TaskSpec, TaskTables, empty, events, unlabelled};
 use crate::error::EvaluateError;
 
 /// Places of `top_k`.

@@ -1,54 +1,15 @@
 //! Tasks as a caller writes them: `slip=event:positive=slip:names=no_slip|slip`.
 
-use std::fmt;
 use std::str::FromStr;
 
 use taceva_core::{nearest, shown};
-
-/// Kinds of tasks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum TaskKind {
-    /// A class for each sample, such as the textile.
-    Class,
-    /// A state that begins and ends, such as slip.
-    Event,
-    /// The end of an attempt, such as a grasp that holds.
-    Outcome,
-    /// A change of pose: a translation and a rotation.
-    Pose,
-}
-
-impl TaskKind {
-    /// All kinds.
-    pub const ALL: [TaskKind; 4] = [
-        TaskKind::Class,
-        TaskKind::Event,
-        TaskKind::Outcome,
-        TaskKind::Pose,
-    ];
-
-    /// Name of the kind, as written in maps.
-    pub const fn name(self) -> &'static str {
-        match self {
-            TaskKind::Class => "class",
-            TaskKind::Event => "event",
-            TaskKind::Outcome => "outcome",
-            TaskKind::Pose => "pose",
-        }
-    }
-}
-
-impl fmt::Display for TaskKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+use taceva_dataset::TaskKind;
 
 /// A task of two tables: its column, its kind, and its classes.
 ///
 /// ```
-/// use taceva_evaluate::{TaskKind, TaskSpec};
+/// use taceva_dataset::TaskKind;
+/// use taceva_evaluate::TaskSpec;
 /// let slip: TaskSpec = "slip=event:positive=slip:names=no_slip|slip".parse()?;
 /// assert_eq!((slip.name.as_str(), slip.kind), ("slip", TaskKind::Event));
 /// assert_eq!(slip.positive.as_deref(), Some("slip"));
@@ -134,12 +95,13 @@ impl TaskSpec {
             TaskKind::Class | TaskKind::Event | TaskKind::Outcome if self.thresholds.is_some() => {
                 Err(format!(
                     "`{name}`: `t` and `r` are thresholds of a pose, but its kind is {}",
-                    self.kind
+                    self.kind.name()
                 ))
             }
             TaskKind::Event | TaskKind::Outcome if self.positive.is_none() => Err(format!(
                 "`{name}`: no positive class; an {} needs one, such as {name}={}:positive=CLASS",
-                self.kind, self.kind
+                self.kind.name(),
+                self.kind.name()
             )),
             _ => Ok(()),
         }
@@ -154,8 +116,7 @@ fn listed(words: &str) -> Vec<String> {
 }
 
 fn kind_of(word: &str) -> Result<TaskKind, String> {
-    let known = TaskKind::ALL.into_iter().find(|kind| kind.name() == word);
-    known.ok_or_else(|| {
+    TaskKind::from_name(word).ok_or_else(|| {
         let names = TaskKind::ALL.map(TaskKind::name);
         let meant =
             nearest(word, names).map_or_else(String::new, |kind| format!("; did you mean {kind}?"));

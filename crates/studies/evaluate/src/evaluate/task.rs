@@ -1,0 +1,184 @@
+//! Scores of a task of a dataset: a classifier predicts the classes of clusters that it has not seen.
+
+use std::collections::BTreeMap;
+
+use taceva_core::{Field, shown};
+use taceva_dataset::{Dataset, Task, TaskKind};
+use taceva_tasks::{Classes, TaskError, TaskReport, TaskScores};
+
+use super::{EvaluateRequest, ModelChoice, evaluate};
+use crate::error::EvaluateError;
+use crate::fit::FitRequest;
+use crate::work::Work;
+
+/// Models that predict one of the labels of the training part.
+pub const CLASSIFIERS: [&str; 2] = ["lda", "linfa/logistic"];
+
+/// Most folds of the default division.
+const MOST_FOLDS: usize = 5;
+
+/// Division that keeps each cluster of `task` whole: five folds, or one for each of fewer clusters.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for fewer than two clusters.
+pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateError> {
+    let clusters = dataset.clusters_of(task);
+    let distinct: std::collections::BTreeSet<&str> =
+        clusters.iter().flatten().map(String::as_str).collect();
+    let folds = distinct.len().min(MOST_FOLDS);
+    if folds < 2 {
+        return Err(EvaluateError::Request(format!(
+            "task `{}`: {} different values of `{}`, expected two or more: samples with equal values resemble each other, so they are never \
+             in both the training and the test part",
+            shown(&task.name),
+            distinct.len(),
+            shown(&task.cluster)
+        )));
+    }
+    Ok(match task.cluster == Field::Point.name() {
+        true => format!("cv:{folds} by-point"),
+        false => format!("cv:{folds} by-column:{}", task.cluster),
+    })
+}
+
+/// Fits `fit` to the classes of the task called `name`, predicts the samples of unseen clusters, and scores them.
+///
+/// Without a stated split, [`task_division`] divides the samples. The model is one of [`CLASSIFIERS`].
+///
+/// # Errors
+/// [`EvaluateError`] for an unknown task, a task of poses, a model that is no classifier, a split that separates samples of one cluster,
+/// and for the errors of [`evaluate`].
+pub fn evaluate_task(
+    dataset: &Dataset,
+    name: &str,
+    fit: FitRequest,
+    work: Work<'_>,
+) -> Result<TaskReport, EvaluateError> {
+    let of_task = dataset.of_task(name)?;
+    let own = dataset.tasks().iter().map(|own| own.task());
+    let task = own.clone().find(|task| task.name == name);
+    let task = task.expect("`of_task` found the task");
+    check_model(&fit, task)?;
+    let split = match &fit.split {
+        Some(split) => {
+            check_split(split, task)?;
+            split.clone()
+        }
+        None => task_division(dataset, task)?,
+    };
+    let model = fit.model.name().to_owned();
+    let fit = FitRequest {
+        channels: Vec::new(),
+        split: Some(split.clone()),
+        ..fit
+    };
+    let request = EvaluateRequest {
+        model: ModelChoice::Fit(fit),
+        metrics: vec!["mae".to_owned()],
+        part: None,
+        sensor: None,
+        is_independent: false,
+    };
+    let evaluated = evaluate(&of_task, &request, work)?.report;
+    let samples = evaluated.samples.expect("an evaluation keeps its samples");
+    let clusters = dataset.clusters_of(task);
+    let names = dataset.table().samples().iter();
+    let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
+    let mut classes = Classes::new(
+        task.names.iter().map(String::as_str),
+        task.positive.as_deref(),
+    )
+    .map_err(|error| refused(task, &error))?;
+    let channel = samples.channel(name).expect("the channel of the task");
+    for row in 0..samples.rows() {
+        let Some([truth, predicted]) = channel.pair(row) else {
+            continue;
+        };
+        let sample = samples
+            .word("sample", row)
+            .and_then(|sample| rows.get(sample));
+        let cluster = sample.and_then(|row| clusters[*row].as_deref());
+        let cluster = cluster.ok_or_else(|| without_cluster(task))?;
+        let [truth, predicted] = [position(truth, task)?, position(predicted, task)?];
+        classes
+            .push_positions(cluster, &[truth], &[predicted])
+            .map_err(|error| refused(task, &error))?;
+    }
+    let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
+        .of_classes(&classes);
+    scores.notes.push(format!("model {model}, split {split}"));
+    if task.kind == TaskKind::Event {
+        let words = "onsets and delays are not scored here: write the predictions as a table and use `taceva score --task`";
+        scores.notes.push(words.to_owned());
+    }
+    let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), "by their row of the dataset");
+    report.tables = [("dataset".to_owned(), dataset.digest().to_string())].into();
+    report.sources = vec![evaluated.subject.source];
+    report.tasks.push(scores);
+    Ok(report)
+}
+
+fn check_model(fit: &FitRequest, task: &Task) -> Result<(), EvaluateError> {
+    let model = fit.model.name();
+    match CLASSIFIERS.contains(&model) {
+        true => Ok(()),
+        false => Err(EvaluateError::Request(format!(
+            "task `{}`: {} predicts numbers between the classes, expected a classifier: --model {}",
+            shown(&task.name),
+            shown(model),
+            CLASSIFIERS.join(" or --model ")
+        ))),
+    }
+}
+
+/// Refuses a split that may put samples of one cluster into both the training and the test part.
+fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
+    let by = match task.cluster == Field::Point.name() {
+        true => "by-point".to_owned(),
+        false => format!("by-column:{}", task.cluster),
+    };
+    let keeps = [by.as_str(), "by-recording", "leave-one-recording-out"];
+    let named = split
+        .split(' ')
+        .map(|word| word.split('=').next().unwrap_or(word));
+    if named
+        .clone()
+        .any(|word| keeps.contains(&word) || word == format!("{by}").as_str())
+    {
+        return Ok(());
+    }
+    Err(EvaluateError::Request(format!(
+        "task `{}`: the split `{}` can put samples of one `{}` into both the training and the test part, where they resemble each other; \
+         expected `{by}`, `cv:5 {by}`, or no --split",
+        shown(&task.name),
+        shown(split),
+        shown(&task.cluster)
+    )))
+}
+
+/// Position of a class that a channel holds as a number.
+fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
+    let classes = (0_u32..).take(task.names.len());
+    let found = classes
+        .into_iter()
+        .find(|class| (f64::from(*class) - number).abs() < 1e-6);
+    found.ok_or_else(|| {
+        EvaluateError::Request(format!(
+            "task `{}`: the model predicts {number}, expected the position of a class, a whole number below {}",
+            shown(&task.name),
+            task.names.len()
+        ))
+    })
+}
+
+fn without_cluster(task: &Task) -> EvaluateError {
+    EvaluateError::Request(format!(
+        "task `{}`: a sample has no value in `{}`, which tells its cluster: fill the column in, or state another `cluster` in the map",
+        shown(&task.name),
+        shown(&task.cluster)
+    ))
+}
+
+fn refused(task: &Task, error: &TaskError) -> EvaluateError {
+    EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
+}

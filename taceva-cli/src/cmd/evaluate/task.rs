@@ -1,0 +1,26 @@
+//! `taceva evaluate --task`.
+
+use taceva_evaluate::{CLASSIFIERS, evaluate_task};
+
+use super::super::{Context, cache, fit_request, open_seen, task_scores};
+use super::check_folders;
+use crate::args::Evaluate;
+use crate::{exit, output};
+
+pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
+    output::check_all_free(&args.output.path, args.output.force)?;
+    check_folders(&args.datasets)?;
+    let models = context.models()?;
+    let dataset = open_seen(&args.datasets, &args.view, None)?;
+    let [usual, _] = CLASSIFIERS;
+    let model = args.model.name.as_deref().unwrap_or_else(|| {
+        context.say(format_args!("model: {usual}, as --model is not given"));
+        usual
+    });
+    let fit = fit_request(model, &args.model.settings, &args.split, &models)?;
+    let cache = cache::of(&args.cache);
+    let report = evaluate_task(&dataset, name, fit, context.work(cache.as_ref()))?;
+    cache::note(cache.as_ref(), context);
+    task_scores::write(&report, &args.output)?;
+    Ok(exit::DONE)
+}
