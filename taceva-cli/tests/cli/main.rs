@@ -9,6 +9,7 @@ mod cache;
 mod cache_list;
 mod catalogue;
 mod curve;
+mod dataset_tasks;
 mod directions;
 mod division;
 mod exported;
