@@ -96,6 +96,11 @@ fn a_dataset_without_tasks_keeps_its_format_and_its_bytes_know_no_task() {
         "{other}"
     );
     assert_ne!(with.digest(), dataset.digest());
+    // A bundle compares this digest with that of the results.
+    assert!(
+        other.contains(&format!("digest_with_tasks = \"{}\"", with.digest())),
+        "{other}"
+    );
 }
 
 #[test]
