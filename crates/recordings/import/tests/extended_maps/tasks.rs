@@ -141,6 +141,37 @@ fn true_and_false_are_the_second_and_the_first_of_two_outcomes() {
 }
 
 #[test]
+fn true_is_the_positive_outcome_at_any_position_and_a_class_with_such_a_name_is_itself() {
+    let classes = |names: &str| {
+        let lab = lab(&[("g.csv", "grasp,is_gripping\n1,True\n2,FALSE\n")]);
+        let map = format!(
+            "table = \"g.csv\"\n[ids]\npoint_id = \"grasp\"\n[time]\nclock = \"unknown\"\n[task.held]\nkind = \"outcome\"\n\
+             from = \"is_gripping\"\n{names}\n"
+        );
+        let folder = tempfile::tempdir().expect("a folder");
+        let dataset = imported_to(lab.path(), &map, &folder.path().join("set"));
+        let held = &dataset.tasks()[0];
+        let positive = held.task().positive.clone().expect("a positive class");
+        let class = |row| held.class(row).expect("a class").to_owned();
+        [positive, class(0), class(1)]
+    };
+    for (names, expected) in [
+        (
+            "names = [\"held\", \"lost\"]\npositive = \"held\"",
+            ["held", "held", "lost"],
+        ),
+        ("names = [\"lost\", \"held\"]", ["held", "held", "lost"]),
+        ("names = [\"true\", \"false\"]", ["false", "true", "false"]),
+    ] {
+        assert_eq!(classes(names), expected, "{names}");
+    }
+    let two = map(&[CLOTH]).replace("\"felt\", \"denim\", \"wool\"", "\"felt\", \"denim\"");
+    let table = TABLE.replace("wool", "true");
+    let message = refused(&[("labels.csv", &table)], &two);
+    assert!(message.contains("`true`: no name of the task"), "{message}");
+}
+
+#[test]
 fn poses_are_stored_in_millimetres_and_an_empty_pose_is_absent() {
     let folder = tempfile::tempdir().expect("a folder");
     let lab = lab(&[("poses.csv", POSES)]);
@@ -215,6 +246,11 @@ fn names_twice_and_a_positive_that_is_no_name_are_refused_with_the_line() {
         "[\"no_slip\", \"slip\", \"stick\"]",
     );
     assert!(message.contains("`event` has two names"), "{message}");
+    let message = refused_with("\"felt\", \"denim\", \"wool\"", "\"felt\"");
+    assert!(
+        message.contains("`names` has 1 of the 2 to 4096 classes"),
+        "{message}"
+    );
     let message = refused_with("\"felt\", \"denim\"", "\"1\", \"denim\"");
     assert!(
         message.contains("also the position of `denim`"),
@@ -264,6 +300,14 @@ fn limits_that_do_not_ascend_and_keys_of_the_other_kind_are_refused() {
         &MOVED.replace("\"0.1\", \"0.5\"", "\"0.5\", \"0.1\""),
     );
     assert!(message.contains("`thresholds` has `0.1`"), "{message}");
+    let message = refused(
+        &[("poses.csv", POSES)],
+        &MOVED.replace(", r = [\"0.03\", \"0.2\"]", ""),
+    );
+    assert!(
+        message.contains("`thresholds` needs `t`, limits of translations"),
+        "{message}"
+    );
     let message = refused(&[("poses.csv", POSES)], &MOVED.replace("[\"m\"]", "\"N\""));
     assert!(message.contains("not a unit of length"), "{message}");
     let message = refused(
