@@ -1,5 +1,7 @@
 //! Tests of labels of tasks: read by a map, kept in the dataset, joined, added, exported, and refused.
 
+mod cells;
+
 use std::num::NonZeroUsize;
 use std::path::Path;
 
@@ -127,48 +129,6 @@ fn the_summary_names_each_task_with_its_labels() {
     let words = plan.summary().to_string();
     let line = "task     slip = event of `slip_label`, 3 of 4 samples labelled (no_slip 1, slip 2), cluster `trajectory`\n";
     assert!(words.contains(line), "{words}");
-}
-
-#[test]
-fn true_and_false_are_the_second_and_the_first_of_two_outcomes() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let lab = lab(&[("g.csv", "grasp,is_gripping\n1,True\n2,False\n3,1\n")]);
-    let map = "table = \"g.csv\"\n[ids]\npoint_id = \"grasp\"\n[time]\nclock = \"unknown\"\n[task.held]\nkind = \"outcome\"\nfrom = \"is_gripping\"\nnames = [\"lost\", \"held\"]\n";
-    let dataset = imported_to(lab.path(), map, &folder.path().join("set"));
-    let held = &dataset.tasks()[0];
-    let classes: Vec<Option<&str>> = (0..3).map(|row| held.class(row)).collect();
-    assert_eq!(classes, [Some("held"), Some("lost"), Some("held")]);
-}
-
-#[test]
-fn true_is_the_positive_outcome_at_any_position_and_a_class_with_such_a_name_is_itself() {
-    let classes = |names: &str| {
-        let lab = lab(&[("g.csv", "grasp,is_gripping\n1,True\n2,FALSE\n")]);
-        let map = format!(
-            "table = \"g.csv\"\n[ids]\npoint_id = \"grasp\"\n[time]\nclock = \"unknown\"\n[task.held]\nkind = \"outcome\"\n\
-             from = \"is_gripping\"\n{names}\n"
-        );
-        let folder = tempfile::tempdir().expect("a folder");
-        let dataset = imported_to(lab.path(), &map, &folder.path().join("set"));
-        let held = &dataset.tasks()[0];
-        let positive = held.task().positive.clone().expect("a positive class");
-        let class = |row| held.class(row).expect("a class").to_owned();
-        [positive, class(0), class(1)]
-    };
-    for (names, expected) in [
-        (
-            "names = [\"held\", \"lost\"]\npositive = \"held\"",
-            ["held", "held", "lost"],
-        ),
-        ("names = [\"lost\", \"held\"]", ["held", "held", "lost"]),
-        ("names = [\"true\", \"false\"]", ["false", "true", "false"]),
-    ] {
-        assert_eq!(classes(names), expected, "{names}");
-    }
-    let two = map(&[CLOTH]).replace("\"felt\", \"denim\", \"wool\"", "\"felt\", \"denim\"");
-    let table = TABLE.replace("wool", "true");
-    let message = refused(&[("labels.csv", &table)], &two);
-    assert!(message.contains("`true`: no name of the task"), "{message}");
 }
 
 #[test]
