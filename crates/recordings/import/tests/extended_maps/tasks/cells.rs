@@ -1,7 +1,7 @@
-//! Tests of cells that contain classes: truth values, and classes of joined tables.
+//! Tests of cells: truth values, classes of joined tables, and positions whose unit is in the name of their column.
 
-use super::super::{lab, refused};
-use super::{CLOTH, TABLE, imported_to, map};
+use super::super::{lab, planned, refused};
+use super::{CLOTH, MOVED, POSES, TABLE, imported_to, map};
 
 #[test]
 fn true_and_false_are_the_second_and_the_first_of_two_outcomes() {
@@ -67,4 +67,14 @@ fn classes_of_a_joined_table_are_picked_and_never_interpolated() {
     for word in ["b.csv", "class 2 follows 0", "write `pick = \"nearest\"`"] {
         assert!(message.contains(word), "{word}: {message}");
     }
+}
+
+#[test]
+fn a_unit_in_the_name_of_a_position_that_contradicts_the_map_is_refused() {
+    let table = POSES.replace("x,y,z", "x_m,y,z");
+    let map = MOVED.replace("\"x\"", "\"x_m\"");
+    let files = [("poses.csv", table.as_str())];
+    let message = refused(&files, &map.replace("[\"m\"]", "\"mm\""));
+    assert!(message.contains("column `x_m`"), "{message}");
+    planned(lab(&files).path(), &map).expect("metres in both");
 }
