@@ -19,6 +19,8 @@ pub struct Evidence<'a> {
     pub clusters: &'a [Vec<Option<String>>],
     /// Division of the recording into parts; `None` without a split.
     pub divided: Option<&'a Divided>,
+    /// True if the request names the split of `divided`; false for the default split.
+    pub is_split_named: bool,
     /// Division whose test part an evaluation scores: all folds of the default split, or `divided`.
     pub scored: Option<&'a Divided>,
     /// Statistics of the frame of each row; empty if no check reads frames.

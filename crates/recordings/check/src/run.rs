@@ -131,6 +131,7 @@ pub(crate) fn check_seen(
         table: dataset.table(),
         clusters: &clusters,
         divided: divided.as_ref(),
+        is_split_named: request.split.is_some(),
         scored: folds.as_ref().or(divided.as_ref()),
         frames: &frames,
         reference: reference.as_ref(),

@@ -162,8 +162,10 @@ pub struct Header {
     pub sources: Option<SourcesInfo>,
     /// Number of rows and digests of `samples.parquet`.
     pub table: TableInfo,
-    /// Digest of the table, frames, signals and tasks of the dataset. The file contains the digest without tasks.
+    /// Digest of the table, frames, signals and tasks of the dataset. The key `digest` of the file is the digest without tasks.
     pub digest: Digest,
+    /// Digest with tasks as the file states it; `None` without tasks.
+    pub(crate) digest_with_tasks: Option<Digest>,
     /// State of the seal, with the accepted edits of the header.
     pub seal: Opened,
 }
@@ -186,6 +188,8 @@ struct Written {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     warnings: Vec<String>,
     digest: Digest,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    digest_with_tasks: Option<Digest>,
     sensor: SensorFacts,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     footprint: Option<Footprint>,
@@ -306,6 +310,7 @@ impl Header {
             sources: written.sources,
             table: written.table,
             digest: written.digest,
+            digest_with_tasks: written.digest_with_tasks,
             extended: written.extended,
             signals,
             seal,
@@ -357,6 +362,7 @@ impl Header {
             rotations: self.rotations.clone(),
             warnings: self.warnings.clone(),
             digest: self.digest,
+            digest_with_tasks: self.digest_with_tasks,
             sensor: self.sensor.clone(),
             footprint: self.footprint,
             settings: self.settings.clone(),

@@ -60,6 +60,14 @@ pub fn write_table_and_header(
     let bytes = to_parquet(table).map_err(|problem| DatasetError::damaged(samples, problem))?;
     write_durable(samples, &bytes)?;
     let table_digest = table.digest();
+    let digest = dataset_digest(
+        table_digest,
+        frames.as_ref(),
+        &beside.views,
+        beside.signals.as_ref(),
+        &beside.extended,
+    );
+    let whole = table.with_tasks_digest(digest);
     let mut written = Header {
         format: match table.tasks().is_empty() {
             true => Version::CURRENT,
@@ -84,13 +92,8 @@ pub fn write_table_and_header(
         tasks: table.tasks().iter().map(|own| own.task().clone()).collect(),
         left_out: beside.left_out,
         warnings: beside.warnings,
-        digest: dataset_digest(
-            table_digest,
-            frames.as_ref(),
-            &beside.views,
-            beside.signals.as_ref(),
-            &beside.extended,
-        ),
+        digest,
+        digest_with_tasks: (!table.tasks().is_empty()).then_some(whole),
         frames,
         views: beside.views,
         presses: beside.presses,
@@ -116,6 +119,6 @@ pub fn write_table_and_header(
             source,
         })?;
     write_durable(header, text.as_bytes())?;
-    written.digest = table.with_tasks_digest(written.digest);
+    written.digest = whole;
     Ok(written)
 }

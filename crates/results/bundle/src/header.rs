@@ -15,14 +15,15 @@ pub(crate) fn known(reports: &[EvaluationReport]) -> Vec<&str> {
     known
 }
 
-/// Digest that the header `text` states; empty if it states none.
+/// Digest that the header `text` states, with tasks if the dataset has tasks; empty if it states none.
 ///
 /// # Errors
 /// The reason why it is no TOML.
 pub(crate) fn digest(text: &str) -> Result<String, String> {
     let table: toml::Table =
         toml::from_str(text).map_err(|error| shown(error.message()).to_string())?;
-    let digest = table.get("digest").and_then(toml::Value::as_str);
+    let digest = table.get("digest_with_tasks").or(table.get("digest"));
+    let digest = digest.and_then(toml::Value::as_str);
     Ok(digest.unwrap_or_default().to_owned())
 }
 
@@ -35,4 +36,16 @@ pub(crate) fn fault(digest: &str, known: &[&str]) -> Option<String> {
             shown(&known.join(", "))
         )
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_header_with_tasks_belongs_to_results_by_its_digest_with_tasks() {
+        assert_eq!(digest("digest = \"a\"\n"), Ok("a".to_owned()));
+        let text = "digest = \"a\"\ndigest_with_tasks = \"b\"\n[task.slip]\nkind = \"event\"\n";
+        assert_eq!(digest(text), Ok("b".to_owned()));
+    }
 }

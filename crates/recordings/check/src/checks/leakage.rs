@@ -78,7 +78,8 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// Finding for labelled test samples whose cluster also has labelled samples among the rows `seen`.
+/// Finding for labelled test samples whose cluster also has labelled samples among the rows `seen`. The default split knows no clusters, so sharing them is
+/// no fault of the recording.
 fn shared_clusters(
     evidence: &Evidence<'_>,
     seen: &[usize],
@@ -104,5 +105,9 @@ fn shared_clusters(
         all.len(),
         task.cluster
     );
-    (shared > 0).then(|| evidence.found(Severity::Error, message, &rows))
+    let severity = match evidence.is_split_named {
+        true => Severity::Error,
+        false => Severity::Warning,
+    };
+    (shared > 0).then(|| evidence.found(severity, message, &rows))
 }

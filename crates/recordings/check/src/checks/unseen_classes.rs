@@ -1,4 +1,4 @@
-//! TAC030: classes of a task without a sample in one part of the split.
+//! TAC030: classes of a task without a sample in one part of the split, or in all folds but one.
 
 use std::collections::BTreeSet;
 
@@ -31,9 +31,8 @@ fn of_task(evidence: &Evidence<'_>, own: &TaskColumn) -> Vec<Found> {
         rows.filter_map(|row| own.class(row)).collect()
     };
     let all = seen(&mut (0..evidence.table.rows()));
-    let lacking = |here: &BTreeSet<&str>, of: &dyn Fn(&str) -> bool| -> Vec<String> {
-        let names = task.names.iter();
-        let names = names.filter(|name| of(name) && !here.contains(name.as_str()));
+    let lacking = |is_lacking: &dyn Fn(&str) -> bool| -> Vec<String> {
+        let names = task.names.iter().filter(|name| is_lacking(name));
         names.map(|name| shown(name)).collect()
     };
     let mut found = Vec::new();
@@ -49,12 +48,22 @@ fn of_task(evidence: &Evidence<'_>, own: &TaskColumn) -> Vec<Found> {
             found.push(Found::overall(severity, message));
         }
     };
-    let never = lacking(&all, &|_| true);
+    let never = lacking(&|name| !all.contains(name));
     report(Severity::Note, "the recording", &never);
-    let Some(divided) = evidence.divided else {
+    let Some(scored) = evidence.scored else {
         return found;
     };
-    let split = &divided.split;
+    if !scored.folds.is_empty() {
+        // A model never sees a class that only the tested fold has.
+        let folds = scored.folds.iter();
+        let folds: Vec<BTreeSet<&str>> =
+            folds.map(|rows| seen(&mut rows.iter().copied())).collect();
+        let is_in_one = |name: &str| folds.iter().filter(|fold| fold.contains(name)).count() == 1;
+        let names = lacking(&is_in_one);
+        report(Severity::Warning, "every fold but one", &names);
+        return found;
+    }
+    let split = &scored.split;
     for (severity, part, rows) in [
         (Severity::Warning, "the training part", &split.train),
         (Severity::Note, "the validation part", &split.validation),
@@ -62,7 +71,7 @@ fn of_task(evidence: &Evidence<'_>, own: &TaskColumn) -> Vec<Found> {
     ] {
         if !rows.is_empty() {
             let here = seen(&mut rows.iter().copied());
-            let names = lacking(&here, &|name| all.contains(name));
+            let names = lacking(&|name| all.contains(name) && !here.contains(name));
             report(severity, part, &names);
         }
     }

@@ -70,6 +70,7 @@ fn header() -> Header {
             vec!["smooth".to_owned(), "rough".to_owned()],
         )],
         tasks: vec![slip()],
+        digest_with_tasks: Some(Digest::of(b"tasks")),
         rotations: vec![["Rx", "Ry", "Rz"].map(str::to_owned).to_vec()],
         left_out: LeftOut::default(),
         warnings: vec!["zone-unstated: `t` states no time zone".to_owned()],

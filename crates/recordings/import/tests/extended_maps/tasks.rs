@@ -1,5 +1,7 @@
 //! Tests of labels of tasks: read by a map, kept in the dataset, joined, added, exported, and refused.
 
+mod cells;
+
 use std::num::NonZeroUsize;
 use std::path::Path;
 
@@ -96,6 +98,11 @@ fn a_dataset_without_tasks_keeps_its_format_and_its_bytes_know_no_task() {
         "{other}"
     );
     assert_ne!(with.digest(), dataset.digest());
+    // A bundle compares this digest with that of the results.
+    assert!(
+        other.contains(&format!("digest_with_tasks = \"{}\"", with.digest())),
+        "{other}"
+    );
 }
 
 #[test]
@@ -122,17 +129,6 @@ fn the_summary_names_each_task_with_its_labels() {
     let words = plan.summary().to_string();
     let line = "task     slip = event of `slip_label`, 3 of 4 samples labelled (no_slip 1, slip 2), cluster `trajectory`\n";
     assert!(words.contains(line), "{words}");
-}
-
-#[test]
-fn true_and_false_are_the_second_and_the_first_of_two_outcomes() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let lab = lab(&[("g.csv", "grasp,is_gripping\n1,True\n2,False\n3,1\n")]);
-    let map = "table = \"g.csv\"\n[ids]\npoint_id = \"grasp\"\n[time]\nclock = \"unknown\"\n[task.held]\nkind = \"outcome\"\nfrom = \"is_gripping\"\nnames = [\"lost\", \"held\"]\n";
-    let dataset = imported_to(lab.path(), map, &folder.path().join("set"));
-    let held = &dataset.tasks()[0];
-    let classes: Vec<Option<&str>> = (0..3).map(|row| held.class(row)).collect();
-    assert_eq!(classes, [Some("held"), Some("lost"), Some("held")]);
 }
 
 #[test]
@@ -210,6 +206,11 @@ fn names_twice_and_a_positive_that_is_no_name_are_refused_with_the_line() {
         "[\"no_slip\", \"slip\", \"stick\"]",
     );
     assert!(message.contains("`event` has two names"), "{message}");
+    let message = refused_with("\"felt\", \"denim\", \"wool\"", "\"felt\"");
+    assert!(
+        message.contains("`names` has 1 of the 2 to 4096 classes"),
+        "{message}"
+    );
     let message = refused_with("\"felt\", \"denim\"", "\"1\", \"denim\"");
     assert!(
         message.contains("also the position of `denim`"),
@@ -259,6 +260,14 @@ fn limits_that_do_not_ascend_and_keys_of_the_other_kind_are_refused() {
         &MOVED.replace("\"0.1\", \"0.5\"", "\"0.5\", \"0.1\""),
     );
     assert!(message.contains("`thresholds` has `0.1`"), "{message}");
+    let message = refused(
+        &[("poses.csv", POSES)],
+        &MOVED.replace(", r = [\"0.03\", \"0.2\"]", ""),
+    );
+    assert!(
+        message.contains("`thresholds` needs `t`, limits of translations"),
+        "{message}"
+    );
     let message = refused(&[("poses.csv", POSES)], &MOVED.replace("[\"m\"]", "\"N\""));
     assert!(message.contains("not a unit of length"), "{message}");
     let message = refused(

@@ -119,7 +119,7 @@ pub(super) fn checked(path: &Path, text: &str) -> Result<ImportMap, DatasetError
         return Err(toml_error(
             path,
             None,
-            "neither [columns] nor [frame] nor [signals]: there is nothing to import",
+            "neither [columns] nor [task] nor [frame] nor [signals]: there is nothing to import",
         ));
     }
     let attributes = written.attributes.iter();

@@ -260,7 +260,14 @@ impl Check<'_> {
             );
             return Err(self.at(offset, &problem));
         }
-        task.positive = written.positive.map(Spanned::into_inner);
+        let second = class
+            .names
+            .get(1)
+            .filter(|_| task.kind == TaskKind::Outcome);
+        task.positive = written
+            .positive
+            .map(Spanned::into_inner)
+            .or_else(|| second.cloned());
         task.from = vec![class.from];
         task.names = class.names;
         Ok(TaskMap {

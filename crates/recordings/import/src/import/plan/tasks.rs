@@ -3,8 +3,8 @@
 use taceva_core::counted;
 
 use super::reading::Reading;
-use taceva_dataset::TaskColumn;
 use taceva_dataset::internal::{first_names, shown};
+use taceva_dataset::{TaskColumn, TaskLabel};
 
 /// Maximum number of classes with a count in the summary.
 const COUNTED: usize = 12;
@@ -21,11 +21,11 @@ impl Reading<'_> {
 /// Kind, source, number of labels and cluster of a task, in words.
 fn described(own: &TaskColumn, rows: usize) -> String {
     let task = own.task();
-    let labelled = (0..rows).filter(|row| own.label(*row).is_some()).count();
-    let mut counts = vec![0_usize; task.names.len()];
-    for class in (0..rows).filter_map(|row| own.class(row)) {
-        if let Some(at) = task.names.iter().position(|name| name == class) {
-            counts[at] += 1;
+    let (mut labelled, mut counts) = (0_usize, vec![0_usize; task.names.len()]);
+    for label in (0..rows).filter_map(|row| own.label(row)) {
+        labelled += 1;
+        if let TaskLabel::Class(class) = label {
+            counts[class as usize] += 1;
         }
     }
     let counts: Vec<String> = task

@@ -131,7 +131,15 @@ impl Sources<'_> {
             let names = signals.columns().iter();
             names.map(|name| (name.as_str(), &signals.unit, false, Of::Others))
         });
-        for (name, unit, is_moved, of) in columns.chain(times).chain(signals) {
+        let poses = self.map.tasks.iter().flat_map(|own| {
+            let columns = own.task.from.iter().zip(&own.units);
+            let columns = columns.zip(own.task.columns());
+            // An export names its columns like the dataset, whose positions are in mm.
+            let columns = columns.filter(|((name, _), stored)| !name.ends_with(stored.as_str()));
+            columns.map(|((name, unit), _)| (name.as_str(), unit, false, Of::Others))
+        });
+        let others = times.chain(signals).chain(poses);
+        for (name, unit, is_moved, of) in columns.chain(others) {
             let reading = Reading { unit, is_moved, of };
             match (name.strip_prefix("path."), self.joined_column(name)) {
                 (Some(part), _) => self.check_part(part, reading)?,

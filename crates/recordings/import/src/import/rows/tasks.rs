@@ -33,7 +33,7 @@ impl MappedTable<'_> {
         labels.collect()
     }
 
-    /// Class in a cell that contains a name, a position, or for two classes `true` or `false`.
+    /// Class in a cell that contains a name, a position, or, if one of two classes is positive, `true` or `false`.
     fn class_of_task(
         &self,
         row: usize,
@@ -50,11 +50,7 @@ impl MappedTable<'_> {
             let position = cell.strip_suffix(".0").unwrap_or(cell).parse::<usize>();
             position.ok().filter(|position| *position < names.len())
         };
-        let by_truth = || match (names.len(), cell.to_ascii_lowercase().as_str()) {
-            (2, "false") => Some(0),
-            (2, "true") => Some(1),
-            _ => None,
-        };
+        let by_truth = || position_of_truth(cell, task);
         let found = by_name.or_else(by_position).or_else(by_truth);
         let found = found.and_then(|position| u32::try_from(position).ok());
         match found {
@@ -124,4 +120,21 @@ impl MappedTable<'_> {
             }
         }
     }
+}
+
+/// Position of the class that `true` or `false` means: the positive class or the other one, unless a class has this name. `None` for other cells.
+fn position_of_truth(cell: &str, task: &Task) -> Option<usize> {
+    let is_true = cell.eq_ignore_ascii_case("true");
+    if !is_true && !cell.eq_ignore_ascii_case("false") {
+        return None;
+    }
+    let mut names = task.names.iter();
+    let named = names.position(|name| name.eq_ignore_ascii_case(cell));
+    named.or_else(|| {
+        let positive = task.positive.as_ref()?;
+        let [first, _] = task.names.as_slice() else {
+            return None;
+        };
+        Some(usize::from((first == positive) != is_true))
+    })
 }

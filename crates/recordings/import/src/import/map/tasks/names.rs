@@ -26,9 +26,9 @@ pub(crate) fn no_name(wrong: &str, names: &[String]) -> String {
 pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<String> {
     let names = &class.names;
     let mut seen = BTreeSet::new();
-    if names.is_empty() || names.len() > NAMES {
+    if !(2..=NAMES).contains(&names.len()) {
         return Some(format!(
-            "`names` has {} names, expected 1 to {NAMES}",
+            "`names` has {} of the 2 to {NAMES} classes: name every class that a model can predict",
             names.len()
         ));
     }
@@ -61,6 +61,10 @@ pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<Strin
 
 /// Problem with limits of a pose change, which are positive decimals in ascending order.
 pub(super) fn problem_of_limits(limits: &[String]) -> Option<String> {
+    if limits.is_empty() {
+        let problem = "`thresholds` needs `t`, limits of translations in mm, and `r`, limits of rotations in degrees";
+        return Some(problem.to_owned());
+    }
     let mut before = Nanometre(0);
     for limit in limits {
         let number = limit.parse::<Nanometre>().ok();

@@ -33,6 +33,8 @@ enum Way {
         columns: Vec<String>,
         at: usize,
     },
+    /// Positions of the classes of a task.
+    Classes,
 }
 
 /// Maximum angle between two rotations with a unique shortest path, degrees.
@@ -41,7 +43,7 @@ const OPPOSITE_DEG: f64 = 179.0;
 impl Interpolation {
     /// Interpolations for the columns of the join `name`.
     pub(super) fn of_join(map: &ImportMap, name: &str) -> Vec<Interpolation> {
-        let own = |from: &str| {
+        let own_column = |from: &str| {
             let (join, column) = from.split_once('.')?;
             (join == name).then(|| column.to_owned())
         };
@@ -51,7 +53,7 @@ impl Interpolation {
             let columns: Vec<String> = rotation
                 .columns
                 .iter()
-                .filter_map(|from| own(from))
+                .filter_map(|from| own_column(from))
                 .collect();
             for (at, column) in columns.iter().enumerate() {
                 found.push(Interpolation {
@@ -65,7 +67,7 @@ impl Interpolation {
             }
         }
         for (channel, mapped) in map.channels.iter().zip(&map.columns) {
-            let Some(column) = own(&mapped.from) else {
+            let Some(column) = own_column(&mapped.from) else {
                 continue;
             };
             if channel.unit() != Unit::Degree {
@@ -84,6 +86,13 @@ impl Interpolation {
                     },
                 },
             });
+        }
+        let tasks = map.tasks.iter().filter(|own| own.units.is_empty());
+        for column in tasks.flat_map(|own| &own.task.from) {
+            found.extend(own_column(column).map(|column| Interpolation {
+                column,
+                by: Way::Classes,
+            }));
         }
         found
     }
@@ -126,6 +135,12 @@ impl Gap<'_> {
                     "{after} follows {before}, more than half a turn of `{channel}`, and `pick = \"linear\"` would invent angles between: write \
                          `rotation = [\"Rx\", \"Ry\", \"Rz\"]` above the first [section] of the map if it is a part of a rotation vector, \
                          `period = {turn}` in `{channel} = {{ … }}` if it is one angle that wraps around, or `pick = \"nearest\"` in the join"
+                ));
+            }
+            Some(Way::Classes) if (after - before).abs() > 0.0 => {
+                return Err(table_error!(
+                    self.table.place(self.rows[1], column),
+                    "class {after} follows {before}, and `pick = \"linear\"` would invent classes between: write `pick = \"nearest\"` in the join"
                 ));
             }
             Some(Way::Periodic(period)) => wrapped(before, after, self.share, *period),
