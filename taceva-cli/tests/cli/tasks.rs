@@ -1,5 +1,7 @@
 //! Scores of tasks of two tables.
 
+mod input;
+
 use std::fmt::Write as _;
 
 use serde_json::Value;
@@ -47,7 +49,7 @@ fn estimate<'r>(report: &'r Value, metric: &str, variant: Option<&str>) -> &'r V
 fn slip_has_its_scores_with_intervals_by_stroke_and_its_onsets() {
     let bench = Bench::new();
     slip(&bench);
-    let report = bench.json(&format!("{SLIP}"));
+    let report = bench.json(SLIP);
     crate::schema::check("tasks", &report);
     // 36 frames slip. 25 of them are predicted, and no other.
     let f1 = estimate(&report, "f1", None);
