@@ -210,7 +210,7 @@ impl Margins {
     /// Precision of the class at `position`.
     pub(crate) fn precision(&self, position: usize) -> Score {
         let of = self.of[position];
-        self.over(of.hits, of.predicted, Undefined::NoPositive)
+        self.over(of.hits, of.predicted, Undefined::NoPrediction)
     }
 
     /// Recall of the class at `position`.

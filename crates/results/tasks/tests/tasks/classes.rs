@@ -289,3 +289,17 @@ fn the_interval_of_a_class_leaves_out_clips_with_it_and_without_it() {
         assert_eq!(found.interval, expected);
     }
 }
+
+#[test]
+fn a_class_that_is_true_and_never_predicted_has_no_precision_for_that_reason() {
+    let mut slip = Classes::new(["no_slip", "slip"], Some("slip")).expect("names");
+    for truth in ["no_slip", "slip"] {
+        slip.push("stroke", truth, "no_slip").expect("names");
+    }
+    let scores = slip.scores();
+    assert_eq!(
+        value(&scores, "precision", None),
+        Err(Undefined::NoPrediction)
+    );
+    assert_eq!(value(&scores, "recall", None), Ok(0.0));
+}
