@@ -180,6 +180,8 @@ fn a_change_of_pose_has_errors_in_millimetres_and_degrees() {
     let report = bench.json("score --truth truth.csv --pred pred.csv --task moved=pose");
     assert_eq!(estimate(&report, "pose_translation", None)["value"], 0.25);
     assert_eq!(estimate(&report, "pose_rotation", None)["value"], 0.0);
+    // No column has points of an object.
+    assert!(!report.to_string().contains("\"add"), "{report:#}");
     bench.write(
         "pred.csv",
         &format!("{head}1,a,0,0,0.5,0,0,0,0.9\n2,b,1,0,0,0,0,0.6,0.8\n"),
