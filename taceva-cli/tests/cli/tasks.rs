@@ -1,5 +1,7 @@
 //! Scores of tasks of two tables.
 
+mod input;
+
 use std::fmt::Write as _;
 
 use serde_json::Value;
@@ -47,7 +49,7 @@ fn estimate<'r>(report: &'r Value, metric: &str, variant: Option<&str>) -> &'r V
 fn slip_has_its_scores_with_intervals_by_stroke_and_its_onsets() {
     let bench = Bench::new();
     slip(&bench);
-    let report = bench.json(&format!("{SLIP}"));
+    let report = bench.json(SLIP);
     crate::schema::check("tasks", &report);
     // 36 frames slip. 25 of them are predicted, and no other.
     let f1 = estimate(&report, "f1", None);
@@ -178,6 +180,8 @@ fn a_change_of_pose_has_errors_in_millimetres_and_degrees() {
     let report = bench.json("score --truth truth.csv --pred pred.csv --task moved=pose");
     assert_eq!(estimate(&report, "pose_translation", None)["value"], 0.25);
     assert_eq!(estimate(&report, "pose_rotation", None)["value"], 0.0);
+    // No column has points of an object.
+    assert!(!report.to_string().contains("\"add"), "{report:#}");
     bench.write(
         "pred.csv",
         &format!("{head}1,a,0,0,0.5,0,0,0,0.9\n2,b,1,0,0,0,0,0.6,0.8\n"),

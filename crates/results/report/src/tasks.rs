@@ -1,8 +1,9 @@
 //! Scores of tasks, for readers and programs.
 
 use taceva_core::counted;
+use taceva_metrics::Interval;
 use taceva_results::not_measured;
-use taceva_tasks::{TaskReport, TaskScore, TaskScores};
+use taceva_tasks::{Estimate, TaskReport, TaskScore, TaskScores};
 
 use crate::table::{Cell, Column, Table};
 
@@ -127,9 +128,9 @@ fn row(task: &TaskScores, score: &TaskScore) -> [Cell; 6] {
 /// Reason for a missing value or interval, and the properties of the samples that limit the score.
 fn remark(score: &TaskScore) -> Option<String> {
     let estimate = &score.estimate;
-    let reason = match (estimate.value, estimate.interval.ends()) {
+    let reason = match (estimate.value, &estimate.interval) {
         (Err(reason), _) => Some(reason.to_string()),
-        (Ok(_), None) => Some("no interval".to_owned()),
+        (Ok(_), Interval::Undefined(reason)) => Some(format!("no interval: {reason}")),
         _ => None,
     };
     let flags = score.flags.iter().map(|flag| flag.words().to_owned());
@@ -140,12 +141,21 @@ fn remark(score: &TaskScore) -> Option<String> {
 /// Sentences below the scores of a task, without full stops.
 fn remarks(task: &TaskScores) -> Vec<String> {
     let mut remarks = task.notes.clone();
-    if let Some(score) = task.scores.first() {
-        remarks.push(format!(
-            "intervals by {} of the column `{}`",
-            counted(score.estimate.clusters as usize, "cluster"),
+    if let Some(Estimate {
+        interval, clusters, ..
+    }) = task.scores.first().map(|score| &score.estimate)
+    {
+        let by = format!(
+            "{} of the column `{}`",
+            counted(*clusters, "cluster"),
             task.cluster
-        ));
+        );
+        let mut all = task.scores.iter().map(|score| &score.estimate.interval);
+        let has_some = all.any(|interval| interval.ends().is_some());
+        remarks.push(match interval {
+            Interval::Undefined(reason) if !has_some => format!("no interval by {by}: {reason}"),
+            _ => format!("intervals by {by}"),
+        });
     }
     let mut flags: Vec<&str> = Vec::new();
     for flag in task.scores.iter().flat_map(|score| &score.flags) {

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::classes::margins::Margins;
+use crate::classes::margins::PartMargins;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::names::{Names, same};
@@ -293,7 +293,7 @@ impl Classes {
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let parts = self.clusters.values().map(|cells| {
-            let mut margins = Margins::empty(self.names.len());
+            let mut margins = PartMargins::default();
             for (cell, count) in cells {
                 margins.add(cell.truth, cell.predicted, *count);
             }

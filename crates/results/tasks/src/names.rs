@@ -151,9 +151,15 @@ impl Names {
 
     /// Refuses other names or another positive class.
     pub(crate) fn check_same(&self, other: &Names) -> Result<(), TaskError> {
-        same("names", self.names.join(", "), other.names.join(", "))?;
-        let positive = |of: &Names| of.positive_name().unwrap_or("none").to_owned();
-        same("positive", positive(self), positive(other))
+        let differ = |what, ours, theirs| Err(TaskError::OtherDefinition { what, ours, theirs });
+        if self.names != other.names {
+            return differ("names", self.names.join(", "), other.names.join(", "));
+        }
+        if self.positive != other.positive {
+            let positive = |of: &Names| of.positive_name().unwrap_or("none").to_owned();
+            return differ("positive", positive(self), positive(other));
+        }
+        Ok(())
     }
 }
 

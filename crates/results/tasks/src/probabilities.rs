@@ -175,7 +175,7 @@ impl Probabilities {
     }
 
     fn calibration(&self, all: &Losses) -> TaskScore {
-        let (value, mut parts) = self.ranking.value_and_parts(expected_error);
+        let (value, mut parts) = self.ranking.value_and_parts(expected_error, expected_error);
         let value = all.brier().and(value);
         for part in &mut parts {
             part.value = value.and(part.value);

@@ -13,7 +13,7 @@ use crate::error::TaskError;
 use crate::estimate::{Part, estimate, share};
 use crate::ranking::key::ScoreKey;
 pub(crate) use crate::ranking::levels::{Level, Sides};
-use crate::ranking::levels::{average_precision, roc_auc};
+use crate::ranking::levels::{average_precision, average_precision_of_rest, roc_auc};
 use crate::ranking::stored::Stored;
 use crate::score::{ScoreFlag, TaskScore};
 use crate::undefined::Undefined;
@@ -184,19 +184,19 @@ impl Ranking {
     pub fn scores(&self) -> Vec<TaskScore> {
         let sides = Sides::of(&self.levels());
         let flags = self.flags();
-        let score = |metric, definition: &str, value: Value, of_constant| {
-            let (value, parts) = self.value_and_parts(value);
+        let score = |metric, definition: &str, [value, of_rest]: [Value; 2], of_constant| {
+            let (value, parts) = self.value_and_parts(value, of_rest);
             let found = estimate(value, share(value), &parts, of_constant);
             TaskScore::new(metric, definition, found).flagged(&flags)
         };
         let auc_words = "share of pairs of a positive and a negative sample in which the positive one has the greater score, equal scores counted half";
         let precision_words = "sum over the different scores, greatest first, of the precision down to each times the recall that it adds";
         vec![
-            score("roc_auc", auc_words, roc_auc, Some(0.5)),
+            score("roc_auc", auc_words, [roc_auc, roc_auc], Some(0.5)),
             score(
                 "average_precision",
                 precision_words,
-                average_precision,
+                [average_precision, average_precision_of_rest],
                 sides.prevalence(),
             ),
         ]
@@ -218,38 +218,43 @@ impl Ranking {
         flags
     }
 
-    /// `value` of all samples, and of all but those of each cluster.
-    pub(crate) fn value_and_parts(&self, value: Value) -> (Result<f64, Undefined>, Vec<Part>) {
+    /// `value` of all samples, and `of_rest` of all but those of each cluster.
+    ///
+    /// Each cluster is taken away from one list of levels and put back, so that many clusters need one list.
+    pub(crate) fn value_and_parts(
+        &self,
+        value: Value,
+        of_rest: Value,
+    ) -> (Result<f64, Undefined>, Vec<Part>) {
+        let keys: Vec<ScoreKey> = self.all.keys().copied().collect();
+        let mut levels = self.levels();
+        let of_all = value(&levels);
         let parts = self.clusters.values().map(|counts| {
-            let left = self.levels_without(counts);
-            Part {
-                n: self.n - Sides::of(&left).n(),
-                value: value(&left),
+            let at = |key: &ScoreKey| keys.partition_point(|known| known < key);
+            let mut n = 0;
+            for (key, sides) in counts {
+                let level = &mut levels[at(key)];
+                level.positive -= sides.positive;
+                level.negative -= sides.negative;
+                n += sides.n();
             }
+            let value = of_rest(&levels);
+            for (key, sides) in counts {
+                let level = &mut levels[at(key)];
+                level.positive += sides.positive;
+                level.negative += sides.negative;
+            }
+            Part { n, value }
         });
-        (value(&self.levels()), parts.collect())
+        let parts = parts.collect();
+        (of_all, parts)
     }
 
+    /// Levels in ascending order.
     fn levels(&self) -> Vec<Level> {
-        self.levels_without(&Counts::new())
-    }
-
-    /// Levels in ascending order without the samples of `part`.
-    fn levels_without(&self, part: &Counts) -> Vec<Level> {
-        let mut part = part.iter().peekable();
-        let mut levels = Vec::with_capacity(self.all.len());
-        for (key, all) in &self.all {
-            let of_part = part.next_if(|(of, _)| *of == key);
-            let less = of_part.map_or(Sides::default(), |(_, sides)| *sides);
-            let level = Level {
-                score: key.score(),
-                positive: all.positive - less.positive,
-                negative: all.negative - less.negative,
-            };
-            if level.positive + level.negative > 0 {
-                levels.push(level);
-            }
-        }
+        let levels = self.all.iter();
         levels
+            .map(|(key, sides)| Level::of(key.score(), *sides))
+            .collect()
     }
 }

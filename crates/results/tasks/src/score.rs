@@ -1,6 +1,6 @@
 //! Named scores of tasks.
 
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use taceva_metrics::{Better, Interval};
 
 use crate::estimate::Estimate;
@@ -110,13 +110,13 @@ impl TaskScore {
     }
 }
 
-/// Property of the samples that limits a score.
+/// Property of the samples that limits a score; in files its words.
 ///
 /// ```
 /// use taceva_tasks::ScoreFlag;
 /// assert_eq!(ScoreFlag::AllScoresEqual.words(), "all scores equal");
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum ScoreFlag {
     /// All scores are equal.
@@ -136,5 +136,11 @@ impl ScoreFlag {
             ScoreFlag::ScoresOnGrid => "scores on a grid of 2^-16",
             ScoreFlag::OutsideUnit => "all scores outside 0 to 1",
         }
+    }
+}
+
+impl Serialize for ScoreFlag {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.words())
     }
 }

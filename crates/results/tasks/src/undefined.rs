@@ -18,8 +18,10 @@ pub enum Undefined {
     Empty,
     /// All samples are of one class.
     OneClass,
-    /// No sample is of the positive class, or none is predicted so.
+    /// No sample is of the positive class.
     NoPositive,
+    /// No sample is predicted as the class.
+    NoPrediction,
     /// No sample is of the negative class.
     NoNegative,
     /// Some scores are no probabilities: outside 0 to 1, or with another sum than 1 over the classes.
@@ -66,6 +68,7 @@ impl fmt::Display for Undefined {
             Undefined::Empty => "no sample",
             Undefined::OneClass => "one class only",
             Undefined::NoPositive => "no positive sample",
+            Undefined::NoPrediction => "no sample is predicted as the class",
             Undefined::NoNegative => "no negative sample",
             Undefined::NotProbabilities => "the scores are no probabilities",
             Undefined::InfiniteLoss => "a class of probability 0 is true",

@@ -34,7 +34,8 @@ fn rules(args: &Score) -> anyhow::Result<BTreeMap<String, TaskRule>> {
     for word in &args.task.thresholds {
         let (name, limit) =
             read::<f64>("--threshold", word, "a number", |limit| limit.is_finite())?;
-        rules.entry(name).or_default().threshold = Some(limit);
+        let known = &mut rules.entry(name).or_default().threshold;
+        set_once(known, limit, "--threshold", word)?;
     }
     for word in &args.task.debounces {
         let (name, count) = read::<u32>(
@@ -43,9 +44,21 @@ fn rules(args: &Score) -> anyhow::Result<BTreeMap<String, TaskRule>> {
             "a number of frames, 1 or more",
             |count| *count > 0,
         )?;
-        rules.entry(name).or_default().debounce = Some(count);
+        let known = &mut rules.entry(name).or_default().debounce;
+        set_once(known, count, "--debounce", word)?;
     }
     Ok(rules)
+}
+
+/// Sets `known`, unless another word of `option` did.
+fn set_once<T>(known: &mut Option<T>, value: T, option: &str, word: &str) -> anyhow::Result<()> {
+    match known.replace(value) {
+        None => Ok(()),
+        Some(_) => Err(Usage::error(format!(
+            "{option} `{}`: given before for this task, expected it once for each task",
+            shown(word)
+        ))),
+    }
 }
 
 /// Parses `NAME=VALUE`.

@@ -39,6 +39,54 @@ fn quotient(above: u64, below: u64) -> Quotient {
     }
 }
 
+/// Counts of the class at a position.
+#[derive(Clone, Debug)]
+struct ClassMargin {
+    position: usize,
+    margin: Margin,
+}
+
+/// Margins of a cluster: counts of the classes that occur in it, so that many clusters of many classes take little memory.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct PartMargins {
+    /// Number of samples.
+    pub(crate) n: u64,
+    /// Counts in the order of positions.
+    of: Vec<ClassMargin>,
+}
+
+impl PartMargins {
+    /// Adds `count` samples of the class `truth` that are predicted as `predicted`.
+    pub(crate) fn add(&mut self, truth: u32, predicted: u32, count: u64) {
+        self.n += count;
+        self.margin(truth).truth += count;
+        self.margin(predicted).predicted += count;
+        if truth == predicted {
+            self.margin(truth).hits += count;
+        }
+    }
+
+    /// True if the class at `position` occurs.
+    pub(crate) fn has(&self, position: usize) -> bool {
+        self.find(position).is_ok()
+    }
+
+    /// Index of the class at `position`, or the index at which it is missing.
+    fn find(&self, position: usize) -> Result<usize, usize> {
+        self.of.binary_search_by_key(&position, |of| of.position)
+    }
+
+    fn margin(&mut self, position: u32) -> &mut Margin {
+        let position = position as usize;
+        let at = self.find(position).unwrap_or_else(|at| {
+            let margin = Margin::default();
+            self.of.insert(at, ClassMargin { position, margin });
+            at
+        });
+        &mut self.of[at].margin
+    }
+}
+
 /// Classes that a mean of F1 counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Counted {
@@ -70,36 +118,25 @@ impl Margins {
         }
     }
 
-    /// Adds `count` samples of the class `truth` that are predicted as `predicted`.
-    pub(crate) fn add(&mut self, truth: u32, predicted: u32, count: u64) {
-        self.n += count;
-        self.of[truth as usize].truth += count;
-        self.of[predicted as usize].predicted += count;
-        if truth == predicted {
-            self.of[truth as usize].hits += count;
+    /// Adds the samples of `part`.
+    pub(crate) fn add(&mut self, part: &PartMargins) {
+        self.n += part.n;
+        for ClassMargin { position, margin } in &part.of {
+            let of = &mut self.of[*position];
+            of.truth += margin.truth;
+            of.predicted += margin.predicted;
+            of.hits += margin.hits;
         }
     }
 
-    /// Adds all samples of `other`.
-    pub(crate) fn plus(&mut self, other: &Margins) {
-        self.n += other.n;
-        for (margin, other) in self.of.iter_mut().zip(&other.of) {
-            margin.truth += other.truth;
-            margin.predicted += other.predicted;
-            margin.hits += other.hits;
-        }
-    }
-
-    /// Margins without the samples of `part`, which are among these.
-    pub(crate) fn without(&self, part: &Margins) -> Margins {
-        let margins = self.of.iter().zip(&part.of).map(|(all, part)| Margin {
-            truth: all.truth - part.truth,
-            predicted: all.predicted - part.predicted,
-            hits: all.hits - part.hits,
-        });
-        Margins {
-            n: self.n - part.n,
-            of: margins.collect(),
+    /// Takes the samples of `part`, which are among these, away.
+    pub(crate) fn subtract(&mut self, part: &PartMargins) {
+        self.n -= part.n;
+        for ClassMargin { position, margin } in &part.of {
+            let of = &mut self.of[*position];
+            of.truth -= margin.truth;
+            of.predicted -= margin.predicted;
+            of.hits -= margin.hits;
         }
     }
 
@@ -173,7 +210,7 @@ impl Margins {
     /// Precision of the class at `position`.
     pub(crate) fn precision(&self, position: usize) -> Score {
         let of = self.of[position];
-        self.over(of.hits, of.predicted, Undefined::NoPositive)
+        self.over(of.hits, of.predicted, Undefined::NoPrediction)
     }
 
     /// Recall of the class at `position`.

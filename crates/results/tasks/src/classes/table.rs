@@ -2,7 +2,7 @@
 
 use taceva_metrics::Range;
 
-use super::margins::{Counted, Margins};
+use super::margins::{Counted, Margins, PartMargins};
 use crate::estimate::{Estimate, Part, estimate, share};
 use crate::names::Names;
 use crate::quotient::{Quotient, ratio, sum_over};
@@ -11,25 +11,20 @@ use crate::undefined::Undefined;
 
 type Score = Result<f64, Undefined>;
 
-/// Margins of all clusters, and those with one cluster left out.
+/// Margins of all clusters, and of each.
 struct Confusion<'a> {
     rule: &'a str,
     all: Margins,
-    left_out: Vec<Margins>,
+    parts: &'a [PartMargins],
 }
 
 /// All scores of the margins `parts` of the clusters.
-pub(super) fn scores(names: &Names, rule: &str, parts: &[Margins]) -> Vec<TaskScore> {
+pub(super) fn scores(names: &Names, rule: &str, parts: &[PartMargins]) -> Vec<TaskScore> {
     let mut all = Margins::empty(names.len());
     for part in parts {
-        all.plus(part);
+        all.add(part);
     }
-    let left_out = parts.iter().map(|part| all.without(part)).collect();
-    let confusion = Confusion {
-        rule,
-        all,
-        left_out,
-    };
+    let confusion = Confusion { rule, all, parts };
     let mut scores = confusion.of_task();
     if let (Some(position), Some(name)) = (names.positive(), names.positive_name()) {
         scores.extend(confusion.of_positive(position, name));
@@ -137,22 +132,20 @@ impl Confusion<'_> {
     }
 
     fn f1(&self, metric: &'static str, position: usize, name: &str) -> TaskScore {
-        let found = self.share(
-            move |of: &Margins| of.f1(position),
-            self.all.f1_of_constant(position),
-        );
+        let of_constant = self.all.f1_of_constant(position);
+        let found = self.share_of_class(position, Margins::f1, of_constant);
         let definition = format!("2 tp / (2 tp + fp + fn) of the class \"{name}\"");
         self.score(metric, &definition, found)
     }
 
     fn precision(&self, position: usize, name: &str) -> TaskScore {
-        let found = self.share(move |of: &Margins| of.precision(position), None);
+        let found = self.share_of_class(position, Margins::precision, None);
         let definition = format!("tp / (tp + fp) of the class \"{name}\"");
         self.score("precision", &definition, found)
     }
 
     fn recall(&self, position: usize, name: &str) -> TaskScore {
-        let found = self.share(move |of: &Margins| of.recall(position), None);
+        let found = self.share_of_class(position, Margins::recall, None);
         let definition = format!("tp / (tp + fn) of the class \"{name}\"");
         self.score("recall", &definition, found)
     }
@@ -171,18 +164,43 @@ impl Confusion<'_> {
         self.estimate(value, share, of_constant)
     }
 
+    /// Estimate of a number from 0 to 1 that depends on the counts of the class at `position` alone.
+    fn share_of_class(
+        &self,
+        position: usize,
+        value: fn(&Margins, usize) -> Score,
+        of_constant: Option<f64>,
+    ) -> Estimate {
+        let found = value(&self.all, position);
+        let parts = self.left_out(|part, left| match part.has(position) {
+            true => value(left, position),
+            // A cluster without the class changes nothing.
+            false => found,
+        });
+        estimate(found, share(found), &parts, of_constant)
+    }
+
     fn estimate(
         &self,
         value: impl Fn(&Margins) -> Score,
         range: impl Fn(Score) -> Range,
         of_constant: Option<f64>,
     ) -> Estimate {
-        let parts = self.left_out.iter().map(|left| Part {
-            n: self.all.n - left.n,
-            value: value(left),
-        });
         let found = value(&self.all);
-        estimate(found, range(found), &parts.collect::<Vec<_>>(), of_constant)
+        let parts = self.left_out(|_, left| value(left));
+        estimate(found, range(found), &parts, of_constant)
+    }
+
+    /// `value` of each cluster and of the margins without it.
+    fn left_out(&self, value: impl Fn(&PartMargins, &Margins) -> Score) -> Vec<Part> {
+        let mut left = self.all.clone();
+        let parts = self.parts.iter().map(|part| {
+            left.subtract(part);
+            let value = value(part, &left);
+            left.add(part);
+            Part { n: part.n, value }
+        });
+        parts.collect()
     }
 }
 

@@ -32,10 +32,19 @@ struct Candidate {
 #[must_use]
 pub fn match_onsets(truth_s: &[f64], predicted_s: &[f64], tolerance_s: f64) -> Vec<OnsetPair> {
     let tolerance = (tolerance_s * MICROSECONDS).round();
+    // Wider than the tolerance, because distances are rounded to microseconds.
+    let reach = tolerance_s + 2.0 / MICROSECONDS;
+    let mut by_time: Vec<usize> = (0..predicted_s.len()).collect();
+    by_time.sort_by(|left, right| predicted_s[*left].total_cmp(&predicted_s[*right]));
     let mut candidates = Vec::new();
     for (truth, true_s) in truth_s.iter().enumerate() {
-        for (prediction, at_s) in predicted_s.iter().enumerate() {
-            let distance = ((at_s - true_s) * MICROSECONDS).round().abs();
+        let apart = |prediction: usize| predicted_s[prediction] - true_s;
+        let first = by_time.partition_point(|prediction| apart(*prediction) < -reach);
+        for prediction in by_time[first..].iter().copied() {
+            if apart(prediction) > reach {
+                break;
+            }
+            let distance = (apart(prediction) * MICROSECONDS).round().abs();
             if distance <= tolerance {
                 let pair = OnsetPair { truth, prediction };
                 candidates.push(Candidate { pair, distance });

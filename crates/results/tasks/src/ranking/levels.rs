@@ -16,6 +16,16 @@ pub(crate) struct Level {
     pub(crate) negative: u64,
 }
 
+impl Level {
+    pub(crate) fn of(score: f64, sides: Sides) -> Level {
+        Level {
+            score,
+            positive: sides.positive,
+            negative: sides.negative,
+        }
+    }
+}
+
 /// Samples of the positive and of the negative class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Sides {
@@ -41,7 +51,9 @@ impl Sides {
     }
 }
 
-/// Probability that a positive sample has a greater score than a negative one, equal scores counted half. `levels` ascend.
+/// Probability that a positive sample has a greater score than a negative one, equal scores counted half.
+///
+/// `levels` ascend. Levels without samples change no score of this file.
 pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
     let sides = Sides::of(levels);
     match (sides.positive, sides.negative) {
@@ -61,12 +73,7 @@ pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
 
 /// Sum over the different scores, greatest first, of the precision down to each score times the recall that it adds. `levels` ascend.
 pub(crate) fn average_precision(levels: &[Level]) -> Result<f64, Undefined> {
-    let sides = Sides::of(levels);
-    match (sides.n(), sides.positive) {
-        (0, _) => return Err(Undefined::Empty),
-        (_, 0) => return Err(Undefined::NoPositive),
-        _ => {}
-    }
+    let positive = positives(levels)?;
     let mut above = Sides::default();
     let mut terms = Vec::new();
     for level in levels.iter().rev() {
@@ -79,5 +86,30 @@ pub(crate) fn average_precision(levels: &[Level]) -> Result<f64, Undefined> {
             });
         }
     }
-    Ok(sum_over(terms.iter().copied(), sides.positive))
+    Ok(sum_over(terms.iter().copied(), positive))
+}
+
+/// [`average_precision`] with a rounding at each level, for rankings without one of many clusters.
+pub(crate) fn average_precision_of_rest(levels: &[Level]) -> Result<f64, Undefined> {
+    let positive = positives(levels)?;
+    let mut above = Sides::default();
+    let mut sum = 0.0;
+    for level in levels.iter().rev() {
+        above.positive += level.positive;
+        above.negative += level.negative;
+        if level.positive > 0 {
+            sum += level.positive as f64 * (above.positive as f64 / above.n() as f64);
+        }
+    }
+    Ok(sum / positive as f64)
+}
+
+/// Number of positive samples, or the reason that there is none.
+fn positives(levels: &[Level]) -> Result<u64, Undefined> {
+    let sides = Sides::of(levels);
+    match (sides.n(), sides.positive) {
+        (0, _) => Err(Undefined::Empty),
+        (_, 0) => Err(Undefined::NoPositive),
+        (_, positive) => Ok(positive),
+    }
 }

@@ -17,12 +17,10 @@ pub(super) struct Stored {
 impl From<Ranking> for Stored {
     fn from(ranking: Ranking) -> Stored {
         let levels = |counts: Counts| -> Vec<Level> {
-            let levels = counts.into_iter().map(|(key, sides)| Level {
-                score: key.score(),
-                positive: sides.positive,
-                negative: sides.negative,
-            });
-            levels.collect()
+            let levels = counts.into_iter();
+            levels
+                .map(|(key, sides)| Level::of(key.score(), sides))
+                .collect()
         };
         let clusters = ranking.clusters.into_sums();
         Stored {

@@ -2,7 +2,7 @@
 
 use crate::golden::{classes, entries, fraction, name, same, score, tasks, value};
 use serde_json::Value;
-use taceva_metrics::{Interval, UndefinedReason};
+use taceva_metrics::{ClusteredBy, Interval, LeftOut, Range, UndefinedReason};
 use taceva_tasks::{Classes, TaskScore, Undefined};
 
 #[test]
@@ -246,4 +246,60 @@ fn scores_are_written_with_their_reasons() -> Result<(), serde_json::Error> {
     assert_eq!(written["estimate"]["undefined"], "one class only");
     assert_eq!(written["estimate"]["n"], 4);
     Ok(())
+}
+
+/// State of the given true and predicted classes of numbered clips.
+fn of_clips<'a>(clips: impl Iterator<Item = (usize, &'a [[&'a str; 2]])>) -> Classes {
+    let mut classes = Classes::new(["denim", "silk", "wool"], None).expect("names");
+    for (number, rows) in clips {
+        for [truth, predicted] in rows {
+            let pushed = classes.push(&number.to_string(), truth, predicted);
+            pushed.expect("known names");
+        }
+    }
+    classes
+}
+
+#[test]
+fn the_interval_of_a_class_leaves_out_clips_with_it_and_without_it() {
+    let clips: [&[[&str; 2]]; 6] = [
+        &[["silk", "silk"], ["denim", "denim"]],
+        &[["silk", "wool"], ["silk", "silk"]],
+        // Without silk.
+        &[["denim", "denim"], ["wool", "denim"], ["wool", "wool"]],
+        &[["denim", "silk"]],
+        &[["silk", "silk"], ["wool", "wool"]],
+        &[["denim", "wool"]],
+    ];
+    let of = |left_out: Option<usize>| {
+        let numbered = clips.iter().copied().enumerate();
+        let scores = of_clips(numbered.filter(|(number, _)| Some(*number) != left_out)).scores();
+        let silk = Some("class silk");
+        ["f1_macro", "precision", "recall"]
+            .map(|metric| score(&scores, metric, silk).estimate.clone())
+    };
+    for (metric, found) in of(None).into_iter().enumerate() {
+        let without = clips.iter().enumerate().map(|(number, rows)| {
+            let value = of(Some(number))[metric].value;
+            LeftOut::new(rows.len() as u64, Ok(value.expect("silk in others")))
+        });
+        let value = found.value.expect("silk");
+        let without: Vec<LeftOut> = without.collect();
+        let expected = Interval::jackknife(value, Range::Ratio, &without, ClusteredBy::Group);
+        assert_eq!(found.interval, expected);
+    }
+}
+
+#[test]
+fn a_class_that_is_true_and_never_predicted_has_no_precision_for_that_reason() {
+    let mut slip = Classes::new(["no_slip", "slip"], Some("slip")).expect("names");
+    for truth in ["no_slip", "slip"] {
+        slip.push("stroke", truth, "no_slip").expect("names");
+    }
+    let scores = slip.scores();
+    assert_eq!(
+        value(&scores, "precision", None),
+        Err(Undefined::NoPrediction)
+    );
+    assert_eq!(value(&scores, "recall", None), Ok(0.0));
 }

@@ -289,3 +289,19 @@ fn order_and_merges_do_not_change_a_bit_of_the_state() {
     assert_eq!(bytes(&merged), bytes(&whole));
     assert_eq!(merged.scores(), whole.scores());
 }
+
+#[test]
+fn many_onsets_far_from_each_other_match_in_any_order_of_times() {
+    // Compared one by one, these would be ten thousand million pairs.
+    let count = 100_000_u32;
+    let truth: Vec<f64> = (0..count).map(f64::from).collect();
+    let predicted: Vec<f64> = truth.iter().rev().map(|time_s| time_s + 0.125).collect();
+    let pairs = match_onsets(&truth, &predicted, 0.2);
+    assert_eq!(pairs.len(), truth.len());
+    let last = predicted.len() - 1;
+    assert!(
+        pairs
+            .iter()
+            .all(|pair| pair.prediction == last - pair.truth)
+    );
+}

@@ -1,6 +1,7 @@
 //! Rankings beside exact fractions.
 
 use crate::golden::{above_a_half, entries, fraction, name, ranking, same, score, tasks, value};
+use taceva_metrics::{ClusteredBy, Interval, LeftOut, Range};
 use taceva_tasks::{Ranking, ScoreFlag, Undefined};
 
 #[test]
@@ -148,5 +149,42 @@ fn the_grid_moves_the_curves_by_less_than_a_thousandth() {
         let [on_grid, exact] =
             [on_grid, &exact].map(|score| score.estimate.value.expect("both classes"));
         assert!((on_grid - exact).abs() < 1e-3, "{on_grid} {exact}");
+    }
+}
+
+#[test]
+fn the_intervals_of_a_ranking_leave_out_each_stroke() {
+    // Scores and classes of a stroke, with equal scores within strokes and between them.
+    let stroke = |number: u32| -> [Vec<f64>; 2] {
+        let frames = 0..4 + number % 3;
+        let of = |frame: u32| (frame * 5 + number * 3) % 7;
+        let scores = frames.clone().map(|frame| f64::from(of(frame)));
+        let classes = frames.map(|frame| f64::from((of(frame) + frame * number) % 3));
+        [scores.collect(), classes.collect()]
+    };
+    let of = |left_out: Option<u32>| {
+        let mut ranking = Ranking::default();
+        for number in (0..8).filter(|number| Some(*number) != left_out) {
+            let [scores, classes] = stroke(number);
+            let classes: Vec<bool> = classes.iter().map(|class| *class > 0.5).collect();
+            let pushed = ranking.push_rows(&number.to_string(), &scores, &classes);
+            pushed.expect("scores");
+        }
+        ["roc_auc", "average_precision"]
+            .map(|metric| score(&ranking.scores(), metric, None).estimate.clone())
+    };
+    for (metric, found) in of(None).into_iter().enumerate() {
+        let without = (0..8).map(|number| {
+            let value = of(Some(number))[metric].value.expect("both classes");
+            LeftOut::new(stroke(number)[0].len() as u64, Ok(value))
+        });
+        let value = found.value.expect("both classes");
+        let without: Vec<LeftOut> = without.collect();
+        let expected = Interval::jackknife(value, Range::Ratio, &without, ClusteredBy::Group);
+        let ends = |interval: Interval| interval.ends().expect("eight strokes");
+        let [found, expected] = [found.interval, expected].map(ends);
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-12, "{found} {expected}");
+        }
     }
 }

@@ -134,6 +134,14 @@ fn states_of_other_names_or_another_positive_class_do_not_merge() {
     );
     let [first, other] = [["a", "b"], ["b", "a"]].map(|names| TopK::new(names).expect("names"));
     assert!(refusal(first.merge(other)).contains("names"));
+    // Equal only when joined by commas.
+    let [first, other] =
+        [["a, b", "c"], ["a", "b, c"]].map(|names| TopK::new(names).expect("names"));
+    assert!(refusal(first.merge(other)).contains("names"));
+    let [first, other] =
+        [Some("none"), None].map(|positive| Classes::new(["none", "slip"], positive));
+    let text = refusal(first.expect("names").merge(other.expect("names")));
+    assert!(text.contains("positive"), "{text}");
 }
 
 #[test]

@@ -129,6 +129,14 @@ fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
         }
         before.push(name);
     }
+    let of_poses = request.tasks.iter().filter(|of| of.kind == TaskKind::Pose);
+    let mut poses = of_poses.map(|of| &of.name);
+    if let Some(name) = poses.find(|name| request.rules.contains_key(*name)) {
+        return Err(EvaluateError::Request(format!(
+            "a threshold or a debounce is given for `{}`, which is a pose: omit it",
+            shown(name)
+        )));
+    }
     match request
         .rules
         .keys()

@@ -7,7 +7,7 @@ use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskScores, TopK}
 
 use super::labels::{ClassColumn, ClassNames};
 use super::score_columns::ScoreColumns;
-use super::{Clusters, RowPair, TaskRule, TaskSpec, TaskTables, empty, events, unlabelled};
+use super::{Clusters, RowPair, TaskRule, TaskSpec, TaskTables, empty, events, listed, unlabelled};
 use crate::error::EvaluateError;
 
 /// Places of `top_k`.
@@ -24,6 +24,8 @@ pub(super) struct ClassRow<'a> {
     pub(super) truth: u32,
     /// Position of the predicted class, after the rule.
     pub(super) predicted: u32,
+    /// Position of the predicted class, after the threshold alone.
+    pub(super) before_debounce: u32,
     /// Scores of the classes; empty if the predictions have none.
     pub(super) scores: Vec<f64>,
 }
@@ -46,7 +48,7 @@ pub(super) fn scores(
     let (mut rows, left_out) = rows(tables, clusters, task, &names, is_by_threshold)?;
     let positive = names.positive(task);
     if let Some(rule) = rule {
-        apply(rule, &mut rows, positive, task)?;
+        apply(rule, &mut rows, &names, task)?;
     }
     for row in &rows {
         let [truth, predicted] = [row.truth, row.predicted];
@@ -104,6 +106,7 @@ fn rows<'a>(
             pair: *pair,
             truth,
             predicted,
+            before_debounce: predicted,
             scores,
         });
     }
@@ -114,16 +117,16 @@ fn rows<'a>(
 fn apply(
     rule: &TaskRule,
     rows: &mut [ClassRow<'_>],
-    positive: Option<u32>,
+    names: &ClassNames,
     task: &TaskSpec,
 ) -> Result<(), EvaluateError> {
     let name = shown(&task.name);
     let refused = |problem: String| EvaluateError::Request(format!("task `{name}`: {problem}"));
-    let Some(positive) = positive.filter(|of| *of < 2) else {
-        return Err(refused(
-            "a threshold or a debounce needs two classes and a positive one: state positive=CLASS"
-                .to_owned(),
-        ));
+    let Some(positive) = names.positive(task).filter(|_| names.all().len() == 2) else {
+        return Err(refused(format!(
+            "a threshold or a debounce needs two classes and a positive one, but the classes are {}: state positive=CLASS, or omit the rule",
+            listed(names.all().iter().map(String::as_str))
+        )));
     };
     let negative = 1 - positive;
     if let Some(threshold) = rule.threshold {
@@ -137,6 +140,7 @@ fn apply(
                 true => positive,
                 false => negative,
             };
+            row.before_debounce = row.predicted;
         }
     }
     if let Some(least) = rule.debounce {

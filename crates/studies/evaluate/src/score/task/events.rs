@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use taceva_core::shown;
 use taceva_import::CsvTable;
 use taceva_tasks::TaskScores;
 use taceva_tasks::events::{EventError, EventRule, EventState, Frame};
@@ -72,7 +73,8 @@ pub(super) fn add(
                 true => ScoreColumns::of_class(&row.scores, positive),
                 false => None,
             };
-            let score = score.unwrap_or(f64::from(u8::from(row.predicted == positive)));
+            // The rule of onsets has the debounce.
+            let score = score.unwrap_or(f64::from(u8::from(row.before_debounce == positive)));
             let number = row.pair.truth as u64 + 1;
             let time_s = stated_time(truth, row.pair.truth, time)?;
             frames.push(Frame::new(
@@ -82,10 +84,26 @@ pub(super) fn add(
                 score,
             ));
         }
-        state.push(cluster, &frames).map_err(refused)?;
+        state
+            .push(cluster, &frames)
+            .map_err(|error| of_sequence(truth, cluster, &error))?;
     }
     scores.scores.extend(state.scores());
     Ok(())
+}
+
+/// Refusal of the sequence of `cluster`.
+fn of_sequence(table: &CsvTable, cluster: &str, error: &EventError) -> EvaluateError {
+    let advice = match error {
+        EventError::TimeGoesBack { .. } => {
+            ", or name the column that tells sequences apart with --cluster COLUMN"
+        }
+        _ => "",
+    };
+    EvaluateError::Tables {
+        path: table.path().to_owned(),
+        problem: format!("cluster `{}`: {error}{advice}", shown(cluster)),
+    }
 }
 
 fn stated_time(table: &CsvTable, row: usize, column: usize) -> Result<f64, EvaluateError> {

@@ -1,12 +1,13 @@
 //! Names of the classes of a task, and columns of classes.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_core::{nearest, shown};
+use taceva_core::{counted, nearest, shown};
 use taceva_import::CsvTable;
 
 use super::{TaskSpec, TaskTables, listed};
 use crate::error::EvaluateError;
+use crate::score::row_key::key_of;
 
 /// Greatest number of classes that a table may introduce without names.
 const MOST_CLASSES: usize = 1000;
@@ -14,26 +15,44 @@ const MOST_CLASSES: usize = 1000;
 /// Names of the classes, in their order.
 pub(super) struct ClassNames {
     names: Vec<String>,
+    /// Positions of the names. A whole number written with decimals is this number.
+    positions: BTreeMap<String, u32>,
     are_stated: bool,
 }
 
 impl ClassNames {
-    /// The stated names, or those of both tables in the order of letters or of numbers.
+    fn new(names: Vec<String>, are_stated: bool) -> ClassNames {
+        let keys = names.iter().map(|name| key_of(name).to_owned());
+        ClassNames {
+            positions: keys.zip(0..).collect(),
+            names,
+            are_stated,
+        }
+    }
+
+    /// The stated names, or those of both tables in the order of letters or of numbers. Names of columns of scores count as well.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] for more classes than a table may introduce, fewer than two, or a cell `nan`.
     pub(super) fn of(tables: &TaskTables, task: &TaskSpec) -> Result<ClassNames, EvaluateError> {
         if !task.names.is_empty() {
-            return Ok(ClassNames {
-                names: task.names.clone(),
-                are_stated: true,
-            });
+            return Ok(ClassNames::new(task.names.clone(), true));
         }
-        let mut found = BTreeSet::new();
+        let prefix = super::score_columns::prefix(task);
+        let columns = tables.prediction.names().iter();
+        let with_scores = columns.filter_map(|name| name.strip_prefix(&prefix));
+        let mut found: BTreeSet<String> = with_scores.map(str::to_owned).collect();
         for (table, is_needed) in [(&tables.truth, true), (&tables.prediction, false)] {
             if !is_needed && !table.has(&task.name) {
                 continue;
             }
             let column = table.position(&task.name)?;
             for row in 0..table.rows() {
-                let cell = table.cell(row, column);
+                let cell = key_of(table.cell(row, column));
+                if cell.eq_ignore_ascii_case("nan") {
+                    let expected = "expected a class, or an empty cell for a row without a label";
+                    return Err(table.refuse(row, column, expected).into());
+                }
                 if !cell.is_empty() && !found.contains(cell) {
                     found.insert(cell.to_owned());
                 }
@@ -53,10 +72,18 @@ impl ClassNames {
         if numbers.is_some() {
             names.sort_by_key(|name| name.parse::<i64>().unwrap_or_default());
         }
-        Ok(ClassNames {
-            names,
-            are_stated: false,
-        })
+        if names.len() < 2 {
+            return Err(EvaluateError::Tables {
+                path: tables.truth.path().to_owned(),
+                problem: format!(
+                    "column `{0}` has {1}, expected two or more: state all classes with --task {0}={2}:names=A|B",
+                    shown(&task.name),
+                    counted(names.len(), "class"),
+                    task.kind
+                ),
+            });
+        }
+        Ok(ClassNames::new(names, false))
     }
 
     /// All names.
@@ -75,16 +102,13 @@ impl ClassNames {
     }
 
     fn position(&self, name: &str) -> Option<u32> {
-        (0..)
-            .zip(&self.names)
-            .find(|(_, known)| *known == name)
-            .map(|(at, _)| at)
+        self.positions.get(key_of(name)).copied()
     }
 
     /// Class in a cell: a name, or the position of a stated name.
     fn class(&self, cell: &str) -> Option<u32> {
         self.position(cell).or_else(|| {
-            let position: u32 = cell.parse().ok()?;
+            let position: u32 = key_of(cell).parse().ok()?;
             (self.are_stated && (position as usize) < self.names.len()).then_some(position)
         })
     }

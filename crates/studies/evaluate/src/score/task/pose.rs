@@ -2,8 +2,8 @@
 
 use taceva_core::shown;
 use taceva_import::CsvTable;
-use taceva_tasks::TaskScores;
 use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
+use taceva_tasks::{TaskScores, Undefined};
 
 use super::{Clusters, TaskSpec, TaskTables, empty, unlabelled};
 use crate::error::EvaluateError;
@@ -94,7 +94,10 @@ pub(super) fn scores(
     }
     let mut scores = empty(task, clusters);
     scores.notes.extend(unlabelled(left_out));
-    scores.scores = state.scores();
+    let found = state.scores().into_iter();
+    // No column has the points of an object.
+    let of_poses = found.filter(|score| score.estimate.value.err() != Some(Undefined::NoPoints));
+    scores.scores = of_poses.collect();
     Ok(scores)
 }
 

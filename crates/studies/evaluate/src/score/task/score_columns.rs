@@ -7,6 +7,11 @@ use super::labels::ClassNames;
 use super::{TaskSpec, listed};
 use crate::error::EvaluateError;
 
+/// Beginning of the names of the columns with scores of `task`.
+pub(super) fn prefix(task: &TaskSpec) -> String {
+    format!("{}.p.", task.name)
+}
+
 /// Scores of the classes in a table of predictions.
 pub(super) struct ScoreColumns<'a> {
     table: &'a CsvTable,
@@ -25,7 +30,7 @@ impl<'a> ScoreColumns<'a> {
         task: &TaskSpec,
         names: &ClassNames,
     ) -> Result<Option<ScoreColumns<'a>>, EvaluateError> {
-        let prefix = format!("{}.p.", task.name);
+        let prefix = prefix(task);
         let refused = |problem: String| EvaluateError::Tables {
             path: table.path().to_owned(),
             problem,

@@ -66,7 +66,7 @@ impl FromStr for TaskSpec {
         for part in parts {
             match part.split_once('=') {
                 Some(("positive", class)) if !class.is_empty() => {
-                    spec.positive = Some(class.to_owned());
+                    spec.positive = Some(class.trim().to_owned());
                 }
                 Some(("names", names)) if !names.is_empty() => {
                     spec.names = listed(names);
@@ -91,6 +91,9 @@ impl TaskSpec {
         match self.kind {
             TaskKind::Pose if self.positive.is_some() || !self.names.is_empty() => Err(format!(
                 "`{name}`: a pose has no classes; omit `positive` and `names`"
+            )),
+            _ if self.names.iter().any(String::is_empty) => Err(format!(
+                "`{name}`: an empty name in `names`, expected classes with a single | between them"
             )),
             TaskKind::Class | TaskKind::Event | TaskKind::Outcome if self.thresholds.is_some() => {
                 Err(format!(

@@ -1,0 +1,141 @@
+//! Labels, names and rules as users write them.
+
+use super::{SLIP, estimate, slip};
+use crate::support::Bench;
+
+/// Command for the tables of [`cloth`].
+const CLOTH: &str = "score --truth truth.csv --pred pred.csv --cluster clip --task cloth=class";
+
+/// Tables of the true and of the predicted classes of two clips.
+fn cloth(bench: &Bench, truth: [&str; 3], prediction: [&str; 3]) {
+    let [a, b, c] = truth;
+    bench.write(
+        "truth.csv",
+        &format!("id,clip,cloth\n1,a,{a}\n2,a,{b}\n3,b,{c}\n"),
+    );
+    let [a, b, c] = prediction;
+    bench.write("pred.csv", &format!("id,cloth\n1,{a}\n2,{b}\n3,{c}\n"));
+}
+
+#[test]
+fn a_debounce_without_a_threshold_delays_an_onset_once() {
+    let bench = Bench::new();
+    slip(&bench);
+    let report = bench.json(&format!("{SLIP} --debounce slip=3"));
+    // True from frame 4, predicted from frame 5, debounced from frame 7.
+    let delay = estimate(&report, "onset_delay", None)["value"].as_f64();
+    assert!((delay.expect("a delay") - 0.12).abs() < 1e-12, "{report:#}");
+}
+
+#[test]
+fn a_rule_of_three_classes_is_refused_instead_of_replacing_one_of_them() {
+    let bench = Bench::new();
+    cloth(&bench, ["denim", "silk", "wool"], ["denim", "silk", "wool"]);
+    bench.refused(
+        &format!("{CLOTH}:positive=silk --debounce cloth=1"),
+        2,
+        "needs two classes and a positive one, but the classes are denim, silk, wool",
+    );
+}
+
+#[test]
+fn a_rule_of_a_pose_and_a_second_rule_of_a_task_are_refused() {
+    let bench = Bench::new();
+    slip(&bench);
+    bench.refused(
+        "score --truth truth.csv --pred pred.csv --task moved=pose --debounce moved=3",
+        2,
+        "given for `moved`, which is a pose",
+    );
+    bench.refused(
+        &format!("{SLIP} --threshold slip=0.4 --threshold slip=0.5"),
+        2,
+        "--threshold `slip=0.5`: given before",
+    );
+}
+
+#[test]
+fn labels_that_a_program_wrote_with_decimals_are_whole_numbers() {
+    let bench = Bench::new();
+    cloth(&bench, ["1.0", "", "0.0"], ["1", "1", "0"]);
+    let report = bench.json(CLOTH);
+    assert_eq!(estimate(&report, "class_accuracy", None)["value"], 1.0);
+    let names = report["tasks"][0]["names"].as_array().expect("names");
+    assert_eq!(names, &["0", "1"]);
+    let report = bench.json(&format!("{CLOTH}:names=denim|silk"));
+    assert_eq!(estimate(&report, "class_accuracy", None)["value"], 1.0);
+    let notes = &report["tasks"][0]["notes"];
+    assert_eq!(notes[0], "1 row without a label, left out");
+}
+
+#[test]
+fn a_class_that_only_a_column_of_scores_names_is_a_class() {
+    let bench = Bench::new();
+    bench.write("truth.csv", "id,clip,cloth\n1,a,denim\n2,b,silk\n");
+    bench.write(
+        "pred.csv",
+        "id,cloth.p.denim,cloth.p.silk,cloth.p.wool\n1,0.5,0.25,0.25\n2,0.25,0.25,0.5\n",
+    );
+    let report = bench.json(CLOTH);
+    assert_eq!(estimate(&report, "class_accuracy", None)["value"], 0.5);
+    let names = report["tasks"][0]["names"].as_array().expect("names");
+    assert_eq!(names, &["denim", "silk", "wool"]);
+}
+
+#[test]
+fn cells_and_names_that_are_no_class_are_refused() {
+    let bench = Bench::new();
+    cloth(&bench, ["denim", "NaN", "silk"], ["denim"; 3]);
+    bench.refused(CLOTH, 3, "`NaN`: expected a class, or an empty cell");
+    bench.refused(&format!("{CLOTH}:names=denim||silk"), 2, "an empty name");
+    cloth(&bench, ["denim"; 3], ["denim"; 3]);
+    bench.refused(CLOTH, 3, "has 1 class, expected two or more");
+}
+
+#[test]
+fn too_few_clusters_are_the_stated_reason_for_a_missing_interval() {
+    let bench = Bench::new();
+    cloth(
+        &bench,
+        ["denim", "silk", "silk"],
+        ["denim", "silk", "denim"],
+    );
+    let text = bench.ok(CLOTH);
+    let reason = "no interval by 2 clusters of the column `clip`: 2 clusters, 5 are needed";
+    assert!(text.contains(reason), "{text}");
+    let csv = bench.ok(&format!("{CLOTH} --format csv"));
+    assert!(
+        csv.contains("no interval: 2 clusters, 5 are needed"),
+        "{csv}"
+    );
+}
+
+#[test]
+fn times_that_go_back_are_refused_with_the_option_that_tells_sequences_apart() {
+    let bench = Bench::new();
+    bench.write(
+        "truth.csv",
+        "id,object,t_s,slip\n1,cup,0,no\n2,cup,0.04,yes\n3,cup,0,no\n",
+    );
+    bench.write("pred.csv", "id,slip\n1,no\n2,yes\n3,no\n");
+    bench.refused(
+        "score --truth truth.csv --pred pred.csv --task slip=event:positive=yes --cluster object",
+        3,
+        "tells sequences apart with --cluster COLUMN",
+    );
+}
+
+#[test]
+fn log_odds_are_flagged_in_words() {
+    let bench = Bench::new();
+    bench.write("truth.csv", "id,point_id,held\n1,a,no\n2,b,yes\n3,c,yes\n");
+    bench.write("pred.csv", "id,held.p.yes\n1,-2\n2,3\n3,4.5\n");
+    let report = bench.json(
+        "score --truth truth.csv --pred pred.csv --task held=outcome:positive=yes --threshold held=0.4",
+    );
+    crate::schema::check("tasks", &report);
+    let scores = report["tasks"][0]["scores"].as_array().expect("a list");
+    let auc = scores.iter().find(|score| score["metric"] == "roc_auc");
+    let flags = &auc.expect("scores of two classes")["flags"];
+    assert_eq!(flags[0], "all scores outside 0 to 1");
+}
