@@ -16,6 +16,7 @@ mod numbers;
 mod packages;
 mod picture_numbers;
 mod stamps;
+mod takes;
 mod taxels;
 mod text_forms;
 mod times;
