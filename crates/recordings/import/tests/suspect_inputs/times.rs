@@ -1,6 +1,7 @@
 //! Tests of times written as text.
 
-use super::{FACTS, case, codes, draft, imported, lab, map_of, planned, summary};
+use super::{FACTS, case, codes, draft, imported, lab, map_of, parquet_lab, planned, summary};
+use taceva_tables::Cell;
 
 #[test]
 fn dates_and_times_as_text_are_seconds_and_a_zone_that_nobody_states_is_warned_of() {
@@ -58,6 +59,27 @@ fn zones_in_texts_times_of_day_through_midnight_and_fractions_of_any_length_are_
         let map = format!("map_version = 2\ntable = \"t.csv\"\n{}", rest(clock, ""));
         assert_eq!(imported(folder.path(), &map, "t_s"), expected, "{cells:?}");
         assert_eq!(codes(&summary(folder.path(), &map)), warned, "{cells:?}");
+    }
+}
+
+#[test]
+fn texts_of_times_in_json_lines_and_parquet_are_seconds_too() {
+    let texts = ["2024-10-26T23:00:00.25Z", "2024-10-27T01:00:01+02:00"];
+    let lines = texts.map(|text| format!("{{\"t\": \"{text}\", \"fz\": 1}}\n"));
+    let json = lab(&[("t.jsonl", &lines.concat())]);
+    let rows = texts.map(|text| vec![Cell::Text(text.to_owned()), Cell::Number(1.0)]);
+    let parquet = parquet_lab("t.parquet", &["t", "fz"], &rows);
+    let pointers = rest("unix", "")
+        .replace("\"fz\"", "\"/fz\"")
+        .replace("\"t\"", "\"/t\"");
+    for (folder, table, rest) in [
+        (&json, "t.jsonl", pointers),
+        (&parquet, "t.parquet", rest("unix", "")),
+    ] {
+        let map = format!("map_version = 2\ntable = \"{table}\"\n{rest}");
+        let times = imported(folder.path(), &map, "t_s");
+        assert_eq!(times, [1_729_983_600.25, 1_729_983_601.0], "{table}");
+        assert_eq!(codes(&summary(folder.path(), &map)), [""; 0], "{table}");
     }
 }
 
