@@ -94,6 +94,24 @@ fn runs_add_up_whoever_computes_them() {
 }
 
 #[test]
+fn the_page_has_a_row_of_every_metric_with_an_interval() {
+    let page = include_str!("../../../docs/coverage.md");
+    // Maxima and scores of all times together, and the factor of a tolerance interval, whose truth depends on the number of points.
+    let without = [
+        "crosstalk",
+        "bias_level",
+        "inter_sensor",
+        "intrinsic",
+        "tolerance_interval",
+    ];
+    for metric in taceva_metrics::catalogue::ALL {
+        let row = format!("\n| {} ", metric.id);
+        let is_left_out = without.contains(&metric.id);
+        assert_eq!(page.contains(&row), !is_left_out, "{}", metric.id);
+    }
+}
+
+#[test]
 fn the_page_states_the_studies_that_the_example_draws() {
     let page = include_str!("../../../docs/coverage.md");
     let example = include_str!("../../examples/coverage_by_metric.rs");
