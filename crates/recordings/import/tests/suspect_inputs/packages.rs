@@ -172,3 +172,59 @@ fn two_paxini_modules_leave_the_forces_open_with_their_scale() {
     let other = line(&text, "# or: from = ");
     assert!(other.contains("1-3-NxN-X[0]"), "{text}");
 }
+
+/// NumPy file of three numbers.
+fn three(numbers: [f64; 3]) -> Vec<u8> {
+    let header = "{'descr': '<f8', 'fortran_order': False, 'shape': (3,), }\n";
+    let length = u16::try_from(header.len()).expect("short").to_le_bytes();
+    let numbers = numbers.map(f64::to_le_bytes).concat();
+    [
+        b"\x93NUMPY\x01\x00",
+        &length[..],
+        header.as_bytes(),
+        &numbers[..],
+    ]
+    .concat()
+}
+
+#[test]
+fn fields_of_webdataset_are_all_behind_the_first_dot() {
+    let folder = lab(&[]);
+    let shard = std::fs::File::create(folder.path().join("s.tar")).expect("made");
+    let mut shard = tar::Builder::new(shard);
+    for press in 0..4_u32 {
+        let force = f64::from(press);
+        let meta = format!("{{\"object\": \"ball\", \"t_s\": {force}}}");
+        let members = [
+            ("fz.cls", press.to_string().into_bytes()),
+            ("ft.npy", three([0.1, 0.25 * force, 0.5 * force])),
+            ("meta.json", meta.into_bytes()),
+            ("note.pyd", b"x".to_vec()),
+        ];
+        for (field, bytes) in members {
+            let mut header = tar::Header::new_gnu();
+            header.set_size(bytes.len() as u64);
+            header.set_mode(0o644);
+            let name = format!("press{press}.{field}");
+            let added = shard.append_data(&mut header, name, &bytes[..]);
+            added.expect("packed");
+        }
+    }
+    shard.finish().expect("written");
+    let text = draft(folder.path());
+    for words in [
+        "`.note.pyd` of its samples",
+        "Fz = { from = \"ft.npy[2]\"",
+        "column = \"meta.json/t_s\"",
+        "object = \"meta.json/object\"",
+    ] {
+        assert!(text.contains(words), "no `{words}` in {text}");
+    }
+    let forces = imported(folder.path(), &filled(&text), "Fz");
+    assert_eq!(forces, [0.0, 0.5, 1.0, 1.5]);
+    let by_class = format!(
+        "map_version = 2\ntable = \"s.tar\"\n[columns]\nFz = {{ from = \"fz.cls\", unit = \"N\" }}\n{NO_TIME}{FACTS}"
+    );
+    let forces = imported(folder.path(), &by_class, "Fz");
+    assert_eq!(forces, [0.0, 1.0, 2.0, 3.0]);
+}
