@@ -1,5 +1,6 @@
 //! Tests of times written as text.
 
+use super::drafts::{filled, with_pictures};
 use super::{FACTS, case, codes, draft, imported, lab, map_of, parquet_lab, planned, summary};
 use taceva_tables::Cell;
 
@@ -146,4 +147,51 @@ fn a_draft_takes_texts_of_times_for_the_time() {
         "{draft}"
     );
     assert!(draft.contains("clock = \"unix\""), "{draft}");
+}
+
+#[test]
+fn numbers_in_names_of_pictures_are_drafted_as_times_if_they_are_stamps() {
+    for (names, unit, expected) in [
+        (
+            ["1700000000123.png", "1700000000156.png"],
+            "ms",
+            [1_700_000_000.123, 1_700_000_000.156],
+        ),
+        (
+            [
+                "cam/gel_1700000000123000.png",
+                "cam/gel_1700000000156000.png",
+            ],
+            "us",
+            [1_700_000_000.123, 1_700_000_000.156],
+        ),
+        (
+            [
+                "a/1700000000125000000_left.png",
+                "a/1700000000250000000_left.png",
+            ],
+            "ns",
+            [1_700_000_000.125, 1_700_000_000.25],
+        ),
+    ] {
+        let folder = with_pictures(&[], &names);
+        let text = draft(folder.path());
+        let words = "clock = \"unix\"   # a guess by the size of the numbers\ncolumn = \"path.";
+        assert!(text.contains(words), "{text}");
+        assert!(text.contains(&format!("\nunit = {unit:?}\n")), "{text}");
+        let times = imported(folder.path(), &filled(&text), "t_s");
+        for (found, expected) in times.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+        }
+        assert_eq!(times.len(), 2, "{text}");
+    }
+    // Counters of any length are no times.
+    for names in [
+        ["0000000000123.png", "0000000000156.png"],
+        ["1700000000.png", "1700000001.png"],
+        ["9700000000123.png", "9700000000156.png"],
+    ] {
+        let text = draft(with_pictures(&[], &names).path());
+        assert!(text.contains("[time]\nclock = \"unknown\""), "{text}");
+    }
 }
