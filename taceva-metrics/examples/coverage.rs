@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::thread;
 
 use simulation::{CORRELATION, Coverage, Design, Each, METRICS, Method, coverage, expected};
-use taceva_metrics::BootstrapEnds;
+use taceva_metrics::{BootstrapEnds, PoissonBootstrap};
 
 /// Numbers of locations and of presses at each location.
 const DESIGNS: [(u32, u32); 16] = [
@@ -36,8 +36,8 @@ const RUNS: u32 = 1500;
 const METHODS: [Method; 4] = [
     Method::Jackknife,
     Method::JackknifeBySample,
-    Method::Bootstrap(BootstrapEnds::Normal),
-    Method::Bootstrap(BootstrapEnds::Percentile),
+    Method::Bootstrap(PoissonBootstrap::DEFAULT.with_ends(BootstrapEnds::Normal)),
+    Method::Bootstrap(PoissonBootstrap::DEFAULT.with_ends(BootstrapEnds::Percentile)),
 ];
 
 fn main() {
@@ -99,8 +99,10 @@ fn name(method: Method) -> &'static str {
     match method {
         Method::Jackknife => "jackknife by point",
         Method::JackknifeBySample => "jackknife by sample",
-        Method::Bootstrap(BootstrapEnds::Percentile) => "Poisson bootstrap by point, percentile",
-        Method::Bootstrap(_) => "Poisson bootstrap by point, normal",
+        Method::Bootstrap(bootstrap) => match bootstrap.ends {
+            BootstrapEnds::Percentile => "Poisson bootstrap by point, percentile",
+            _ => "Poisson bootstrap by point, normal",
+        },
     }
 }
 

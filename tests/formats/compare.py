@@ -296,7 +296,7 @@ def compared(source, dataset):
         if any(name.startswith("…") for name in names):
             import pandas
 
-            names = [name for name in pandas.read_csv(Path(sys.argv[1]) / source, nrows=0).columns if name != "Timestamp"]
+            names = [name for name in pandas.read_csv(Path(sys.argv[1]) / source, nrows=0).columns if "-NxN-" in name]
         found = [picked(column, name) for name in names]
         if any(values is None for values in found):
             left.append(label)

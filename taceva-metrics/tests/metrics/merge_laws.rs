@@ -6,9 +6,9 @@ use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use taceva_metrics::{Evaluator, ExactSum, MetricError, State};
 
-fn config() -> ProptestConfig {
+fn config(cases: u32) -> ProptestConfig {
     ProptestConfig {
-        cases: 200,
+        cases,
         rng_seed: RngSeed::Fixed(2025),
         failure_persistence: None,
         ..ProptestConfig::default()
@@ -41,7 +41,7 @@ fn rows() -> impl Strategy<Value = Vec<Row>> {
 }
 
 proptest! {
-    #![proptest_config(config())]
+    #![proptest_config(config(80))]
 
     #[test]
     fn a_whole_equals_its_merged_parts(rows in rows(), cut in any::<prop::sample::Index>()) {
@@ -68,6 +68,10 @@ proptest! {
     fn a_state_that_was_written_and_read_is_the_same(rows in rows()) {
         laws::a_state_that_was_written_and_read_is_the_same(&rows, evaluator);
     }
+}
+
+proptest! {
+    #![proptest_config(config(200))]
 
     #[test]
     fn what_was_merged_can_be_taken_away_again(

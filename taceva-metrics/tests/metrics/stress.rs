@@ -6,7 +6,7 @@ use taceva_core::random::SplitMix64;
 use taceva_metrics::bench::{Kernel, nasty_inputs, shuffled};
 use taceva_metrics::{Isa, PairSpec, PairSums, Paired, Stream, Streams};
 
-const PROGRAMS: u64 = 20_000;
+const PROGRAMS: u64 = 5000;
 
 #[test]
 fn no_program_of_random_bytes_panics() {

@@ -8,6 +8,9 @@ use crate::signal_facts::SignalFacts;
 use crate::tiles::Tiles;
 use taceva_dataset::RecordedSessions;
 
+/// Depth from which a sample is in contact, mm.
+const CONTACT_MM: f64 = 0.01;
+
 /// Data of a recording that checks read.
 #[derive(Debug)]
 pub struct Evidence<'a> {
@@ -42,6 +45,21 @@ impl Evidence<'_> {
         ["Fz", "Pz"]
             .into_iter()
             .find_map(|name| channels.position(name))
+    }
+
+    /// For each row, false if its label of depth shows contact. Depths that are never near 0 show nothing, since they may be positions.
+    pub(crate) fn without_depth(&self) -> Vec<bool> {
+        let rows = self.table.rows();
+        let Some(depth) = self.table.channels().position("Pz") else {
+            return vec![true; rows];
+        };
+        let depths = self.table.truth(depth);
+        let is_shallow = |row: usize| depths.get(row).is_none_or(|depth| depth.abs() < CONTACT_MM);
+        let shallow: Vec<bool> = (0..rows).map(is_shallow).collect();
+        match shallow.contains(&true) {
+            true => shallow,
+            false => vec![true; rows],
+        }
     }
 
     /// Rows with a label of the channel at index `position`, each with its value.

@@ -47,6 +47,14 @@ impl RestChange {
     }
 }
 
+/// Median, the lower of two; 0 for no numbers.
+pub(crate) fn lower_median(numbers: impl Iterator<Item = f64>) -> f64 {
+    let mut sorted: Vec<f64> = numbers.collect();
+    sorted.sort_by(f64::total_cmp);
+    let middle = sorted.len().saturating_sub(1) / 2;
+    sorted.get(middle).copied().unwrap_or(0.0)
+}
+
 /// Median; 0 for no numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();

@@ -20,7 +20,8 @@ const VISITS: usize = 4;
 
 /// Rows of the densest group of similar pictures, whose centre is a picture with a low load; empty without such a group.
 ///
-/// Labels only select the candidates. After a force was zeroed again, some untouched pictures have a load but still belong to the group.
+/// Labels of force only select the candidates. After a force was zeroed again, some untouched pictures have a load but still belong to the
+/// group. A picture with a label of depth in the gel does not, however similar a light contact is.
 pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
     let Some(load) = evidence.load() else {
         return Vec::new();
@@ -67,11 +68,12 @@ pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
         .iter()
         .map(|picture| rest.distance(picture.1) <= REACH * within)
         .collect();
+    let without_depth = evidence.without_depth();
     let visits = alike.windows(2).filter(|pair| !pair[0] && pair[1]).count();
     let rows: Vec<usize> = pictures
         .iter()
         .zip(&alike)
-        .filter(|(_, alike)| **alike)
+        .filter(|(picture, alike)| **alike && without_depth[picture.0])
         .map(|(picture, _)| picture.0)
         .collect();
     let share = rows.len() as f64 / pictures.len() as f64;

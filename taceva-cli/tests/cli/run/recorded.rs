@@ -4,7 +4,8 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::{reports, with_small};
+use super::{SMALL, reports, with_small};
+use crate::support::Bench;
 
 #[test]
 fn what_was_recorded_is_scored_again_without_a_press() {
@@ -64,4 +65,17 @@ fn a_recording_of_a_run_is_evaluated_with_the_channels_and_the_split_of_its_plan
         2,
         "in the folder of that run",
     );
+}
+
+#[test]
+fn the_recording_of_a_run_passes_every_check() {
+    let bench = Bench::new();
+    // Enough contact points for intervals, of one unit.
+    let scene = SMALL.replace("points = 16", "points = 60");
+    bench.write("small.toml", &scene.replace(r#"["0", "1"]"#, r#"["0"]"#));
+    bench.ok("run small.toml --out r -q");
+    let report = bench.json("check r/recordings/1-small");
+    let findings = report["findings"].as_array().expect("a list");
+    let notes = |finding: &Value| finding["severity"] == "note";
+    assert!(findings.iter().all(notes), "{findings:#?}");
 }

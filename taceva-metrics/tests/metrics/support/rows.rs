@@ -22,12 +22,15 @@ impl Row {
     }
 }
 
+fn channels() -> Channels {
+    Channels::new([Channel::FX, Channel::FY]).expect("two channels")
+}
+
 /// Every metric of predictions of Fx and Fy.
 pub(crate) fn plan() -> MetricPlan {
-    let channels = Channels::new([Channel::FX, Channel::FY]).expect("two channels");
     let names = ["accuracy", "rmse", "bias", "smape_gated", "mae_euclid"];
     let wanted = catalogue::select(names).expect("known names");
-    MetricPlan::new(&wanted, channels, FieldSet::PAIRS)
+    MetricPlan::new(&wanted, channels(), FieldSet::PAIRS)
 }
 
 /// The rows as columns, with contact points if every row has one.
@@ -49,7 +52,7 @@ pub(crate) fn batch(rows: &[Row]) -> Batch {
         .flatten()
         .for_each(|point| points.push(&format!("point {point}")));
     Batch::from_columns(
-        plan().channels().clone(),
+        channels(),
         columns(|row| row.truth),
         columns(|row| row.prediction),
         named.is_some().then_some(points),

@@ -9,8 +9,7 @@ use taceva_core::{
     SampleSink,
 };
 use taceva_metrics::{
-    BootstrapEnds, Evaluator, IntervalMethod, MetricPlan, Paired, PoissonBootstrap, SensorFacts,
-    catalogue,
+    Evaluator, IntervalMethod, MetricPlan, Paired, PoissonBootstrap, SensorFacts, catalogue,
 };
 
 /// Correlation of the magnitudes |d| of two errors at one location.
@@ -63,7 +62,7 @@ pub(crate) enum Method {
     Jackknife,
     /// Jackknife with every press as its own location.
     JackknifeBySample,
-    Bootstrap(BootstrapEnds),
+    Bootstrap(PoissonBootstrap),
 }
 
 impl Method {
@@ -103,8 +102,7 @@ impl Method {
                 kind,
                 match self {
                     Method::Jackknife | Method::JackknifeBySample => plan,
-                    Method::Bootstrap(ends) => {
-                        let bootstrap = PoissonBootstrap::default().with_ends(ends);
+                    Method::Bootstrap(bootstrap) => {
                         plan.with_interval_method(IntervalMethod::PoissonBootstrap(bootstrap))
                     }
                 },

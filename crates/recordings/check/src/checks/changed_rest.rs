@@ -4,13 +4,14 @@ use taceva_core::{Field, Unit, by_count, counted};
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
-use crate::rest_change::RestChange;
+use crate::rest_change::{RestChange, lower_median};
 use crate::tiles::Tiles;
 
 pub(super) static CHECK: Check = Check {
     code: "TAC034",
     name: "changed-rest",
-    looks_for: "untouched pictures that differ from the reference: by a third of the change by contact on average, or by all of it in one tile (1/8 of the width)",
+    looks_for: "untouched pictures that differ from the reference by more than they differ from one another: by a third of the change by \
+        contact on average, or by all of it in one tile (1/8 of the width)",
     hint: "record a new untouched reference picture: that corrects most changes of light, exposure, dust and position; otherwise check \
         the lens, the lamps and the coating",
     reads: Some(Field::Frame),
@@ -22,6 +23,8 @@ const LEAST: usize = 3;
 /// Limits below which there is no contact: force, N, and depth, mm.
 const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
+/// Minimum change since the reference, in noises: three standard deviations of normal noise, whose median magnitude is 0.674 of one.
+const NOISES: f64 = 4.5;
 /// Fraction of the greatest load above which a picture shows contact.
 const PRESSED: f64 = 0.5;
 
@@ -37,9 +40,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     };
     let pictures = evidence.loaded_pictures(load);
     let greatest = pictures.iter().map(|picture| picture.2).fold(0.0, f64::max);
+    let without_depth = evidence.without_depth();
     let rest: Vec<(usize, &Tiles)> = pictures
         .iter()
-        .filter(|picture| picture.2 < untouched_to)
+        .filter(|picture| picture.2 < untouched_to && without_depth[picture.0])
         .map(|picture| (picture.0, picture.1))
         .collect();
     let pressed: Vec<&Tiles> = pictures
@@ -61,12 +65,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let percent = |part: f64, whole: f64| 100.0 * part / whole;
     let pictures = counted(rest.len(), "picture");
     let differ = by_count(rest.len(), "differs", "differ");
-    let message = if change.is_overall() {
+    let is_clear = |change: f64, of: fn(&Tiles, &Tiles) -> f64| change > NOISES * noise(&rest, of);
+    let message = if change.is_overall() && is_clear(change.mean, Tiles::distance) {
         format!(
             "{pictures} without contact {differ} from the reference by {:.0} % of the mean change by contact",
             percent(change.mean, change.contact_mean)
         )
-    } else if change.is_local() {
+    } else if change.is_local() && is_clear(change.greatest, Tiles::greatest) {
         format!(
             "{pictures} without contact {differ} from the reference in one place by {:.0} % of the largest change by contact",
             percent(change.greatest, change.contact_greatest)
@@ -76,4 +81,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     };
     let rows: Vec<usize> = rest.iter().map(|(row, _)| *row).collect();
     vec![evidence.found(Severity::Warning, message, &rows)]
+}
+
+/// Difference that noise makes between an untouched picture and the mean of many, from consecutive pictures. A single fault between them hardly changes it.
+fn noise(rest: &[(usize, &Tiles)], of: fn(&Tiles, &Tiles) -> f64) -> f64 {
+    let consecutive = rest.windows(2).map(|pair| of(pair[0].1, pair[1].1));
+    lower_median(consecutive) / std::f64::consts::SQRT_2
 }

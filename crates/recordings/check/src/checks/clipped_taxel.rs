@@ -25,35 +25,64 @@ const TIMES: u64 = 3;
 /// Maximum number of taxels named in a message; the others are counted.
 const NAMED: usize = 5;
 
+/// Minimum distance of a code from the next number, as a fraction of the range of all other numbers.
+const FAR: f32 = 0.25;
+
+/// End of the range of a taxel at which values accumulate.
+#[derive(Clone, Copy)]
+struct End {
+    own: ValueCount,
+    /// Nearest other value.
+    next: f32,
+    /// True if the value is far from all others, such as a code for "nothing measured".
+    is_code: bool,
+}
+
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let Some(facts) = evidence.signals else {
         return Vec::new();
     };
-    let clipped: Vec<String> = (0..facts.taxels.len())
-        .filter_map(|position| Some((position, end_of(facts, position)?)))
-        .map(|(position, ValueCount { value, count })| {
-            let unit = facts.info.unit;
-            format!(
-                "{} is {value} {unit} in {}",
-                facts.names[position],
-                counted(count, "sample")
-            )
+    let ends =
+        (0..facts.taxels.len()).filter_map(|position| Some((position, end_of(facts, position)?)));
+    let (codes, clipped): (Vec<_>, Vec<_>) = ends.partition(|(_, end)| end.is_code);
+    let unit = facts.info.unit;
+    let named = |position: usize, own: ValueCount| {
+        let samples = counted(own.count, "sample");
+        format!(
+            "{} is {} {unit} in {samples}",
+            facts.names[position], own.value
+        )
+    };
+    let clipped: Vec<String> = clipped
+        .into_iter()
+        .map(|(position, end)| named(position, end.own))
+        .collect();
+    let codes: Vec<String> = codes
+        .into_iter()
+        .map(|(position, end)| {
+            let named = named(position, end.own);
+            format!("{named}, and the next number is {}", end.next)
         })
         .collect();
-    if clipped.is_empty() {
-        return Vec::new();
-    }
-    let named = clipped[..clipped.len().min(NAMED)].join(", ");
-    let message = format!(
-        "{} of {} signals are clipped at a limit: {named}",
-        clipped.len(),
-        facts.taxels.len()
-    );
-    vec![Found::overall(Severity::Warning, message)]
+    let said = [
+        (clipped, "are clipped at a limit"),
+        (codes, "have a number that may mean \"nothing measured\""),
+    ];
+    let said = said.into_iter().filter(|(taxels, _)| !taxels.is_empty());
+    said.map(|(taxels, what)| {
+        let first = taxels[..taxels.len().min(NAMED)].join("; ");
+        let message = format!(
+            "{} of {} signals {what}: {first}",
+            taxels.len(),
+            facts.taxels.len()
+        );
+        Found::overall(Severity::Warning, message)
+    })
+    .collect()
 }
 
-/// Value at which a taxel is clipped, and the number of samples with this value; `None` if the taxel is not clipped.
-fn end_of(facts: &SignalFacts, position: usize) -> Option<ValueCount> {
+/// End at which a taxel is clipped, or has a code; `None` for neither.
+fn end_of(facts: &SignalFacts, position: usize) -> Option<End> {
     let TaxelFacts {
         least,
         above_least,
@@ -61,16 +90,25 @@ fn end_of(facts: &SignalFacts, position: usize) -> Option<ValueCount> {
         below_greatest,
         ..
     } = facts.taxels[position];
-    let is_clipped = |ValueCount { count, .. }: ValueCount, next: ValueCount| {
+    let is_frequent = |ValueCount { count, .. }: ValueCount, next: ValueCount| {
         count >= LEAST && count * SHARE >= facts.samples && count > TIMES * next.count
     };
-    let above =
-        Some(greatest).filter(|end| below_greatest.is_some_and(|next| is_clipped(*end, next)));
-    // A sensor that shows nothing until it is touched has its least value at rest.
-    let is_rest = |end: &ValueCount| match &facts.rest {
-        Some(rest) => rest.values()[position] <= end.value,
-        None => end.value.abs() <= 0.0,
+    let end = |own: ValueCount, next: Option<ValueCount>, other: f32| {
+        let next = next.filter(|next| is_frequent(own, *next))?.value;
+        let is_code =
+            (next - own.value).abs() > FAR * (other - next).abs() && next.total_cmp(&other).is_ne();
+        Some(End {
+            own,
+            next,
+            is_code: is_code || (own.value < 0.0 && next >= 0.0),
+        })
     };
-    let below = Some(least).filter(|end| above_least.is_some_and(|next| is_clipped(*end, next)));
+    // A sensor that shows nothing until it is touched has its least value at rest.
+    let is_rest = |end: &End| match &facts.rest {
+        Some(rest) => rest.values()[position] <= end.own.value,
+        None => end.own.value.abs() <= 0.0,
+    };
+    let above = end(greatest, below_greatest, least.value);
+    let below = end(least, above_least, greatest.value);
     above.or(below.filter(|end| !is_rest(end)))
 }

@@ -12,8 +12,8 @@ use crate::stamps::{Step, Stream, by_clock};
 pub(super) static CHECK: Check = Check {
     code: "TAC024",
     name: "clock-jumps",
-    looks_for: "a clock that was set during a contact (without contact points: during an otherwise regular stream), stamps of two clocks \
-        in one column, and times impossible for the stated clock",
+    looks_for: "a clock that was set during a contact (without contact points: during an otherwise regular stream), local times at the end \
+        of summer time, stamps of two clocks in one column, and times impossible for the stated clock",
     hint: "stamp with a monotonic clock; import data of two clocks as two tables, joined with their lag",
     reads: None,
     find,
@@ -34,6 +34,9 @@ const UNIX_FROM_S: f64 = 631_152_000.0;
 /// Latest plausible Unix time of a recording (2100), s.
 const UNIX_TO_S: f64 = 4_102_444_800.0;
 const RUNNING_S: f64 = 1e9;
+/// Time by which a local clock is set back at the end of summer time, s, and the tolerance for the step of the stream.
+const SUMMER_TIME_S: f64 = 3_600.0;
+const NEAR_S: f64 = 60.0;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let table = evidence.table;
@@ -56,6 +59,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         found.push(evidence.found(Severity::Warning, message, &rows));
     }
     found.extend(set_within(evidence));
+    found.extend(set_back(evidence));
     let last = last_stamps(table);
     found.extend(of_two_kinds(&last).filter(|_| others.is_empty()));
     found.extend(contradicted(evidence, &last));
@@ -133,6 +137,28 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
         "{steps} {place} {are} over {JUMP_STEPS} times the usual step of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or the recording \
          paused",
         stream.usual_s
+    );
+    Some(evidence.found(Severity::Warning, message, &rows))
+}
+
+/// Finds a stream of Unix times that goes back by an hour, and never otherwise.
+fn set_back(evidence: &Evidence<'_>) -> Option<Found> {
+    if !matches!(evidence.header.clock, Clock::Unix) {
+        return None;
+    }
+    let stream = Stream::of(evidence)?;
+    let back = stream.steps.iter().filter(|step| step.seconds < 0.0);
+    let back: Vec<&Step> = back.collect();
+    let is_hour = |step: &&Step| (step.seconds + SUMMER_TIME_S).abs() < NEAR_S;
+    let first = back.first().filter(|_| back.iter().all(is_hour))?;
+    let rows: Vec<usize> = back.iter().map(|step| step.to).collect();
+    let time = |row: usize| evidence.table.t_s()[row].unwrap_or_default();
+    let message = format!(
+        "{} {} about an hour back, first from {:.3} s to {:.3} s: local times at the end of summer time; write times in UTC or with their zone",
+        counted(rows.len(), "step"),
+        by_count(rows.len(), "is", "are"),
+        time(first.from),
+        time(first.to)
     );
     Some(evidence.found(Severity::Warning, message, &rows))
 }

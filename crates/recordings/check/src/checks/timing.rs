@@ -1,6 +1,7 @@
 //! TAC008: measured sample rate, and impossible times.
 
 use taceva_core::by_count;
+use taceva_dataset::Table;
 use taceva_metrics::STREAM_S;
 
 use super::dropped_frames::{Missing, missing};
@@ -40,6 +41,10 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if !is_of_one_clock {
         // Files of which each is a row have no order but that of their times, and each may begin its own clock.
         pairs = by_time(table, &timed);
+    }
+    if starts_anew(table, &pairs) {
+        let points = table.point_id();
+        pairs.retain(|(before, row)| points[*before] == points[*row]);
     }
     let steps: Vec<(usize, f64)> = pairs
         .into_iter()
@@ -98,6 +103,24 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         ));
     }
     found
+}
+
+/// True if the times begin anew with every contact point, such as an episode. A clock that was set once goes back at one of many.
+fn starts_anew(table: &Table, pairs: &[(usize, usize)]) -> bool {
+    let times = table.t_s();
+    let points = table.point_id();
+    let mut changes = 0;
+    for (before, row) in pairs.iter().copied() {
+        if points[before] == points[row] {
+            continue;
+        }
+        if times[row] >= times[before] {
+            return false;
+        }
+        changes += 1;
+    }
+    // Points of one row each show nothing: rows may be in any order.
+    changes > 0 && pairs.len() >= 2 * changes
 }
 
 /// Sample rate from the usual step, which is the median of the forward steps. Pauses between presses therefore do not affect the rate.

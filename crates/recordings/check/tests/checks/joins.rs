@@ -104,6 +104,38 @@ fn forces_at_5_hz_beside_pictures_at_30_hz_are_slow_and_linear_is_proposed() {
 }
 
 #[test]
+fn slow_forces_in_json_lines_and_milliseconds_are_named_too() {
+    let cam: Vec<String> = (0..200)
+        .map(|row| format!("{}", f64::from(row) / 50.0))
+        .collect();
+    let force = |row: u32| {
+        let ms = 125 * row;
+        let fz = 1.0 + (0.003 * f64::from(ms)).sin();
+        format!("{{\"t\": {ms}, \"w\": {{\"z\": {fz:.4}}}}}\n")
+    };
+    let presses: Vec<f64> = (0..200_u32)
+        .map(|row| 0.02 * f64::from(row * 13 % 61))
+        .collect();
+    let files = [
+        ("cam.csv", format!("t\n{}\n", cam.join("\n")).into_bytes()),
+        (
+            "ft.jsonl",
+            (0..33).map(force).collect::<String>().into_bytes(),
+        ),
+        ("f.npy", pictures(&presses)),
+    ];
+    let map = format!(
+        "map_version = 2\ntable = \"cam.csv\"\n{PICTURES}[columns]\nFz = {{ from = \"ft./w/z\", unit = \"N\" }}\n[time]\nclock = \"monotonic\"\ncolumn = \"t\"\nunit = \"s\"\n[[join]]\nname = \"ft\"\ntable = \"ft.jsonl\"\ntime = {{ column = \"/t\", unit = \"ms\" }}\npick = \"nearest\"\ntolerance_ms = 1000\nlag_ms = 0\n{SENSOR}"
+    );
+    let report = imported(&files, &map, &["TAC037"]);
+    let said = message(&report, "TAC037");
+    assert!(
+        said.contains("rows of `ft` label 200 rows") && said.contains("would change Fz by"),
+        "{said}"
+    );
+}
+
+#[test]
 fn the_reading_before_is_older_and_a_table_that_is_as_fast_is_no_slow_one() {
     let cam: Vec<String> = (0..200)
         .map(|row| format!("{},{row}", f64::from(row) / 50.0))

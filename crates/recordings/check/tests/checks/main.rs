@@ -7,6 +7,7 @@ mod forces;
 mod joins;
 mod lab;
 mod lag;
+mod local_times;
 mod neighbours;
 mod rest;
 mod single_files;

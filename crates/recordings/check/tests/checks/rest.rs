@@ -90,6 +90,59 @@ fn good_recordings_are_flagged_less_than_once_in_a_hundred() {
 }
 
 #[test]
+fn contacts_whose_force_is_too_small_to_measure_are_no_untouched_pictures() {
+    let report = |has_depth: bool| {
+        let mut recording = Recording::sound();
+        recording.reference = Some(picture(0, 0.0, &|_, _, light| light));
+        if has_depth {
+            recording.channels[0] = taceva_core::Channel::PZ;
+        }
+        for (number, sample) in (0_u32..).zip(&mut recording.samples) {
+            // Depth, force, and what the picture shows of it. The last fifty are beside the middle of the transducer, but for each fourth.
+            let [depth, force, shown] = match (number < 150, number % 4) {
+                (true, 0) => [0.0, 0.0, 0.0],
+                (true, 1) => [0.4, 1.0, 1.0],
+                (false, 0..=2) => [0.2, 0.005, 1.2],
+                _ => [0.6, 1.5, 1.5],
+            };
+            sample.frame = Some(picture(number, shown, &|_, _, light| light));
+            readings(sample, |channel, value| match channel {
+                0 => Some(depth),
+                2 => Some(force),
+                _ => Some(value),
+            });
+        }
+        recording.check("")
+    };
+    says_nothing(&report(true), "TAC034");
+    // Without a label of depth nobody knows.
+    message(&report(false), "TAC034");
+}
+
+#[test]
+fn light_that_wanders_from_picture_to_picture_is_no_change_and_a_greater_one_is() {
+    let wandering = |change: f64| {
+        let mut recording = Recording::sound();
+        recording.reference = Some(picture(0, 0.0, &|_, _, light| light * 1.01));
+        for (number, sample) in (0_u32..).zip(&mut recording.samples) {
+            let force = f64::from(number % 4) * 0.5;
+            let drawn = number.wrapping_mul(2_654_435_761) >> 16;
+            let gain = change * (0.99 + 0.02 * f64::from(drawn) / 65_536.0);
+            sample.frame = Some(picture(number, 0.2 * force, &|_, _, light| light * gain));
+            readings(sample, |channel, value| match channel {
+                2 => Some(force),
+                _ => Some(value),
+            });
+        }
+        recording.check("")
+    };
+    says_nothing(&wandering(1.0), "TAC034");
+    let said = wandering(1.06);
+    let said = message(&said, "TAC034");
+    assert!(said.contains("differ from the reference by"), "{said}");
+}
+
+#[test]
 fn presses_of_a_board_that_follow_one_another_are_no_contact_and_have_no_rate() {
     use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, Source};
     let folder = tempfile::tempdir().expect("a folder");

@@ -262,3 +262,43 @@ fn a_clock_that_begins_anew_is_noticed_unless_the_machine_was_started_again_betw
         .any(|finding| finding.message.contains("2 sessions"));
     assert!(said, "{:?}", report.findings);
 }
+
+/// Report on four episodes of fifty rows, whose times are a function of the episode and the row in it.
+fn episodes(time: impl Fn(u32, u32) -> f64) -> CheckReport {
+    stamped(
+        |number| time(number / 50, number % 50),
+        |recording| {
+            for (number, sample) in (0_u32..).zip(&mut recording.samples) {
+                sample.point_id = Some((number / 50).to_string());
+            }
+        },
+    )
+}
+
+#[test]
+fn times_that_begin_anew_with_every_episode_go_back_nowhere_and_those_of_a_clock_that_was_set_do() {
+    has_no_warning_of_times(&episodes(|_, row| regular(row)));
+    // Each episode begins a little later than the one before, but before its end.
+    has_no_warning_of_times(&episodes(|episode, row| {
+        0.2 * f64::from(episode) + regular(row)
+    }));
+    let set_back = |episode: u32, row: u32| {
+        let back = if episode > 1 { 50.0 } else { 0.0 };
+        regular(50 * episode + row) - back
+    };
+    let within = |_: u32, row: u32| regular(if row < 25 { row } else { row - 20 });
+    let clocks: [(&dyn Fn(u32, u32) -> f64, &str); 2] = [
+        (&set_back, "1 sample is older"),
+        (&within, "4 samples are older"),
+    ];
+    for (time, expected) in clocks {
+        let report = episodes(time);
+        let older = report
+            .findings
+            .iter()
+            .find(|finding| finding.message.contains("older"));
+        let older = older.unwrap_or_else(|| panic!("{:#?}", report.findings));
+        assert!(older.message.starts_with(expected), "{}", older.message);
+        assert_eq!((older.code, older.severity), ("TAC008", Severity::Warning));
+    }
+}

@@ -78,6 +78,30 @@ fn a_taxel_at_the_end_of_its_converter_is_named_and_one_that_is_silent_at_rest_i
 }
 
 #[test]
+fn a_number_far_from_all_others_is_called_a_code_for_nothing_measured() {
+    for code in [-1.0, 65_535.0] {
+        let coded = found(|row, mut values| {
+            if row >= REST && row % 7 == 0 {
+                values[4] = code;
+            }
+            values
+        });
+        let [(code_of_check, message)] = &coded[..] else {
+            panic!("{coded:?}");
+        };
+        assert_eq!(*code_of_check, "TAC017");
+        let start = format!(
+            "1 of 15 signals have a number that may mean \"nothing measured\": taxel_1_0_y is {code} uT in "
+        );
+        assert!(message.starts_with(&start), "{message}");
+        assert!(
+            message.contains("samples, and the next number is "),
+            "{message}"
+        );
+    }
+}
+
+#[test]
 fn rows_without_contact_that_are_pressed_are_named() {
     // The values at rest are those of a deep press, so deeper samples are nearer to them.
     let pressed = found(|row, values| match row < REST {

@@ -119,3 +119,42 @@ fn a_shear_force_that_is_zeroed_anew_steps_beside_a_sound_normal_force() {
     assert!(said.starts_with("Fx of 50 similar pictures"), "{said}");
     assert!(!said.contains("Fz"), "{said}");
 }
+
+#[test]
+fn light_contacts_that_a_depth_shows_are_no_untouched_pictures() {
+    // Presses, and from the middle on light contacts between them, which pictures hardly show.
+    let is_light = |number: u32| number >= 100 && number.is_multiple_of(2);
+    let row = |number: u32| {
+        let [force, depth] = match is_light(number) {
+            true => [0.46, 0.2],
+            false => [press(number), 0.25 * press(number)],
+        };
+        let noise = 0.002 * f64::from(number * 7919 % 11);
+        format!(
+            "{},{:.4},{depth:.4}\n",
+            0.3 * f64::from(number),
+            force + noise
+        )
+    };
+    let table = format!("t,fz,z\n{}", (0..200).map(row).collect::<String>());
+    let presses = (0..200).map(|number| match is_light(number) {
+        true => 0.02,
+        false => press(number),
+    });
+    let files = [
+        ("labels.csv", table.into_bytes()),
+        ("f.npy", pictures(&presses.collect::<Vec<f64>>())),
+    ];
+    let depth = format!("{FZ}\nPz = {{ from = \"z\", unit = \"mm\" }}");
+    says_nothing(
+        &imported(&files, &map(&depth, TIMED), &["TAC035"]),
+        "TAC035",
+    );
+    // Without a label of depth nobody knows.
+    let report = imported(&files, &map(FZ, TIMED), &["TAC035"]);
+    let said = message(&report, "TAC035");
+    assert!(
+        said.contains("similar pictures without contact steps from"),
+        "{said}"
+    );
+}

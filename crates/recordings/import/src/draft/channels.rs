@@ -21,6 +21,13 @@ impl Offered<'_> {
         self.candidate.unit.map_or("?", |(unit, _)| unit)
     }
 
+    /// Keys of the unit and of the scale.
+    fn facts(&self) -> String {
+        let scale = self.candidate.unit.and_then(|(_, source)| source.scale());
+        let scale = scale.map(|scale| format!(", scale = {scale}"));
+        format!("unit = {:?}{}", self.unit(), scale.unwrap_or_default())
+    }
+
     /// Rank among the candidates of a channel; the lowest is the best. If the best candidate with a scale states a unit (`is_stated`), candidates without a
     /// scale rank after it.
     fn rank(&self, is_stated: bool) -> (bool, bool, Reason, bool, u32) {
@@ -46,9 +53,9 @@ impl Offered<'_> {
         } = self.candidate;
         let unit = self.candidate.unit.map(|(_, source)| format!("; {source}"));
         format!(
-            "{channel} = {{ from = {}, unit = {:?} }}   # {reason}{}",
+            "{channel} = {{ from = {}, {} }}   # {reason}{}",
             self.from(),
-            self.unit(),
+            self.facts(),
             unit.unwrap_or_default()
         )
     }
@@ -83,8 +90,8 @@ pub(super) fn lines(offered: &[Offered<'_>]) -> String {
             (Some(why), _) => {
                 let _ = writeln!(
                     text,
-                    "{channel} = {{ from = \"?\", unit = {:?} }}   # {} {why}",
-                    first.unit(),
+                    "{channel} = {{ from = \"?\", {} }}   # {} {why}",
+                    first.facts(),
                     first.from()
                 );
             }
@@ -94,13 +101,13 @@ pub(super) fn lines(offered: &[Offered<'_>]) -> String {
                     .chain(alike.iter().copied())
                     .map(|one| one.from())
                     .collect();
-                let unit = match alike.iter().all(|one| one.unit() == first.unit()) {
-                    true => first.unit(),
-                    false => "?",
+                let facts = match alike.iter().all(|one| one.facts() == first.facts()) {
+                    true => first.facts(),
+                    false => "unit = \"?\"".to_owned(),
                 };
                 let _ = writeln!(
                     text,
-                    "{channel} = {{ from = \"?\", unit = {unit:?} }}   # {} match equally by {}: name the measured one",
+                    "{channel} = {{ from = \"?\", {facts} }}   # {} match equally by {}: name the measured one",
                     names.join(", "),
                     first.candidate.reason
                 );

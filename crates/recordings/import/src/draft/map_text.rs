@@ -251,7 +251,14 @@ pub(super) fn of_files(group: &FileGroup, notes: &[String]) -> String {
         attributes.0.clear();
     }
     add_section(&mut text, "columns", &channels);
-    add_section(&mut text, "time", "clock = \"unknown\"\n");
+    let time = match &group.parts.stamp {
+        Some(stamp) => format!(
+            "clock = \"unix\"   # a guess by the size of the numbers\ncolumn = \"path.{}\"\nunit = {:?}\n",
+            stamp.name, stamp.unit
+        ),
+        None => "clock = \"unknown\"\n".to_owned(),
+    };
+    add_section(&mut text, "time", &time);
     add_section(&mut text, "ids", &ids.0);
     add_section(&mut text, "attributes", &attributes.0);
     ended(text)

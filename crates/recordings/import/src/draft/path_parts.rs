@@ -13,6 +13,28 @@ pub(super) struct PathParts {
     pub(super) names: Vec<(String, bool)>,
     /// Values of each part that is a word.
     pub(super) words: Vec<(String, Vec<String>)>,
+    /// First part that is a time since 1970.
+    pub(super) stamp: Option<Stamp>,
+}
+
+/// Part of a name that is a time since 1970.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Stamp {
+    pub(super) name: String,
+    pub(super) unit: &'static str,
+}
+
+/// Unit of numbers that are times from 2001 on; `None` for other numbers, and for seconds, which may be counters.
+fn unit_since_1970(numbers: &BTreeSet<&str>) -> Option<&'static str> {
+    let is_stamp = |number: &&str, digits: usize| {
+        number.len() == digits
+            && number.starts_with(['1', '2', '3', '4'])
+            && number.bytes().all(|byte| byte.is_ascii_digit())
+    };
+    let units = [("ms", 13), ("us", 16), ("ns", 19)];
+    let mut units = units.into_iter();
+    let found = units.find(|(_, digits)| numbers.iter().all(|number| is_stamp(number, *digits)));
+    found.map(|(unit, _)| unit)
 }
 
 /// Token of a name: letters, a number, or a separator.
@@ -43,6 +65,7 @@ pub(super) fn varying(paths: &[&str]) -> Option<PathParts> {
         pattern: String::new(),
         names: Vec::new(),
         words: Vec::new(),
+        stamp: None,
     };
     for level in 0..depth {
         if level > 0 {
@@ -153,6 +176,13 @@ impl PathParts {
         self.pattern.push_str(&format!("{{{name}{kind}}}"));
         if !self.glob.ends_with('*') {
             self.glob.push('*');
+        }
+        if is_number
+            && self.stamp.is_none()
+            && let Some(unit) = unit_since_1970(&values)
+        {
+            let name = name.clone();
+            self.stamp = Some(Stamp { name, unit });
         }
         if !is_number {
             let words = values.iter().map(|value| (*value).to_owned()).collect();

@@ -3,6 +3,7 @@
 pub(super) mod candidate;
 pub(super) mod exclusion;
 mod instants;
+mod paxini;
 mod times;
 mod words;
 
@@ -111,6 +112,9 @@ pub(super) fn of_named(column: &str, names: &[String]) -> Option<Role> {
 }
 
 fn of_numbers(name: &str, numbers: &[f64]) -> Role {
+    if let Some(candidate) = paxini::resultant(name) {
+        return Role::Channels(vec![candidate]);
+    }
     let words = &words(name);
     let has = |known: &[&str]| words.iter().any(|word| known.contains(&word.as_str()));
     let is_rising =

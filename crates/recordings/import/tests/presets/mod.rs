@@ -20,6 +20,7 @@ struct Expected {
     numbers: &'static [(usize, &'static str, f64)],
     /// Level of the picture of each row, as generated. JPEG is not exact.
     pictures: &'static [u8],
+    /// Contact point of the first row: the press, object, session or episode that rows share.
     point: Option<&'static str>,
     attributes: &'static [(&'static str, usize, &'static str)],
     time: Option<(usize, f64)>,
@@ -61,7 +62,7 @@ const EXPECTED: [Expected; 14] = [
             (0, "Tz", -250.0),
         ],
         pictures: &[0, 1, 2],
-        point: None,
+        point: Some("1"),
         attributes: &[("object", 0, "1")],
         time: None,
     },
@@ -71,7 +72,7 @@ const EXPECTED: [Expected; 14] = [
         channels: &["Px", "Py", "Pz", "Fx", "Fy", "Fz", "Tx", "Ty", "Tz"],
         numbers: &[(1, "Fy", -0.5), (2, "Fz", 3.5), (1, "Px", 2000.0)],
         pictures: &[0, 1, 2],
-        point: None,
+        point: Some("sphere3:img_2023_01_29-01-51-55"),
         attributes: &[
             ("gel", 0, "markers"),
             ("indenter", 2, "sphere3"),
@@ -160,7 +161,7 @@ const EXPECTED: [Expected; 14] = [
         channels: &["Px", "Py", "Pz"],
         numbers: &[(1, "Px", 2000.0), (2, "Py", 5000.0)],
         pictures: &[0, 1, 2],
-        point: None,
+        point: Some(":0"),
         attributes: &[("episode", 0, "0")],
         time: None,
     },
@@ -180,7 +181,7 @@ const EXPECTED: [Expected; 14] = [
         channels: &["Px", "Py", "Pz"],
         numbers: &[(1, "Px", 2.0), (5, "Py", 5.0)],
         pictures: &[0, 1, 2, 0, 1, 2],
-        point: None,
+        point: Some(":000000"),
         attributes: &[("shard", 3, "000001")],
         time: None,
     },
@@ -248,12 +249,8 @@ impl Expected {
                 "{name}: {attribute} of {row}"
             );
         }
-        let point = self
-            .point
-            .is_some()
-            .then(|| table.point_id()[0].clone())
-            .flatten();
-        assert_eq!(point.as_deref(), self.point, "{name}");
+        let point = table.point_id()[0].as_deref();
+        assert_eq!(point, self.point, "{name}");
         if let Some((row, expected)) = self.time {
             let cells = table.as_text("t_s").expect("times");
             assert_eq!(
@@ -288,9 +285,10 @@ fn every_layout_is_imported_by_its_preset() {
 
 #[test]
 fn lerobot_and_ros_recordings_of_other_libraries_are_imported_by_their_presets() {
-    for (name, recording, rows) in [
-        ("lerobot-v3", "lerobot-v3-h264", 24),
-        ("rosbag", "mcap-none", 24),
+    for (name, recording, rows, episodes) in [
+        ("lerobot-v3", "lerobot-v3-h264", 24, [Some("0"), Some("3")]),
+        // Nothing repeats in a single recording.
+        ("rosbag", "mcap-none", 24, [None, None]),
     ] {
         let preset = preset(name);
         let own = Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -305,6 +303,9 @@ fn lerobot_and_ros_recordings_of_other_libraries_are_imported_by_their_presets()
             &target.path().join("set"),
         );
         assert_eq!(dataset.table().rows(), rows, "{recording}");
+        let points = dataset.table().point_id();
+        let ends = [0, rows - 1].map(|row| points[row].as_deref());
+        assert_eq!(ends, episodes, "{recording}");
         // By the map of the recording itself, because a preset cannot know the lag of its clocks.
         let written = std::fs::read_to_string(own.join("map.toml")).expect("there");
         let lines = written

@@ -16,6 +16,7 @@ mod numbers;
 mod packages;
 mod picture_numbers;
 mod stamps;
+mod takes;
 mod taxels;
 mod text_forms;
 mod times;
@@ -28,6 +29,7 @@ use std::path::{Path, PathBuf};
 use taceva_core::SilentProgress;
 use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan, ImportSummary, ImportWarning, MapDraft};
+use taceva_tables::{Cell, ParquetWriter, WrittenColumn, WrittenKind};
 
 const FACTS: &str = "[sensor]\nmodel = \"drawn gel\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 const NO_TIME: &str = "[time]\nclock = \"unknown\"\n";
@@ -52,6 +54,26 @@ fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
         std::fs::create_dir_all(path.parent().expect("inside")).expect("made");
         std::fs::write(path, text).expect("written");
     }
+    folder
+}
+
+/// Folder with a Parquet file of these columns, whose cells are texts or numbers.
+fn parquet_lab(name: &str, columns: &[&str], rows: &[Vec<Cell>]) -> tempfile::TempDir {
+    let folder = lab(&[]);
+    let kinds = rows[0].iter().map(|cell| match cell {
+        Cell::Text(_) => WrittenKind::Text,
+        _ => WrittenKind::Number,
+    });
+    let columns = columns.iter().zip(kinds);
+    let columns: Vec<WrittenColumn> = columns
+        .map(|(name, kind)| WrittenColumn::new(*name, kind))
+        .collect();
+    let path = folder.path().join(name);
+    let mut writer = ParquetWriter::create(&path, &columns, &[]).expect("made");
+    for row in rows {
+        writer.push(row.clone()).expect("written");
+    }
+    writer.finish().expect("written");
     folder
 }
 

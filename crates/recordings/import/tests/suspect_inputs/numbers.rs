@@ -1,8 +1,10 @@
 //! Tests of grouped digits, decimal commas, columns named twice, and booleans as numbers.
 
 use super::{
-    NO_TIME, assert_near, case, codes, imported, lab, map_of, mean, planned, planned_with, summary,
+    NO_TIME, assert_near, case, codes, imported, lab, map_of, mean, parquet_lab, planned,
+    planned_with, summary,
 };
+use taceva_tables::Cell;
 
 #[test]
 fn whole_numbers_with_a_point_between_groups_of_digits_are_warned_of_until_the_map_says_what_they_are()
@@ -114,7 +116,10 @@ fn a_column_that_is_named_twice_is_warned_of_in_cells_parquet_and_joins_but_not_
     let json = lab(&[("t.json", "[{\"f\": {\"z\": 1}}, {\"f\": {\"z\": 2}}]")]);
     let joined = lab(&[("t.csv", "n\na\nb\n"), ("o.csv", "f\n1\n2\n")]);
     let join = "[[join]]\nname = \"o\"\ntable = \"o.csv\"\non = \"row\"\n";
+    let rows = [1.0, 2.0].map(|force| vec![Cell::Number(force)]);
+    let parquet = parquet_lab("t.parquet", &["f"], &rows);
     for (folder, table, from, more, expected) in [
+        (&parquet, "t.parquet", "f", "", 1),
         (&cells, "t.csv", "ft[1]", "", 1),
         (&json, "t.json", "/f/z", "", 1),
         (&joined, "t.csv", "o.f", join, 1),

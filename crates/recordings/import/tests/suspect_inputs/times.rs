@@ -1,6 +1,8 @@
 //! Tests of times written as text.
 
-use super::{FACTS, case, codes, draft, imported, lab, map_of, planned, summary};
+use super::drafts::{filled, with_pictures};
+use super::{FACTS, case, codes, draft, imported, lab, map_of, parquet_lab, planned, summary};
+use taceva_tables::Cell;
 
 #[test]
 fn dates_and_times_as_text_are_seconds_and_a_zone_that_nobody_states_is_warned_of() {
@@ -58,6 +60,27 @@ fn zones_in_texts_times_of_day_through_midnight_and_fractions_of_any_length_are_
         let map = format!("map_version = 2\ntable = \"t.csv\"\n{}", rest(clock, ""));
         assert_eq!(imported(folder.path(), &map, "t_s"), expected, "{cells:?}");
         assert_eq!(codes(&summary(folder.path(), &map)), warned, "{cells:?}");
+    }
+}
+
+#[test]
+fn texts_of_times_in_json_lines_and_parquet_are_seconds_too() {
+    let texts = ["2024-10-26T23:00:00.25Z", "2024-10-27T01:00:01+02:00"];
+    let lines = texts.map(|text| format!("{{\"t\": \"{text}\", \"fz\": 1}}\n"));
+    let json = lab(&[("t.jsonl", &lines.concat())]);
+    let rows = texts.map(|text| vec![Cell::Text(text.to_owned()), Cell::Number(1.0)]);
+    let parquet = parquet_lab("t.parquet", &["t", "fz"], &rows);
+    let pointers = rest("unix", "")
+        .replace("\"fz\"", "\"/fz\"")
+        .replace("\"t\"", "\"/t\"");
+    for (folder, table, rest) in [
+        (&json, "t.jsonl", pointers),
+        (&parquet, "t.parquet", rest("unix", "")),
+    ] {
+        let map = format!("map_version = 2\ntable = \"{table}\"\n{rest}");
+        let times = imported(folder.path(), &map, "t_s");
+        assert_eq!(times, [1_729_983_600.25, 1_729_983_601.0], "{table}");
+        assert_eq!(codes(&summary(folder.path(), &map)), [""; 0], "{table}");
     }
 }
 
@@ -124,4 +147,51 @@ fn a_draft_takes_texts_of_times_for_the_time() {
         "{draft}"
     );
     assert!(draft.contains("clock = \"unix\""), "{draft}");
+}
+
+#[test]
+fn numbers_in_names_of_pictures_are_drafted_as_times_if_they_are_stamps() {
+    for (names, unit, expected) in [
+        (
+            ["1700000000123.png", "1700000000156.png"],
+            "ms",
+            [1_700_000_000.123, 1_700_000_000.156],
+        ),
+        (
+            [
+                "cam/gel_1700000000123000.png",
+                "cam/gel_1700000000156000.png",
+            ],
+            "us",
+            [1_700_000_000.123, 1_700_000_000.156],
+        ),
+        (
+            [
+                "a/1700000000125000000_left.png",
+                "a/1700000000250000000_left.png",
+            ],
+            "ns",
+            [1_700_000_000.125, 1_700_000_000.25],
+        ),
+    ] {
+        let folder = with_pictures(&[], &names);
+        let text = draft(folder.path());
+        let words = "clock = \"unix\"   # a guess by the size of the numbers\ncolumn = \"path.";
+        assert!(text.contains(words), "{text}");
+        assert!(text.contains(&format!("\nunit = {unit:?}\n")), "{text}");
+        let times = imported(folder.path(), &filled(&text), "t_s");
+        for (found, expected) in times.iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-6, "{found} for {expected}");
+        }
+        assert_eq!(times.len(), 2, "{text}");
+    }
+    // Counters of any length are no times.
+    for names in [
+        ["0000000000123.png", "0000000000156.png"],
+        ["1700000000.png", "1700000001.png"],
+        ["9700000000123.png", "9700000000156.png"],
+    ] {
+        let text = draft(with_pictures(&[], &names).path());
+        assert!(text.contains("[time]\nclock = \"unknown\""), "{text}");
+    }
 }

@@ -62,6 +62,15 @@ pub(crate) enum Reason {
 pub(crate) enum UnitSource {
     Name,
     File,
+    /// Form of a name of `paxini-sdk`, whose numbers are counts of 0.1 N.
+    PaxiniCounts,
+}
+
+impl UnitSource {
+    /// Factor from the numbers to the unit, as a map writes it; `None` for 1.
+    pub(crate) fn scale(self) -> Option<&'static str> {
+        (self == UnitSource::PaxiniCounts).then_some("0.1")
+    }
 }
 
 impl fmt::Display for Reason {
@@ -84,6 +93,7 @@ impl fmt::Display for UnitSource {
         f.write_str(match self {
             UnitSource::Name => "unit by its name",
             UnitSource::File => "unit stated by the file",
+            UnitSource::PaxiniCounts => "counts of 0.1 N, as paxini-sdk writes them",
         })
     }
 }

@@ -1,5 +1,7 @@
 //! Taxels in the columns of a table: cells of many numbers, or runs of numbered columns.
 
+mod axes;
+
 use super::{SeenColumn, SeenTable};
 use crate::csv_table::number;
 use crate::draft::roles::{Role, words};
@@ -159,6 +161,12 @@ impl SeenTable<'_> {
             is_taxels.then(|| of_columns(run, from))
         };
         let mut found: Vec<Taxels> = runs.iter().filter_map(of_run).collect();
+        let series = axes::series(&numbers).into_iter();
+        let series = series.filter(|columns| (LEAST..=MOST).contains(&columns.len()));
+        found.extend(series.map(|columns| Taxels {
+            shape: vec![columns.len() / axes::COUNT, axes::COUNT],
+            ..of_columns(&columns, listed(&columns))
+        }));
         // Columns with uninformative names, and no other columns.
         let is_one = self
             .columns

@@ -9,7 +9,12 @@ impl MappedTable<'_> {
             .iter()
             .map(|column| self.table.cell(row, *column))
             .collect();
-        let is_named = !cells.is_empty() && cells.iter().all(|cell| !cell.is_empty());
+        // The folders of a file in the source folder itself are an empty part of its path.
+        let names = self.map.ids.point_id.iter();
+        let is_given = names
+            .zip(&cells)
+            .all(|(name, cell)| !cell.is_empty() || name.starts_with("path."));
+        let is_named = is_given && cells.iter().any(|cell| !cell.is_empty());
         is_named.then(|| match cells[..] {
             [only] => only.to_owned(),
             _ => joined(&cells),
