@@ -111,6 +111,8 @@ pub struct RigForce {
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Greatest change of a component of the zero during a press, in N. `None` for 5 times the least force that counts as contact.
+    pub zero_step_max_n: Option<f64>,
     /// Last comparison with a known weight, if any.
     pub weighing: Option<Setting<Weighing>>,
     /// Calibration certificate.
@@ -160,6 +162,8 @@ struct WrittenForce {
     driver: Setting<String>,
     axes: Setting<[String; 3]>,
     latency_ms: Option<Setting<f64>>,
+    #[serde(rename = "zero_step_max_N")]
+    zero_step_max_n: Option<Setting<f64>>,
     weighing: Option<Setting<Weighing>>,
     certificate: Option<WrittenCertificate>,
 }
@@ -266,18 +270,21 @@ impl Check<'_> {
     }
 
     fn limits(&self, limits: &LimitSpec) -> Result<(), SceneError> {
-        for (key, limit) in limits.named() {
-            if let Some(limit) = limit
-                && !(limit.value > 0.0 && limit.value <= GREATEST_LIMIT)
-            {
-                let problem = SceneProblem::Range {
-                    key,
-                    found: limit.value,
-                    above: 0.0,
-                    greatest: GREATEST_LIMIT,
-                };
-                return Err(self.text.error(limit.at(), problem));
-            }
+        let mut named = limits.named().into_iter();
+        named.try_for_each(|(key, limit)| self.limit(key, limit))
+    }
+
+    fn limit(&self, key: &'static str, limit: Option<Setting<f64>>) -> Result<(), SceneError> {
+        if let Some(limit) = limit
+            && !(limit.value > 0.0 && limit.value <= GREATEST_LIMIT)
+        {
+            let problem = SceneProblem::Range {
+                key,
+                found: limit.value,
+                above: 0.0,
+                greatest: GREATEST_LIMIT,
+            };
+            return Err(self.text.error(limit.at(), problem));
         }
         Ok(())
     }
@@ -308,10 +315,12 @@ impl Check<'_> {
     }
 
     fn force(&self, force: WrittenForce) -> Result<RigForce, SceneError> {
+        self.limit("zero_step_max_N", force.zero_step_max_n)?;
         Ok(RigForce {
             driver: force.driver,
             axes: self.axes(force.axes)?,
             latency_ms: self.latency(force.latency_ms)?,
+            zero_step_max_n: force.zero_step_max_n.map(|step| step.value),
             weighing: self.weighing(force.weighing)?,
             certificate: self.certificate(Instrument::Force, force.certificate)?,
         })
