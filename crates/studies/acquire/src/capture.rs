@@ -23,7 +23,7 @@ use std::time::Duration;
 use taceva_core::{Axis, Channel, Channels, Clock, DriverError, DriverKey, ErrorKind, Progress};
 use taceva_dataset::{
     DatasetError, Header, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
-    StreamFacts, Streamed,
+    StreamFacts, Streamed, add_device_warnings,
 };
 
 use crate::error::AcquireError;
@@ -210,6 +210,8 @@ pub fn capture(
     match done {
         Err(source) => Err(kept_after(recorder, &request.path, state, source)),
         Ok(()) => {
+            // A failure to keep a warning must not lose the recording.
+            drop(add_device_warnings(&request.path, &live.device_warnings()));
             let closed = recorder.close();
             let header = closed.map_err(|source| broken(&request.path, state, false, source))?;
             match device {

@@ -17,6 +17,13 @@ impl OpenRig {
         settings
     }
 
+    /// Warnings of the devices about their readings, which the recording keeps.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.force.warnings();
+        warnings.extend(self.robot.warnings());
+        warnings
+    }
+
     /// Shows the operator, if any, the warnings of the devices and the contradictions of certificates. Messages in `shown` are omitted, and the others are
     /// added to `shown`.
     pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
@@ -26,8 +33,7 @@ impl OpenRig {
         let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
         let rig = self.rig_file.as_deref();
         let instruments = rig.map(instruments::of_rig).unwrap_or_default();
-        let mut warnings = self.force.warnings();
-        warnings.extend(self.robot.warnings());
+        let mut warnings = self.warnings();
         warnings.extend(instruments::warnings_today(instruments, &self.settings()));
         for warning in warnings {
             if !shown.contains(&warning) {
