@@ -152,7 +152,7 @@ fn a_box_that_hides_its_frame_and_its_low_pass_ends_in_warnings_in_recording_and
 #[test]
 fn a_zero_that_drifts_beyond_its_limit_stops_the_study_above_the_gel() {
     let fast = Setup {
-        drift_n_min: 0.1,
+        drift_n_min: 0.06,
         ..Setup::PLAIN
     };
     let limit = "latency_ms = 0.0\nzero_step_max_N = 0.001";
