@@ -110,6 +110,8 @@ fn a_study_with_a_turned_frame_a_low_pass_and_drift_ends_within_2_percent_of_one
     let settings = &recording.header().settings;
     assert_eq!(settings["force_frame"], "tool 0;0;0;90;0;0 (mm, degrees)");
     assert_eq!(settings["force_filter"], "8");
+    assert_eq!(settings["force_latency_ms"], "31.8");
+    assert_eq!(settings["force_axes"], "[\"x\", \"z\", \"-y\"]");
     // The drift is recorded as a signal: each press has its own zero, which rises.
     let zeros = press_zeros(recording.path());
     let kept: Vec<f64> = zeros

@@ -247,6 +247,9 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     facts.footprint = footprint(plan);
     facts.settings = open.settings();
     let rig = study.study.rig.as_deref();
+    facts
+        .settings
+        .extend(rig.map(settings::of_rig_file).unwrap_or_default());
     let instruments = rig.map(instruments::of_rig).unwrap_or_default();
     facts.traceability = instruments::kept(instruments, source, &facts.settings);
     facts.recorded_on = instruments::day_of(source);

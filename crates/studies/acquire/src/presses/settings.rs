@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::PoisonError;
 
-use super::devices::OpenRig;
+use taceva_protocol::RigFile;
+
+use super::devices::{OpenRig, written_latencies_ms};
 use super::workshop::Workshop;
 use crate::instruments;
 
@@ -44,6 +46,23 @@ impl OpenRig {
     }
 }
 
+/// Mounting and latencies of the devices in a rig file, as settings of a recording, and the digest of the file.
+pub(super) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
+    let mut settings = BTreeMap::from([("rig_file".to_owned(), rig.digest().to_string())]);
+    let axes = [
+        ("robot_axes", rig.robot.as_ref().map(|robot| &robot.axes)),
+        ("force_axes", rig.force.as_ref().map(|force| &force.axes)),
+    ];
+    for (name, axes) in axes {
+        settings.extend(axes.map(|axes| (name.to_owned(), axes.value.to_string())));
+    }
+    let devices = ["robot_latency_ms", "force_latency_ms", "sensor_latency_ms"];
+    for (name, latency_ms) in devices.into_iter().zip(written_latencies_ms(rig)) {
+        settings.extend(latency_ms.map(|latency_ms| (name.to_owned(), latency_ms.to_string())));
+    }
+    settings
+}
+
 /// Adds the settings of a device to those of its rig, with names that begin with `kind`, such as `force_serial`.
 pub(crate) fn add_settings(
     all: &mut BTreeMap<String, String>,
@@ -57,6 +76,17 @@ pub(crate) fn add_settings(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rig_file_states_axes_latencies_and_its_digest() {
+        let text = "rig_version = 1\n[force]\ndriver = \"lab/box\"\naxes = [\"x\", \"-y\", \"-z\"]\nlatency_ms = 31.8\n";
+        let rig = RigFile::parse("lab.toml", text).expect("a rig");
+        let settings = of_rig_file(&rig);
+        assert_eq!(settings["force_axes"], "[\"x\", \"-y\", \"-z\"]");
+        assert_eq!(settings["force_latency_ms"], "31.8");
+        assert_eq!(settings["rig_file"], rig.digest().to_string());
+        assert_eq!(settings.len(), 3, "{settings:?}");
+    }
 
     #[test]
     fn settings_of_a_transducer_stand_beside_those_of_a_camera() {
