@@ -7,5 +7,6 @@ mod link;
 #[cfg(feature = "marlin")]
 pub mod marlin;
 mod port;
+mod port_user;
 mod present;
 mod stop;

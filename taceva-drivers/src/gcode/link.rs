@@ -13,6 +13,7 @@ use taceva_core::{DriverError, DriverKey, ErrorKind};
 use thiserror::Error;
 
 use super::port::{open_line, release_line};
+use super::port_user;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
 
@@ -118,6 +119,8 @@ pub(super) struct SerialLink<S> {
     answers: Receiver<Answer>,
     is_over: Arc<AtomicBool>,
     reader: Option<JoinHandle<()>>,
+    /// Warning that another program had the port open when the link was opened.
+    warning: Option<String>,
 }
 
 impl<S: Clone + Send + 'static> SerialLink<S> {
@@ -134,8 +137,10 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         let doing = "connect to the machine";
         let file = open_line(path, baud)
             .map_err(|error| DriverError::new(error.kind(), driver, doing).because(error))?;
-        SerialLink::new(file, read)
-            .map_err(|error| DriverError::new(ErrorKind::Internal, driver, doing).because(error))
+        let mut link = SerialLink::new(file, read)
+            .map_err(|error| DriverError::new(ErrorKind::Internal, driver, doing).because(error))?;
+        link.warning = port_user::warning(path);
+        Ok(link)
     }
 
     fn new(file: File, understand: fn(&str) -> Heard<S>) -> io::Result<SerialLink<S>> {
@@ -162,7 +167,13 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
             answers,
             is_over,
             reader: Some(reader),
+            warning: None,
         })
+    }
+
+    /// Warning that another program had the port open when the link was opened.
+    pub(super) fn warning(&self) -> Option<String> {
+        self.warning.clone()
     }
 
     pub(super) fn writer(&self) -> &Writer {

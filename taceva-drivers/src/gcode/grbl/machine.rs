@@ -140,6 +140,10 @@ impl Robot for Machine {
         self.facts.clone()
     }
 
+    fn warnings(&self) -> Vec<String> {
+        self.link.warning().into_iter().collect()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self.look(deadline.remaining())?;
         let [x, y, z] = seen.what.place_mm.map(Millimetre);

@@ -124,6 +124,10 @@ impl Robot for Printer {
         self.facts.clone()
     }
 
+    fn warnings(&self) -> Vec<String> {
+        self.link.warning().into_iter().collect()
+    }
+
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let seen = self.look(deadline.remaining())?;
         let [x, y, z] = seen.what.map(Millimetre);

@@ -72,6 +72,12 @@ fn what_is_no_machine_is_refused() {
     setup().refuses_what_is_no_line();
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_line_that_another_program_has_open_without_a_lock_is_warned_of() {
+    setup().warns_of_another_that_has_it_open();
+}
+
 #[test]
 fn a_line_that_another_program_has_is_refused_as_busy() {
     setup().is_busy_while_another_has_it();
