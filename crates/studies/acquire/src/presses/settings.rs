@@ -56,9 +56,20 @@ pub(super) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     for (name, axes) in axes {
         settings.extend(axes.map(|axes| (name.to_owned(), axes.value.to_string())));
     }
-    let devices = ["robot_latency_ms", "force_latency_ms", "sensor_latency_ms"];
-    for (name, latency_ms) in devices.into_iter().zip(written_latencies_ms(rig)) {
-        settings.extend(latency_ms.map(|latency_ms| (name.to_owned(), latency_ms.to_string())));
+    let [robot_ms, force_ms, sensor_ms] = written_latencies_ms(rig);
+    let force_u_ms = rig.force.as_ref().and_then(|force| force.latency_u_ms);
+    let sensor_u_ms = rig.sensor.as_ref().and_then(|sensor| sensor.latency_u_ms);
+    for (name, value_ms) in [
+        ("robot_latency_ms", robot_ms),
+        ("force_latency_ms", force_ms),
+        ("force_latency_u_ms", force_u_ms.map(|stated| stated.value)),
+        ("sensor_latency_ms", sensor_ms),
+        (
+            "sensor_latency_u_ms",
+            sensor_u_ms.map(|stated| stated.value),
+        ),
+    ] {
+        settings.extend(value_ms.map(|value_ms| (name.to_owned(), value_ms.to_string())));
     }
     settings
 }
@@ -79,13 +90,14 @@ mod tests {
 
     #[test]
     fn a_rig_file_states_axes_latencies_and_its_digest() {
-        let text = "rig_version = 1\n[force]\ndriver = \"lab/box\"\naxes = [\"x\", \"-y\", \"-z\"]\nlatency_ms = 31.8\n";
+        let text = "rig_version = 1\n[force]\ndriver = \"lab/box\"\naxes = [\"x\", \"-y\", \"-z\"]\nlatency_ms = 31.8\nlatency_u_ms = 0.3\n";
         let rig = RigFile::parse("lab.toml", text).expect("a rig");
         let settings = of_rig_file(&rig);
         assert_eq!(settings["force_axes"], "[\"x\", \"-y\", \"-z\"]");
         assert_eq!(settings["force_latency_ms"], "31.8");
+        assert_eq!(settings["force_latency_u_ms"], "0.3");
         assert_eq!(settings["rig_file"], rig.digest().to_string());
-        assert_eq!(settings.len(), 3, "{settings:?}");
+        assert_eq!(settings.len(), 4, "{settings:?}");
     }
 
     #[test]
