@@ -59,6 +59,8 @@ pub(super) enum Answer {
     Busy,
     /// Echo of a number that was sent to the machine.
     Mark(u32),
+    /// A line arrived damaged: the line with this number is expected again. `ok` follows.
+    Resend(u32),
     /// Capability, and true if the machine has it.
     Can(String, bool),
     /// Facts that the machine states about itself, by name: `firmware`.
