@@ -7,6 +7,5 @@ mod link;
 #[cfg(feature = "marlin")]
 pub mod marlin;
 mod port;
-mod port_user;
 mod present;
 mod stop;

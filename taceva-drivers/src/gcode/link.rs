@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -13,9 +14,10 @@ use taceva_core::{DriverError, DriverKey, ErrorKind};
 use thiserror::Error;
 
 use super::port::{open_line, release_line};
-use super::port_user;
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
+use crate::port_user::other_users;
+use crate::text::shown;
 
 /// Content of a machine's line: an answer, a status, both, or neither.
 #[derive(Clone, Debug, PartialEq)]
@@ -141,7 +143,7 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
             .map_err(|error| DriverError::new(error.kind(), driver, doing).because(error))?;
         let mut link = SerialLink::new(file, read)
             .map_err(|error| DriverError::new(ErrorKind::Internal, driver, doing).because(error))?;
-        link.warning = port_user::warning(path);
+        link.warning = warning(path);
         Ok(link)
     }
 
@@ -247,6 +249,18 @@ impl<S> Drop for SerialLink<S> {
         // Stop handles keep the port open, so release the lock for other programs.
         release_line(&self.writer.file());
     }
+}
+
+/// Warning about other programs that have the port at `path` open; `None` without any.
+fn warning(path: &str) -> Option<String> {
+    let others = other_users(Path::new("/proc"), Path::new(path));
+    (!others.is_empty()).then(|| {
+        format!(
+            "the serial port {} is also open in process {}, which may take answers of the machine away: end that program",
+            shown(path),
+            others.join(", ")
+        )
+    })
 }
 
 /// Posts statuses and sends answers until `is_over` is set or the port fails.
