@@ -1,6 +1,6 @@
 //! Table of the zeros of the transducer in a recording on a real rig. Each press adds a row.
 
-use std::fs::OpenOptions;
+use std::fs::{self, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -51,14 +51,17 @@ impl PressZero {
     }
 }
 
-/// Adds a row to the table beside the recording at `recording`.
+/// Adds a row to the table beside the recording at `recording`. A symbolic link at its name is replaced.
 ///
 /// # Errors
 /// Errors of the file system.
 #[doc(hidden)]
 pub fn add_press_zero(recording: &Path, zero: &PressZero) -> io::Result<()> {
-    let mut options = OpenOptions::new();
-    let file = options.append(true).create(true).open(place(recording))?;
+    let path = place(recording);
+    if fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink()) {
+        fs::remove_file(&path)?;
+    }
+    let file = OpenOptions::new().append(true).create(true).open(&path)?;
     let is_empty = file.metadata()?.len() == 0;
     let mut table = csv::WriterBuilder::new()
         .has_headers(is_empty)
@@ -107,8 +110,6 @@ fn place(recording: &Path) -> PathBuf {
 
 #[cfg(test)]
 mod tests {
-    use std::fs;
-
     use super::*;
 
     fn zero(press: &str, is_kept: bool, before_n: f64, after_n: f64) -> PressZero {
@@ -151,5 +152,17 @@ mod tests {
                 "the zero of the transducer changed by at most 0.0030 N during a press, and by 0.3000 N between the presses; 1 press was repeated because the zero changed further"
             )
         );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_at_the_name_of_the_table_is_replaced_and_leads_nothing_elsewhere() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (recording, theirs) = (folder.path().join("1-gel"), folder.path().join("theirs"));
+        fs::write(&theirs, "5").expect("written");
+        std::os::unix::fs::symlink(&theirs, place(&recording)).expect("linked");
+        add_press_zero(&recording, &zero("a", true, 7.5, 7.503)).expect("written");
+        assert_eq!(press_zeros(&recording).len(), 1);
+        assert_eq!(fs::read_to_string(&theirs).expect("there"), "5");
     }
 }
