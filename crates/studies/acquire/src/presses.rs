@@ -46,7 +46,7 @@ pub(crate) use registration::Turned;
 pub use rehearsal::{AIR_MM, rehearse_scene};
 pub use rig_locks::HeldRigs;
 use schedule::Schedule;
-pub(crate) use settings::add_settings;
+pub(crate) use settings::{add_settings, of_rig_file};
 pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
@@ -249,7 +249,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     let rig = study.study.rig.as_deref();
     facts
         .settings
-        .extend(rig.map(settings::of_rig_file).unwrap_or_default());
+        .extend(rig.map(of_rig_file).unwrap_or_default());
     let instruments = rig.map(instruments::of_rig).unwrap_or_default();
     facts.traceability = instruments::kept(instruments, source, &facts.settings);
     facts.recorded_on = instruments::day_of(source);

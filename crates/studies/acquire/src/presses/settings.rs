@@ -47,7 +47,7 @@ impl OpenRig {
 }
 
 /// Mounting and latencies of the devices in a rig file, as settings of a recording, and the digest of the file.
-pub(super) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
+pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     let mut settings = BTreeMap::from([("rig_file".to_owned(), rig.digest().to_string())]);
     let axes = [
         ("robot_axes", rig.robot.as_ref().map(|robot| &robot.axes)),
