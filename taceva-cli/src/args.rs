@@ -42,7 +42,7 @@ pub(crate) use self::common_options::{
     TableScores, ViewArgs,
 };
 pub(crate) use self::curve::Curve;
-pub(crate) use self::dataset::{Check, Export, Import, Reseal};
+pub(crate) use self::dataset::{Check, Export, Import, Reseal, Show};
 pub(crate) use self::figure::FigureArgs;
 pub(crate) use self::gauge::{Gauge, GaugeMethod, GaugeResponse};
 pub(crate) use self::init::{Init, InitSubject, InitTarget};
@@ -122,6 +122,8 @@ pub(crate) enum Command {
     Init(Init),
     /// Turn a lab's folder of pictures and labels into a dataset
     Import(Import),
+    /// Show what a dataset holds, and who measured it: devices, certificates, latencies
+    Show(Show),
     /// Check a recording for defects, before any number is computed
     Check(Check),
     /// Write a dataset in a form that other programs read

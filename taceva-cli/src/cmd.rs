@@ -42,6 +42,7 @@ pub(crate) mod rig;
 pub(crate) mod run;
 mod scene;
 pub(crate) mod score;
+pub(crate) mod show;
 pub(crate) mod stress;
 pub(crate) mod sweep;
 mod task_scores;

@@ -92,6 +92,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
     match command {
         Command::Init(args) => cmd::init::run(args, context),
         Command::Import(args) => cmd::import::run(args, context),
+        Command::Show(args) => cmd::show::run(args),
         Command::Check(args) => cmd::check::run(args, context),
         Command::Export(args) => cmd::export::run(args, context),
         Command::Fit(args) => cmd::fit::run(args, context),

@@ -4,6 +4,7 @@ mod bench;
 pub(crate) mod bundle;
 mod chart;
 mod check;
+pub(crate) mod dataset;
 pub(crate) mod devices;
 mod groups;
 mod json;

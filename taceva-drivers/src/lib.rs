@@ -20,6 +20,8 @@ mod link;
 mod name_order;
 mod open_error;
 mod pace;
+#[cfg(unix)]
+mod port_user;
 #[cfg(all(any(feature = "gcode", feature = "hid", feature = "v4l2"), unix))]
 mod present;
 mod selector;

@@ -2,6 +2,7 @@
 
 mod rig_session;
 mod rig_tap;
+mod wire_box;
 #[cfg(target_os = "linux")]
 mod wire_disk_full;
 mod wire_study;

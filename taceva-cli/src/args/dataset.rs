@@ -71,6 +71,14 @@ pub(crate) struct Export {
     pub(crate) format: Form,
 }
 
+/// One fact a line: content, origin and days, the instruments that measured the labels with their certificates, settings and latencies of the devices,
+/// sessions, warnings. No frame is decoded.
+#[derive(Debug, Args)]
+pub(crate) struct Show {
+    /// The dataset
+    pub(crate) dataset: PathBuf,
+}
+
 /// Format of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Form {

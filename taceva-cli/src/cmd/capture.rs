@@ -4,7 +4,7 @@ use std::path::Path;
 
 use taceva_acquire::{
     CaptureRequest, CaptureStage, CaptureState, Captured, LiveDevices, LivePredictor, LiveSpec,
-    Onlookers, Viewer, capture, close_capture,
+    Onlookers, Viewer, capture, close_capture, read_rig,
 };
 use taceva_core::{Axis, by_count, counted, shown};
 use taceva_dataset::{Header, SensorFacts};
@@ -44,7 +44,16 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     if let Some(opaque) = live.sensor_facts().opaque {
         sensor = sensor.with_opaque(opaque);
     }
+    // A device that an option names instead has neither the axes nor the latency of the rig file.
+    let LiveArgs {
+        sensor: of_sensor,
+        force: of_force,
+        ..
+    } = &args.live;
+    let rig = args.live.rig.as_deref();
+    let rig = rig.filter(|_| of_sensor.is_none() && of_force.is_none());
     let request = CaptureRequest {
+        rig: rig.map(read_rig).transpose()?,
         path: args.path.clone(),
         sensor,
         lasts: args.lasts,

@@ -125,6 +125,9 @@ impl Viewer for Shown {
             Event::FrameFrozen => {
                 live.stage("the camera repeats a frame: press cancelled");
             }
+            Event::ZeroStepped(_) => {
+                live.stage("the zero of the force changed: press cancelled");
+            }
             Event::Halted(trip) => live.stage(&format!("halted: {trip}")),
             Event::ForceLost(words) => live.stage(words),
             Event::Unheld => live.stage("hold the enabling switch; nothing moves until you do"),

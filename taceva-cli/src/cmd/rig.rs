@@ -23,6 +23,17 @@ pub(crate) fn run(args: &RigCommand, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
+/// Fails if the rig file at `path` cannot be replaced, before the work whose result it would take.
+fn check_replaceable(path: &Path) -> anyhow::Result<()> {
+    let staged = taceva_files::Staged::beside(path).map(drop);
+    staged.with_context(|| {
+        format!(
+            "{}: cannot be replaced by the result, expected a folder in which you may write: copy the rig file to another folder",
+            shown(path)
+        )
+    })
+}
+
 /// Replaces the rig file at `path` by `text` atomically.
 fn write_anew(path: &Path, text: &str) -> anyhow::Result<()> {
     let written =

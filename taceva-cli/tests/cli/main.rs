@@ -42,6 +42,7 @@ mod seals;
 mod several;
 mod shards;
 mod shared_work;
+mod show;
 mod skill;
 mod stress;
 mod support;

@@ -132,6 +132,28 @@ fn a_weight_needs_a_mass_with_its_unit_and_a_person_at_a_terminal() {
     bench.refused("rig check lab.toml --weight 0.1kg", 2, expected);
 }
 
+#[cfg(target_os = "linux")]
+#[test]
+fn a_rig_file_that_cannot_be_replaced_is_refused_before_anybody_works_for_its_result() {
+    let bench = Bench::new();
+    let force = "[force]\ndriver = \"ati/netft:host=127.0.0.1\"\naxes = [\"x\", \"y\", \"z\"]\n";
+    let text = format!("rig_version = 1\nsimulated = true\n{force}");
+    // Nothing can be created in the folder of this name.
+    let rig = "/proc/self/fd/0";
+    let expected = format!("{rig}: cannot be replaced by the result");
+    for words in [
+        format!("rig check {rig} --weight 100g"),
+        format!("rig tap {rig}"),
+        format!("rig teach {rig}"),
+    ] {
+        let ran = bench.answered(&words, &text);
+        assert_eq!(ran.code, 3, "{words}: {}", ran.err);
+        assert!(ran.err.contains(&expected), "{words}: {}", ran.err);
+    }
+    let dry = bench.answered(&format!("rig tap {rig} --dry-run"), &text);
+    assert!(!dry.err.contains(&expected), "{}", dry.err);
+}
+
 #[test]
 fn a_wrong_argument_in_a_rig_file_is_refused_with_its_line_before_a_device_is_opened() {
     let bench = Bench::new();

@@ -9,4 +9,6 @@ mod plugin_carousel;
 mod plugin_dmx;
 mod plugin_line;
 mod rig_check;
+#[cfg(target_os = "linux")]
+mod rig_weight;
 mod sweep_slurm;

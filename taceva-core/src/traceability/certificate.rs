@@ -17,6 +17,8 @@ pub(super) const COEFFICIENT: &str = "a number from -1 to 1, or \"unknown\"";
 
 /// Accepted coverage factors. 12.7 belongs to one degree of freedom at 95 %, so a much greater factor lacks its decimal point.
 const COVERAGE_FACTORS: RangeInclusive<f64> = 1.0..=20.0;
+/// Least accepted probability, that of the least factor. A smaller one is the level of a test, such as 0.05.
+const LEAST_PROBABILITY: f64 = 0.68;
 
 /// Calibration certificate of an instrument, by channel.
 ///
@@ -228,8 +230,8 @@ impl Certificate {
             Coverage::Factor(k) if !COVERAGE_FACTORS.contains(&k) => {
                 refused("k", k, "a coverage factor from 1 to 20, such as 2")
             }
-            Coverage::Probability { p, .. } if !(p > 0.0 && p < 1.0) => {
-                refused("p", p, "a number between 0 and 1")
+            Coverage::Probability { p, .. } if !(LEAST_PROBABILITY..1.0).contains(&p) => {
+                refused("p", p, "a probability from 0.68 to below 1, such as 0.95")
             }
             Coverage::Probability { dof: Some(dof), .. } if !(dof > 0.0 && dof.is_finite()) => {
                 refused("dof", dof, "a number above 0")

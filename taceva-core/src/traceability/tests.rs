@@ -162,6 +162,10 @@ fn a_coverage_that_is_no_factor_and_no_probability_is_refused() {
         (Coverage::Factor(f64::NAN), "`k` is `NaN`"),
         (Coverage::Probability { p: 1.0, dof: None }, "`p` is `1`"),
         (
+            Coverage::Probability { p: 0.05, dof: None },
+            "`p` is `0.05`, expected a probability from 0.68 to below 1, such as 0.95",
+        ),
+        (
             Coverage::Probability {
                 p: 0.95,
                 dof: Some(0.0),

@@ -71,7 +71,9 @@ pub(super) fn examine(
                 } else {
                     State::Problem
                 },
-                detail: kind.title(machine, &name) + &kind.opened(machine, &name, keys),
+                detail: kind.title(machine, &name)
+                    + &kind.opened(machine, &name, keys)
+                    + &in_use(machine, &name),
                 subject: path,
                 remedy,
             }
@@ -87,6 +89,19 @@ pub(super) fn examine(
         detail: format!("no {}", kind.noun),
         remedy: Some(kind.if_absent.to_owned()),
     }]
+}
+
+/// Other programs that have the device file open, as text; empty if none is found.
+fn in_use(machine: &Machine, name: &str) -> String {
+    #[cfg(unix)]
+    let others =
+        crate::port_user::other_users(&machine.path("proc"), &machine.path(&format!("dev/{name}")));
+    #[cfg(not(unix))]
+    let others: Vec<String> = Vec::new();
+    match others.is_empty() {
+        true => String::new(),
+        false => format!("; open in process {}", others.join(", ")),
+    }
 }
 
 impl PortKind {

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::{self, Read, Write};
+use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, Receiver, Sender};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -15,6 +16,8 @@ use thiserror::Error;
 use super::port::{open_line, release_line};
 use crate::link::mailbox::Ending;
 use crate::link::{Mailbox, monotonic};
+use crate::port_user::other_users;
+use crate::text::shown;
 
 /// Content of a machine's line: an answer, a status, both, or neither.
 #[derive(Clone, Debug, PartialEq)]
@@ -58,6 +61,8 @@ pub(super) enum Answer {
     Busy,
     /// Echo of a number that was sent to the machine.
     Mark(u32),
+    /// A line arrived damaged: the line with this number is expected again. `ok` follows.
+    Resend(u32),
     /// Capability, and true if the machine has it.
     Can(String, bool),
     /// Facts that the machine states about itself, by name: `firmware`.
@@ -118,6 +123,8 @@ pub(super) struct SerialLink<S> {
     answers: Receiver<Answer>,
     is_over: Arc<AtomicBool>,
     reader: Option<JoinHandle<()>>,
+    /// Warning that another program had the port open when the link was opened.
+    warning: Option<String>,
 }
 
 impl<S: Clone + Send + 'static> SerialLink<S> {
@@ -134,8 +141,10 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
         let doing = "connect to the machine";
         let file = open_line(path, baud)
             .map_err(|error| DriverError::new(error.kind(), driver, doing).because(error))?;
-        SerialLink::new(file, read)
-            .map_err(|error| DriverError::new(ErrorKind::Internal, driver, doing).because(error))
+        let mut link = SerialLink::new(file, read)
+            .map_err(|error| DriverError::new(ErrorKind::Internal, driver, doing).because(error))?;
+        link.warning = warning(path);
+        Ok(link)
     }
 
     fn new(file: File, understand: fn(&str) -> Heard<S>) -> io::Result<SerialLink<S>> {
@@ -162,7 +171,13 @@ impl<S: Clone + Send + 'static> SerialLink<S> {
             answers,
             is_over,
             reader: Some(reader),
+            warning: None,
         })
+    }
+
+    /// Warning that another program had the port open when the link was opened.
+    pub(super) fn warning(&self) -> Option<String> {
+        self.warning.clone()
     }
 
     pub(super) fn writer(&self) -> &Writer {
@@ -234,6 +249,18 @@ impl<S> Drop for SerialLink<S> {
         // Stop handles keep the port open, so release the lock for other programs.
         release_line(&self.writer.file());
     }
+}
+
+/// Warning about other programs that have the port at `path` open; `None` without any.
+fn warning(path: &str) -> Option<String> {
+    let others = other_users(Path::new("/proc"), Path::new(path));
+    (!others.is_empty()).then(|| {
+        format!(
+            "the serial port {} is also open in process {}, which may take answers of the machine away: end that program",
+            shown(path),
+            others.join(", ")
+        )
+    })
 }
 
 /// Posts statuses and sends answers until `is_over` is set or the port fails.

@@ -47,6 +47,8 @@ pub struct ServeOptions {
     pub robot: RobotKind,
     /// Device that measures the force.
     pub force: ForceKind,
+    /// Settings of a Net F/T box.
+    pub netft: netft::Setup,
     /// Loopback address.
     pub host: Ipv4Addr,
     /// True for the ports that public clients expect, false for any free ports.
@@ -64,6 +66,7 @@ impl ServeOptions {
             bench,
             robot: RobotKind::Xarm,
             force: ForceKind::Sri,
+            netft: netft::Setup::PLAIN,
             host: Ipv4Addr::LOCALHOST,
             uses_usual_ports: false,
             firmware: xarm::Ports::ANY.firmware,
@@ -125,7 +128,8 @@ impl Served {
                 (Box::new(force), selector)
             }
             ForceKind::Netft => {
-                let force = netft::Emulator::start(&bench, host, usual(netft::USUAL_PORT), 0)?;
+                let port = usual(netft::USUAL_PORT);
+                let force = netft::Emulator::set_up(&bench, host, port, 0, options.netft)?;
                 let selector = force.selector();
                 (Box::new(force), selector)
             }

@@ -58,6 +58,7 @@ const BAD_NUMBER: &str = "error:2\r\n";
 const UNKNOWN_QUERY: &str = "error:3\r\n";
 const LOCKED: &str = "error:9\r\n";
 const UNSUPPORTED: &str = "error:20\r\n";
+const NOT_IDLE: &str = "error:8\r\n";
 const NO_FEED: &str = "error:22\r\n";
 /// Number of status reports per report of the work offset. The first report contains the offset.
 const OFFSET_EVERY: u32 = 10;
@@ -305,10 +306,20 @@ impl Machine {
         OK.to_owned()
     }
 
+    /// True in a motion or a hold, in which most queries are refused.
+    fn is_busy(&self) -> bool {
+        self.turn();
+        let inside = self.inside();
+        !inside.is_alarmed && (inside.is_held || inside.current.is_some())
+    }
+
     /// Answer to a query or a command after `$`.
     fn answer(&self, query: &str) -> String {
         let lines =
             |lines: &[&str]| -> String { lines.iter().map(|line| format!("{line}\r\n")).collect() };
+        if ["$", "#", "I"].contains(&query) && self.is_busy() {
+            return NOT_IDLE.to_owned();
+        }
         let found = match query {
             "$" => lines(SETTINGS),
             "#" => lines(OFFSETS),

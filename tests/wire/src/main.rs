@@ -7,7 +7,7 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use taceva_sim::Model;
-use taceva_wire::{BenchOptions, ForceKind, RobotKind, ServeOptions, Served, WireError};
+use taceva_wire::{BenchOptions, ForceKind, RobotKind, ServeOptions, Served, WireError, netft};
 
 /// Serves a simulated gel behind the sockets of emulated devices: a robot, a force transducer and a camera. Every server listens on
 /// loopback only.
@@ -88,6 +88,7 @@ fn serve(arguments: &Arguments) -> Result<(), WireError> {
         },
         robot: arguments.robot,
         force: arguments.force,
+        netft: netft::Setup::PLAIN,
         host: arguments.host,
         uses_usual_ports: arguments.usual_ports,
         firmware: arguments.firmware.0,

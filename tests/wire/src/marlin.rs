@@ -52,6 +52,8 @@ struct Inside {
     feed: Option<f64>,
     /// Number of the last numbered line.
     last_line: i64,
+    /// Number of numbered lines that will arrive damaged.
+    damaged: u32,
     /// Commands received while another one waits for the motions.
     lines: VecDeque<String>,
 }
@@ -81,6 +83,11 @@ impl Emulator {
         let serving = Arc::clone(&printer);
         let line = ServedLine::start("marlin", move |file, end| serve(file, &serving, end))?;
         Ok(Emulator { printer, line })
+    }
+
+    /// Damages the next numbered lines.
+    pub fn damage(&self, lines: u32) {
+        self.printer.inside().damaged = lines;
     }
 }
 
@@ -169,7 +176,13 @@ impl Printer {
         if inside.is_killed || line.is_empty() {
             return String::new();
         }
-        let line = match numbered(line, inside.last_line) {
+        let is_damaged = inside.damaged > 0 && line.starts_with('N');
+        inside.damaged -= u32::from(is_damaged);
+        let read = match is_damaged {
+            true => Err("checksum mismatch"),
+            false => numbered(line, inside.last_line),
+        };
+        let line = match read {
             Ok(Numbered { number, command }) => {
                 inside.last_line = number.unwrap_or(inside.last_line);
                 command

@@ -207,7 +207,8 @@ impl Sender {
                 false => 1,
             });
             if !bench.is_faulty(Device::Force, FaultKind::Frozen) {
-                let wrench = self.setup.wrench(Base::turn(bench.reading_n()));
+                let force_n = self.setup.drifted_n(Base::turn(bench.reading_n()), now);
+                let wrench = self.setup.wrench(force_n);
                 shown = self.setup.passed(shown, wrench);
             }
             std::thread::sleep(bench.delay(Device::Force));

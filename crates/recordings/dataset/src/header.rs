@@ -142,7 +142,7 @@ pub struct Header {
     pub rotations: Vec<Vec<String>>,
     /// Data that the import left out; empty for a recording.
     pub left_out: LeftOut,
-    /// Warnings of all imports; empty for a recording.
+    /// Warnings of all imports, or of the devices that made a recording.
     pub warnings: Vec<String>,
     /// Properties shared by all frames; `None` without frames.
     pub frames: Option<FramesInfo>,

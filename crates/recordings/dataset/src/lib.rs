@@ -17,7 +17,8 @@ mod header;
 mod journal;
 mod jpeg;
 #[doc(hidden)]
-pub mod layout;
+pub mod later_facts;
+mod layout;
 #[doc(hidden)]
 pub mod limits;
 mod lock;
@@ -40,6 +41,7 @@ mod text;
 mod toml_file;
 mod version;
 mod view_names;
+mod zero_table;
 
 #[cfg(feature = "ndarray")]
 pub use arrays::{FrameArray, FrameArrays};
@@ -53,6 +55,7 @@ pub use header::{
     MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,
     ReferenceInfo, SensorFacts, Shape, Source, SourcesInfo, StreamFacts, TableInfo, ViewInfo,
 };
+pub use later_facts::add_device_warnings;
 pub use pack::Span;
 pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec, Streamed};
@@ -64,6 +67,7 @@ pub use table::{FrameEntry, Row, RowFrame, Table, TaskColumn, ViewFrames};
 pub use task::{PoseThresholds, Task, TaskKind, TaskLabel};
 pub use toml_file::read_toml;
 pub use version::Version;
+pub use zero_table::{PressZero, add_press_zero, press_zeros};
 
 /// Parts that the importer shares with the reader and the recorder. The interface is not stable.
 #[doc(hidden)]

@@ -15,6 +15,7 @@ use crate::error::DatasetError;
 use crate::file::make_names_durable;
 use crate::header::{RecordingFacts, ReducedFrames, ReferenceInfo, StreamFacts};
 use crate::journal::{Journal, RecordKind};
+use crate::later_facts::{self, LaterFacts};
 use crate::layout;
 use crate::pack::{PackEnd, PackWriter, cut_behind};
 use crate::signals::{SignalsSpec, SignalsWriter};
@@ -171,6 +172,7 @@ impl Recorder {
         let (_, start) = records.next().ok_or_else(nothing)?;
         let spec = WrittenStart::parse(&journal_path, &start.payload)?;
         let mut recorder = Recorder::new(path, lock, journal, spec)?;
+        recorder.facts.recorded_until = LaterFacts::of(path).recorded_until;
         recorder.cut_bytes = recovered.cut_bytes;
         for (sequence, record) in records {
             recorder.replay(&record).map_err(|error| match error {
@@ -214,9 +216,9 @@ impl Recorder {
         match before.other_instrument(&spec.facts, path) {
             Some(problem) => Err(DatasetError::request(path, problem)),
             None => {
-                let later = spec.facts.recorded_on;
-                recorder.facts.recorded_until =
-                    later.filter(|_| later > recorder.facts.recorded_on);
+                let today = spec.facts.recorded_on;
+                later_facts::resume_on(today, &mut recorder.facts, path)
+                    .map_err(DatasetError::io("keep the day of", path))?;
                 Ok(recorder)
             }
         }

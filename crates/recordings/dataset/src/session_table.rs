@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use crate::error::{DatasetError, Place};
+use crate::zero_table::zeros_clause;
 
 /// Start of a session, one row of the table. Lengths are in mm and forces in N, in the coordinate frame of the sensor.
 #[doc(hidden)]
@@ -122,7 +123,8 @@ impl RecordedSessions {
     /// Sessions of the recording at `path`; `None` without a table beside it.
     pub fn of(path: &Path) -> Option<RecordedSessions> {
         let rows = SessionTable::of(path).ok()?.rows;
-        let note = note(&rows)?;
+        let zeros = zeros_clause(path).map(|clause| format!("; {clause}"));
+        let note = note(&rows)? + &zeros.unwrap_or_default();
         let mut boots: Vec<&str> = rows.iter().map(|row| row.boot_id.as_str()).collect();
         boots.sort_unstable();
         boots.dedup();

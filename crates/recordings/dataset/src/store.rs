@@ -32,7 +32,7 @@ pub struct Beside {
     pub mapping: Mapping,
     /// Data that the import left out.
     pub left_out: LeftOut,
-    /// Warnings of the imports.
+    /// Warnings of the imports, or of the devices.
     pub warnings: Vec<String>,
     /// Frame losses of a stream.
     pub stream: Option<StreamFacts>,

@@ -129,6 +129,49 @@ fn a_recording_that_goes_on_the_next_day_keeps_the_day_on_which_it_began() {
 }
 
 #[test]
+fn a_recording_that_a_close_alone_ends_keeps_the_days_of_all_its_sessions() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let on = |day: u64| {
+        let mut spec = spec("D-K-1");
+        spec.facts.recorded_on = Some(Date::of_unix_s(86_400 * day));
+        spec
+    };
+    let mut recorder = Recorder::create(&path, &on(20_779)).expect("created");
+    recorder.append(&sample("1", 0.5)).expect("recorded");
+    drop(recorder);
+    for day in [20_781, 20_781] {
+        drop(Recorder::open(&path, &on(day)).expect("goes on"));
+    }
+    let later = folder.path().join("set.later.toml");
+    assert!(later.exists());
+    let closed = Recorder::resume(&path).expect("goes on").close();
+    let last = Date::of_unix_s(86_400 * 20_781);
+    assert_eq!(closed.expect("closed").recorded_until, Some(last));
+    assert!(!later.exists(), "the header has it");
+}
+
+#[test]
+fn warnings_of_devices_stand_in_the_header_once_whichever_session_gave_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let warn = |words: &[&str]| {
+        let words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
+        taceva_dataset::add_device_warnings(&path, &words).expect("written");
+    };
+    let mut recorder = Recorder::create(&path, &spec("D-K-1")).expect("created");
+    recorder.append(&sample("1", 0.5)).expect("recorded");
+    warn(&["low pass 8 of the box", "speed slider at 50 %"]);
+    drop(recorder);
+    warn(&["low pass 8 of the box"]);
+    let header = Recorder::resume(&path).expect("goes on").close();
+    let warnings = header.expect("closed").warnings;
+    assert_eq!(warnings, ["low pass 8 of the box", "speed slider at 50 %"]);
+    let read = Dataset::open(&path).expect("opens");
+    assert_eq!(read.header().warnings, warnings);
+}
+
+#[test]
 fn joined_recordings_keep_the_first_and_the_last_of_their_days() {
     let folder = tempfile::tempdir().expect("a folder");
     let day = |day: u64| Some(Date::of_unix_s(86_400 * day));

@@ -23,11 +23,13 @@ use std::time::Duration;
 use taceva_core::{Axis, Channel, Channels, Clock, DriverError, DriverKey, ErrorKind, Progress};
 use taceva_dataset::{
     DatasetError, Header, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
-    StreamFacts, Streamed,
+    StreamFacts, Streamed, add_device_warnings,
 };
+use taceva_protocol::RigFile;
 
 use crate::error::AcquireError;
 use crate::instruments::{day_of, kept};
+use crate::presses::of_rig_file;
 use crate::viewer::Viewer;
 use contacts::Contacts;
 pub use devices::{LiveDevices, LiveSpec};
@@ -53,6 +55,8 @@ pub struct CaptureRequest {
     pub lasts: Option<Duration>,
     /// Number of frames to record; `None` records until the capture is cancelled.
     pub frames: Option<u64>,
+    /// Rig file of all devices, whose axes and latencies the recording keeps; `None` if a device is named otherwise.
+    pub rig: Option<RigFile>,
 }
 
 /// Optional viewer and predictor of a capture. They never delay it.
@@ -171,7 +175,8 @@ pub fn capture(
     }
     let channels = channels(live);
     let source = source(live);
-    let settings = live.settings();
+    let mut settings = live.settings();
+    settings.extend(request.rig.as_ref().map(of_rig_file).unwrap_or_default());
     let facts = RecordingFacts::new(source, Clock::Monotonic, request.sensor.clone())
         .with_traceability(kept(live.traceability(), source, &settings))
         .with_settings(settings)
@@ -210,6 +215,8 @@ pub fn capture(
     match done {
         Err(source) => Err(kept_after(recorder, &request.path, state, source)),
         Ok(()) => {
+            // A failure to keep a warning must not lose the recording.
+            drop(add_device_warnings(&request.path, &live.device_warnings()));
             let closed = recorder.close();
             let header = closed.map_err(|source| broken(&request.path, state, false, source))?;
             match device {

@@ -26,7 +26,8 @@ use std::path::Path;
 use taceva_core::{DriverSource, Outline};
 use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec,
-    ReducedFrames, SensorFacts, SessionTable, Source, add_frame_retries, add_frozen_frames,
+    ReducedFrames, SensorFacts, SessionTable, Source, add_device_warnings, add_frame_retries,
+    add_frozen_frames,
 };
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, Setting, StopCause};
@@ -45,7 +46,7 @@ pub(crate) use registration::Turned;
 pub use rehearsal::{AIR_MM, rehearse_scene};
 pub use rig_locks::HeldRigs;
 use schedule::Schedule;
-pub(crate) use settings::add_settings;
+pub(crate) use settings::{add_settings, of_rig_file};
 pub(crate) use tap::tap_study;
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
@@ -127,6 +128,7 @@ fn acquire(
                     None => spec,
                 };
                 log.insert(RecordedPresses::new(
+                    path,
                     Recorder::open(path, &spec)?,
                     SessionTable::of(path)?,
                     reduction,
@@ -140,6 +142,8 @@ fn acquire(
         };
         let done = acquire_unit(study, unit, &mut open, path, log, of_unit);
         open.warn(workshop, &mut warned);
+        // A failure to keep a warning must not lose the recording.
+        drop(add_device_warnings(path, &open.warnings()));
         sitting.is_enabled = true;
         if let Err(error) = done {
             left += presses_skipped(error)?;
@@ -243,6 +247,9 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     facts.footprint = footprint(plan);
     facts.settings = open.settings();
     let rig = study.study.rig.as_deref();
+    facts
+        .settings
+        .extend(rig.map(of_rig_file).unwrap_or_default());
     let instruments = rig.map(instruments::of_rig).unwrap_or_default();
     facts.traceability = instruments::kept(instruments, source, &facts.settings);
     facts.recorded_on = instruments::day_of(source);

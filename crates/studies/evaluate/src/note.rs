@@ -77,6 +77,13 @@ pub enum Note {
         /// The message of the import.
         words: String,
     },
+    /// Warning of a device that made a recording.
+    Device {
+        /// Name of the recording, if several were joined.
+        recording: Option<String>,
+        /// The warning.
+        words: String,
+    },
     /// Standard uncertainty of the heights relative to which depths are measured.
     DepthZeros {
         /// Name of the recording, if several were joined.

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use taceva_core::{Labels, shown};
-use taceva_dataset::Dataset;
+use taceva_dataset::{Dataset, Header};
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::Model;
 use taceva_results::RecordingProvenance;
@@ -148,7 +148,8 @@ pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
             let rules = [&column.zero, &column.gravity].into_iter().flatten();
             rules.map(|rule| format!("{} minus the {rule}", column.label))
         });
-        let words = header.warnings.iter().cloned().chain(taken);
+        let warnings = header.warnings.iter().filter(|_| is_imported(header));
+        let words = warnings.cloned().chain(taken);
         let words = words.chain(joins::of(header));
         let notes = words.map(|words| Note::Imported {
             recording: name.map(str::to_owned),
@@ -156,6 +157,24 @@ pub(crate) fn imported(dataset: &Dataset) -> Vec<Note> {
         });
         notes.collect()
     })
+}
+
+/// Warnings of the devices that made recordings of a run or a capture.
+pub fn device_warnings(dataset: &Dataset) -> Vec<Note> {
+    of_each(dataset, |recording, name| {
+        let header = recording.header();
+        let warnings = header.warnings.iter().filter(|_| !is_imported(header));
+        let notes = warnings.map(|words| Note::Device {
+            recording: name.map(str::to_owned),
+            words: words.clone(),
+        });
+        notes.collect()
+    })
+}
+
+/// True if a map of an import made the recording.
+fn is_imported(header: &Header) -> bool {
+    !header.columns.is_empty() || !header.pictures.is_empty()
 }
 
 /// Notes on recordings whose frames were reduced before storage.

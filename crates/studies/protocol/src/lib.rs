@@ -33,11 +33,12 @@ pub use rig_file::{
     RigOperator, RigRobot, RigSensor, SignedAxes, Taught, TeachError, Weighing,
 };
 pub use run::{
-    Answer, Cancel, ChangedTouch, Controls, DepthZero, Devices, Enabling, Event, Left, Mode,
-    MotionStage, Observation, Operator, Oversight, PressLog, PressRecord, Question, ReferenceTouch,
-    RunError, RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor, ShearFault,
-    SpecimenChanger, Spot, StopCause, Supervisor, TapError, TapHeard, TapListener, Tapped,
-    Timekeeper, TouchFault, Trip, ZeroUnknown, raise, run, run_guarded, tap, wrench_between,
+    Answer, Cancel, ChangedTouch, Controls, DepthZero, Devices, Enabling, Event, ForceZero, Left,
+    Mode, MotionStage, Observation, Operator, Oversight, PressLog, PressRecord, Question,
+    ReferenceTouch, RunError, RunReport, RunSpec, SessionRecord, SessionSpec, SharedSupervisor,
+    ShearFault, SpecimenChanger, Spot, StopCause, Supervisor, TapError, TapHeard, TapListener,
+    Tapped, Timekeeper, TouchFault, Trip, ZeroStep, ZeroUnknown, raise, run, run_guarded, tap,
+    wrench_between,
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, GratingClassifier, Gratings,

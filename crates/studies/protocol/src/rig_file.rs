@@ -23,6 +23,7 @@ use taceva_core::{Certificate, Instrument};
 
 use certificate::WrittenCertificate;
 use changers::WrittenChangers;
+use latency::{LATENCY, UNCERTAINTY};
 use sensor::WrittenSensor;
 
 use crate::content_id::ContentId;
@@ -111,6 +112,10 @@ pub struct RigForce {
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Standard uncertainty of this delay, in ms, measured by taps.
+    pub latency_u_ms: Option<Setting<f64>>,
+    /// Greatest change of a component of the zero during a press, in N. `None` for 5 times the least force that counts as contact.
+    pub zero_step_max_n: Option<f64>,
     /// Last comparison with a known weight, if any.
     pub weighing: Option<Setting<Weighing>>,
     /// Calibration certificate.
@@ -160,6 +165,9 @@ struct WrittenForce {
     driver: Setting<String>,
     axes: Setting<[String; 3]>,
     latency_ms: Option<Setting<f64>>,
+    latency_u_ms: Option<Setting<f64>>,
+    #[serde(rename = "zero_step_max_N")]
+    zero_step_max_n: Option<Setting<f64>>,
     weighing: Option<Setting<Weighing>>,
     certificate: Option<WrittenCertificate>,
 }
@@ -266,18 +274,21 @@ impl Check<'_> {
     }
 
     fn limits(&self, limits: &LimitSpec) -> Result<(), SceneError> {
-        for (key, limit) in limits.named() {
-            if let Some(limit) = limit
-                && !(limit.value > 0.0 && limit.value <= GREATEST_LIMIT)
-            {
-                let problem = SceneProblem::Range {
-                    key,
-                    found: limit.value,
-                    above: 0.0,
-                    greatest: GREATEST_LIMIT,
-                };
-                return Err(self.text.error(limit.at(), problem));
-            }
+        let mut named = limits.named().into_iter();
+        named.try_for_each(|(key, limit)| self.limit(key, limit))
+    }
+
+    fn limit(&self, key: &'static str, limit: Option<Setting<f64>>) -> Result<(), SceneError> {
+        if let Some(limit) = limit
+            && !(limit.value > 0.0 && limit.value <= GREATEST_LIMIT)
+        {
+            let problem = SceneProblem::Range {
+                key,
+                found: limit.value,
+                above: 0.0,
+                greatest: GREATEST_LIMIT,
+            };
+            return Err(self.text.error(limit.at(), problem));
         }
         Ok(())
     }
@@ -302,16 +313,19 @@ impl Check<'_> {
             origin_mm,
             axes: self.axes(axes)?,
             turned_deg: turned_deg.map(|turned| turned.value),
-            latency_ms: self.latency(latency_ms)?,
+            latency_ms: self.latency(LATENCY, latency_ms)?,
             certificate: self.certificate(Instrument::Robot, certificate)?,
         })
     }
 
     fn force(&self, force: WrittenForce) -> Result<RigForce, SceneError> {
+        self.limit("zero_step_max_N", force.zero_step_max_n)?;
         Ok(RigForce {
             driver: force.driver,
             axes: self.axes(force.axes)?,
-            latency_ms: self.latency(force.latency_ms)?,
+            latency_ms: self.latency(LATENCY, force.latency_ms)?,
+            latency_u_ms: self.latency(UNCERTAINTY, force.latency_u_ms)?,
+            zero_step_max_n: force.zero_step_max_n.map(|step| step.value),
             weighing: self.weighing(force.weighing)?,
             certificate: self.certificate(Instrument::Force, force.certificate)?,
         })
@@ -343,7 +357,11 @@ impl Check<'_> {
         }
     }
 
-    fn latency(&self, latency: Option<Setting<f64>>) -> Result<Option<Setting<f64>>, SceneError> {
+    fn latency(
+        &self,
+        key: &str,
+        latency: Option<Setting<f64>>,
+    ) -> Result<Option<Setting<f64>>, SceneError> {
         let Some(written) = latency else {
             return Ok(None);
         };
@@ -353,7 +371,7 @@ impl Check<'_> {
         }
         self.refuse(
             written.at(),
-            format!("`latency_ms` is {found}, expected 0 to {GREATEST_LATENCY_MS} ms"),
+            format!("`{key}` is {found}, expected 0 to {GREATEST_LATENCY_MS} ms"),
         )
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! A press is an approach, a search for contact, its waypoints and a retreat. In contact the tip moves in segments of 15 ms, or in longer ones if
 //! guard threads run and no limit is near. After each segment, force and pose are read and checked by the [`Supervisor`]. A limit of the gel ends the
-//! descent, and the run continues. A press interrupted by stale signals is repeated. Any other cause stops the run, and the same call resumes it. The
+//! descent, and the run continues. A press interrupted by stale signals, or during which the zero
+//! of the force changed, is repeated. Any other cause stops the run, and the same call resumes it. The
 //! tip leaves the gel if its signals can be trusted and the robot reports no fault.
 
 mod align;
@@ -16,6 +17,7 @@ mod devices;
 mod enabling_wait;
 mod error;
 mod event;
+mod force_zero;
 mod halt_reason;
 mod indent;
 mod load_limit;
@@ -52,6 +54,7 @@ pub use depth_zero::{DepthZero, ZeroUnknown};
 pub use devices::{Devices, SpecimenChanger};
 pub use error::{Left, RunError, StopCause};
 pub use event::Event;
+pub use force_zero::{ForceZero, ZeroStep};
 pub use halt_reason::Trip;
 pub use log::{PressLog, PressRecord};
 pub use operator::{Answer, ChangedTouch, Operator, Question, Spot};

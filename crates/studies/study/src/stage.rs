@@ -16,7 +16,7 @@ use taceva_protocol::PhaseKind;
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::{
-    Bounded, Context, Note, ScoredRows, calibration, choices, depth_zeros, reduced,
+    Bounded, Context, Note, ScoredRows, calibration, choices, depth_zeros, device_warnings, reduced,
 };
 use taceva_evaluate::{CachedStage, Key};
 use taceva_evaluate::{DataPart, Divided, Need, usable};
@@ -110,6 +110,7 @@ pub(crate) fn assess(
     notes.extend(phase_rows.shortfall());
     notes.extend(reduced(dataset));
     notes.extend(depth_zeros(dataset));
+    notes.extend(device_warnings(dataset));
     let sessions = RecordedSessions::of(dataset.path());
     notes.extend(sessions.map(|sessions| Note::Sessions(sessions.note)));
     let retries = frame_retries(dataset.path());

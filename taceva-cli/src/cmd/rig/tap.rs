@@ -15,6 +15,9 @@ pub(super) fn run(args: &RigTapArgs, context: &Context) -> anyhow::Result<u8> {
     output::check_all_free(&args.output.path, args.output.force)?;
     let (drivers, _) = context.equipment(&args.rig)?;
     let rig = read_rig(&args.rig)?;
+    if !args.dry_run {
+        super::check_replaceable(&args.rig)?;
+    }
     let terminal: Option<Box<Mutex<dyn Operator + Send>>> = match operator::terminal(None) {
         Some(terminal) => Some(Box::new(Mutex::new(terminal))),
         None if rig.simulated => None,

@@ -12,6 +12,7 @@ pub(super) fn run(args: &RigTeachArgs, context: &Context) -> anyhow::Result<u8> 
     let host = context.plugins(None)?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let rig = read_rig(&args.rig)?;
+    super::check_replaceable(&args.rig)?;
     let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
             "a person confirms each jog of the robot: start `taceva rig teach` from a terminal",

@@ -10,6 +10,7 @@ use crate::{exit, output, report};
 pub(super) fn run(args: &RigCheckArgs, mass_g: f64, context: &Context) -> anyhow::Result<u8> {
     let (drivers, _) = context.equipment(&args.rig)?;
     let rig = read_rig(&args.rig)?;
+    super::check_replaceable(&args.rig)?;
     let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
             "a person hangs the weight: start `taceva rig check --weight` from a terminal",

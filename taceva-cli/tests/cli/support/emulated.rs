@@ -24,7 +24,11 @@ pub(crate) struct Emulated {
 
 impl Emulated {
     pub(crate) fn new() -> Emulated {
-        let bench = WallBench::start(&BenchOptions::noisy(7)).expect("a bench");
+        Emulated::over(&BenchOptions::noisy(7))
+    }
+
+    pub(crate) fn over(options: &BenchOptions) -> Emulated {
+        let bench = WallBench::start(options).expect("a bench");
         let host = Ipv4Addr::LOCALHOST;
         Emulated {
             arm: xarm::Emulator::start(&bench, xarm::Ports::ANY).expect("an arm"),

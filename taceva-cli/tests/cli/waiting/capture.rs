@@ -217,6 +217,11 @@ fn what_a_transducer_says_of_itself_is_recorded_and_what_delays_it_is_a_warning(
     assert_eq!(warnings, 1, "{}", ran.err);
     assert!(ran.err.contains("Fz never exceeded 0.1 N"), "{}", ran.err);
     let dataset = Dataset::open(&bench.path("out")).expect("whole");
+    let kept = &dataset.header().warnings;
+    assert!(
+        kept.len() == 1 && kept[0].starts_with("low pass 8 of the box"),
+        "{kept:?}"
+    );
     let settings = &dataset.header().settings;
     let serial = emulated.bench.serial();
     for (name, expected) in [

@@ -22,7 +22,7 @@ pub(super) struct Machine {
     pub(super) link: SerialLink<Status>,
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
-    /// Facts that the machine states about itself; empty if the machine was in motion or in a hold.
+    /// Facts that the machine states about itself; empty if the machine was in motion.
     facts: BTreeMap<String, String>,
 }
 
@@ -52,7 +52,7 @@ const AGAIN: Duration = Duration::from_millis(250);
 const GLANCE: Duration = Duration::from_millis(50);
 
 impl Machine {
-    /// Opens the serial port and waits until the machine answers. Nothing moves.
+    /// Opens the serial port and waits until the machine answers. Nothing moves. The hold of an earlier run ends, and its pending commands are discarded.
     pub(super) fn open(options: SerialOptions) -> Result<Machine, DriverError> {
         let link = SerialLink::open(&KEY, &options.port, options.baud, read)?;
         let stop = Arc::new(Stop::new(KEY, link.writer().clone(), HOLD));
@@ -63,10 +63,18 @@ impl Machine {
             facts: BTreeMap::new(),
         };
         let until = monotonic() + AWAKE;
-        while let Err(error) = machine.look(AGAIN) {
-            if error.kind() != ErrorKind::Timeout || monotonic() >= until {
-                return Err(error);
+        let state = loop {
+            match machine.look(AGAIN) {
+                Ok(seen) => break seen.what.state,
+                Err(error) if error.kind() != ErrorKind::Timeout || monotonic() >= until => {
+                    return Err(error);
+                }
+                Err(_) => {}
             }
+        };
+        // In a hold GRBL does not state its version, which a resumed recording must have.
+        if state == State::Held {
+            machine.empty("end the hold of an earlier run")?;
         }
         let mut facts = BTreeMap::new();
         let stated = machine.link.command(ASK_FACTS, ANSWER, |answer| {
@@ -130,6 +138,10 @@ pub(super) fn alarm(doing: &'static str) -> DriverError {
 impl Robot for Machine {
     fn settings(&self) -> BTreeMap<String, String> {
         self.facts.clone()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.link.warning().into_iter().collect()
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

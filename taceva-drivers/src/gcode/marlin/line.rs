@@ -11,6 +11,21 @@ pub(super) type Place = [f64; 3];
 /// Prefix of a number that the printer must echo.
 pub(super) const MARK: &str = "taceva mark ";
 
+/// Errors of a line that arrived damaged. The printer asks for it again.
+const DAMAGED: [&str; 4] = [
+    "checksum mismatch",
+    "No Checksum with line number",
+    "No Line Number with checksum",
+    "Line Number is not Last Line Number+1",
+];
+
+/// `command` with a line number and a checksum: `N3 G21*25`.
+pub(super) fn numbered(number: u32, command: &str) -> String {
+    let text = format!("N{number} {command}");
+    let checksum = text.bytes().fold(0, |sum, byte| sum ^ byte);
+    format!("{text}*{checksum}")
+}
+
 /// Key that begins the line of facts.
 const FIRMWARE_NAME: &str = "FIRMWARE_NAME:";
 /// Keys of facts, and their names as settings.
@@ -59,9 +74,14 @@ fn answer(line: &str) -> Option<Answer> {
     if line.starts_with(FIRMWARE_NAME) {
         return Some(Answer::Facts(facts(line)));
     }
+    if let Some(number) = line.strip_prefix("Resend:") {
+        return number.trim().parse().ok().map(Answer::Resend);
+    }
     // `Error:`, or `!!` of other firmware: the printer stopped and reports it once.
     let why = line.strip_prefix("Error:").or(line.strip_prefix("!!"))?;
-    Some(Answer::Fault(format!("`{}`", why.trim())))
+    let why = why.trim();
+    let is_damage = DAMAGED.iter().any(|damaged| why.starts_with(damaged));
+    (!is_damage).then(|| Answer::Fault(format!("`{why}`")))
 }
 
 /// Parses facts such as `FIRMWARE_NAME:Marlin 2.1.2 (Nov 27 2026) MACHINE_TYPE:Ender-3 UUID:cede2a2f`. Values may have blanks.
@@ -165,6 +185,18 @@ mod tests {
     }
 
     #[test]
+    fn lines_have_the_numbers_and_checksums_of_a_public_client_and_are_asked_for_again() {
+        for (number, command, expected) in [
+            (0, "G21", "N0 G21*26"),
+            (1, "G90", "N1 G90*17"),
+            (2, "G1 X1 Y2 Z3 F600", "N2 G1 X1 Y2 Z3 F600*49"),
+        ] {
+            assert_eq!(numbered(number, command), expected);
+        }
+        assert_eq!(read("Resend: 5"), Heard::answer(Answer::Resend(5)));
+    }
+
+    #[test]
     fn torn_places_foreign_numbers_and_noise_say_nothing() {
         for line in [
             "",
@@ -173,6 +205,8 @@ mod tests {
             "X:a Y:b Z:c",
             "Cap:EMERGENCY_PARSER",
             "taceva mark -1",
+            "Error:checksum mismatch, Last Line: 4",
+            "Resend: -5",
             "taceva mark 99999999999",
             "\u{fffd}\u{fffd}ok",
         ] {

@@ -10,7 +10,7 @@ use taceva_core::{
 };
 
 use super::KEY;
-use super::line::{MARK, Place, read};
+use super::line::{MARK, Place, numbered, read};
 use crate::gcode::limits::SerialOptions;
 use crate::gcode::link::{Answer, CommandError, SerialLink};
 use crate::gcode::stop::Stop;
@@ -24,6 +24,8 @@ pub(super) struct Printer {
     options: SerialOptions,
     /// Last number sent to the printer for an echo.
     mark: u32,
+    /// Number of the last line with a checksum; `None` if the firmware does not count lines.
+    line: Option<u32>,
     is_emulated: bool,
     /// Facts that the printer states about itself.
     facts: BTreeMap<String, String>,
@@ -41,6 +43,8 @@ const LOOK: &str = "read the position of the printer";
 const AWAKE: Duration = Duration::from_secs(10);
 /// Timeout for an answer.
 pub(super) const ANSWER: Duration = Duration::from_millis(800);
+/// Maximum number of times that a damaged line is sent.
+const SENT: u32 = 4;
 /// Minimum timeout of a query, for callers past their deadline.
 const GLANCE: Duration = Duration::from_millis(100);
 
@@ -54,6 +58,7 @@ impl Printer {
             stop,
             options,
             mark: 0,
+            line: None,
             is_emulated: false,
             facts: BTreeMap::new(),
         };
@@ -75,6 +80,9 @@ impl Printer {
         listed.map_err(|error| error.met(&KEY, CONNECT))?;
         printer.is_emulated = is_emulated;
         printer.facts = facts;
+        let first = numbered(0, "M110 N0");
+        let is_counted = printer.link.command(&first, ANSWER, drop).is_ok();
+        printer.line = is_counted.then_some(0);
         if stops_at_once != Some(true) {
             let why = "the printer does not report `Cap:EMERGENCY_PARSER:1`, so a stop would take effect only at the end of the motion: build its firmware with EMERGENCY_PARSER";
             return Err(DriverError::new(ErrorKind::Unsupported, &KEY, CONNECT).because(why));
@@ -101,6 +109,34 @@ impl Printer {
         }
     }
 
+    /// Sends a command with a line number and a checksum, if the firmware counts lines. A command that arrives damaged is sent again.
+    pub(super) fn order(&mut self, command: &str) -> Result<(), CommandError> {
+        let Some(last) = self.line else {
+            return self.link.command(command, ANSWER, drop);
+        };
+        let mut number = last.wrapping_add(1);
+        for _ in 0..SENT {
+            let mut wanted = None;
+            self.link
+                .command(&numbered(number, command), ANSWER, |answer| {
+                    if let Answer::Resend(asked) = answer {
+                        wanted = Some(asked);
+                    }
+                })?;
+            match wanted {
+                None => {
+                    self.line = Some(number);
+                    return Ok(());
+                }
+                // The printer expects the command under this number, also after its own restart.
+                Some(wanted) => number = wanted,
+            }
+        }
+        let command = command.to_owned();
+        let why = format!("it arrived damaged {SENT} times: check the cable and its length");
+        Err(CommandError::Refused { command, why })
+    }
+
     /// Queries the position of the tip: current at rest, planned during a motion.
     pub(super) fn look(&mut self, patience: Duration) -> Result<Seen<Place>, DriverError> {
         let after = self.link.statuses().posted();
@@ -122,6 +158,10 @@ impl Robot for Printer {
 
     fn settings(&self) -> BTreeMap<String, String> {
         self.facts.clone()
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        self.link.warning().into_iter().collect()
     }
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {

@@ -1,5 +1,7 @@
 //! Settings of an emulated box: its page, and their effect on readings.
 
+use std::time::Duration;
+
 /// Settings of a box, as a person makes them on its pages.
 ///
 /// ```
@@ -13,7 +15,14 @@ pub struct Setup {
     pub tool: [f64; 6],
     /// Number of the low pass, at most 8; 0 for none.
     pub filter: u8,
+    /// Drift of the zero of Fz in the transducer's own axes, N a minute.
+    pub drift_n_min: f64,
+    /// True for a page without the entries of the tool frame and of the low pass.
+    pub is_hidden: bool,
 }
+
+/// Entries of the tool frame and of the low pass.
+const HIDDEN: [&str; 4] = ["cfgtfx", "scfgtdu", "scfgtau", "setuserfilter"];
 
 /// Readings per second.
 pub(super) const RATE_HZ: u32 = 500;
@@ -29,10 +38,12 @@ const TIP_M: [f64; 3] = [0.002, -0.003, 0.05];
 const RANGE_NM: f64 = 5.0;
 
 impl Setup {
-    /// A box without a tool frame and without a low pass.
+    /// A box without a tool frame, a low pass and drift.
     pub const PLAIN: Setup = Setup {
         tool: [0.0; 6],
         filter: 0,
+        drift_n_min: 0.0,
+        is_hidden: false,
     };
 
     /// The page `/netftapi2.xml` of a transducer with the serial number `serial`.
@@ -87,8 +98,11 @@ impl Setup {
             ("mfgdigver", "2.2.59".to_owned()),
             ("prodname", "TACEVA-SIM".to_owned()),
         ];
-        let entries = entries.map(|(key, value)| format!("<{key}>{value}</{key}>\r\n"));
-        let entries = entries.concat();
+        let shown = entries.into_iter();
+        let shown = shown.filter(|(key, _)| !(self.is_hidden && HIDDEN.contains(key)));
+        let entries: String = shown
+            .map(|(key, value)| format!("<{key}>{value}</{key}>\r\n"))
+            .collect();
         format!(
             "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?>\r\n<netft>\r\n{entries}</netft>\r\n"
         )
@@ -106,6 +120,11 @@ impl Setup {
         let [fx, fy, fz] = into_frame(force_n, turns);
         let [tx, ty, tz] = into_frame(torque_nm, turns);
         [fx, fy, fz, tx, ty, tz]
+    }
+
+    /// Force in the transducer's own axes with the drift of its zero, after `since` the start.
+    pub(super) fn drifted_n(&self, [x, y, z]: [f64; 3], since: Duration) -> [f64; 3] {
+        [x, y, z + self.drift_n_min / 60.0 * since.as_secs_f64()]
     }
 
     /// Output of the low pass one reading after `before`.
@@ -155,6 +174,26 @@ mod tests {
         }
         let [.., tx, ty, tz] = Setup::PLAIN.wrench([1.0, 2.0, 3.0]);
         assert!([tx, ty, tz].iter().all(|torque_nm| torque_nm.abs() > 1e-3));
+    }
+
+    #[test]
+    fn a_zero_drifts_by_the_minute_and_a_page_may_hide_frame_and_low_pass() {
+        let drifting = Setup {
+            drift_n_min: 0.02,
+            is_hidden: true,
+            ..Setup::PLAIN
+        };
+        let [fx, _, fz] = drifting.drifted_n([1.0, 2.0, 3.0], Duration::from_secs(90));
+        assert!((fx - 1.0).abs() < 1e-12 && (fz - 3.03).abs() < 1e-12);
+        let [hidden, plain] = [drifting, Setup::PLAIN].map(|setup| setup.page("FT1", 50.0));
+        for entry in HIDDEN {
+            let entry = format!("<{entry}>");
+            assert!(
+                plain.contains(&entry) && !hidden.contains(&entry),
+                "{entry}"
+            );
+        }
+        assert!(hidden.contains("<cfgcalsn>FT1</cfgcalsn>"));
     }
 
     #[test]

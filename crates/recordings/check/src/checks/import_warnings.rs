@@ -1,4 +1,4 @@
-//! TAC043: warnings issued when the recording was imported.
+//! TAC043: warnings issued when the recording was imported, or by the devices that made it.
 
 use taceva_core::shown;
 
@@ -8,8 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC043",
     name: "import-warnings",
-    looks_for: "warnings of the import, from the header of the recording",
-    hint: "correct the map as the warning says, and import again; an import without warnings clears them",
+    looks_for: "warnings of the import or of the devices, from the header of the recording",
+    hint: "correct the map or the device as the warning says, and import or record again; an import without warnings clears them",
     reads: None,
     find,
 };

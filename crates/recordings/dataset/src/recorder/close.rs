@@ -8,6 +8,7 @@ use super::{Recorder, partial};
 use crate::error::DatasetError;
 use crate::file::make_names_durable;
 use crate::header::Header;
+use crate::later_facts::LaterFacts;
 use crate::layout;
 use crate::samples::from_parquet;
 use crate::signals::{SignalsInfo, SignalsReader, SignalsWriter};
@@ -37,6 +38,7 @@ impl Recorder {
                 stream: self.stream,
                 predictions: predictions.map(|table| table.facts),
                 signals,
+                warnings: LaterFacts::of(&self.path).warnings,
                 ..Beside::default()
             },
         )?;
@@ -51,6 +53,7 @@ impl Recorder {
         self.put_in_place(&samples, layout::SAMPLES)?;
         self.put_in_place(&header_path, layout::HEADER)?;
         remove_journal(&self.path)?;
+        LaterFacts::remove(&self.path);
         Ok(header)
     }
 

@@ -1,12 +1,13 @@
-//! Sentence on the certificates behind the labels of a result.
+//! Sentence on the instruments and certificates behind the labels of a result.
 
-use taceva_core::Instrument;
+use taceva_core::{Instrument, Traceability};
 use taceva_results::Provenance;
 
 /// Line for labels without a certificate.
 pub(super) const NOT_TRACEABLE: &str = "not traceable: no certificate of the force transducer";
 
-/// Certificates of the instruments that measured the labels, in the order of the recordings. The line begins with missing certificates.
+/// Certificates of the instruments that measured the labels, in the order of the recordings. The line begins with missing certificates, and ends with the
+/// drivers of the instruments.
 pub(super) fn traceability_line(provenance: &Provenance) -> String {
     let of_force = provenance.traceability.iter();
     let of_force = of_force.filter(|of| of.instrument == Instrument::Force);
@@ -33,13 +34,23 @@ pub(super) fn traceability_line(provenance: &Provenance) -> String {
             _ => of.to_string(),
         }
     });
-    let lines = missing.into_iter().chain(stated);
+    let read = provenance.traceability.iter().filter_map(reading);
+    let lines = missing.into_iter().chain(stated).chain(read);
     lines.collect::<Vec<_>>().join("; ")
+}
+
+/// Driver of an instrument with the serial number that it read: `force read by ati/netft, serial number FT12345`. `None` if the driver is not stated.
+fn reading(of: &Traceability) -> Option<String> {
+    let driver = of.driver.as_ref()?;
+    let serial = of.serial.as_ref();
+    let serial = serial.map(|serial| format!(", serial number {serial}"));
+    let serial = serial.unwrap_or_default();
+    Some(format!("{} read by {driver}{serial}", of.instrument))
 }
 
 #[cfg(test)]
 mod tests {
-    use taceva_core::{Certificate, Coverage, Traceability};
+    use taceva_core::{Certificate, Coverage};
 
     use super::*;
 
@@ -104,6 +115,13 @@ mod tests {
         assert!(
             later.ends_with("serial 42, issued after the recording of 2026-05-11"),
             "{later}"
+        );
+        let read = force
+            .clone()
+            .with_driver("ati/netft", Some("FT12345".to_owned()));
+        assert_eq!(
+            line(vec![read]),
+            "force: certificate D-K-1 of a laboratory, 2026-05-12, serial 42; force read by ati/netft, serial number FT12345"
         );
         let joined = line(vec![force, Traceability::new(Instrument::Force)]);
         assert!(joined.starts_with("not traceable in part: "), "{joined}");

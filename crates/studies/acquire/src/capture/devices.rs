@@ -269,17 +269,20 @@ impl LiveDevices {
 
     /// Exposure time of a frame, in s; `None` if the camera does not state it.
     fn exposure_s(&self) -> Option<f64> {
-        let settings = self.sensor.settings();
-        let exposure_ms: f64 = settings.get("exposure_ms")?.parse().ok()?;
+        let exposure_ms: f64 = self.sensor.settings().get("exposure_ms")?.parse().ok()?;
         Some(1e-3 * exposure_ms)
     }
 
-    /// Warnings of the transducer about its readings, and contradictions of certificates. Each has its remedy.
-    pub fn warnings(&self) -> Vec<String> {
+    /// Warnings of the transducer about its readings. Each has its remedy.
+    pub(super) fn device_warnings(&self) -> Vec<String> {
         let force = self.force.as_ref();
-        let mut warnings = force.map_or_else(Vec::new, |force| force.device.warnings());
-        warnings.extend(warnings_today(self.traceability(), &self.settings()));
-        warnings
+        force.map_or_else(Vec::new, |force| force.device.warnings())
+    }
+
+    /// Warnings of the transducer, and contradictions of certificates. Each has its remedy.
+    pub fn warnings(&self) -> Vec<String> {
+        let of_certificates = warnings_today(self.traceability(), &self.settings());
+        [self.device_warnings(), of_certificates].concat()
     }
 
     /// True if a device is simulated or emulated. The labels are then not measurements.

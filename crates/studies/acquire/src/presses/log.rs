@@ -2,17 +2,22 @@
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
 
 use taceva_core::{Frame, Nanometre, Sample, SinkError};
-use taceva_dataset::{Recorder, SessionTable};
+use taceva_dataset::{PressZero, Recorder, SessionTable, add_press_zero};
 use taceva_models::FrameReduction;
-use taceva_protocol::{ContentId, Plan, PlannedPress, PressLog, PressRecord, SessionRecord};
+use taceva_protocol::{
+    ContentId, ForceZero, Plan, PlannedPress, PressLog, PressRecord, SessionRecord,
+};
 
 use super::reduction::reduced;
 use super::session;
 
 /// Log of the presses in a recording in progress.
 pub(super) struct RecordedPresses {
+    /// Path of the recording.
+    path: PathBuf,
     recorder: Recorder,
     /// Recorded presses that will be repeated.
     relived: BTreeSet<ContentId>,
@@ -24,13 +29,15 @@ pub(super) struct RecordedPresses {
 }
 
 impl RecordedPresses {
-    /// Continues `recorder` and `sessions`. `reduction` reduces frames; `None` records full frames.
+    /// Continues `recorder` and `sessions` of the recording at `path`. `reduction` reduces frames; `None` records full frames.
     pub(super) fn new(
+        path: &Path,
         recorder: Recorder,
         sessions: SessionTable,
         reduction: Option<FrameReduction>,
     ) -> RecordedPresses {
         RecordedPresses {
+            path: path.to_owned(),
             recorder,
             sessions,
             relived: BTreeSet::new(),
@@ -71,6 +78,29 @@ impl RecordedPresses {
         self.recorder.has_press(&press.to_string())
     }
 
+    /// Adds the zero of the transducer of an attempt at `press` to the table beside the recording.
+    fn keep_zero(
+        &self,
+        press: ContentId,
+        zero: &ForceZero,
+        is_kept: bool,
+    ) -> Result<(), SinkError> {
+        let [before_fx_n, before_fy_n, before_fz_n] = zero.before.map(|force| force.0);
+        let [after_fx_n, after_fy_n, after_fz_n] = zero.after.map(|force| force.0);
+        let row = PressZero {
+            press: press.to_string(),
+            is_kept,
+            t_s: zero.at_s,
+            before_fx_n,
+            before_fy_n,
+            before_fz_n,
+            after_fx_n,
+            after_fy_n,
+            after_fz_n,
+        };
+        Ok(add_press_zero(&self.path, &row)?)
+    }
+
     /// Rejects a repeated press that differs from its recording.
     fn check(&self, samples: &[Sample]) -> Result<(), SinkError> {
         let table = self.recorder.table();
@@ -104,6 +134,9 @@ impl PressLog for RecordedPresses {
         if self.relived.contains(&record.press) {
             return self.check(&record.samples);
         }
+        if let Some(zero) = &record.force_zero {
+            self.keep_zero(record.press, zero, true)?;
+        }
         let name = record.press.to_string();
         let samples = match &self.reduction {
             Some(reduction) => Cow::Owned(reduced(&record.samples, reduction)?),
@@ -123,6 +156,10 @@ impl PressLog for RecordedPresses {
             };
         }
         Ok(())
+    }
+
+    fn zero_step(&mut self, press: ContentId, zero: &ForceZero) -> Result<(), SinkError> {
+        self.keep_zero(press, zero, false)
     }
 
     fn session(&mut self, record: &SessionRecord) -> Result<(), SinkError> {

@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::PoisonError;
 
-use super::devices::OpenRig;
+use taceva_protocol::RigFile;
+
+use super::devices::{OpenRig, written_latencies_ms};
 use super::workshop::Workshop;
 use crate::instruments;
 
@@ -17,6 +19,13 @@ impl OpenRig {
         settings
     }
 
+    /// Warnings of the devices about their readings, which the recording keeps.
+    pub(super) fn warnings(&self) -> Vec<String> {
+        let mut warnings = self.force.warnings();
+        warnings.extend(self.robot.warnings());
+        warnings
+    }
+
     /// Shows the operator, if any, the warnings of the devices and the contradictions of certificates. Messages in `shown` are omitted, and the others are
     /// added to `shown`.
     pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
@@ -26,8 +35,7 @@ impl OpenRig {
         let mut operator = operator.lock().unwrap_or_else(PoisonError::into_inner);
         let rig = self.rig_file.as_deref();
         let instruments = rig.map(instruments::of_rig).unwrap_or_default();
-        let mut warnings = self.force.warnings();
-        warnings.extend(self.robot.warnings());
+        let mut warnings = self.warnings();
         warnings.extend(instruments::warnings_today(instruments, &self.settings()));
         for warning in warnings {
             if !shown.contains(&warning) {
@@ -36,6 +44,34 @@ impl OpenRig {
             }
         }
     }
+}
+
+/// Mounting and latencies of the devices in a rig file, as settings of a recording, and the digest of the file.
+pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
+    let mut settings = BTreeMap::from([("rig_file".to_owned(), rig.digest().to_string())]);
+    let axes = [
+        ("robot_axes", rig.robot.as_ref().map(|robot| &robot.axes)),
+        ("force_axes", rig.force.as_ref().map(|force| &force.axes)),
+    ];
+    for (name, axes) in axes {
+        settings.extend(axes.map(|axes| (name.to_owned(), axes.value.to_string())));
+    }
+    let [robot_ms, force_ms, sensor_ms] = written_latencies_ms(rig);
+    let force_u_ms = rig.force.as_ref().and_then(|force| force.latency_u_ms);
+    let sensor_u_ms = rig.sensor.as_ref().and_then(|sensor| sensor.latency_u_ms);
+    for (name, value_ms) in [
+        ("robot_latency_ms", robot_ms),
+        ("force_latency_ms", force_ms),
+        ("force_latency_u_ms", force_u_ms.map(|stated| stated.value)),
+        ("sensor_latency_ms", sensor_ms),
+        (
+            "sensor_latency_u_ms",
+            sensor_u_ms.map(|stated| stated.value),
+        ),
+    ] {
+        settings.extend(value_ms.map(|value_ms| (name.to_owned(), value_ms.to_string())));
+    }
+    settings
 }
 
 /// Adds the settings of a device to those of its rig, with names that begin with `kind`, such as `force_serial`.
@@ -51,6 +87,18 @@ pub(crate) fn add_settings(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_rig_file_states_axes_latencies_and_its_digest() {
+        let text = "rig_version = 1\n[force]\ndriver = \"lab/box\"\naxes = [\"x\", \"-y\", \"-z\"]\nlatency_ms = 31.8\nlatency_u_ms = 0.3\n";
+        let rig = RigFile::parse("lab.toml", text).expect("a rig");
+        let settings = of_rig_file(&rig);
+        assert_eq!(settings["force_axes"], "[\"x\", \"-y\", \"-z\"]");
+        assert_eq!(settings["force_latency_ms"], "31.8");
+        assert_eq!(settings["force_latency_u_ms"], "0.3");
+        assert_eq!(settings["rig_file"], rig.digest().to_string());
+        assert_eq!(settings.len(), 4, "{settings:?}");
+    }
 
     #[test]
     fn settings_of_a_transducer_stand_beside_those_of_a_camera() {

@@ -113,6 +113,7 @@ pub fn score(
     notes.extend(recordings::depth_zeros(dataset));
     notes.extend(recordings::viewed(dataset));
     notes.extend(recordings::imported(dataset));
+    notes.extend(recordings::device_warnings(dataset));
     notes.extend(rotations(dataset, predicted));
     notes.extend(target.notes(dataset, &behind.model));
     notes.extend(Note::left_out(target.part.name(), predicted.left_out));

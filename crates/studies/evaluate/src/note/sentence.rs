@@ -74,6 +74,9 @@ impl fmt::Display for Note {
             Note::Imported { recording, words } => {
                 write!(f, "{}import: {}", of(recording), shown(words))
             }
+            Note::Device { recording, words } => {
+                write!(f, "{}warning of a device: {}", of(recording), shown(words))
+            }
             Note::DepthZeros {
                 recording,
                 median_mm,

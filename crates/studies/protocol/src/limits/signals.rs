@@ -20,6 +20,9 @@ pub struct Signals {
     pub equality_is_frozen: bool,
     /// True if the host zeroes the force by a mean over 0.25 s. The transducer then sets its own zero only once per session.
     pub host_zero: bool,
+    /// Greatest change of a component of that zero during a press, in N, from the rig file; `None` for 5 times the least force that counts as contact.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub zero_step_max_n: Option<f64>,
 }
 
 /// Least allowed age of a reading, in s: three periods of a 60 Hz transducer.
@@ -33,6 +36,9 @@ const BLIND_MM: f64 = 0.25;
 const AIR_NOISES: f64 = 5.0;
 /// Factor on the noise for a suggested threshold, in standard deviations. It also covers the noise of the zero, and slow drift.
 const CALM_NOISES: f64 = 10.0;
+
+/// Factor on the least force in the air for the default greatest change of the zero during a press.
+const ZERO_STEPS: f64 = 5.0;
 
 /// Suggested `threshold_N`, in N, for a force with the noise `noise_n`. `None` if `threshold_n` is at least 5 times the noise.
 pub fn calm_threshold_n(noise_n: f64, threshold_n: f64) -> Option<f64> {
@@ -48,6 +54,7 @@ impl Default for Signals {
             stale_s: STALE_S,
             equality_is_frozen: true,
             host_zero: false,
+            zero_step_max_n: None,
         }
     }
 }
@@ -68,7 +75,13 @@ impl Signals {
         AIR_NOISES * self.force_noise_n
     }
 
-    /// Derives the signals of `rig` from its descriptors.
+    /// Greatest change of a component of the zero during a press, in N, with this threshold of contact.
+    pub(crate) fn zero_step_n(&self, threshold_n: f64) -> f64 {
+        self.zero_step_max_n
+            .unwrap_or(ZERO_STEPS * threshold_n.max(self.air_n()))
+    }
+
+    /// Derives the signals of `rig` from its descriptors and its rig file.
     pub(super) fn of(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<Signals, SceneError> {
         let force = rig
             .force
@@ -78,6 +91,8 @@ impl Signals {
             pose_noise_mm: rig.robot.as_ref().map_or(0.0, pose_noise_mm),
             ..Signals::default()
         };
+        let of_rig = study.rig.as_ref().and_then(|file| file.force.as_ref());
+        signals.zero_step_max_n = of_rig.and_then(|force| force.zero_step_max_n);
         let at = study.force.as_ref().and_then(|force| force.driver.at());
         one_clock(scene, study, rig)?;
         if let Some((descriptor, facts)) = force {

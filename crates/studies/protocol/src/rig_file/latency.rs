@@ -3,6 +3,10 @@
 use super::RigFile;
 use crate::text::Setting;
 
+/// Keys of a latency and of its standard uncertainty.
+pub(super) const LATENCY: &str = "latency_ms";
+pub(super) const UNCERTAINTY: &str = "latency_u_ms";
+
 /// Delay of a device relative to the robot, measured by taps.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 #[non_exhaustive]
@@ -21,7 +25,7 @@ pub struct Latency {
 /// use taceva_protocol::{RigFile, RigLatencies};
 /// let text = "rig_version = 1\n[force]\ndriver = \"lab/box\" # on the table\naxes = [\"x\", \"y\", \"z\"]\n";
 /// let rig = RigFile::parse("lab.toml", text)?;
-/// let latencies = RigLatencies { robot_ms: None, force_ms: 4.5, sensor_ms: 38.0 };
+/// let latencies = RigLatencies { robot_ms: None, force_ms: 4.5, force_u_ms: 0.2, sensor_ms: 38.0, sensor_u_ms: 0.4 };
 /// // A rig without a sensor has nowhere to write its latency.
 /// assert_eq!(rig.with_latencies(&latencies), None);
 /// # Ok::<(), taceva_protocol::SceneError>(())
@@ -32,8 +36,12 @@ pub struct RigLatencies {
     pub robot_ms: Option<f64>,
     /// Latency of the transducer.
     pub force_ms: f64,
+    /// Standard uncertainty of the latency of the transducer relative to the robot.
+    pub force_u_ms: f64,
     /// Latency of the sensor.
     pub sensor_ms: f64,
+    /// Standard uncertainty of the latency of the sensor relative to the robot.
+    pub sensor_u_ms: f64,
 }
 
 impl RigLatencies {
@@ -56,8 +64,34 @@ impl RigLatencies {
         RigLatencies {
             robot_ms: is_early.then(|| tenths(robot_ms)),
             force_ms: tenths(force_ms),
+            force_u_ms: force.standard_ms(),
             sensor_ms: tenths(sensor_ms),
+            sensor_u_ms: sensor.standard_ms(),
         }
+    }
+}
+
+impl Latency {
+    /// Standard uncertainty of a latency that is rounded to 0.1 ms, in ms, rounded up to 0.01 ms.
+    fn standard_ms(&self) -> f64 {
+        let rounding_ms = 0.1 / 12.0_f64.sqrt();
+        (100.0 * (0.5 * self.error_ms).hypot(rounding_ms)).ceil() / 100.0
+    }
+}
+
+/// Number in the table of a device.
+struct Entry<'a> {
+    key: &'static str,
+    driver: &'a Setting<String>,
+    before: Option<Setting<f64>>,
+    value_ms: f64,
+}
+
+impl Entry<'_> {
+    /// Byte offset of the number, or of the driver if the table lacks the number.
+    fn at(&self) -> Option<usize> {
+        let number = self.before.as_ref().and_then(Setting::at);
+        number.or_else(|| self.driver.at())
     }
 }
 
@@ -65,19 +99,39 @@ impl RigFile {
     /// Text of the file with `latencies`, otherwise unchanged. `None` if a device is missing, or if no line can be inserted after `driver` in its table.
     pub fn with_latencies(&self, latencies: &RigLatencies) -> Option<String> {
         let (force, sensor) = (self.force.as_ref()?, self.sensor.as_ref()?);
+        let entry = |key, driver, before, value_ms| Entry {
+            key,
+            driver,
+            before,
+            value_ms,
+        };
+        // Of two lines after one driver, the later one is inserted first.
+        let (of_force, of_sensor) = (&force.driver, &sensor.driver);
         let mut written = vec![
-            (&force.driver, force.latency_ms, latencies.force_ms),
-            (&sensor.driver, sensor.latency_ms, latencies.sensor_ms),
+            entry(
+                UNCERTAINTY,
+                of_force,
+                force.latency_u_ms,
+                latencies.force_u_ms,
+            ),
+            entry(LATENCY, of_force, force.latency_ms, latencies.force_ms),
+            entry(
+                UNCERTAINTY,
+                of_sensor,
+                sensor.latency_u_ms,
+                latencies.sensor_u_ms,
+            ),
+            entry(LATENCY, of_sensor, sensor.latency_ms, latencies.sensor_ms),
         ];
         if let Some(robot_ms) = latencies.robot_ms {
             let robot = self.robot.as_ref()?;
-            written.push((&robot.driver, robot.latency_ms, robot_ms));
+            written.push(entry(LATENCY, &robot.driver, robot.latency_ms, robot_ms));
         }
         let mut text = self.text.whole().to_owned();
         // Edits the last position first, so that earlier byte offsets stay valid.
-        written.sort_by_key(|(driver, ..)| std::cmp::Reverse(driver.at()));
-        for (driver, before, latency_ms) in written {
-            put(&mut text, driver, before, latency_ms)?;
+        written.sort_by_key(|entry| std::cmp::Reverse(entry.at()));
+        for entry in &written {
+            put(&mut text, entry)?;
         }
         // An inline table or dotted keys cannot take a line after the driver.
         let read = RigFile::parse(self.name(), &text).ok()?;
@@ -102,9 +156,11 @@ impl RigFile {
         };
         if let Some(force) = &mut self.force {
             set(&mut force.latency_ms, latencies.force_ms);
+            set(&mut force.latency_u_ms, latencies.force_u_ms);
         }
         if let Some(sensor) = &mut self.sensor {
             set(&mut sensor.latency_ms, latencies.sensor_ms);
+            set(&mut sensor.latency_u_ms, latencies.sensor_u_ms);
         }
         if let (Some(robot), Some(robot_ms)) = (&mut self.robot, latencies.robot_ms) {
             set(&mut robot.latency_ms, robot_ms);
@@ -113,22 +169,23 @@ impl RigFile {
     }
 }
 
-/// Replaces a latency, or inserts it in a line after the driver.
-fn put(
-    text: &mut String,
-    driver: &Setting<String>,
-    before: Option<Setting<f64>>,
-    latency_ms: f64,
-) -> Option<()> {
-    if let Some(at) = before.and_then(|before| before.at()) {
+/// Replaces a number, or inserts it in a line after the driver.
+fn put(text: &mut String, entry: &Entry<'_>) -> Option<()> {
+    let Entry {
+        key,
+        driver,
+        before,
+        value_ms,
+    } = entry;
+    if let Some(at) = before.as_ref().and_then(Setting::at) {
         let is_of_number = |letter: char| letter.is_ascii_alphanumeric() || "+-._".contains(letter);
         let number = text.get(at..)?;
         let length = number.find(|letter| !is_of_number(letter));
         let end = at + length.unwrap_or(number.len());
-        text.replace_range(at..end, &format!("{latency_ms:?}"));
+        text.replace_range(at..end, &format!("{value_ms:?}"));
         return Some(());
     }
-    insert_after(text, driver.at()?, &format!("latency_ms = {latency_ms:?}"))
+    insert_after(text, driver.at()?, &format!("{key} = {value_ms:?}"))
 }
 
 /// Inserts `line` after the line that contains the byte offset `from`.
@@ -158,7 +215,9 @@ mod tests {
     const MEASURED: RigLatencies = RigLatencies {
         robot_ms: Some(6.5),
         force_ms: 0.0,
+        force_u_ms: 0.25,
         sensor_ms: 38.2,
+        sensor_u_ms: 0.4,
     };
 
     fn late(after_robot_ms: f64) -> Latency {
@@ -179,7 +238,8 @@ mod tests {
         let expected = TEXT
             .replace("# the old one\n", "# the old one\nlatency_ms = 6.5\n")
             .replace("4.0# box", "0.0# box")
-            + "\nlatency_ms = 38.2";
+            .replace("x=1\"\n", "x=1\"\nlatency_u_ms = 0.25\n")
+            + "\nlatency_ms = 38.2\nlatency_u_ms = 0.4";
         let written = with(TEXT, &MEASURED).expect("three tables");
         assert_eq!(written, expected);
         // A second call changes nothing, and a robot without a new latency is left unchanged.
@@ -217,6 +277,8 @@ mod tests {
         let [force, sensor] = [late(4.04), late(33.0)];
         let measured = RigLatencies::measured([0.0, 0.0, 5.0], &force, &sensor);
         assert_eq!((measured.robot_ms, measured.force_ms), (None, 4.0));
+        // Half of the stated error, and the rounding to 0.1 ms.
+        assert!((measured.force_u_ms - 0.26).abs() < 1e-9, "{measured:?}");
         assert!((measured.sensor_ms - 38.0).abs() < 1e-9);
         // Below 0 by less than the error.
         let measured = RigLatencies::measured([2.0, 0.0, 0.0], &late(-0.3), &sensor);

@@ -5,6 +5,7 @@ use taceva_core::{Certificate, Instrument};
 
 use super::Check;
 use super::certificate::WrittenCertificate;
+use super::latency::{LATENCY, UNCERTAINTY};
 use crate::footprint_spec::FootprintSpec;
 use crate::text::{SceneError, Setting};
 
@@ -15,6 +16,8 @@ pub struct RigSensor {
     pub driver: Setting<String>,
     /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
+    /// Standard uncertainty of this delay, in ms, measured by taps.
+    pub latency_u_ms: Option<Setting<f64>>,
     /// True if ambient light cannot reach the camera. A scene must not state the opposite.
     pub opaque: Option<Setting<bool>>,
     /// True if the gel has markers. A scene must not state the opposite.
@@ -30,6 +33,7 @@ pub struct RigSensor {
 pub(super) struct WrittenSensor {
     driver: Setting<String>,
     latency_ms: Option<Setting<f64>>,
+    latency_u_ms: Option<Setting<f64>>,
     opaque: Option<Setting<bool>>,
     markers: Option<Setting<bool>>,
     footprint: Option<Setting<FootprintSpec>>,
@@ -45,7 +49,8 @@ impl WrittenSensor {
         }
         Ok(RigSensor {
             driver: self.driver,
-            latency_ms: check.latency(self.latency_ms)?,
+            latency_ms: check.latency(LATENCY, self.latency_ms)?,
+            latency_u_ms: check.latency(UNCERTAINTY, self.latency_u_ms)?,
             opaque: self.opaque,
             markers: self.markers,
             footprint: self.footprint,

@@ -4,6 +4,7 @@ use std::fmt;
 
 use taceva_core::{DriverError, Fault, SinkError, by_count, counted};
 
+use super::force_zero::ZeroStep;
 use super::halt_reason::Trip;
 use super::reference_touch::TouchFault;
 use super::shear_way::ShearFault;
@@ -90,6 +91,9 @@ pub enum StopCause {
     /// In a press, the shear force changed against the tangential displacement of the tip, unlike in the gentle touch.
     #[error("{0}")]
     Shear(ShearFault),
+    /// The zero of the transducer changed too far during a press.
+    #[error("{0}")]
+    ZeroStep(Box<ZeroStep>),
     /// The enabling switch was not held within the wait of the rig file.
     #[error(
         "the enabling switch was not held within {patience_s} s: hold it and continue with `--resume`; `patience_s` of [operator] sets this wait"
@@ -104,13 +108,14 @@ pub enum StopCause {
 }
 
 impl StopCause {
-    /// True if force, pose or frames did not arrive in time, or a frame was outdated. The press can then be repeated.
+    /// True if force, pose or frames did not arrive in time, a frame was outdated, or the zero of the force changed. The press can then be repeated.
     pub fn is_silence(&self) -> bool {
         matches!(
             self,
             StopCause::Tripped(Trip::StaleForce { .. } | Trip::StalePose { .. })
                 | StopCause::Frames { .. }
                 | StopCause::FrozenFrame
+                | StopCause::ZeroStep(_)
         )
     }
 

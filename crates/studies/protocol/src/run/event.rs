@@ -2,6 +2,7 @@
 
 use taceva_core::{Millimetre, PressOutcome, Specimen};
 
+use super::force_zero::ZeroStep;
 use super::halt_reason::Trip;
 use crate::content_id::ContentId;
 
@@ -38,6 +39,8 @@ pub enum Event {
     FrameRetried,
     /// A frame was bit-equal to the previous one although the force changed. Its press is aborted.
     FrameFrozen,
+    /// The zero of the transducer changed too far during a press. The press is discarded.
+    ZeroStepped(ZeroStep),
     /// A sample was taken.
     Sampled {
         /// Number of the sample in the press, counted from 0.
@@ -51,7 +54,7 @@ pub enum Event {
     Retracted,
     /// The enabling switch is not held. Nothing moves until the operator holds it.
     Unheld,
-    /// Stale signals or a released enabling switch interrupted a press. It is repeated from its start.
+    /// Stale signals, a changed zero of the force or a released enabling switch ended a press early. It is repeated from its start.
     Redone {
         /// Id of the press.
         press: ContentId,

@@ -3,6 +3,7 @@
 use taceva_core::{Frame, PressOutcome, Sample, SinkError};
 
 use super::depth_zero::DepthZero;
+use super::force_zero::ForceZero;
 use super::reference_touch::SessionRecord;
 use crate::content_id::ContentId;
 
@@ -23,6 +24,16 @@ pub trait PressLog {
     /// Any failure to store the frame safely. The run then stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
+    /// Stores the zero of the transducer of an attempt at `press` that was discarded, because the zero changed too far. Finished presses have theirs in
+    /// [`PressRecord::force_zero`].
+    ///
+    /// # Errors
+    /// Any failure to store the zero. The run then stops.
+    fn zero_step(&mut self, press: ContentId, zero: &ForceZero) -> Result<(), SinkError> {
+        let _ = (press, zero);
+        Ok(())
+    }
+
     /// Stores the record of a session's start, before its first press. Only runs with a rig file have sessions.
     ///
     /// # Errors
@@ -42,6 +53,8 @@ pub struct PressRecord {
     pub outcome: PressOutcome,
     /// Height relative to which depths are measured; `None` for a press that does not indent or has no contact.
     pub zero: Option<DepthZero>,
+    /// Zero of the transducer before and after the press; `None` if the transducer sets its own zero.
+    pub force_zero: Option<ForceZero>,
     /// Samples in order, named `<press>/<number>` by waypoint or frame. Waypoints that a limited press skipped have no sample.
     ///
     /// Truth holds the channels of the plan, in its order. `Pz` is the depth from the zero of the press. `surface_z` is the height of the felt surface in

@@ -47,6 +47,7 @@ impl Run<'_> {
             press: planned.id,
             outcome,
             zero: gathered.zero,
+            force_zero: self.tip.compare_zero()?,
             samples: gathered.samples,
         })
     }

@@ -253,7 +253,15 @@ impl<'a> Run<'a> {
                 Err(cause) => cause,
             };
             let (is_silence, is_release) = (cause.is_silence(), cause.is_release());
-            let error = self.abandoned(Some(planned.id), cause);
+            let mut error = self.abandoned(Some(planned.id), cause);
+            if let StopCause::ZeroStep(step) = &error.cause {
+                (self.events)(&Event::ZeroStepped(**step));
+                let stored = log.zero_step(planned.id, &step.zero);
+                if let Err(failed) = stored {
+                    error.cause = StopCause::Log(failed);
+                    return Err(error);
+                }
+            }
             if let Some(fault) = error.cause.fault() {
                 self.go_on_after(fault, error)?;
                 continue;

@@ -93,6 +93,8 @@ pub(super) struct Pace {
     /// Tolerance of a reported pose along each axis, in mm. A tip this close to its target has arrived.
     pub(super) slack_mm: f64,
     pub(super) host_zero: bool,
+    /// Greatest change of a component of the zero during a press, in N.
+    pub(super) zero_step_n: f64,
 }
 
 impl Pace {
@@ -119,6 +121,7 @@ impl Pace {
             clearance_mm: contact.clearance_mm.value,
             slack_mm: limits.signals.slack_mm(),
             host_zero: limits.signals.host_zero,
+            zero_step_n: limits.signals.zero_step_n(contact.threshold_n.value),
         })
     }
 }

@@ -2,11 +2,15 @@
 
 use taceva_core::{Newton, NewtonMillimetre, Wrench};
 
+use super::error::StopCause;
+use super::force_zero::ForceZero;
 use super::supervisor::MotionStage;
 use super::tip::{ANY_FORCE, DEADLINE, Step, Tip};
 
 /// Averaging time of the zero, in s. A zero command of an amplifier would take seconds at every press.
 const LISTEN_S: f64 = 0.25;
+/// Averaging time of the comparison after a press, in s. A change is measured again over [`LISTEN_S`], because a low pass may still hold the force of the gel.
+const COMPARE_S: f64 = 0.05;
 /// Least number of readings of a mean, for slow transducers.
 const LEAST_READINGS: u32 = 4;
 
@@ -32,15 +36,48 @@ impl Tip<'_> {
             self.supervisor.lock().call_zero(Wrench::default());
         }
         self.watch(ANY_FORCE);
-        let until_s = self.clock.now_s() + LISTEN_S;
+        let zero = self.mean_force(LISTEN_S)?;
+        self.supervisor.lock().call_zero(zero);
+        self.is_zero_known = true;
+        Ok(())
+    }
+
+    /// Compares the zero of the host after a press with that before. The tip rests in the air. `None` if the transducer sets its own zero.
+    pub(super) fn compare_zero(&mut self) -> Step<Option<ForceZero>> {
+        if !self.pace.host_zero {
+            return Ok(None);
+        }
+        self.watch(ANY_FORCE);
+        let before = self.supervisor.lock().zero();
+        let limit_n = self.pace.zero_step_n;
+        let mut zero = self.zero_since(&before, COMPARE_S)?;
+        if zero.step(limit_n).is_some() {
+            zero = self.zero_since(&before, LISTEN_S)?;
+        }
+        match zero.step(limit_n) {
+            None => Ok(Some(zero)),
+            Some(step) => {
+                // The next motion through the air is not watched for a collision by this zero.
+                self.is_zero_known = false;
+                Err(StopCause::ZeroStep(Box::new(step)))
+            }
+        }
+    }
+
+    fn zero_since(&mut self, before: &Wrench, listen_s: f64) -> Step<ForceZero> {
+        let after = self.mean_force(listen_s)?;
+        Ok(ForceZero::new(self.clock.now_s(), before, &after))
+    }
+
+    /// Mean of the readings of `listen_s` seconds.
+    fn mean_force(&mut self, listen_s: f64) -> Step<Wrench> {
+        let until_s = self.clock.now_s() + listen_s;
         let (mut sum, mut count) = (Sum::default(), 0_u32);
         while count < LEAST_READINGS || self.clock.now_s() < until_s {
             sum.add(&self.read_force()?.said);
             count += 1;
         }
-        self.supervisor.lock().call_zero(sum.mean(count));
-        self.is_zero_known = true;
-        Ok(())
+        Ok(sum.mean(count))
     }
 }
 
@@ -67,8 +104,16 @@ impl Sum {
 
 #[cfg(test)]
 mod tests {
-    use crate::run::rig::{Rig, with_tip};
+    use taceva_core::{Frame, Nanometre, Phase, SinkError};
+
+    use crate::content_id::ContentId;
+    use crate::press::{Motion, Waypoint};
+    use crate::run::rig::{CONTACT_MM, Rig, plan, with_tip};
     use crate::run::tip::ANY_FORCE;
+    use crate::run::{
+        Cancel, Controls, Devices, Event, ForceZero, Mode, PressLog, PressRecord, RunError,
+        RunReport, RunSpec, StopCause, run,
+    };
 
     #[test]
     fn the_host_calls_the_mean_of_a_quarter_of_a_second_zero() {
@@ -101,5 +146,122 @@ mod tests {
             Ok::<f64, crate::StopCause>(tip.look()?.wrench.force[2].0)
         });
         assert!(force_n.expect("it rests") > 0.4);
+    }
+
+    #[derive(Default)]
+    struct Memory {
+        records: Vec<PressRecord>,
+        steps: Vec<ForceZero>,
+    }
+
+    impl PressLog for Memory {
+        fn is_finished(&self, _: ContentId) -> bool {
+            false
+        }
+        fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
+            self.records.push(record.clone());
+            Ok(())
+        }
+        fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
+            Ok(())
+        }
+        fn zero_step(&mut self, _: ContentId, zero: &ForceZero) -> Result<(), SinkError> {
+            self.steps.push(*zero);
+            Ok(())
+        }
+    }
+
+    /// Force of a gel of 1 N/mm, with a zero that changes by `step_n` in each of the first `steps` presses.
+    fn stepping(step_n: f64, steps: u32) -> impl FnMut(u32, f64) -> Option<f64> {
+        let (mut zero_n, mut left, mut is_deep) = (0.0, steps, false);
+        move |question, height_mm| {
+            let depth_mm = height_mm - CONTACT_MM;
+            if depth_mm > 0.25 && !is_deep && left > 0 {
+                zero_n += step_n;
+                left -= 1;
+            }
+            is_deep = depth_mm > 0.25;
+            Some(zero_n + depth_mm.max(0.0) + f64::from(question) * 1e-9)
+        }
+    }
+
+    /// Runs one press of 0.5 mm depth, whose zero the host computes.
+    fn pressed(
+        force: impl FnMut(u32, f64) -> Option<f64> + Send + 'static,
+    ) -> (Memory, u32, Result<RunReport, RunError>) {
+        let mut rig = Rig::new(-3.0, force);
+        let mut plan = plan();
+        plan.limits.as_mut().expect("it moves").signals.host_zero = true;
+        plan.presses.truncate(1);
+        let planned = &mut plan.presses[0];
+        planned.frames = false;
+        planned.press.light = None;
+        planned.press.place = [Nanometre(0); 2];
+        planned.press.motion = Motion::Indent(vec![Waypoint {
+            depth: Nanometre(500_000),
+            shear: [Nanometre(0); 2],
+            phase: Phase::Load,
+        }]);
+        let spec = RunSpec {
+            plan: &plan,
+            unit: &plan.presses[0].press.unit,
+            mode: Mode::Acquire,
+        };
+        let (mut force, mut clock) = (rig.clone(), rig.clone());
+        let devices = Devices {
+            robot: &mut rig,
+            force: &mut force,
+            sensor: None,
+            lighting: None,
+            specimens: None,
+        };
+        let (mut log, mut stepped) = (Memory::default(), 0);
+        let controls = Controls {
+            clock: &mut clock,
+            cancel: &Cancel::new(),
+            events: &mut |event| stepped += u32::from(matches!(event, Event::ZeroStepped(_))),
+            operator: None,
+        };
+        let done = run(&spec, devices, &mut log, controls);
+        (log, stepped, done)
+    }
+
+    #[test]
+    fn a_zero_that_drifts_within_its_limit_is_recorded_with_the_press() {
+        let (log, stepped, done) = pressed(stepping(0.05, 1));
+        let report = done.expect("it drifts slowly");
+        assert_eq!((report.made, report.redone, stepped), (1, 0, 0));
+        let zero = log.records[0].force_zero.expect("the host computes it");
+        assert!((zero.after[2].0 - zero.before[2].0 - 0.05).abs() < 1e-5);
+        assert!(log.steps.is_empty());
+    }
+
+    #[test]
+    fn a_press_in_which_the_zero_steps_is_made_again_and_the_run_goes_on() {
+        let (log, stepped, done) = pressed(stepping(0.3, 1));
+        let report = done.expect("it steps once");
+        assert_eq!((report.made, report.redone, stepped), (1, 1, 1));
+        let [step] = log.steps[..] else {
+            panic!("{:?}", log.steps);
+        };
+        assert!((step.after[2].0 - 0.3).abs() < 1e-5, "{step:?}");
+        let kept = log.records[0].force_zero.expect("the host computes it");
+        assert!((kept.before[2].0 - 0.3).abs() < 1e-5, "{kept:?}");
+        // The labels of the second attempt are relative to the new zero.
+        let position = plan().channels.iter().position(|name| name == "Fz");
+        let truth = &log.records[0].samples[0].truth;
+        let label_n = truth.get(position.expect("Fz is measured"));
+        assert!(label_n.is_some_and(|force_n| (0.5..0.65).contains(&force_n)));
+    }
+
+    #[test]
+    fn a_zero_that_steps_in_three_attempts_at_a_press_ends_the_run_above_the_gel() {
+        let (log, stepped, done) = pressed(stepping(0.3, 3));
+        let error = done.expect_err("it never holds");
+        assert!(matches!(error.cause, StopCause::ZeroStep(_)), "{error}");
+        assert_eq!(error.left, crate::run::Left::Clear);
+        assert_eq!((log.records.len(), log.steps.len(), stepped), (0, 3, 3));
+        let said = error.to_string();
+        assert!(said.contains("zero of Fz changed from 0.6"), "{said}");
     }
 }

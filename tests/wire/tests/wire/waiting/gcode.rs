@@ -43,6 +43,27 @@ impl<E: Arm> Setup<E> {
         self.open();
     }
 
+    /// A line that another program has open without a lock is warned of, by the program's name.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn warns_of_another_that_has_it_open(&self) {
+        let (_, path) = self.arguments().split_once("port=").expect("a line");
+        let line = std::fs::File::options().read(true).write(true).open(path);
+        let mut other = std::process::Command::new("sleep")
+            .arg("60")
+            .stdin(line.expect("open"))
+            .spawn()
+            .expect("there is sleep");
+        let warnings = self.open().warnings();
+        other.kill().expect("it runs");
+        other.wait().expect("it ends");
+        let expected = format!("process {} (sleep)", other.id());
+        assert!(
+            warnings.len() == 1 && warnings[0].contains(&expected),
+            "{warnings:?}"
+        );
+        assert!(self.open().warnings().is_empty());
+    }
+
     /// A path that is not a serial line is rejected with the matching error.
     pub(crate) fn refuses_what_is_no_line(&self) {
         let file = tempfile::NamedTempFile::new().expect("a file");

@@ -26,6 +26,19 @@ fn the_version_of_a_machine_is_a_setting() {
 }
 
 #[test]
+fn a_machine_in_the_hold_of_an_earlier_run_states_its_version_and_keeps_its_place() {
+    let setup = setup();
+    let mut machine = setup.open();
+    machine.halt_handle().halt().expect("sent");
+    let (held, _) = machine.pose(PATIENCE).expect("a pose");
+    drop(machine);
+    let mut again = setup.open();
+    assert_eq!(again.settings()["firmware"], "1.1h.20190825");
+    let (found, _) = again.pose(PATIENCE).expect("a pose");
+    assert_eq!(found, held);
+}
+
+#[test]
 fn a_press_reaches_the_gel_and_a_turn_is_refused() {
     setup().presses_and_does_not_turn();
 }
@@ -57,6 +70,12 @@ fn a_machine_that_falls_silent_on_its_way_is_held() {
 #[test]
 fn what_is_no_machine_is_refused() {
     setup().refuses_what_is_no_line();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_line_that_another_program_has_open_without_a_lock_is_warned_of() {
+    setup().warns_of_another_that_has_it_open();
 }
 
 #[test]

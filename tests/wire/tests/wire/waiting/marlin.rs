@@ -40,6 +40,26 @@ fn a_press_reaches_the_gel_and_a_turn_is_refused() {
 }
 
 #[test]
+fn a_line_that_arrives_damaged_is_sent_again_and_no_more_than_four_times() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (home, _) = printer.pose(PATIENCE).expect("a pose");
+    setup.emulator.damage(2);
+    let arrived = printer.move_to(lower(home, 20.6), speed(20.0), PATIENCE);
+    arrived.expect("it arrives");
+    let truth = setup.bench.truth();
+    assert!((truth.tip_mm[2] - 0.6).abs() < 1e-4, "{truth:?}");
+    setup.emulator.damage(100);
+    let refused = printer.move_to(home, speed(20.0), PATIENCE);
+    let said = refused.expect_err("a broken cable").to_string();
+    assert!(said.contains("it arrived damaged 4 times"), "{said}");
+    assert!(!setup.bench.truth().is_moving);
+    setup.emulator.damage(0);
+    let arrived = printer.move_to(home, speed(20.0), PATIENCE);
+    arrived.expect("the cable is replaced");
+}
+
+#[test]
 fn a_halt_stops_the_printer_at_once_and_it_goes_on_afterwards() {
     setup().is_halted_within(Duration::from_millis(100));
 }
@@ -114,6 +134,12 @@ fn a_printer_that_falls_silent_on_its_way_is_stopped() {
 #[test]
 fn what_is_no_printer_is_refused() {
     setup().refuses_what_is_no_line();
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_line_that_another_program_has_open_without_a_lock_is_warned_of() {
+    setup().warns_of_another_that_has_it_open();
 }
 
 #[test]

@@ -156,6 +156,11 @@ fn what_is_wrong_in_a_rig_file_is_refused_with_its_line_and_what_is_expected() {
             "lab.toml, line 13: `latency_ms` is -1, expected 0 to 1000 ms",
         ),
         (
+            "latency_ms = 4.0",
+            "latency_ms = 4.0\nzero_step_max_N = 0.0",
+            "lab.toml, line 11: `zero_step_max_N` is 0, expected a number above 0 and up to 1000",
+        ),
+        (
             "20.0",
             "0.0",
             "lab.toml, line 15: `speed_max_mm_s` is 0, expected a number above 0 and up to 1000",
@@ -190,11 +195,14 @@ fn limits_of_a_rig_tighten_those_of_its_devices_and_a_scene_may_not_loosen_them(
         "s.toml, line 4: `speed_max_mm_s` is 30, but [limits] of the rig file `lab.toml` allows at most 20: limits may only be tightened"
     );
     let devices = devices();
-    let plans = plan(&put_on(SCENE, RIG), |_| {
+    let zero = "latency_ms = 4.0\nzero_step_max_N = 0.05";
+    let rig = RIG.replace("latency_ms = 4.0", zero);
+    let plans = plan(&put_on(SCENE, &rig), |_| {
         SourceInfo::Rig(Box::new(devices.clone()))
     });
     let limits = plans.expect("plans")[0].limits.clone().expect("it moves");
     assert!(limits.speed_max_mm_s <= 20.0, "{limits:?}");
+    assert_eq!(limits.signals.zero_step_max_n, Some(0.05));
 }
 
 #[test]

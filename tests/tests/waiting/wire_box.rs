@@ -1,0 +1,169 @@
+//! Studies with a Net F/T box that turns, delays and drifts: its page says so, hides it, or the drift is too great.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use taceva_dataset::press_zeros;
+use taceva_tests::wire::{OnTheWire, RUN, finished, scene_of};
+use taceva_wire::netft::Setup;
+use taceva_wire::{BenchOptions, ForceKind, ServeOptions};
+
+const SEED: u64 = 7;
+const PRESSES: usize = 6;
+/// Most restarts of a run that a busy machine ended because of late readings.
+const PATIENCE: usize = 6;
+/// Drift of the zero, N a minute.
+const DRIFT_N_MIN: f64 = 0.02;
+/// Greatest difference of a force component, as a part of the greatest force of the study.
+const FORCE_PART: f64 = 0.02;
+const DEPTH_APART_MM: f64 = 0.02;
+/// Axes of a transducer in the base frame, and those after a quarter turn about its x axis.
+const OWN: &str = "axes = [\"x\", \"-y\", \"-z\"]";
+const TURNED: &str = "axes = [\"x\", \"z\", \"-y\"]";
+
+/// A box with a tool frame a quarter turn about x, and the strongest usual low pass of 5 Hz: 32 ms late.
+const BENT: Setup = Setup {
+    tool: [0.0, 0.0, 0.0, 90.0, 0.0, 0.0],
+    filter: 8,
+    drift_n_min: DRIFT_N_MIN,
+    ..Setup::PLAIN
+};
+
+/// Emulated devices with such a box. `force` is added to the table of the transducer, and `arguments` to its driver.
+fn served(setup: Setup, axes: &str, arguments: &str, force: &str) -> OnTheWire {
+    let options = ServeOptions {
+        force: ForceKind::Netft,
+        netft: setup,
+        ..ServeOptions::over(BenchOptions::quiet(SEED))
+    };
+    // Depths from a fitted surface do not depend on the step at which a late force shows the contact.
+    let threshold = "threshold_N = 0.021";
+    let scene = scene_of(PRESSES);
+    assert!(scene.contains(threshold), "{scene}");
+    let surface = format!("{threshold}\ndepth_from = \"surface\"");
+    let on = OnTheWire::new(&options, &scene.replace(threshold, &surface));
+    let path = on.folder().join("rig.toml");
+    let text = fs::read_to_string(&path).expect("written");
+    let (robot, rest) = text.split_once("[force]\n").expect("a transducer");
+    let (driver, rest) = rest.split_once("\"\n").expect("a driver");
+    let rest = rest.replacen(OWN, axes, 1);
+    let (before, after) = rest.split_once("latency_ms = 0.0\n").expect("a latency");
+    let text = format!("{robot}[force]\n{driver}{arguments}\"\n{before}{force}\n{after}");
+    fs::write(&path, text).expect("written");
+    on
+}
+
+/// Runs the study to its end, and resumes it if the machine was too busy. Returns the error of any other end.
+fn ended(on: &OnTheWire) -> Result<(), String> {
+    for _ in 0..PATIENCE {
+        match finished(on.study()) {
+            Ok(_) => return Ok(()),
+            Err(said) if said.contains("ms old") || said.contains("ms late") => {}
+            Err(said) => return Err(said),
+        }
+    }
+    Err("the machine is too busy".to_owned())
+}
+
+/// Depth and forces of each sample, by name.
+fn labels(on: &OnTheWire) -> BTreeMap<String, [f64; 4]> {
+    let recording = on.recording(RUN);
+    let table = recording.table();
+    let columns = ["Pz", "Fx", "Fy", "Fz"].map(|name| {
+        let position = table.channels().position(name);
+        table.truth(position.expect("it is measured"))
+    });
+    let samples = table.samples().iter().cloned().enumerate();
+    let rows = samples.map(|(row, name)| {
+        let label = columns.map(|column| column.get(row).expect("a label"));
+        (name, label)
+    });
+    rows.collect()
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "the differences are the result")]
+fn a_study_with_a_turned_frame_a_low_pass_and_drift_ends_within_2_percent_of_one_without() {
+    let plain = served(Setup::PLAIN, OWN, "", "latency_ms = 0.0");
+    ended(&plain).expect("a plain box");
+    let bent = served(BENT, TURNED, ";frame=tool", "latency_ms = 31.8");
+    ended(&bent).expect("a box that states what it does");
+    let (expected, found) = (labels(&plain), labels(&bent));
+    assert!(expected.keys().eq(found.keys()), "they are of one plan");
+    assert_eq!(found.len(), 2 * PRESSES);
+    let forces = expected.values().flat_map(|[_, forces @ ..]| forces);
+    let greatest_n = forces.fold(0.0, |most: f64, force_n| most.max(force_n.abs()));
+    let (mut depth_mm, mut force_n) = (0.0_f64, 0.0_f64);
+    for (name, expected) in &expected {
+        let [depth_apart, forces_apart @ ..] =
+            std::array::from_fn::<f64, 4, _>(|at| (found[name][at] - expected[at]).abs());
+        depth_mm = depth_mm.max(depth_apart);
+        force_n = forces_apart.into_iter().fold(force_n, f64::max);
+    }
+    eprintln!("depths by {depth_mm:.4} mm, forces by {force_n:.4} N of {greatest_n:.3} N");
+    assert!(depth_mm <= DEPTH_APART_MM, "{depth_mm} mm");
+    assert!(
+        force_n <= FORCE_PART * greatest_n,
+        "{force_n} of {greatest_n} N"
+    );
+    let recording = bent.recording(RUN);
+    let settings = &recording.header().settings;
+    assert_eq!(settings["force_frame"], "tool 0;0;0;90;0;0 (mm, degrees)");
+    assert_eq!(settings["force_filter"], "8");
+    assert_eq!(settings["force_latency_ms"], "31.8");
+    assert_eq!(settings["force_axes"], "[\"x\", \"z\", \"-y\"]");
+    // The drift is recorded as a signal: each press has its own zero, which rises.
+    let zeros = press_zeros(recording.path());
+    let kept: Vec<f64> = zeros
+        .iter()
+        .filter(|zero| zero.is_kept)
+        .map(|zero| zero.before_fz_n)
+        .collect();
+    assert_eq!(kept.len(), PRESSES);
+    assert!(
+        (kept[PRESSES - 1] - kept[0]).abs() > DRIFT_N_MIN / 12.0,
+        "{kept:?}"
+    );
+    let results = fs::read_to_string(bent.results(RUN)).expect("results");
+    assert!(results.contains("the zero of the transducer changed by at most"));
+}
+
+#[test]
+fn a_box_that_hides_its_frame_and_its_low_pass_ends_in_warnings_in_recording_and_report() {
+    let hidden = Setup {
+        is_hidden: true,
+        ..BENT
+    };
+    let on = served(hidden, TURNED, "", "latency_ms = 31.8");
+    ended(&on).expect("nothing contradicts the rig file");
+    let recording = on.recording(RUN);
+    let warnings = &recording.header().warnings;
+    let results = fs::read_to_string(on.results(RUN)).expect("results");
+    for entry in ["cfgtfx", "setuserfilter"] {
+        let names = |warning: &&String| warning.contains(entry);
+        assert_eq!(warnings.iter().filter(names).count(), 1, "{warnings:?}");
+        assert!(results.contains(entry), "no note names {entry}");
+    }
+    assert!(results.contains("warning of a device: "));
+    assert_eq!(
+        recording.header().settings["force_frame"],
+        "unknown".to_owned()
+    );
+}
+
+#[test]
+fn a_zero_that_drifts_beyond_its_limit_stops_the_study_above_the_gel() {
+    let fast = Setup {
+        drift_n_min: 0.06,
+        ..Setup::PLAIN
+    };
+    let limit = "latency_ms = 0.0\nzero_step_max_N = 0.001";
+    let on = served(fast, OWN, "", limit);
+    let said = ended(&on).expect_err("it drifts by more in each press");
+    assert!(
+        said.contains("the zero of Fz changed from") && said.contains("`zero_step_max_N`"),
+        "{said}"
+    );
+    let truth = on.served.bench().truth();
+    assert!(!truth.is_moving && truth.tip_mm[2] < -0.9, "{truth:?}");
+}
