@@ -18,8 +18,8 @@ pub(crate) struct CatalogueArgs {
 #[derive(Debug, Subcommand)]
 pub(crate) enum CatalogueSubject {
     /// List every sensor
-    List(Output),
-    /// Show the published numbers of one sensor, each with its source
+    List(CatalogueList),
+    /// Show the numbers of one sensor, each with its source
     Show(CatalogueShow),
     /// Write the catalogue as pages: a list to filter and sort, and one page for each sensor
     Site(CatalogueSite),
@@ -30,9 +30,21 @@ pub(crate) enum CatalogueSubject {
 }
 
 #[derive(Debug, Args)]
+pub(crate) struct CatalogueList {
+    /// The folder of a catalogue, whose sensors are listed too, with the number of their rows
+    #[arg(long, value_name = "DIR")]
+    pub(crate) catalogue: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+#[derive(Debug, Args)]
 pub(crate) struct CatalogueShow {
     /// The name of the sensor
     pub(crate) name: String,
+    /// The folder of a catalogue, whose numbers follow the published ones; each states its level
+    #[arg(long, value_name = "DIR")]
+    pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }

@@ -14,14 +14,14 @@ use taceva_report::{SitePage, Table};
 
 use super::{Context, Usage, results};
 use crate::args::{
-    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueShow, CatalogueSite,
+    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueList, CatalogueShow, CatalogueSite,
     CatalogueSubject, Format, Output,
 };
 use crate::{exit, output};
 
 pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8> {
     match &args.subject {
-        CatalogueSubject::List(output) => list(output),
+        CatalogueSubject::List(args) => list(args),
         CatalogueSubject::Show(args) => show(args),
         CatalogueSubject::Site(args) => site(args, context),
         CatalogueSubject::Add(args) => add(args, context),
@@ -29,12 +29,14 @@ pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8>
     }
 }
 
-fn list(output: &Output) -> anyhow::Result<u8> {
-    write(output, &catalogue::list(&catalogue::all()))
+fn list(args: &CatalogueList) -> anyhow::Result<u8> {
+    let sensors = sensors(args.catalogue.as_deref())?;
+    write(&args.output, &catalogue::list(&sensors))
 }
 
 fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
-    let sensor = catalogue::named(&args.name).map_err(|error| {
+    let sensors = sensors(args.catalogue.as_deref())?;
+    let sensor = catalogue::named_among(&sensors, &args.name).map_err(|error| {
         let name = taceva_report::escape_terminal(&args.name);
         Usage::error(format!("`{name}`: {error}"))
     })?;
