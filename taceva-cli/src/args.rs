@@ -33,8 +33,8 @@ pub(crate) use self::bundle::{
 };
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::catalogue::{
-    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueList, CatalogueShow, CatalogueSite,
-    CatalogueSubject,
+    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueExport, CatalogueList, CatalogueShow,
+    CatalogueSite, CatalogueSubject,
 };
 pub(crate) use self::common_options::{
     CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,

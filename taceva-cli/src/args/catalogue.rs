@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use taceva_bundle::MOST_BYTES;
+use taceva_bundle::{MOST_BYTES, Organization};
 use taceva_report::catalogue::{ADDRESS, is_address};
 
 use super::Output;
@@ -27,6 +27,8 @@ pub(crate) enum CatalogueSubject {
     Add(CatalogueAdd),
     /// Check the catalogue in a folder without a network, and write its index; the exit code is 1 if there is a finding
     Check(CatalogueCheckArgs),
+    /// Write the catalogue in a folder in forms that other programs read
+    Export(CatalogueExport),
 }
 
 #[derive(Debug, Args)]
@@ -91,6 +93,29 @@ pub(crate) struct CatalogueCheckArgs {
     pub(crate) catalogue: PathBuf,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// A form holds numbers of bundles alone. Write it again after `taceva catalogue add`.
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueExport {
+    /// The folder of the catalogue
+    #[arg(value_name = "DIR")]
+    pub(crate) catalogue: PathBuf,
+    /// Write eval.yaml and .eval_results/SENSOR.yaml, for the hub of Hugging Face, into this folder
+    #[arg(long = "hf", value_name = "FOLDER")]
+    pub(crate) hub: Option<PathBuf>,
+    /// Write croissant.json into the folder of the catalogue, with the digest of each of its files
+    #[arg(long)]
+    pub(crate) croissant: bool,
+    /// Write ro-crate-metadata.json into the folder of the catalogue, with the digest of each of its files
+    #[arg(long = "crate")]
+    pub(crate) ro_crate: bool,
+    /// The organization that publishes the catalogue
+    #[arg(long, value_name = "NAME <URL>")]
+    pub(crate) organization: Option<Organization>,
+    /// Replace files that exist already
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// Parses the address of a bundle.

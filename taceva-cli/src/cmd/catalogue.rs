@@ -1,12 +1,13 @@
 //! `taceva catalogue`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use taceva_bundle::{
-    AddRequest, add_to_catalogue, catalogue_entries, check_catalogue, write_index,
+    AddRequest, CatalogueForm, add_to_catalogue, catalogue_entries, catalogue_form,
+    check_catalogue, write_index,
 };
 use taceva_core::{counted, shown};
 use taceva_report::catalogue::{self, Sensor};
@@ -14,8 +15,8 @@ use taceva_report::{SitePage, Table};
 
 use super::{Context, Usage, results};
 use crate::args::{
-    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueList, CatalogueShow, CatalogueSite,
-    CatalogueSubject, Format, Output,
+    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueExport, CatalogueList, CatalogueShow,
+    CatalogueSite, CatalogueSubject, Format, Output,
 };
 use crate::{exit, output};
 
@@ -26,6 +27,7 @@ pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8>
         CatalogueSubject::Site(args) => site(args, context),
         CatalogueSubject::Add(args) => add(args, context),
         CatalogueSubject::Check(args) => check(args),
+        CatalogueSubject::Export(args) => export(args),
     }
 }
 
@@ -113,6 +115,41 @@ fn add(args: &CatalogueAdd, context: &Context) -> anyhow::Result<u8> {
             Some(badge) => writeln!(out, "{badge}"),
             None => Ok(()),
         }
+    })?;
+    Ok(exit::DONE)
+}
+
+fn export(args: &CatalogueExport) -> anyhow::Result<u8> {
+    let root = args.catalogue.as_path();
+    let wanted = [
+        (CatalogueForm::Hub, args.hub.as_deref()),
+        (CatalogueForm::Croissant, args.croissant.then_some(root)),
+        (CatalogueForm::Crate, args.ro_crate.then_some(root)),
+    ];
+    if wanted.iter().all(|(_, folder)| folder.is_none()) {
+        let problem = "name a form: --hf FOLDER, --croissant or --crate";
+        return Err(Usage::error(problem));
+    }
+    let mut files: BTreeMap<PathBuf, String> = BTreeMap::new();
+    for (form, folder) in wanted {
+        let Some(folder) = folder else { continue };
+        let of_form = catalogue_form(root, form, args.organization.as_ref())?;
+        files.extend(
+            of_form
+                .into_iter()
+                .map(|file| (folder.join(file.path), file.text)),
+        );
+    }
+    output::check_all_free(files.keys(), args.force)?;
+    for (path, text) in &files {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
+        }
+        output::write(Some(path), |out| out.write_all(text.as_bytes()))?;
+    }
+    output::write(None, |out| {
+        let mut paths = files.keys();
+        paths.try_for_each(|path| writeln!(out, "wrote    {}", shown(path)))
     })?;
     Ok(exit::DONE)
 }

@@ -1,5 +1,6 @@
 //! Catalogues of bundles in a folder: added to, checked, compared, chosen from, shown.
 
+mod export;
 mod findings;
 mod pages;
 

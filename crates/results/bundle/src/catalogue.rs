@@ -3,6 +3,7 @@
 mod addition;
 mod entry_place;
 mod error;
+mod export;
 mod finding;
 mod folder;
 mod index;
@@ -13,6 +14,7 @@ mod submission;
 
 pub use addition::{Addition, add};
 pub use error::CatalogueFolderError;
+pub use export::{CatalogueForm, FormFile, catalogue_form};
 pub use finding::CatalogueFinding;
 pub use index::INDEX_SCHEMA;
 pub use inspection::{CatalogueCheck, check_catalogue, entries, write_index};

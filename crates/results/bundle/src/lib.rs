@@ -38,8 +38,9 @@ mod yaml;
 
 pub use author::{Author, is_licence};
 pub use catalogue::{
-    AddRequest, Addition, CatalogueCheck, CatalogueFinding, CatalogueFolderError, INDEX_SCHEMA,
-    add as add_to_catalogue, check_catalogue, entries as catalogue_entries, write_index,
+    AddRequest, Addition, CatalogueCheck, CatalogueFinding, CatalogueFolderError, CatalogueForm,
+    FormFile, INDEX_SCHEMA, add as add_to_catalogue, catalogue_form, check_catalogue,
+    entries as catalogue_entries, write_index,
 };
 pub use claim::Claim;
 pub use comparison::{
