@@ -166,7 +166,7 @@ impl From<LevelArg> for Level {
 fn licence(text: &str) -> Result<String, String> {
     match taceva_bundle::is_licence(text) {
         true => Ok(text.to_owned()),
-        false => Err("expected an SPDX identifier, such as CC-BY-4.0 or MIT".to_owned()),
+        false => Err(taceva_bundle::expected_licence(text)),
     }
 }
 

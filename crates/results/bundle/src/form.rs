@@ -5,7 +5,7 @@ use std::num::NonZeroUsize;
 
 use taceva_results::EvaluationReport;
 
-use crate::author::{Author, MOST_NAME, is_licence};
+use crate::author::{Author, MOST_NAME};
 use crate::claim_list;
 use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
@@ -15,6 +15,7 @@ use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_AUTHORS, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES,
     is_header,
 };
+use crate::licence::has_form;
 use crate::manifest::{Manifest, badge_of, model_digest, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
@@ -227,7 +228,8 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
 /// Fault of authors, organization or licence, which forms repeat.
 pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     let authors = &manifest.authors;
-    let (organization, licence) = (manifest.organization.as_ref(), manifest.licence.as_deref());
+    let organization = manifest.organization.as_ref();
+    let licence = manifest.licence.as_deref();
     let problem = if authors.len() > MOST_AUTHORS {
         format!("{} authors, expected at most {MOST_AUTHORS}", authors.len())
     } else if let Some(position) = authors.iter().position(|author| !author.is_right()) {
@@ -242,7 +244,7 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
         format!(
             "organization: expected a printable name of 1 to {MOST_NAME} bytes, and the address of its page"
         )
-    } else if licence.is_some_and(|own| !is_licence(own)) {
+    } else if licence.is_some_and(|own| !has_form(own)) {
         "licence: expected an SPDX identifier, such as CC-BY-4.0".to_owned()
     } else {
         return None;

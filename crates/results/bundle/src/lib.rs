@@ -17,6 +17,7 @@ mod header;
 mod inputs;
 mod layout;
 mod level;
+mod licence;
 mod make;
 mod manifest;
 mod model_card;
@@ -36,7 +37,7 @@ mod verify;
 mod writer;
 mod yaml;
 
-pub use author::{Author, is_licence};
+pub use author::Author;
 pub use catalogue::{
     AddRequest, Addition, CatalogueCheck, CatalogueFinding, CatalogueFolderError, CatalogueForm,
     FormFile, INDEX_SCHEMA, add as add_to_catalogue, catalogue_form, check_catalogue,
@@ -49,6 +50,7 @@ pub use comparison::{
 pub use error::{BundleError, Damage};
 pub use layout::MOST_BYTES;
 pub use level::Level;
+pub use licence::{expected_licence, is_licence};
 pub use make::{MadeBundle, make};
 pub use manifest::{BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld};
 pub use organization::Organization;

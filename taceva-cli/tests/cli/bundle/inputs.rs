@@ -55,6 +55,19 @@ fn a_run_is_verified_to_the_scores_by_the_states_of_its_phases() {
 }
 
 #[test]
+fn a_licence_is_an_spdx_identifier_and_a_mistyped_one_gets_the_nearest() {
+    let bench = bench();
+    for (licence, message) in [
+        ("cc-by-4.0", "did you mean `CC-BY-4.0`?"),
+        ("CC-BY-4.O", "did you mean `CC-BY-4.0`?"),
+        ("public", "expected an SPDX identifier"),
+    ] {
+        let words = format!("{BUNDLE} b --author Ada --licence {licence}");
+        bench.refused(&words, 2, message);
+    }
+}
+
+#[test]
 fn texts_are_redacted_and_counted() {
     let bench = bench();
     bench.write(

@@ -159,9 +159,12 @@ fn a_number_of_a_bundle_that_no_entry_holds_is_found() {
 fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
     let bench = catalogue();
     forge(&bench, "foo", |manifest| {
-        manifest["licence"] = "ask me".into()
+        manifest["licence"] = "CC-BY-4".into()
     });
-    has(&findings(&bench), &["`ask me`", "SPDX identifier"]);
+    has(
+        &findings(&bench),
+        &["`CC-BY-4`", "SPDX identifier", "did you mean `CC-BY-4.0`?"],
+    );
     let bench = catalogue();
     forge(&bench, "foo", |manifest| manifest["draft"] = true.into());
     has(&findings(&bench), &["bundles/", "a draft: expected"]);
