@@ -67,6 +67,19 @@ fn a_licence_is_an_spdx_identifier_and_a_mistyped_one_gets_the_nearest() {
     }
 }
 
+#[cfg(unix)]
+#[test]
+fn a_full_disk_ends_a_verification_and_is_no_damage() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b.tar.gz"));
+    let ran = bench.shell("trap '' XFSZ; ulimit -f 1; exec taceva bundle verify b.tar.gz -q");
+    assert_eq!(ran.code, 3, "{}{}", ran.out, ran.err);
+    let words = "b.tar.gz: cannot be unpacked into ";
+    assert!(ran.err.contains(words), "{}", ran.err);
+    assert!(ran.err.contains("TMPDIR"), "{}", ran.err);
+    assert!(!ran.out.contains("damage"), "{}", ran.out);
+}
+
 #[test]
 fn texts_are_redacted_and_counted() {
     let bench = bench();
