@@ -70,7 +70,7 @@ pub use predict::{
 pub use prediction_check::{PredictionCheck, check_predictions};
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, reduced};
-pub use recount::{Recount, recount_samples};
+pub use recount::{Recount, recount_phases, recount_samples};
 pub use refit::{Refit, refit};
 pub use report::skipped;
 pub use row_ledger::Taken;

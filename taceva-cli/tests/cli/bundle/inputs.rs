@@ -4,7 +4,9 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::forgery::manifest;
+use taceva_files::seal::digest_of_bytes;
+
+use super::forgery::{accept, edit, manifest, of_another_version, relist};
 use super::{BUNDLE, bench, of_verdict, score, verified};
 use crate::support::Bench;
 
@@ -19,6 +21,14 @@ sensor = { driver = "sim/gelsight" }
 metrics = { want = ["mae", "noise_equivalent_force"] }
 protocol = { calibration = { points = 12, indentations = 2 }, idle = { frames = 12 } }
 "#;
+
+/// A run in the folder `run`.
+fn run() -> Bench {
+    let bench = Bench::new();
+    bench.write("small.toml", SCENE);
+    bench.ok("run small.toml --out run -q");
+    bench
+}
 
 #[test]
 fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_read() {
@@ -38,10 +48,8 @@ fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_rea
 }
 
 #[test]
-fn a_run_is_verified_to_the_scores_by_the_states_of_its_phases() {
-    let bench = Bench::new();
-    bench.write("small.toml", SCENE);
-    bench.ok("run small.toml --out run -q");
+fn a_run_is_verified_by_its_samples_phase_by_phase() {
+    let bench = run();
     bench.ok("bundle run --draft --out b.tar.gz -q");
     let found = verified(&bench, "b.tar.gz", 0);
     let claims = found["claims"].as_array().expect("claims");
@@ -51,7 +59,48 @@ fn a_run_is_verified_to_the_scores_by_the_states_of_its_phases() {
         "{}",
         found["levels"]
     );
-    assert!(claims.iter().all(|claim| claim["level"] == "scores"));
+    let errors = claims.iter().filter(|claim| claim["metric"] == "mae");
+    let errors: Vec<&Value> = errors.collect();
+    assert!(!errors.is_empty());
+    assert!(
+        errors.iter().all(|claim| claim["level"] == "predictions"),
+        "{errors:?}"
+    );
+}
+
+#[test]
+fn an_edited_prediction_of_a_run_leaves_its_claims_below_the_level_that_they_state() {
+    let bench = run();
+    bench.ok("bundle run --draft --out b -q");
+    let table = bench.path("b/tables/samples-0.csv");
+    let digest = || digest_of_bytes(&fs::read(&table).expect("written"));
+    let old = digest();
+    edit(&table, |text| {
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        let mut names = lines[0].split(',');
+        let at = names.position(|name| name == "Fz_predicted");
+        let at = at.expect("a predicted force");
+        for line in &mut lines[1..] {
+            let mut cells: Vec<&str> = line.split(',').collect();
+            if !cells[at].is_empty() {
+                cells[at] = "0.015625";
+                *line = cells.join(",");
+            }
+        }
+        lines.join("\n") + "\n"
+    });
+    let new = digest();
+    let results = bench.path("b/results.json");
+    edit(&results, |text| text.replace(&old, &new));
+    accept(&results);
+    relist(&bench, "b", of_another_version);
+    let found = verified(&bench, "b", 1);
+    let lost = of_verdict(&found, "not recomputable");
+    assert!(!lost.is_empty(), "{}", found["summary"]);
+    for claim in lost {
+        let reason = claim["reason"].as_str().expect("a reason");
+        assert!(reason.contains("states the level predictions"), "{reason}");
+    }
 }
 
 #[test]
