@@ -206,9 +206,20 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     damage
 }
 
-/// A manifest that states another origin than the results.
+/// Origin in the manifest, as a whole or of a study, that is not that of the results.
 fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
+    let rule = "the origin of samples is that of the results";
     let (source, badge) = (source_of(reports), badge_of(reports));
+    for (number, (files, report)) in manifest.studies.iter().zip(reports).enumerate() {
+        let expected = &report.subject.source;
+        if files.source != *expected {
+            let problem = format!(
+                "study {number} has the origin `{}`, expected `{expected}`",
+                files.source
+            );
+            return Some(Damage::new(MANIFEST, rule, problem));
+        }
+    }
     let is_same = manifest.source == source && manifest.badge == badge;
     (!is_same).then(|| {
         let problem = format!(
@@ -217,11 +228,7 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
             manifest.badge.as_deref().unwrap_or("none"),
             badge.as_deref().unwrap_or("none"),
         );
-        Damage::new(
-            MANIFEST,
-            "the origin of samples is that of the results",
-            problem,
-        )
+        Damage::new(MANIFEST, rule, problem)
     })
 }
 

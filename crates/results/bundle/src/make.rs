@@ -18,7 +18,7 @@ use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TEXT, RESULTS, SAMPLES,
     is_own,
 };
-use crate::manifest::{BUNDLE_SCHEMA, Manifest, badge_of, source_of};
+use crate::manifest::{BUNDLE_SCHEMA, Manifest, StudyFiles, badge_of, source_of};
 use crate::redaction::{Redaction, redacted};
 use crate::request::BundleRequest;
 use crate::sample_digest::{SampleDigest, StudySamples};
@@ -104,7 +104,10 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
             None => StudySamples::of_provenance(report),
         });
         let files = writer.study(number, study, request.withholds_predictions, &mut withheld)?;
-        studies.push(files);
+        studies.push(StudyFiles {
+            source: report.subject.source.clone(),
+            ..files
+        });
     }
     let samples = SampleDigest::of(samples);
     writer.json(SAMPLES, "samples digest", &samples)?;

@@ -100,6 +100,9 @@ impl BundledFile {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StudyFiles {
+    /// Origin of the samples of the study, as in the results.
+    #[serde(default)]
+    pub source: String,
     /// States; several are merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,

@@ -171,6 +171,20 @@ fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
 }
 
 #[test]
+fn the_origin_of_a_number_is_that_of_its_study_in_the_manifest() {
+    let bench = catalogue();
+    forge(&bench, "foo", |manifest| {
+        manifest["source"] = "several".into()
+    });
+    assert!(findings(&bench).is_empty());
+    edit(&bench.path("c/entries/foo.toml"), |text| {
+        let text = text.replace("[[measured]]", "[[simulated]]");
+        text.replace("source = \"recorded\"", "source = \"simulated\"")
+    });
+    has(&findings(&bench), &["`source` of ", "expected recorded"]);
+}
+
+#[test]
 fn the_same_results_and_the_same_row_twice_are_found() {
     let bench = catalogue();
     let name = names(&bench, "bundles").remove(0);
