@@ -131,3 +131,24 @@ fn shares_of_predictions_beyond_the_bounds_come_again_from_the_table_of_samples(
     // A share of zero would prove nothing.
     assert!(greatest > 0.0, "{}", report["metrics"]);
 }
+
+#[test]
+fn both_branches_of_a_press_are_predicted_on_request() {
+    let scene = |asked: &str| {
+        let small = SCENE.replace("\"sr\", \"inter_sensor\", ", "\"mae\", \"hysteresis\", ");
+        let branches = format!("hysteresis = {{ points = 2, depth_step_mm = 0.5{asked} }}");
+        small.replace("gratings = { step_mm = 0.75, presses = 4 }", &branches)
+    };
+    let Run { samples, .. } = run(&scene(", predicted = true"));
+    let rows = samples.of_protocol("load-unload");
+    let force = samples.channel("Fz").expect("a channel");
+    for phase in ["load", "unload"] {
+        let mut own = rows.iter().copied();
+        assert!(own.any(|row| samples.word("phase", row) == Some(phase)));
+    }
+    assert!(rows.iter().all(|row| force.pair(*row).is_some()));
+    let Run { samples, .. } = run(&scene(""));
+    let rows = samples.of_protocol("load-unload");
+    let force = samples.channel("Fz").expect("a channel");
+    assert!(!rows.is_empty() && rows.iter().all(|row| force.prediction(*row).is_none()));
+}

@@ -153,6 +153,8 @@ table! {
         points: u32 = 100,
         /// Step between depths, in mm.
         depth_step_mm: f64 = 0.1,
+        /// True to capture a frame at each depth of both branches, which the model predicts.
+        predicted: bool = false,
     }
 }
 

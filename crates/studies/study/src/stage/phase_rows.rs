@@ -66,13 +66,18 @@ impl<'a> PhaseRows<'a> {
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// Phases of the protocol with needed predictions: the phases of metrics, and the calibration, which gives the skill of the model.
+    /// Phases of the protocol with needed predictions: the phases of metrics, the calibration, which gives the skill of the model, and loading and unloading
+    /// if their presses have frames.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
         let mut phases: BTreeSet<PhaseKind> = predicted.map(|(planned, _)| planned.phase).collect();
         if !phases.is_empty() {
             phases.insert(PhaseKind::Calibration);
+            let mut branches = self.plan.presses_of(PhaseKind::LoadUnload);
+            if branches.any(|press| press.frames) {
+                phases.insert(PhaseKind::LoadUnload);
+            }
         }
         phases
     }
