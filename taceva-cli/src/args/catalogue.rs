@@ -91,6 +91,9 @@ pub(crate) struct CatalogueCheckArgs {
     /// The folder of the catalogue
     #[arg(value_name = "DIR")]
     pub(crate) catalogue: PathBuf,
+    /// A bundle at hand to verify again, whose manifest must be in the catalogue; may be repeated
+    #[arg(long = "bundle", value_name = "BUNDLE")]
+    pub(crate) bundles: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }

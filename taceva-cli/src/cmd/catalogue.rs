@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use taceva_bundle::{
-    AddRequest, CatalogueForm, add_to_catalogue, catalogue_entries, catalogue_form,
+    AddRequest, CatalogueForm, add_to_catalogue, catalogue_entries, catalogue_form, check_bundles,
     check_catalogue, write_index,
 };
 use taceva_core::{counted, shown};
@@ -26,7 +26,7 @@ pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8>
         CatalogueSubject::Show(args) => show(args),
         CatalogueSubject::Site(args) => site(args, context),
         CatalogueSubject::Add(args) => add(args, context),
-        CatalogueSubject::Check(args) => check(args),
+        CatalogueSubject::Check(args) => check(args, context),
         CatalogueSubject::Export(args) => export(args),
     }
 }
@@ -154,11 +154,13 @@ fn export(args: &CatalogueExport) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-fn check(args: &CatalogueCheckArgs) -> anyhow::Result<u8> {
+fn check(args: &CatalogueCheckArgs, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.output.path {
         output::check_free(path, args.output.force)?;
     }
-    let found = check_catalogue(&args.catalogue)?;
+    let mut found = check_catalogue(&args.catalogue)?;
+    let of_bundles = check_bundles(&args.catalogue, &args.bundles, context.jobs)?;
+    found.findings.extend(of_bundles);
     let caption = format!(
         "{} in {}, {} and {}",
         counted(found.findings.len() as u64, "finding"),

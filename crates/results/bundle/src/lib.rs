@@ -40,8 +40,8 @@ mod yaml;
 pub use author::Author;
 pub use catalogue::{
     AddRequest, Addition, CatalogueCheck, CatalogueFinding, CatalogueFolderError, CatalogueForm,
-    FormFile, INDEX_SCHEMA, add as add_to_catalogue, catalogue_form, check_catalogue,
-    entries as catalogue_entries, write_index,
+    FormFile, INDEX_SCHEMA, add as add_to_catalogue, catalogue_form, check_bundles,
+    check_catalogue, entries as catalogue_entries, write_index,
 };
 pub use claim::Claim;
 pub use comparison::{

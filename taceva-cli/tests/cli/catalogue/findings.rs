@@ -185,6 +185,25 @@ fn the_origin_of_a_number_is_that_of_its_study_in_the_manifest() {
 }
 
 #[test]
+fn bundles_at_hand_are_verified_again_and_must_be_those_of_the_catalogue() {
+    let bench = catalogue();
+    bench.ok("catalogue check c --bundle one");
+    bundle(&bench, "two", "Foo", 0.02);
+    edit(&bench.path("one/tables/prediction.csv"), |text| {
+        text.replacen('1', "2", 1)
+    });
+    let ran = bench.run("catalogue check c --bundle one --bundle two --format csv");
+    assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
+    for words in [
+        "one,,damaged: tables/prediction.csv",
+        "two,,its manifest is not in the catalogue",
+    ] {
+        assert!(ran.out.replace('"', "").contains(words), "{}", ran.out);
+    }
+    bench.refused("catalogue check c --bundle nowhere", 3, "nowhere");
+}
+
+#[test]
 fn the_same_results_and_the_same_row_twice_are_found() {
     let bench = catalogue();
     let name = names(&bench, "bundles").remove(0);

@@ -202,7 +202,7 @@ pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
 }
 
 /// Rejects a bundle that is damaged or not verified.
-fn check_outcome(found: &Verification, path: &Path) -> Result<(), CatalogueFolderError> {
+pub(super) fn check_outcome(found: &Verification, path: &Path) -> Result<(), CatalogueFolderError> {
     match found.outcome() {
         Outcome::Verified => return Ok(()),
         Outcome::Damaged => {
