@@ -87,9 +87,8 @@ pub(crate) fn verification(
 
 fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
     let to = &args.output;
-    if let Some(path) = to.path.as_deref() {
-        output::check_free(path, to.force)?;
-    }
+    let files = to.path.iter().chain(&args.page.path);
+    output::check_all_free(files, to.force)?;
     if args.level == Some(LevelArg::Fit) {
         context.say(format_args!(
             "each model is fitted again, which takes as long as its first fit"
@@ -102,6 +101,10 @@ fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::bundle::verification(&found, to.format, out)
     })?;
+    if let Some(path) = &args.page.path {
+        let page = report::verification_page::page(&found);
+        output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
+    }
     Ok(match found.outcome() {
         Outcome::Verified => exit::DONE,
         Outcome::Damaged => exit::BAD_INPUT,

@@ -116,6 +116,36 @@ fn a_licence_is_an_spdx_identifier_and_a_mistyped_one_gets_the_nearest() {
     }
 }
 
+#[test]
+fn a_page_has_a_tick_for_every_level_that_a_claim_reached() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b --name <b>"));
+    bench.ok("bundle verify b --html v.html");
+    let read = |name: &str| fs::read_to_string(bench.path(name)).expect("written");
+    let page = read("v.html");
+    for words in [
+        "mae of Fz",
+        "predictions",
+        "✓",
+        "&lt;b&gt;",
+        "A seal is a digest",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(
+        !page.contains("<td>✗") && !page.contains("of <b>"),
+        "{page}"
+    );
+    relist(&bench, "b", |manifest| {
+        manifest["claims"][0]["value"] = 123.5.into()
+    });
+    let ran = bench.run("bundle verify b --html w.html");
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let page = read("w.html");
+    assert!(page.contains("✗") && page.contains("123.5"), "{page}");
+    bench.refused("bundle verify b --html w.html", 3, "--force replaces it");
+}
+
 #[cfg(unix)]
 #[test]
 fn a_full_disk_ends_a_verification_and_is_no_damage() {
