@@ -4,6 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
+use taceva_core::Isa;
 use taceva_files::seal::digest_of_bytes;
 
 use super::forgery::{accept, edit, manifest, of_another_version, relist};
@@ -113,6 +114,23 @@ fn a_licence_is_an_spdx_identifier_and_a_mistyped_one_gets_the_nearest() {
     ] {
         let words = format!("{BUNDLE} b --author Ada --licence {licence}");
         bench.refused(&words, 2, message);
+    }
+}
+
+#[test]
+fn every_claim_is_equal_by_every_instruction_set_of_this_machine() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b"));
+    let sets = Isa::available();
+    assert!(sets.contains(&Isa::Portable));
+    for set in sets {
+        let mut command = bench.command("bundle verify b --level predictions --format json -q");
+        let output = command.env("TACEVA_ISA", set.name()).output();
+        let output = output.expect("the program starts");
+        assert_eq!(output.status.code(), Some(0), "{}", set.name());
+        let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let claims = found["claims"].as_array().expect("claims").len();
+        assert_eq!(found["summary"]["equal"], claims, "{}", set.name());
     }
 }
 
