@@ -30,6 +30,13 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
         true => needed.with(Field::Stamp),
         false => needed,
     };
+    let inputs = facts.phase_inputs.as_ref();
+    let are_units_compared = collected.phases.contains(&PhaseKind::Repeatability)
+        && inputs.is_some_and(|inputs| inputs.protocol.repeatability.every_unit.value);
+    let needed = match are_units_compared {
+        true => needed.with(Field::UnitId),
+        false => needed,
+    };
     for field in collected.fields.iter().collect::<Vec<Field>>() {
         if !needed.contains(field) {
             collected.fields = collected.fields.without(field);
@@ -45,7 +52,6 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
         let height = Subject::Channel(SURFACE.to_owned());
         collected.skip(height, PlanReason::NoMetricNeeds);
     }
-    let inputs = facts.phase_inputs.as_ref();
     let are_branches_predicted =
         predicted && inputs.is_some_and(|inputs| inputs.protocol.hysteresis.predicted.value);
     let seen: Vec<_> = collected

@@ -143,6 +143,8 @@ table! {
         depth_step_mm: f64 = 0.1,
         /// Shear along x at the greatest depth, in mm; 0 for none.
         shear_mm: f64 = 0.75,
+        /// True to repeat the presses on every unit, which shows the differences between units.
+        every_unit: bool = false,
     }
 }
 
