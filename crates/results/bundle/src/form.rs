@@ -7,7 +7,6 @@ use taceva_results::EvaluationReport;
 
 use crate::author::{Author, MOST_NAME};
 use crate::claim_list;
-use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
 use crate::header;
@@ -20,6 +19,7 @@ use crate::manifest::{Manifest, badge_of, model_digest, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
+use crate::table_facts::TableFacts;
 use crate::texts;
 
 /// Rule of tables of samples.
@@ -94,15 +94,12 @@ pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> 
 }
 
 /// Faults of the form, except of states, of a bundle whose files are those of its manifest.
-///
-/// # Errors
-/// [`BundleError::File`] for a file that cannot be read.
 pub(crate) fn form(
     source: &Source,
     manifest: &Manifest,
     reports: &[EvaluationReport],
     jobs: NonZeroUsize,
-) -> Result<Vec<Damage>, BundleError> {
+) -> Vec<Damage> {
     let mut damage = Vec::new();
     damage.extend(studies(source, manifest, reports));
     damage.extend(origin(manifest, reports));
@@ -111,10 +108,11 @@ pub(crate) fn form(
         damage.extend(claim_list::fault(manifest, reports));
     }
     if !damage.is_empty() {
-        return Ok(damage);
+        return damage;
     }
     damage.extend(environment(source).err());
-    damage.extend(samples(source, manifest, reports, jobs)?);
+    let tables = TableFacts::of(source, manifest, jobs);
+    damage.extend(samples(source, manifest, reports, &tables));
     let known = header::known(reports);
     // A header keeps its name, whatever its role.
     let headers = manifest
@@ -129,8 +127,7 @@ pub(crate) fn form(
             // A claim that was edited in the manifest alone is found by its number.
             *claim = claim.as_in(&reports[claim.study]);
         }
-        let tables = TableColumns::of(source, manifest, jobs);
-        for (name, expected) in texts::all(&restored, &tables) {
+        for (name, expected) in texts::all(&restored, &tables.columns) {
             let rule = "generated files are what bundle.json and results.json give";
             match source.text(name, MOST_TEXT) {
                 Ok(found) if found == expected => {}
@@ -139,7 +136,7 @@ pub(crate) fn form(
             }
         }
     }
-    Ok(damage)
+    damage
 }
 
 /// Faults of the files behind studies.
@@ -304,13 +301,13 @@ fn samples(
     source: &Source,
     manifest: &Manifest,
     reports: &[EvaluationReport],
-    jobs: NonZeroUsize,
-) -> Result<Option<Damage>, BundleError> {
+    tables: &TableFacts<'_>,
+) -> Option<Damage> {
     let rule = "samples.json is the digest of the samples";
-    let refused = |problem: String| Ok(Some(Damage::new(SAMPLES, rule, problem)));
+    let refused = |problem: String| Some(Damage::new(SAMPLES, rule, problem));
     let text = match source.text(SAMPLES, MOST_TEXT) {
         Ok(text) => text,
-        Err(damage) => return Ok(Some(damage)),
+        Err(damage) => return Some(damage),
     };
     let found: SampleDigest = match serde_json::from_str(&text) {
         Ok(found) => found,
@@ -333,16 +330,16 @@ fn samples(
             }
             continue;
         };
-        let again = match StudySamples::of_table(&source.path(table), jobs) {
+        let again = match tables.samples(table) {
             Ok(again) => again,
-            Err(error) => return refused(source.as_named(&error.to_string())),
+            Err(reason) => return refused(reason.to_owned()),
         };
-        if again != *stated {
+        if again != stated {
             return refused(format!(
                 "{} of {table}, expected {}",
                 again.digest, stated.digest
             ));
         }
     }
-    Ok(None)
+    None
 }

@@ -31,6 +31,7 @@ mod ro_crate;
 mod sample_digest;
 mod source;
 mod study_check;
+mod table_facts;
 mod texts;
 mod verification;
 mod verify;

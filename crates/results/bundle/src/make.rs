@@ -9,7 +9,6 @@ use taceva_files::{Staged, TemporaryFolder, parent_of, replace};
 
 use crate::archive;
 use crate::claim::{claims, words};
-use crate::columns::TableColumns;
 use crate::environment::Environment;
 use crate::error::BundleError;
 use crate::form::owners;
@@ -23,6 +22,7 @@ use crate::redaction::{Redaction, redacted};
 use crate::request::BundleRequest;
 use crate::sample_digest::{SampleDigest, StudySamples};
 use crate::source::Source;
+use crate::table_facts::TableFacts;
 use crate::texts;
 use crate::verification::{ClaimCheck, Verdict};
 use crate::verify::{VerifyRequest, check};
@@ -157,7 +157,7 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
     set_levels(&mut manifest, inputs, request, root)?;
     manifest.files = writer.sorted();
     let source = Source::open(root, u64::MAX)?;
-    let tables = TableColumns::of(&source, &manifest, request.jobs);
+    let tables = TableFacts::of(&source, &manifest, request.jobs).columns;
     for (name, text) in texts::all(&manifest, &tables) {
         writer.add(name, "card", text.as_bytes())?;
     }

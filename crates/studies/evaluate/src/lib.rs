@@ -84,5 +84,6 @@ pub use score::{
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
+pub use taceva_import::CsvTable;
 pub use validation::fit_validated;
 pub use work::Work;
