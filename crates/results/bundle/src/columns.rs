@@ -27,8 +27,8 @@ pub(crate) struct Column {
 }
 
 impl TableColumns {
-    /// Columns of `table`, which was read from the file at `path` and is called `name` in the bundle. So neither manifest nor Croissant can state other
-    /// columns.
+    /// Columns of `table`, which was read from the file at `path` and is called `name` in the bundle. So neither manifest nor
+    /// Croissant can state other columns.
     ///
     /// `None` for a table with another separator than a comma, and for one without columns.
     pub(crate) fn of_read(table: &CsvTable, path: &Path, name: &str) -> Option<TableColumns> {

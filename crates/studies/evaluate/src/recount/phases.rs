@@ -18,8 +18,8 @@ const LACKING: &str = "it reads frames, times or brightness, which the table doe
 /// Reason for the metrics of a state that no phase gives.
 const OTHER_SUMS: &str = "no phase of the table gives the sums of their state";
 
-/// Scores `samples` by the plans of `states`, one for each phase of a run. Omits metrics that read fields absent from the table, and metrics of a state
-/// whose sums no phase of the table gives bit for bit.
+/// Scores `samples` by the plans of `states`, one for each phase of a run. Omits metrics that read fields absent from the table. Also
+/// omits metrics of a state whose sums no phase of the table gives bit for bit.
 ///
 /// # Errors
 /// [`EvaluateError::State`] for a file that is not a state of its plan. [`EvaluateError::Request`] without a state.

@@ -6,8 +6,8 @@ use super::{PhaseInputs, nanometres, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// Presses to every depth at each point, trial by trial, on the first unit or on every unit. If the gel has markers, a trial ends with a shear at the greatest
-/// depth.
+/// Presses to every depth at each point, trial by trial, on the first unit or on every unit. If the gel has markers, a trial ends with
+/// a shear at the greatest depth.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Repeatability);
     let spec = &inputs.protocol.repeatability;

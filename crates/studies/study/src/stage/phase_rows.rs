@@ -78,8 +78,8 @@ impl<'a> PhaseRows<'a> {
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// Phases of the protocol with needed predictions: the phases of metrics, the calibration, which gives the skill of the model, and loading and unloading
-    /// if their presses have frames.
+    /// Phases of the protocol with needed predictions: the phases of metrics, and the calibration, which gives the skill of the model.
+    /// Loading and unloading are among them if their presses have frames.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
