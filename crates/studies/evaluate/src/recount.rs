@@ -257,9 +257,12 @@ impl Rows for SampleRows<'_> {
                 Field::UnitId | Field::Scene | Field::Phase | Field::Kind => {
                     batch.with_labels(field, self.labels(field, rows))
                 }
-                Field::DepthStep | Field::Repeat | Field::Spacing | Field::PredictedSpacing => {
-                    batch.with_numbers(field, self.numbers(field, rows))
-                }
+                Field::DepthStep
+                | Field::Repeat
+                | Field::Spacing
+                | Field::PredictedSpacing
+                | Field::Stamp
+                | Field::Intensity => batch.with_numbers(field, self.numbers(field, rows)),
                 _ => batch,
             };
         }

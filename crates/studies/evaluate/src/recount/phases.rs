@@ -13,8 +13,11 @@ use crate::error::EvaluateError;
 use crate::merge::{evaluation_of, report_of};
 use crate::state_file::ReadState;
 
+/// Fields that only the table of a run stores for every row.
+const OF_RUNS: [Field; 3] = [Field::PredictedSpacing, Field::Stamp, Field::Intensity];
+
 /// Reason for a metric whose fields the table lacks.
-const LACKING: &str = "it reads frames, times or brightness, which the table does not hold";
+const LACKING: &str = "it reads frames, or times of other phases, which the table does not hold";
 /// Reason for the metrics of a state that no phase gives.
 const OTHER_SUMS: &str = "no phase of the table gives the sums of their state";
 
@@ -32,16 +35,27 @@ pub fn recount_phases(
     let (mut parts, mut left_out, mut has_equal_sums) = (Vec::new(), Vec::new(), true);
     for state in states {
         let plan = state.file.plan.to_plan(&state.path)?;
-        let kept = plan.kept().iter().copied();
-        let (metrics, lacking): (Vec<_>, Vec<_>) = kept.partition(|metric| is_held(metric));
-        left_out.extend(lacking.into_iter().map(|metric| skip(metric, LACKING)));
-        parts.push(match table.sums(state, &plan, &metrics, jobs)? {
-            Some(evaluator) => state.file.finish(evaluator)?,
-            None => {
-                has_equal_sums &= metrics.is_empty();
-                left_out.extend(metrics.into_iter().map(|metric| skip(metric, OTHER_SUMS)));
-                evaluation_of(state)?
+        // All metrics first, then without those of times and brightness, which may read rows of other phases.
+        let (mut summed, mut again) = (Vec::new(), None);
+        for further in [&OF_RUNS[..], &OF_RUNS[..1]] {
+            let kept = plan.kept().iter().copied();
+            let metrics: Vec<&'static Metric> =
+                kept.filter(|metric| is_held(metric, further)).collect();
+            if let Some(evaluator) = table.sums(state, &plan, &metrics, jobs)? {
+                (summed, again) = (metrics, Some(evaluator));
+                break;
             }
+        }
+        for metric in plan.kept() {
+            let is_held = is_held(metric, &OF_RUNS[..1]);
+            if !summed.iter().any(|own| own.id == metric.id) {
+                has_equal_sums &= !is_held;
+                left_out.push(skip(metric, if is_held { OTHER_SUMS } else { LACKING }));
+            }
+        }
+        parts.push(match again {
+            Some(evaluator) => state.file.finish(evaluator)?,
+            None => evaluation_of(state)?,
         });
     }
     Ok(Recount {
@@ -58,9 +72,9 @@ fn skip(metric: &Metric, reason: &str) -> Skip {
     }
 }
 
-/// True if the table of a run stores every field that `metric` reads.
-fn is_held(metric: &Metric) -> bool {
-    let held: FieldSet = EXACT.into_iter().chain([Field::PredictedSpacing]).collect();
+/// True if `metric` reads only fields of every table of samples, and those in `further`.
+fn is_held(metric: &Metric, further: &[Field]) -> bool {
+    let held: FieldSet = EXACT.into_iter().chain(further.iter().copied()).collect();
     metric.needs.fields.iter().all(|field| held.contains(field))
 }
 
