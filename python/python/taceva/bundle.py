@@ -70,7 +70,8 @@ def verify(
     bundle
         The path of a folder or of a ``.tar.gz``.
     level
-        The level to reach: ``"files"``, ``"form"``, ``"scores"``, ``"predictions"``, ``"model"`` or ``"fit"``. Without it, the deepest that the files allow.
+        The level to reach: ``"files"``, ``"form"``, ``"scores"``, ``"predictions"``, ``"model"`` or ``"fit"``.
+        Without it, the deepest that the files allow.
     datasets
         The recordings of the results, on which their models predict again.
     tolerance
