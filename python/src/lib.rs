@@ -6,6 +6,7 @@
 mod arrays;
 mod arrow;
 mod buffer;
+mod bundle;
 mod columns;
 mod dataset;
 mod errors;
@@ -29,6 +30,8 @@ mod _taceva {
 
     #[pymodule_export]
     use super::buffer::Buffer;
+    #[pymodule_export]
+    use super::bundle::verify_bundle;
     #[pymodule_export]
     use super::dataset::Recording;
     #[pymodule_export]

@@ -62,6 +62,16 @@ print("= " + json.dumps({"name": data.model_name, "license": data.license, "scor
 """
 
 
+ENTRIES = """
+import json, pathlib, sys
+import huggingface_hub, yaml
+
+entries = yaml.safe_load(pathlib.Path(sys.argv[1]).read_text(encoding="utf-8"))
+entries = huggingface_hub.parse_eval_result_entries(entries)
+print("= " + json.dumps({"entries": [[own.dataset_id, own.value, own.source_url] for own in entries]}))
+"""
+
+
 @pytest.fixture(scope="module")
 def bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A finished bundle of two scored tables."""
@@ -73,8 +83,9 @@ def bundle(tmp_path_factory: pytest.TempPathFactory) -> Path:
         predicted.append(f"{row},{row % 3 + 0.01 * (row % 7)},{force + 0.001 * (row * 7919 % 13 - 6)}")
     (folder / "truth.csv").write_text("\n".join(truth) + "\n")
     (folder / "pred.csv").write_text("\n".join(predicted) + "\n")
+    (folder / "sensor.toml").write_text('model = "Foo"\n')
     tables = ["--truth", "truth.csv", "--pred", "pred.csv"]
-    scored = ["--format", "json", "--out", "result.json", "--state-out", "result.state"]
+    scored = ["--sensor", "sensor.toml", "--format", "json", "--out", "result.json", "--state-out", "result.state"]
     owner = ["--author", f"{AUTHOR} <0000-0002-1825-0097>", "--organization", f"Lab <{LAB}>", "--licence", "CC-BY-4.0"]
     for words in [
         ["score", *tables, *scored],
@@ -138,3 +149,21 @@ def test_huggingface_hub_reads_every_claim_with_interval_unit_and_number(bundle:
         assert (samples, value, date) == (manifest["samples_digest"], claim["value"], manifest["created"])
         assert task.startswith(claim["metric"]) and task.endswith("_" + claim["channel"])
         assert f"unit {claim['unit']}, n = {claim['n']}, definition {claim['definition']}" in notes
+
+
+def test_the_forms_of_a_catalogue_are_read_without_a_warning(bundle: Path, tmp_path: Path) -> None:
+    folder = tmp_path / "catalogue"
+    for words in [
+        ["add", str(bundle), "--to", str(folder), "--url", "https://example.org/b.tar.gz"],
+        ["export", str(folder), "--hf", str(folder / "hub"), "--croissant", "--organization", f"Lab <{LAB}>"],
+    ]:
+        done = command("catalogue", *words, cwd=tmp_path)
+        assert done.returncode == 0, done.stderr
+    found = read(folder, "mlcroissant", CROISSANT, tmp_path)
+    assert (found["issues"], found["sets"], found["creator"]) == ([], {}, AUTHOR)
+    found = read(folder / "hub" / ".eval_results" / "foo.yaml", "huggingface_hub", ENTRIES, tmp_path)
+    manifest = json.loads((bundle / "bundle.json").read_text(encoding="utf-8"))
+    expected = sorted(claim["value"] for claim in manifest["claims"])
+    assert sorted(value for _, value, _ in found["entries"]) == expected
+    for samples, _, address in found["entries"]:
+        assert (samples, address) == (manifest["samples_digest"], "https://example.org/b.tar.gz")

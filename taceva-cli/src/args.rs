@@ -23,9 +23,11 @@ mod sweep;
 mod task;
 mod wear;
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
-use clap::{Args, CommandFactory as _, Parser, Subcommand};
+use anyhow::anyhow;
+use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
 pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
 pub(crate) use self::budget::Budget;
@@ -34,7 +36,8 @@ pub(crate) use self::bundle::{
 };
 pub(crate) use self::cache::{CacheCommand, CacheList, CachePrune, CacheSubject};
 pub(crate) use self::catalogue::{
-    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueShow, CatalogueSite, CatalogueSubject,
+    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueExport, CatalogueList, CatalogueShow,
+    CatalogueSite, CatalogueSubject,
 };
 pub(crate) use self::common_options::{
     CacheArgs, ExplainArgs, Format, ListFormat, ModelArgs, OptionalModelArgs, Output, PageArgs,
@@ -97,6 +100,22 @@ impl Cli {
     /// Commands and options, with examples in the help of each command.
     pub(crate) fn documented() -> clap::Command {
         examples::add_examples(Cli::command())
+    }
+
+    /// Command of `arguments`, which begin with the name of the program.
+    ///
+    /// # Errors
+    /// The first line of the message for wrong arguments.
+    pub(crate) fn parsed_from<W: Into<OsString> + Clone>(
+        arguments: impl IntoIterator<Item = W>,
+    ) -> anyhow::Result<Cli> {
+        let matches = Cli::documented().try_get_matches_from(arguments);
+        let typed = matches.and_then(|matches| Cli::from_arg_matches(&matches));
+        typed.map_err(|error| {
+            let words = error.to_string();
+            let first = words.lines().next().unwrap_or_default();
+            anyhow!("{}", first.trim_start_matches("error: "))
+        })
     }
 }
 

@@ -6,6 +6,7 @@
 mod amount;
 mod args;
 mod av1_child;
+mod bundle_verification;
 mod cmd;
 mod context;
 mod date;
@@ -41,6 +42,7 @@ use args::{Cli, Command};
 use cmd::Context;
 use invocation::Invocation;
 
+pub use bundle_verification::{BundleVerification, verify_bundle};
 pub use metrology::{Metrology, metrology};
 
 /// Serves another `taceva` and exits, if this process was started as its child process; otherwise returns. A `main` that does not begin with it has no child

@@ -4,7 +4,6 @@ use std::ffi::OsString;
 use std::num::NonZeroUsize;
 
 use anyhow::anyhow;
-use clap::FromArgMatches as _;
 use taceva_report::Table;
 
 use crate::args::{Cli, Command};
@@ -43,13 +42,7 @@ pub struct Metrology {
 pub fn metrology<W: Into<OsString> + Clone>(
     arguments: impl IntoIterator<Item = W>,
 ) -> anyhow::Result<Metrology> {
-    let matches = Cli::documented().try_get_matches_from(arguments);
-    let typed = matches.and_then(|matches| Cli::from_arg_matches(&matches));
-    let cli = typed.map_err(|error| {
-        let words = error.to_string();
-        let first = words.lines().next().unwrap_or_default();
-        anyhow!("{}", first.trim_start_matches("error: "))
-    })?;
+    let cli = Cli::parsed_from(arguments)?;
     cmd::check_isa()?;
     // A Parquet file is read on one thread: the number of threads belongs to the caller.
     let jobs = NonZeroUsize::MIN;

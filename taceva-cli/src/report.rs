@@ -23,6 +23,7 @@ pub(crate) mod stress;
 mod text;
 mod thumbnail;
 pub(crate) mod triple;
+pub(crate) mod verification_page;
 pub(crate) mod wear;
 
 use std::io::{self, Write};

@@ -10,6 +10,7 @@ Exact metrics with intervals over arrays, recordings on disk, and models, with t
 0.125
 """
 
+from taceva import bundle
 from taceva._bar import progress
 from taceva._compare import Comparison, compare
 from taceva._dataset import Dataset, Rows, Samples, open
@@ -46,6 +47,7 @@ __all__ = [
     "Score",
     "TactileMetrics",
     "budget",
+    "bundle",
     "compare",
     "curve",
     "evaluate",

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand, ValueEnum};
 use taceva_bundle::{Author, Level, MOST_BYTES, Organization, Redaction};
 
-use super::{ListFormat, Output};
+use super::{ListFormat, Output, PageArgs};
 
 /// A bundle holds results, the states behind them, the tables behind these, and texts for readers; `taceva bundle verify` computes the numbers
 /// again. States come from `--state-out`, tables are those of `score`, or the samples beside a result (`--samples-out NAME.samples.csv`), which
@@ -120,6 +120,8 @@ pub(crate) struct BundleVerify {
     #[arg(long, value_name = "BYTES", default_value_t = MOST_BYTES)]
     pub(crate) most: u64,
     #[command(flatten)]
+    pub(crate) page: PageArgs,
+    #[command(flatten)]
     pub(crate) output: Output<ListFormat>,
 }
 
@@ -166,7 +168,7 @@ impl From<LevelArg> for Level {
 fn licence(text: &str) -> Result<String, String> {
     match taceva_bundle::is_licence(text) {
         true => Ok(text.to_owned()),
-        false => Err("expected an SPDX identifier, such as CC-BY-4.0 or MIT".to_owned()),
+        false => Err(taceva_bundle::expected_licence(text)),
     }
 }
 

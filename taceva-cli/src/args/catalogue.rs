@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
-use taceva_bundle::MOST_BYTES;
+use taceva_bundle::{MOST_BYTES, Organization};
 use taceva_report::catalogue::{ADDRESS, is_address};
 
 use super::Output;
@@ -18,8 +18,8 @@ pub(crate) struct CatalogueArgs {
 #[derive(Debug, Subcommand)]
 pub(crate) enum CatalogueSubject {
     /// List every sensor
-    List(Output),
-    /// Show the published numbers of one sensor, each with its source
+    List(CatalogueList),
+    /// Show the numbers of one sensor, each with its source
     Show(CatalogueShow),
     /// Write the catalogue as pages: a list to filter and sort, and one page for each sensor
     Site(CatalogueSite),
@@ -27,12 +27,26 @@ pub(crate) enum CatalogueSubject {
     Add(CatalogueAdd),
     /// Check the catalogue in a folder without a network, and write its index; the exit code is 1 if there is a finding
     Check(CatalogueCheckArgs),
+    /// Write the catalogue in a folder in forms that other programs read
+    Export(CatalogueExport),
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueList {
+    /// The folder of a catalogue, whose sensors are listed too, with the number of their rows
+    #[arg(long, value_name = "DIR")]
+    pub(crate) catalogue: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) output: Output,
 }
 
 #[derive(Debug, Args)]
 pub(crate) struct CatalogueShow {
     /// The name of the sensor
     pub(crate) name: String,
+    /// The folder of a catalogue, whose numbers follow the published ones; each states its level
+    #[arg(long, value_name = "DIR")]
+    pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }
@@ -77,8 +91,34 @@ pub(crate) struct CatalogueCheckArgs {
     /// The folder of the catalogue
     #[arg(value_name = "DIR")]
     pub(crate) catalogue: PathBuf,
+    /// A bundle at hand to verify again, whose manifest must be in the catalogue; may be repeated
+    #[arg(long = "bundle", value_name = "BUNDLE")]
+    pub(crate) bundles: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// A form holds numbers of bundles alone. Write it again after `taceva catalogue add`.
+#[derive(Debug, Args)]
+pub(crate) struct CatalogueExport {
+    /// The folder of the catalogue
+    #[arg(value_name = "DIR")]
+    pub(crate) catalogue: PathBuf,
+    /// Write eval.yaml and .eval_results/SENSOR.yaml, for the hub of Hugging Face, into this folder
+    #[arg(long = "hf", value_name = "FOLDER")]
+    pub(crate) hub: Option<PathBuf>,
+    /// Write croissant.json into the folder of the catalogue, with the digest of each of its files
+    #[arg(long)]
+    pub(crate) croissant: bool,
+    /// Write ro-crate-metadata.json into the folder of the catalogue, with the digest of each of its files
+    #[arg(long = "crate")]
+    pub(crate) ro_crate: bool,
+    /// The organization that publishes the catalogue
+    #[arg(long, value_name = "NAME <URL>")]
+    pub(crate) organization: Option<Organization>,
+    /// Replace files that exist already
+    #[arg(long)]
+    pub(crate) force: bool,
 }
 
 /// Parses the address of a bundle.

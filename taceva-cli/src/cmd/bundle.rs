@@ -1,9 +1,12 @@
 //! `taceva bundle`.
 
+use std::num::NonZeroUsize;
+
 use taceva_bundle::{
-    BundleRequest, Outcome, ScoredTables, VerifyRequest, compare, make, verify_with,
+    BundleError, BundleRequest, Outcome, ScoredTables, Verification, VerifyRequest, compare, make,
+    verify_with,
 };
-use taceva_core::{Progress as _, counted, shown};
+use taceva_core::{Progress, counted, shown};
 
 use super::{Context, Usage};
 use crate::args::{
@@ -64,29 +67,44 @@ fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
-    let to = &args.output;
-    if let Some(path) = to.path.as_deref() {
-        output::check_free(path, to.force)?;
-    }
+/// Verification that `args` ask for.
+///
+/// # Errors
+/// [`BundleError`] if the bundle cannot be read.
+pub(crate) fn verification(
+    args: &BundleVerify,
+    jobs: NonZeroUsize,
+    progress: &dyn Progress,
+) -> Result<Verification, BundleError> {
     let mut request = VerifyRequest::new(&args.bundle);
     request.level = args.level.map(Into::into);
     request.tolerance = args.tolerance;
     request.most = args.most;
     request.datasets.clone_from(&args.datasets);
-    request.jobs = context.jobs;
+    request.jobs = jobs;
+    verify_with(&request, progress)
+}
+
+fn verified(args: &BundleVerify, context: &Context) -> anyhow::Result<u8> {
+    let to = &args.output;
+    let files = to.path.iter().chain(&args.page.path);
+    output::check_all_free(files, to.force)?;
     if args.level == Some(LevelArg::Fit) {
         context.say(format_args!(
             "each model is fitted again, which takes as long as its first fit"
         ));
     }
-    let found = verify_with(&request, &context.progress)?;
+    let found = verification(args, context.jobs, &context.progress)?;
     if context.progress.is_cancelled() {
         anyhow::bail!("stopped before the verification ended");
     }
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::bundle::verification(&found, to.format, out)
     })?;
+    if let Some(path) = &args.page.path {
+        let page = report::verification_page::page(&found);
+        output::write(Some(path), |out| out.write_all(page.as_bytes()))?;
+    }
     Ok(match found.outcome() {
         Outcome::Verified => exit::DONE,
         Outcome::Damaged => exit::BAD_INPUT,

@@ -1,12 +1,13 @@
 //! `taceva catalogue`.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context as _, bail};
 use taceva_bundle::{
-    AddRequest, add_to_catalogue, catalogue_entries, check_catalogue, write_index,
+    AddRequest, CatalogueForm, add_to_catalogue, catalogue_entries, catalogue_form, check_bundles,
+    check_catalogue, write_index,
 };
 use taceva_core::{counted, shown};
 use taceva_report::catalogue::{self, Sensor};
@@ -14,27 +15,30 @@ use taceva_report::{SitePage, Table};
 
 use super::{Context, Usage, results};
 use crate::args::{
-    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueShow, CatalogueSite,
-    CatalogueSubject, Format, Output,
+    CatalogueAdd, CatalogueArgs, CatalogueCheckArgs, CatalogueExport, CatalogueList, CatalogueShow,
+    CatalogueSite, CatalogueSubject, Format, Output,
 };
 use crate::{exit, output};
 
 pub(crate) fn run(args: &CatalogueArgs, context: &Context) -> anyhow::Result<u8> {
     match &args.subject {
-        CatalogueSubject::List(output) => list(output),
+        CatalogueSubject::List(args) => list(args),
         CatalogueSubject::Show(args) => show(args),
         CatalogueSubject::Site(args) => site(args, context),
         CatalogueSubject::Add(args) => add(args, context),
-        CatalogueSubject::Check(args) => check(args),
+        CatalogueSubject::Check(args) => check(args, context),
+        CatalogueSubject::Export(args) => export(args),
     }
 }
 
-fn list(output: &Output) -> anyhow::Result<u8> {
-    write(output, &catalogue::list(&catalogue::all()))
+fn list(args: &CatalogueList) -> anyhow::Result<u8> {
+    let sensors = sensors(args.catalogue.as_deref())?;
+    write(&args.output, &catalogue::list(&sensors))
 }
 
 fn show(args: &CatalogueShow) -> anyhow::Result<u8> {
-    let sensor = catalogue::named(&args.name).map_err(|error| {
+    let sensors = sensors(args.catalogue.as_deref())?;
+    let sensor = catalogue::named_among(&sensors, &args.name).map_err(|error| {
         let name = taceva_report::escape_terminal(&args.name);
         Usage::error(format!("`{name}`: {error}"))
     })?;
@@ -115,11 +119,48 @@ fn add(args: &CatalogueAdd, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-fn check(args: &CatalogueCheckArgs) -> anyhow::Result<u8> {
+fn export(args: &CatalogueExport) -> anyhow::Result<u8> {
+    let root = args.catalogue.as_path();
+    let wanted = [
+        (CatalogueForm::Hub, args.hub.as_deref()),
+        (CatalogueForm::Croissant, args.croissant.then_some(root)),
+        (CatalogueForm::Crate, args.ro_crate.then_some(root)),
+    ];
+    if wanted.iter().all(|(_, folder)| folder.is_none()) {
+        let problem = "name a form: --hf FOLDER, --croissant or --crate";
+        return Err(Usage::error(problem));
+    }
+    let mut files: BTreeMap<PathBuf, String> = BTreeMap::new();
+    for (form, folder) in wanted {
+        let Some(folder) = folder else { continue };
+        let of_form = catalogue_form(root, form, args.organization.as_ref())?;
+        files.extend(
+            of_form
+                .into_iter()
+                .map(|file| (folder.join(file.path), file.text)),
+        );
+    }
+    output::check_all_free(files.keys(), args.force)?;
+    for (path, text) in &files {
+        if let Some(folder) = path.parent() {
+            fs::create_dir_all(folder).with_context(|| format!("cannot make {}", shown(folder)))?;
+        }
+        output::write(Some(path), |out| out.write_all(text.as_bytes()))?;
+    }
+    output::write(None, |out| {
+        let mut paths = files.keys();
+        paths.try_for_each(|path| writeln!(out, "wrote    {}", shown(path)))
+    })?;
+    Ok(exit::DONE)
+}
+
+fn check(args: &CatalogueCheckArgs, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.output.path {
         output::check_free(path, args.output.force)?;
     }
-    let found = check_catalogue(&args.catalogue)?;
+    let mut found = check_catalogue(&args.catalogue)?;
+    let of_bundles = check_bundles(&args.catalogue, &args.bundles, context.jobs)?;
+    found.findings.extend(of_bundles);
     let caption = format!(
         "{} in {}, {} and {}",
         counted(found.findings.len() as u64, "finding"),

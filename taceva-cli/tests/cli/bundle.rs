@@ -333,6 +333,7 @@ fn simulated_results_say_everywhere_that_nothing_was_measured() {
     assert!(bench.ok("bundle verify b").contains(badge));
     relist(&bench, "b", |manifest| {
         manifest["source"] = "recorded".into();
+        manifest["studies"][0]["source"] = "recorded".into();
         manifest["badge"] = Value::Null;
     });
     let found = verified(&bench, "b", 3);

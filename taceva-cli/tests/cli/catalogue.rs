@@ -1,5 +1,6 @@
 //! Catalogues of bundles in a folder: added to, checked, compared, chosen from, shown.
 
+mod export;
 mod findings;
 mod pages;
 
@@ -269,6 +270,34 @@ fn published_numbers_of_a_built_in_sensor_stay_beside_measured_ones() {
     let ran = bench.run("catalogue check c");
     assert_eq!(ran.code, 1, "{}", ran.out);
     assert!(ran.out.contains("built-in catalogue"), "{}", ran.out);
+}
+
+#[test]
+fn sensors_and_numbers_of_a_folder_are_listed_and_shown_with_their_level() {
+    let bench = Bench::new();
+    for (name, model) in [("one", "Foo"), ("two", "GelSight Mini")] {
+        bundle(&bench, name, model, 0.01);
+        bench.ok(&format!("catalogue add {name} --to c"));
+    }
+    let listed = bench.json("catalogue list --catalogue c");
+    let rows = listed["rows"].as_array().expect("rows");
+    let of = |name: &str| rows.iter().find(|row| row["sensor"] == name);
+    let entry = text(&bench, "entries/foo.toml");
+    let count = entry.matches("[[measured]]").count().to_string();
+    assert_eq!(of("Foo").expect("listed")["of bundles"], count.as_str());
+    assert_eq!(of("TacTip").expect("built in")["of bundles"], "0");
+    let shown = bench.ok("catalogue show GelSight --catalogue c --format csv");
+    assert!(shown.contains("0.0325"), "the published number: {shown}");
+    let own = shown
+        .lines()
+        .find(|line| line.contains("level predictions"));
+    let own = own.unwrap_or_else(|| panic!("no number of the bundle: {shown}"));
+    assert!(own.contains("measured") && own.contains("by Ada"), "{own}");
+    bench.ok("catalogue show Foo --catalogue c");
+    bench.refused("catalogue show Foo", 2, "no such name in the catalogue");
+    bench.refused("catalogue list --catalogue nowhere", 3, "nowhere");
+    let plain = bench.json("catalogue list");
+    assert!(plain["rows"][0].get("of bundles").is_none());
 }
 
 #[test]

@@ -131,3 +131,51 @@ fn shares_of_predictions_beyond_the_bounds_come_again_from_the_table_of_samples(
     // A share of zero would prove nothing.
     assert!(greatest > 0.0, "{}", report["metrics"]);
 }
+
+#[test]
+fn both_branches_of_a_press_are_predicted_on_request() {
+    let scene = |asked: &str| {
+        let small = SCENE.replace("\"sr\", \"inter_sensor\", ", "\"mae\", \"hysteresis\", ");
+        let branches = format!("hysteresis = {{ points = 2, depth_step_mm = 0.5{asked} }}");
+        small.replace("gratings = { step_mm = 0.75, presses = 4 }", &branches)
+    };
+    let Run { samples, .. } = run(&scene(", predicted = true"));
+    let rows = samples.of_protocol("load-unload");
+    let force = samples.channel("Fz").expect("a channel");
+    for phase in ["load", "unload"] {
+        let mut own = rows.iter().copied();
+        assert!(own.any(|row| samples.word("phase", row) == Some(phase)));
+    }
+    assert!(rows.iter().all(|row| force.pair(*row).is_some()));
+    let Run { samples, .. } = run(&scene(""));
+    let rows = samples.of_protocol("load-unload");
+    let force = samples.channel("Fz").expect("a channel");
+    assert!(!rows.is_empty() && rows.iter().all(|row| force.prediction(*row).is_none()));
+}
+
+#[test]
+fn repeated_presses_of_a_second_unit_on_request_are_a_gauge_study_and_no_score() {
+    let scene = |asked: &str| {
+        let small = SCENE.replace("\"sr\", \"inter_sensor\", ", "\"mae\", \"repeatability\", ");
+        let repeats =
+            format!("repeatability = {{ points = 3, trials = 2, depth_step_mm = 0.5{asked} }}");
+        small.replace("gratings = { step_mm = 0.75, presses = 4 }", &repeats)
+    };
+    let bench = Bench::new();
+    let n = |name: &str, asked: &str| {
+        bench.write(&format!("{name}.toml"), &scene(asked));
+        bench.ok(&format!("run {name}.toml --out {name} -q"));
+        let report = bench.path(name).join("reports/1-recomputed.json");
+        let report = fs::read_to_string(report).expect("written");
+        let report: Value = serde_json::from_str(&report).expect("JSON");
+        report["metrics"]["repeatability"]["Fz"]["n"].clone()
+    };
+    let one = n("one", "");
+    assert!(one.as_u64() > Some(0), "{one}");
+    assert_eq!(n("every", ", every_unit = true"), one);
+    let table = "every/reports/1-recomputed.samples.csv";
+    let found = bench.json(&format!("gauge {table} --channels Fz --drop-incomplete"));
+    assert_eq!(found["operators"], 2, "{found}");
+    let samples = fs::read_to_string(bench.path(table)).expect("written");
+    assert!(samples.contains("other-units"), "the word of the protocol");
+}

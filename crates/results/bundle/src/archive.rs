@@ -9,6 +9,7 @@ use std::rc::Rc;
 use flate2::Compression;
 use flate2::read::MultiGzDecoder;
 use flate2::write::GzEncoder;
+use taceva_core::shown;
 use tar::{Archive, Builder, EntryType, Header};
 
 use crate::error::{BundleError, Damage};
@@ -91,6 +92,13 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
             let problem = format!("no whole .tar.gz: {error}");
             BundleError::Damaged(Damage::new(".", WHOLE, problem))
         }
+        Fault::Write(error) => {
+            let problem = format!(
+                "cannot be unpacked into {}: {error}; TMPDIR names another folder for it",
+                shown(into)
+            );
+            BundleError::input(path, problem)
+        }
     })
 }
 
@@ -98,6 +106,8 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
 enum Fault {
     Refused(BundleError),
     Read(io::Error),
+    /// The copy of an entry cannot be written, as on a full disk.
+    Write(io::Error),
 }
 
 impl From<io::Error> for Fault {
@@ -168,7 +178,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
             }
             created => created.map_err(BundleError::file(&path))?,
         };
-        let copied = io::copy(&mut entry, &mut file)?;
+        let copied = copy(&mut entry, &mut file)?;
         if copied != size {
             return Err(damaged(own, &format!("{copied} bytes, expected {size}")).into());
         }
@@ -183,6 +193,21 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
         .into());
     }
     Ok(())
+}
+
+/// Copies `from` to its end; the number of bytes. An error of `into` is no fault of the archive.
+fn copy(from: &mut impl Read, into: &mut impl Write) -> Result<u64, Fault> {
+    let (mut block, mut copied) = (vec![0; 1 << 16], 0);
+    loop {
+        let read = match from.read(&mut block) {
+            Ok(0) => return Ok(copied),
+            Ok(read) => read,
+            Err(error) if error.kind() == io::ErrorKind::Interrupted => continue,
+            Err(error) => return Err(Fault::Read(error)),
+        };
+        into.write_all(&block[..read]).map_err(Fault::Write)?;
+        copied += read as u64;
+    }
 }
 
 /// True if anything but zeros is left in `rest`, which is read to its end.

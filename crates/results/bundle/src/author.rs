@@ -1,4 +1,4 @@
-//! Authors and licences of a bundle.
+//! Authors of a bundle.
 
 use std::fmt;
 use std::str::FromStr;
@@ -8,8 +8,6 @@ use taceva_core::shown;
 
 /// Longest name of an author or an organization, in bytes.
 pub(crate) const MOST_NAME: usize = 200;
-/// Longest licence, in bytes.
-const MOST_LICENCE: usize = 64;
 
 /// Person who hands in a bundle.
 ///
@@ -109,16 +107,4 @@ fn is_orcid(text: &str) -> bool {
         digit => digit.to_string(),
     };
     check == expected
-}
-
-/// True if `text` has the form of an SPDX identifier: letters, digits, `.`, `-` and `+`. A `LicenseRef-…` has no page at SPDX, to which forms link.
-///
-/// ```
-/// assert!(taceva_bundle::is_licence("CC-BY-4.0") && !taceva_bundle::is_licence("ask me"));
-/// assert!(!taceva_bundle::is_licence("LicenseRef-mine"));
-/// ```
-pub fn is_licence(text: &str) -> bool {
-    let is_part = |letter: char| letter.is_ascii_alphanumeric() || ".-+".contains(letter);
-    let has_page = !text.starts_with("LicenseRef-");
-    has_page && (1..=MOST_LICENCE).contains(&text.len()) && text.chars().all(is_part)
 }

@@ -2,15 +2,12 @@
 
 use std::fs::File;
 use std::io::{BufRead as _, BufReader, Read as _};
-use std::num::NonZeroUsize;
 use std::path::Path;
 
-use taceva_evaluate::read_table;
+use taceva_evaluate::CsvTable;
 
 use crate::layout::{MOST_COLUMNS, MOST_NAME};
-use crate::manifest::{Manifest, StudyFiles};
 use crate::sample_digest::IDS;
-use crate::source::Source;
 
 /// Most bytes of a line with the names of columns.
 const MOST_LINE: u64 = 1 << 20;
@@ -30,20 +27,11 @@ pub(crate) struct Column {
 }
 
 impl TableColumns {
-    /// Tables behind the studies of `manifest`. They are read, so that neither manifest nor Croissant can state other columns.
+    /// Columns of `table`, which was read from the file at `path` and is called `name` in the bundle. So neither manifest nor
+    /// Croissant can state other columns.
     ///
-    /// Tables that cannot be read, those with another separator than a comma, and those with too many columns are left out.
-    pub(crate) fn of(
-        source: &Source,
-        manifest: &Manifest,
-        jobs: NonZeroUsize,
-    ) -> Vec<TableColumns> {
-        let names = manifest.studies.iter().flat_map(StudyFiles::table_names);
-        bounded(names.filter_map(|name| TableColumns::read(&source.path(name), name, jobs)))
-    }
-
-    fn read(path: &Path, name: &str, jobs: NonZeroUsize) -> Option<TableColumns> {
-        let (table, _) = read_table(path, jobs).ok()?;
+    /// `None` for a table with another separator than a comma, and for one without columns.
+    pub(crate) fn of_read(table: &CsvTable, path: &Path, name: &str) -> Option<TableColumns> {
         let names = table.names();
         if !name.ends_with(".parquet") && !has_commas(path, names) {
             return None;
@@ -77,7 +65,7 @@ impl TableColumns {
 }
 
 /// The first of `tables`, without those that exceed [`MOST_COLUMNS`] together.
-fn bounded(tables: impl Iterator<Item = TableColumns>) -> Vec<TableColumns> {
+pub(crate) fn bounded(tables: impl Iterator<Item = TableColumns>) -> Vec<TableColumns> {
     let mut left = MOST_COLUMNS;
     let within = tables.filter_map(|table| {
         left = left.checked_sub(table.columns.len())?;
@@ -107,6 +95,8 @@ fn has_commas(path: &Path, names: &[String]) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use std::num::NonZeroUsize;
+
     use super::*;
 
     /// Types of the columns in the table `text`; `None` if no reader of Croissant can load it.
@@ -114,7 +104,8 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("t.csv");
         std::fs::write(&path, text).expect("room");
-        let table = TableColumns::read(&path, "t.csv", NonZeroUsize::MIN)?;
+        let (read, _) = taceva_evaluate::read_table(&path, NonZeroUsize::MIN).ok()?;
+        let table = TableColumns::of_read(&read, &path, "t.csv")?;
         Some(table.columns.iter().map(|own| own.data_type).collect())
     }
 

@@ -4,7 +4,7 @@ use serde_json::{Value, json};
 
 use crate::claim::properties;
 use crate::columns::{Column, TableColumns};
-use crate::manifest::{BundledFile, Manifest};
+use crate::manifest::{BundledFile, Manifest, licence_address};
 
 /// Terms of the published context that Croissant defines without a type.
 const TERMS: [&str; 26] = [
@@ -41,6 +41,18 @@ const NUMBERED: &str = "column-";
 
 /// Text of `croissant.json`; `tables` become its record sets.
 pub(crate) fn text(manifest: &Manifest, tables: &[TableColumns]) -> String {
+    let licences = manifest.licence.as_slice();
+    let own = dataset(manifest, &manifest.description(), licences, tables);
+    format!("{own:#}\n")
+}
+
+/// The files of `manifest` as a dataset with this description and these licences.
+pub(crate) fn dataset(
+    manifest: &Manifest,
+    description: &str,
+    licences: &[String],
+    tables: &[TableColumns],
+) -> Value {
     let files: Vec<Value> = manifest.given_files().map(file).collect();
     let records: Vec<Value> = tables.iter().map(record_set).collect();
     let mut own = json!({
@@ -48,7 +60,7 @@ pub(crate) fn text(manifest: &Manifest, tables: &[TableColumns]) -> String {
         "@type": "sc:Dataset",
         "conformsTo": "http://mlcommons.org/croissant/1.0",
         "name": manifest.name,
-        "description": manifest.description(),
+        "description": description,
         "version": "1.0.0",
         "datePublished": manifest.created,
         "citeAs": cited(manifest),
@@ -67,15 +79,21 @@ pub(crate) fn text(manifest: &Manifest, tables: &[TableColumns]) -> String {
     if !authors.is_empty() {
         own["creator"] = authors.into();
     }
-    if let Some(licence) = manifest.licence_address() {
-        own["license"] = licence.into();
+    let mut addresses: Vec<Value> = licences
+        .iter()
+        .map(|licence| licence_address(licence).into())
+        .collect();
+    match addresses.len() {
+        0 => {}
+        1 => own["license"] = addresses.remove(0),
+        _ => own["license"] = addresses.into(),
     }
     if let Some(organization) = &manifest.organization {
         let (name, url) = (&organization.name, &organization.url);
         own["publisher"] = json!({"@type": "sc:Organization", "name": name, "url": url});
         own["url"] = url.as_str().into();
     }
-    format!("{own:#}\n")
+    own
 }
 
 /// The published context of Croissant 1.0.

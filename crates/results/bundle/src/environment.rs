@@ -9,10 +9,16 @@ use taceva_results::EvaluationReport;
 /// Schema of `environment.json`.
 pub(crate) const ENVIRONMENT_SCHEMA: &str = "taceva.environment/1";
 
+/// Machine that `environment.json` describes.
+const MACHINE: &str = "the one on which `taceva bundle` computed the claims again; results do not state the machine that measured or scored";
+
 /// Content of `environment.json`. It names neither the host nor its user.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Environment {
     pub(crate) schema: String,
+    /// Machine that the other keys describe, in words.
+    #[serde(default)]
+    pub(crate) machine: String,
     /// Version of the program.
     pub(crate) taceva: String,
     /// Operating system: `linux`.
@@ -36,6 +42,7 @@ impl Environment {
         plugins.dedup();
         Environment {
             schema: ENVIRONMENT_SCHEMA.to_owned(),
+            machine: MACHINE.to_owned(),
             taceva: env!("CARGO_PKG_VERSION").to_owned(),
             os: std::env::consts::OS.to_owned(),
             arch: std::env::consts::ARCH.to_owned(),

@@ -12,22 +12,48 @@ pub(crate) fn text(manifest: &Manifest) -> String {
     yaml::block(&Value::Array(entries.collect()))
 }
 
+/// Number for the hub.
+pub(crate) struct HubEntry<'a> {
+    /// Digest of the samples, as the dataset. They are on no hub, and equal digests are equal samples.
+    pub(crate) samples: &'a str,
+    pub(crate) task: String,
+    pub(crate) value: f64,
+    pub(crate) day: String,
+    pub(crate) notes: String,
+    /// Address of the bundle.
+    pub(crate) address: Option<&'a str>,
+}
+
+impl HubEntry<'_> {
+    pub(crate) fn value(self) -> Value {
+        let mut own = json!({
+            "dataset": {"id": self.samples, "task_id": self.task},
+            "value": self.value,
+            "date": self.day,
+            "notes": self.notes,
+        });
+        if let Some(address) = self.address {
+            own["source"] = json!({"url": address, "name": "TacEva bundle"});
+        }
+        own
+    }
+}
+
 fn entry(manifest: &Manifest, claim: &Claim) -> Value {
     let mut notes = vec![format!("{}: {}.", claim.words(), claim.facts())];
     notes.extend(manifest.remarks());
     let task = format!("{}_{}", claim.full_metric(), claim.channel);
-    json!({
-        "dataset": {
-            // The samples are on no hub; equal digests are equal samples.
-            "id": manifest.samples_digest,
-            "task_id": match manifest.studies.len() {
-                0 | 1 => task,
-                _ => format!("study{}_{task}", claim.study),
-            },
+    let own = HubEntry {
+        samples: &manifest.samples_digest,
+        task: match manifest.studies.len() {
+            0 | 1 => task,
+            _ => format!("study{}_{task}", claim.study),
         },
-        "value": claim.value,
+        value: claim.value,
         // Every entry repeats it, so it is no longer than a day.
-        "date": manifest.created.chars().take(10).collect::<String>(),
-        "notes": notes.join(" "),
-    })
+        day: manifest.created.chars().take(10).collect(),
+        notes: notes.join(" "),
+        address: None,
+    };
+    own.value()
 }

@@ -5,9 +5,8 @@ use std::num::NonZeroUsize;
 
 use taceva_results::EvaluationReport;
 
-use crate::author::{Author, MOST_NAME, is_licence};
+use crate::author::{Author, MOST_NAME};
 use crate::claim_list;
-use crate::columns::TableColumns;
 use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
 use crate::header;
@@ -15,10 +14,12 @@ use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_AUTHORS, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES,
     is_header,
 };
+use crate::licence::has_form;
 use crate::manifest::{Manifest, badge_of, model_digest, source_of};
 use crate::name;
 use crate::sample_digest::{SAMPLES_SCHEMA, SampleDigest, StudySamples};
 use crate::source::Source;
+use crate::table_facts::TableFacts;
 use crate::texts;
 
 /// Rule of tables of samples.
@@ -93,15 +94,12 @@ pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> 
 }
 
 /// Faults of the form, except of states, of a bundle whose files are those of its manifest.
-///
-/// # Errors
-/// [`BundleError::File`] for a file that cannot be read.
 pub(crate) fn form(
     source: &Source,
     manifest: &Manifest,
     reports: &[EvaluationReport],
     jobs: NonZeroUsize,
-) -> Result<Vec<Damage>, BundleError> {
+) -> Vec<Damage> {
     let mut damage = Vec::new();
     damage.extend(studies(source, manifest, reports));
     damage.extend(origin(manifest, reports));
@@ -110,10 +108,11 @@ pub(crate) fn form(
         damage.extend(claim_list::fault(manifest, reports));
     }
     if !damage.is_empty() {
-        return Ok(damage);
+        return damage;
     }
     damage.extend(environment(source).err());
-    damage.extend(samples(source, manifest, reports, jobs)?);
+    let tables = TableFacts::of(source, manifest, jobs);
+    damage.extend(samples(source, manifest, reports, &tables));
     let known = header::known(reports);
     // A header keeps its name, whatever its role.
     let headers = manifest
@@ -128,8 +127,7 @@ pub(crate) fn form(
             // A claim that was edited in the manifest alone is found by its number.
             *claim = claim.as_in(&reports[claim.study]);
         }
-        let tables = TableColumns::of(source, manifest, jobs);
-        for (name, expected) in texts::all(&restored, &tables) {
+        for (name, expected) in texts::all(&restored, &tables.columns) {
             let rule = "generated files are what bundle.json and results.json give";
             match source.text(name, MOST_TEXT) {
                 Ok(found) if found == expected => {}
@@ -138,7 +136,7 @@ pub(crate) fn form(
             }
         }
     }
-    Ok(damage)
+    damage
 }
 
 /// Faults of the files behind studies.
@@ -205,9 +203,20 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     damage
 }
 
-/// A manifest that states another origin than the results.
+/// Origin in the manifest, as a whole or of a study, that is not that of the results.
 fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
+    let rule = "the origin of samples is that of the results";
     let (source, badge) = (source_of(reports), badge_of(reports));
+    for (number, (files, report)) in manifest.studies.iter().zip(reports).enumerate() {
+        let expected = &report.subject.source;
+        if files.source != *expected {
+            let problem = format!(
+                "study {number} has the origin `{}`, expected `{expected}`",
+                files.source
+            );
+            return Some(Damage::new(MANIFEST, rule, problem));
+        }
+    }
     let is_same = manifest.source == source && manifest.badge == badge;
     (!is_same).then(|| {
         let problem = format!(
@@ -216,18 +225,15 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
             manifest.badge.as_deref().unwrap_or("none"),
             badge.as_deref().unwrap_or("none"),
         );
-        Damage::new(
-            MANIFEST,
-            "the origin of samples is that of the results",
-            problem,
-        )
+        Damage::new(MANIFEST, rule, problem)
     })
 }
 
 /// Fault of authors, organization or licence, which forms repeat.
 pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     let authors = &manifest.authors;
-    let (organization, licence) = (manifest.organization.as_ref(), manifest.licence.as_deref());
+    let organization = manifest.organization.as_ref();
+    let licence = manifest.licence.as_deref();
     let problem = if authors.len() > MOST_AUTHORS {
         format!("{} authors, expected at most {MOST_AUTHORS}", authors.len())
     } else if let Some(position) = authors.iter().position(|author| !author.is_right()) {
@@ -242,7 +248,7 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
         format!(
             "organization: expected a printable name of 1 to {MOST_NAME} bytes, and the address of its page"
         )
-    } else if licence.is_some_and(|own| !is_licence(own)) {
+    } else if licence.is_some_and(|own| !has_form(own)) {
         "licence: expected an SPDX identifier, such as CC-BY-4.0".to_owned()
     } else {
         return None;
@@ -295,13 +301,13 @@ fn samples(
     source: &Source,
     manifest: &Manifest,
     reports: &[EvaluationReport],
-    jobs: NonZeroUsize,
-) -> Result<Option<Damage>, BundleError> {
+    tables: &TableFacts<'_>,
+) -> Option<Damage> {
     let rule = "samples.json is the digest of the samples";
-    let refused = |problem: String| Ok(Some(Damage::new(SAMPLES, rule, problem)));
+    let refused = |problem: String| Some(Damage::new(SAMPLES, rule, problem));
     let text = match source.text(SAMPLES, MOST_TEXT) {
         Ok(text) => text,
-        Err(damage) => return Ok(Some(damage)),
+        Err(damage) => return Some(damage),
     };
     let found: SampleDigest = match serde_json::from_str(&text) {
         Ok(found) => found,
@@ -324,16 +330,16 @@ fn samples(
             }
             continue;
         };
-        let again = match StudySamples::of_table(&source.path(table), jobs) {
+        let again = match tables.samples(table) {
             Ok(again) => again,
-            Err(error) => return refused(source.as_named(&error.to_string())),
+            Err(reason) => return refused(reason.to_owned()),
         };
-        if again != *stated {
+        if again != stated {
             return refused(format!(
                 "{} of {table}, expected {}",
                 again.digest, stated.digest
             ));
         }
     }
-    Ok(None)
+    None
 }

@@ -6,7 +6,7 @@ pub(crate) const MANIFEST: &str = "bundle.json";
 pub(crate) const RESULTS: &str = "results.json";
 /// The digest of the samples.
 pub(crate) const SAMPLES: &str = "samples.json";
-/// The machine that made the bundle.
+/// The machine on which the bundle was made.
 pub(crate) const ENVIRONMENT: &str = "environment.json";
 /// The card for readers.
 pub(crate) const CARD: &str = "README.md";

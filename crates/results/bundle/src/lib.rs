@@ -17,6 +17,7 @@ mod header;
 mod inputs;
 mod layout;
 mod level;
+mod licence;
 mod make;
 mod manifest;
 mod model_card;
@@ -30,16 +31,18 @@ mod ro_crate;
 mod sample_digest;
 mod source;
 mod study_check;
+mod table_facts;
 mod texts;
 mod verification;
 mod verify;
 mod writer;
 mod yaml;
 
-pub use author::{Author, is_licence};
+pub use author::Author;
 pub use catalogue::{
-    AddRequest, Addition, CatalogueCheck, CatalogueFinding, CatalogueFolderError, INDEX_SCHEMA,
-    add as add_to_catalogue, check_catalogue, entries as catalogue_entries, write_index,
+    AddRequest, Addition, CatalogueCheck, CatalogueFinding, CatalogueFolderError, CatalogueForm,
+    FormFile, INDEX_SCHEMA, add as add_to_catalogue, catalogue_form, check_bundles,
+    check_catalogue, entries as catalogue_entries, write_index,
 };
 pub use claim::Claim;
 pub use comparison::{
@@ -48,6 +51,7 @@ pub use comparison::{
 pub use error::{BundleError, Damage};
 pub use layout::MOST_BYTES;
 pub use level::Level;
+pub use licence::{expected_licence, is_licence};
 pub use make::{MadeBundle, make};
 pub use manifest::{BUNDLE_SCHEMA, BundledFile, Manifest, StudyFiles, TableFiles, Withheld};
 pub use organization::Organization;

@@ -9,7 +9,6 @@ use taceva_files::{Staged, TemporaryFolder, parent_of, replace};
 
 use crate::archive;
 use crate::claim::{claims, words};
-use crate::columns::TableColumns;
 use crate::environment::Environment;
 use crate::error::BundleError;
 use crate::form::owners;
@@ -18,11 +17,12 @@ use crate::layout::{
     ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TEXT, RESULTS, SAMPLES,
     is_own,
 };
-use crate::manifest::{BUNDLE_SCHEMA, Manifest, badge_of, source_of};
+use crate::manifest::{BUNDLE_SCHEMA, Manifest, StudyFiles, badge_of, source_of};
 use crate::redaction::{Redaction, redacted};
 use crate::request::BundleRequest;
 use crate::sample_digest::{SampleDigest, StudySamples};
 use crate::source::Source;
+use crate::table_facts::TableFacts;
 use crate::texts;
 use crate::verification::{ClaimCheck, Verdict};
 use crate::verify::{VerifyRequest, check};
@@ -104,7 +104,10 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
             None => StudySamples::of_provenance(report),
         });
         let files = writer.study(number, study, request.withholds_predictions, &mut withheld)?;
-        studies.push(files);
+        studies.push(StudyFiles {
+            source: report.subject.source.clone(),
+            ..files
+        });
     }
     let samples = SampleDigest::of(samples);
     writer.json(SAMPLES, "samples digest", &samples)?;
@@ -154,7 +157,7 @@ fn write(inputs: &Inputs, request: &BundleRequest, root: &Path) -> Result<MadeBu
     set_levels(&mut manifest, inputs, request, root)?;
     manifest.files = writer.sorted();
     let source = Source::open(root, u64::MAX)?;
-    let tables = TableColumns::of(&source, &manifest, request.jobs);
+    let tables = TableFacts::of(&source, &manifest, request.jobs).columns;
     for (name, text) in texts::all(&manifest, &tables) {
         writer.add(name, "card", text.as_bytes())?;
     }

@@ -100,6 +100,9 @@ impl BundledFile {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct StudyFiles {
+    /// Origin of the samples of the study, as in the results.
+    #[serde(default)]
+    pub source: String,
     /// States; several are merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,
@@ -195,12 +198,6 @@ impl Manifest {
         sentences.join(" ")
     }
 
-    /// Address of the licence.
-    pub(crate) fn licence_address(&self) -> Option<String> {
-        let licence = self.licence.as_ref()?;
-        Some(format!("https://spdx.org/licenses/{licence}"))
-    }
-
     /// Reads the text of a manifest.
     ///
     /// # Errors
@@ -265,6 +262,11 @@ pub(crate) fn model_digest(report: &EvaluationReport) -> Option<&str> {
     let is_file = |digest: &&str| digest.starts_with("sha256:") && own.cross_validation().is_none();
     let digest = own.model.as_ref().map(|model| model.digest.as_str());
     digest.filter(is_file)
+}
+
+/// Address of the licence with this SPDX identifier.
+pub(crate) fn licence_address(licence: &str) -> String {
+    format!("https://spdx.org/licenses/{licence}")
 }
 
 /// The fault of a seal with the remedy for a manifest, whose edits no command accepts.

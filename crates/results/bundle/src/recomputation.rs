@@ -5,8 +5,8 @@ use std::path::PathBuf;
 
 use taceva_core::shown;
 use taceva_evaluate::{
-    PredictionCheck, ReadState, Recount, Refit, RowKey, Work, check_predictions, merge_read,
-    recount_samples, recount_tables, refit, side_by_side,
+    EvaluateError, PredictionCheck, ReadState, Recount, Refit, RowKey, Work, check_predictions,
+    merge_read, recount_phases, recount_samples, recount_tables, refit, side_by_side,
 };
 use taceva_results::{EvaluationReport, Samples, Score, Skip, read, sealed};
 
@@ -88,15 +88,13 @@ impl Recomputation {
         settings: RecomputationSettings<'_>,
     ) -> Recomputation {
         let own = &report.provenance;
-        let unscored = match (own.tables.is_empty(), own.part.is_some()) {
+        let unscored = match own.tables.is_empty() {
             _ if files.tables.is_some() => None,
             _ if settings.are_tables_withheld && files.samples.is_none() => {
                 Some("the maker of the bundle withheld the tables")
             }
-            (true, true) => None,
-            // A run scores each phase of its protocol by itself.
-            (true, false) => Some("the table of samples holds every sample, scored or not"),
-            (false, _) => Some("name the tables that were scored by --truth and --pred"),
+            true => None,
+            false => Some("name the tables that were scored by --truth and --pred"),
         };
         let named = |stop: Stop| Stop {
             reason: source.as_named(&stop.reason),
@@ -108,7 +106,9 @@ impl Recomputation {
                 false => Err(Stop::absent("not asked for")),
                 true => match unscored {
                     Some(reason) => Err(Stop::absent(reason)),
-                    None => of_tables(source, files, states, settings.work.jobs).map_err(named),
+                    None => {
+                        of_tables(source, files, report, states, settings.work.jobs).map_err(named)
+                    }
                 },
             },
             model: match settings.datasets {
@@ -182,21 +182,22 @@ fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
     as_read(&report)
 }
 
-/// Scores of the tables in `files`, by the plan of the only state.
+/// Scores of the tables in `files`: by the plan of the only state, or by the states of the phases of a run.
 fn of_tables(
     source: &Source,
     files: &StudyFiles,
+    report: &EvaluationReport,
     states: &[ReadState],
     jobs: NonZeroUsize,
 ) -> Result<TableScores, Stop> {
-    let [state] = states else {
-        return Err(Stop::absent(match states.len() {
-            0 => "no state, which says how tables are scored",
-            _ => "several states, and tables are compared with one",
-        }));
-    };
-    let recount: Recount = match (&files.tables, &files.samples) {
-        (Some(tables), _) => {
+    let own = &report.provenance;
+    let is_run = own.part.is_none() && own.tables.is_empty();
+    let recount: Result<Recount, EvaluateError> = match (&files.tables, &files.samples, states) {
+        (_, _, []) => return Err(Stop::absent("no state, which says how tables are scored")),
+        (None, Some(name), states) if is_run => {
+            recount_phases(states, &samples(source, name)?, jobs)
+        }
+        (Some(tables), _, [state]) => {
             for name in [&tables.truth, &tables.prediction] {
                 source.size(name, MOST_TABLE).map_err(Stop::failed)?;
             }
@@ -208,21 +209,27 @@ fn of_tables(
                 key.as_ref(),
                 jobs,
             )
-            .map_err(Stop::failed)?
         }
-        (None, Some(name)) => {
-            let text = source.text(name, MOST_TABLE).map_err(Stop::failed)?;
-            let samples = Samples::read(&text).map_err(Stop::failed)?;
-            recount_samples(state, &samples, jobs).map_err(Stop::failed)?
+        (None, Some(name), [state]) => recount_samples(state, &samples(source, name)?, jobs),
+        (None, None, _) => return Err(Stop::absent("no tables")),
+        _ => {
+            let reason = "several states, and tables are compared with one";
+            return Err(Stop::absent(reason));
         }
-        (None, None) => return Err(Stop::absent("no tables")),
     };
+    let recount = recount.map_err(Stop::failed)?;
     Ok(TableScores {
         scores: as_read(&recount.report)?.scores,
         // A table of samples lacks what metrics of the truth alone read.
         has_other_sums: files.tables.is_some() && !recount.has_equal_sums,
         left_out: recount.left_out,
     })
+}
+
+/// The table of samples called `name`.
+fn samples(source: &Source, name: &str) -> Result<Samples, Stop> {
+    let text = source.text(name, MOST_TABLE).map_err(Stop::failed)?;
+    Samples::read(&text).map_err(Stop::failed)
 }
 
 /// Table of samples in `files`, compared with the predictions of the model on one of `datasets`.
@@ -240,9 +247,7 @@ fn of_model(
     };
     let own = &report.provenance;
     check_named(datasets, report)?;
-    let text = source.text(table, MOST_TABLE).map_err(Stop::failed)?;
-    let samples = Samples::read(&text).map_err(Stop::failed)?;
-    drop(text);
+    let samples = samples(source, table)?;
     let found = check_predictions(&model, datasets, own, &samples, settings.work);
     Ok(match found.map_err(Stop::failed)? {
         PredictionCheck::Near { first, .. } if settings.has_same_sets => {

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::card::NO_LICENCE;
 use crate::claim::properties;
 use crate::layout::{CRATE, RESULTS};
-use crate::manifest::{BundledFile, Manifest, StudyFiles};
+use crate::manifest::{BundledFile, Manifest, StudyFiles, licence_address};
 
 /// Profile of a run of programs.
 const PROFILE: &str = "https://w3id.org/ro/wfrun/process/0.5";
@@ -14,29 +14,20 @@ const PROGRAM: &str = env!("CARGO_PKG_REPOSITORY");
 /// The run that computed the claims again.
 const RUN: &str = "#recomputation";
 
-/// Text of `ro-crate-metadata.json`.
+/// Text of `ro-crate-metadata.json` of a bundle.
 pub(crate) fn text(manifest: &Manifest) -> String {
     let claims = properties(&manifest.claims);
-    let authors = authors(manifest);
-    let mut root = json!({
-        "@id": "./",
-        "@type": "Dataset",
-        "conformsTo": {"@id": PROFILE},
-        "name": manifest.name,
-        "description": manifest.description(),
-        "datePublished": manifest.created,
-        "hasPart": manifest.given_files().map(|file| reference(&file.path)).collect::<Vec<_>>(),
-        "mainEntity": reference(RESULTS),
-        "mentions": reference(RUN),
-        "variableMeasured": references(&claims),
-    });
-    let mut graph = vec![
-        json!({
-            "@id": CRATE,
-            "@type": "CreativeWork",
-            "about": {"@id": "./"},
-            "conformsTo": {"@id": "https://w3id.org/ro/crate/1.1"},
-        }),
+    let licences = manifest.licence.as_slice();
+    let mut own = Entities::of(manifest, &manifest.description(), licences);
+    own.root["conformsTo"] = reference(PROFILE);
+    own.root["mainEntity"] = reference(RESULTS);
+    own.root["mentions"] = reference(RUN);
+    own.root["variableMeasured"] = references(&claims);
+    let mut run = run(manifest);
+    if !own.authors.is_empty() {
+        run["agent"] = references(&own.authors);
+    }
+    let before = vec![
         json!({
             "@id": PROFILE,
             "@type": ["CreativeWork", "Profile"],
@@ -53,45 +44,99 @@ pub(crate) fn text(manifest: &Manifest) -> String {
             "license": "MIT OR Apache-2.0",
         }),
     ];
-    root["license"] = match (&manifest.licence, manifest.licence_address()) {
-        (Some(licence), Some(address)) => {
-            graph.push(json!({
-                "@id": address,
-                "@type": "CreativeWork",
-                "name": licence,
-                "description": format!("Licence of the bundle: {licence}"),
-                "url": address,
+    let mut after = vec![run];
+    after.append(&mut own.authors);
+    after.append(&mut own.files);
+    after.extend(claims);
+    own.text(before, after)
+}
+
+/// Text of `ro-crate-metadata.json` of a folder with the files of `manifest`, this description and these licences. No run made it.
+pub(crate) fn of_folder(manifest: &Manifest, description: &str, licences: &[String]) -> String {
+    let mut own = Entities::of(manifest, description, licences);
+    let mut after = std::mem::take(&mut own.authors);
+    after.append(&mut own.files);
+    own.text(Vec::new(), after)
+}
+
+/// Entities of every crate.
+struct Entities {
+    root: Value,
+    /// Licences and the organization, which the root names.
+    named: Vec<Value>,
+    authors: Vec<Value>,
+    files: Vec<Value>,
+}
+
+impl Entities {
+    fn of(manifest: &Manifest, description: &str, licences: &[String]) -> Entities {
+        let authors = authors(manifest);
+        let mut root = json!({
+            "@id": "./",
+            "@type": "Dataset",
+            "name": manifest.name,
+            "description": description,
+            "datePublished": manifest.created,
+            "hasPart": manifest.given_files().map(|file| reference(&file.path)).collect::<Vec<_>>(),
+        });
+        let mut named: Vec<Value> = licences.iter().map(|own| licence(own)).collect();
+        root["license"] = match named.is_empty() {
+            true => NO_LICENCE.into(),
+            false => references(&named),
+        };
+        if let Some(organization) = &manifest.organization {
+            named.push(json!({
+                "@id": organization.url,
+                "@type": "Organization",
+                "name": organization.name,
+                "url": organization.url,
             }));
-            reference(&address)
+            root["publisher"] = reference(&organization.url);
         }
-        _ => NO_LICENCE.into(),
-    };
-    if let Some(organization) = &manifest.organization {
-        graph.push(json!({
-            "@id": organization.url,
-            "@type": "Organization",
-            "name": organization.name,
-            "url": organization.url,
-        }));
-        root["publisher"] = reference(&organization.url);
+        if !authors.is_empty() {
+            root["author"] = references(&authors);
+        }
+        Entities {
+            root,
+            named,
+            authors,
+            files: manifest.given_files().map(file).collect(),
+        }
     }
-    let mut run = run(manifest);
-    if !authors.is_empty() {
-        root["author"] = references(&authors);
-        run["agent"] = references(&authors);
+
+    /// The crate with entities before and after its root.
+    fn text(self, before: Vec<Value>, after: Vec<Value>) -> String {
+        let mut graph = vec![json!({
+            "@id": CRATE,
+            "@type": "CreativeWork",
+            "about": {"@id": "./"},
+            "conformsTo": {"@id": "https://w3id.org/ro/crate/1.1"},
+        })];
+        graph.extend(before);
+        graph.extend(self.named);
+        graph.push(self.root);
+        graph.extend(after);
+        let own = json!({
+            "@context": [
+                "https://w3id.org/ro/crate/1.1/context",
+                "https://w3id.org/ro/terms/workflow-run/context",
+            ],
+            "@graph": graph,
+        });
+        format!("{own:#}\n")
     }
-    graph.extend([root, run]);
-    graph.extend(authors);
-    graph.extend(manifest.given_files().map(file));
-    graph.extend(claims);
-    let own = json!({
-        "@context": [
-            "https://w3id.org/ro/crate/1.1/context",
-            "https://w3id.org/ro/terms/workflow-run/context",
-        ],
-        "@graph": graph,
-    });
-    format!("{own:#}\n")
+}
+
+/// The licence with the SPDX identifier `own`.
+fn licence(own: &str) -> Value {
+    let address = licence_address(own);
+    json!({
+        "@id": address,
+        "@type": "CreativeWork",
+        "name": own,
+        "description": format!("Licence of the bundle: {own}"),
+        "url": address,
+    })
 }
 
 /// The run of the program that made the bundle. Its time is the day of the manifest.

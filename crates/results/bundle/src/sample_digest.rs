@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::Path;
 
 use serde::{Deserialize, Serialize};
-use taceva_evaluate::read_table;
+use taceva_evaluate::{CsvTable, read_table};
 use taceva_files::seal::digest_of_bytes;
 use taceva_results::{EvaluationReport, Samples};
 
@@ -78,6 +78,11 @@ impl StudySamples {
     /// [`BundleError::Evaluate`] if it is no table.
     pub(crate) fn of_table(path: &Path, jobs: NonZeroUsize) -> Result<StudySamples, BundleError> {
         let (table, _) = read_table(path, jobs)?;
+        Ok(StudySamples::of_read(&table))
+    }
+
+    /// Samples in `table`, whose labels are its columns of numbers.
+    pub(crate) fn of_read(table: &CsvTable) -> StudySamples {
         let names = table.names();
         let position = |name: &str| names.iter().position(|own| own == name);
         let id = IDS.into_iter().find_map(position);
@@ -113,11 +118,11 @@ impl StudySamples {
             lines.push(line);
         }
         lines.sort_unstable();
-        Ok(StudySamples {
+        StudySamples {
             by: "samples".to_owned(),
             count: Some(lines.len() as u64),
             digest: digest_of_bytes(lines.join("\n").as_bytes()),
-        })
+        }
     }
 
     /// Samples that the provenance of `report` names, where no table is at hand.

@@ -114,7 +114,7 @@ pub fn verify_with(
     }
     let damage = match too_long(&source, manifest) {
         Some(damage) => vec![damage],
-        None => form::form(&source, manifest, &reports, request.jobs)?,
+        None => form::form(&source, manifest, &reports, request.jobs),
     };
     if !damage.is_empty() {
         return Ok(found.damaged_at(Level::Form, damage));

@@ -16,8 +16,8 @@ mod read;
 mod study;
 mod union;
 
-pub(crate) use bundle_row::short;
 pub use bundle_row::{ADDRESS, DEPTHS, Measured, Origin, is_address, row_lines, rows_text};
+pub(crate) use bundle_row::{DEPTH_NOTE, short};
 pub use entry::{Kind, Sensor};
 pub use facts::{Limits, Size};
 pub(crate) use list::{MECHANISMS, prices};

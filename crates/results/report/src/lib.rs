@@ -3,6 +3,7 @@
 mod accept;
 mod bench;
 mod budget;
+mod budget_source;
 pub mod catalogue;
 mod choose;
 mod compare;

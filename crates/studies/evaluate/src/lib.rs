@@ -71,7 +71,7 @@ pub use predict::{
 pub use prediction_check::{PredictionCheck, check_predictions};
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, device_warnings, reduced};
-pub use recount::{Recount, recount_samples};
+pub use recount::{Recount, recount_phases, recount_samples};
 pub use refit::{Refit, refit};
 pub use report::skipped;
 pub use row_ledger::Taken;
@@ -85,5 +85,6 @@ pub use score::{
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
+pub use taceva_import::CsvTable;
 pub use validation::fit_validated;
 pub use work::Work;

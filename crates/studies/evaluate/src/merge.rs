@@ -18,17 +18,34 @@ use taceva_results::EvaluationReport;
 /// # Errors
 /// [`EvaluateError::State`] for a file that is not a state of its plan. [`EvaluateError::Request`] without a file.
 pub fn side_by_side(states: &[ReadState]) -> Result<EvaluationReport, EvaluateError> {
+    let parts: Vec<Evaluation> = states.iter().map(evaluation_of).collect::<Result<_, _>>()?;
+    report_of(states, parts)
+}
+
+/// Scores of one state.
+///
+/// # Errors
+/// [`EvaluateError::State`] for a file that is not a state of its plan.
+pub(crate) fn evaluation_of(state: &ReadState) -> Result<Evaluation, EvaluateError> {
+    let ReadState { path, file, .. } = state;
+    let mut evaluator = Evaluator::new(&file.plan.to_plan(path)?);
+    let merged = evaluator.merge_states(&file.states);
+    merged.map_err(|error| EvaluateError::State {
+        path: path.clone(),
+        problem: error.to_string(),
+    })?;
+    file.finish(evaluator)
+}
+
+/// Report with `parts`, the scores of each of `states`, and the subject and provenance of the first state.
+///
+/// # Errors
+/// [`EvaluateError::Request`] without a state.
+pub(crate) fn report_of(
+    states: &[ReadState],
+    parts: Vec<Evaluation>,
+) -> Result<EvaluationReport, EvaluateError> {
     let first = &states.first().ok_or_else(no_state)?.file;
-    let mut parts = Vec::new();
-    for ReadState { path, file, .. } in states {
-        let mut evaluator = Evaluator::new(&file.plan.to_plan(path)?);
-        let merged = evaluator.merge_states(&file.states);
-        merged.map_err(|error| EvaluateError::State {
-            path: path.clone(),
-            problem: error.to_string(),
-        })?;
-        parts.push(file.finish(evaluator)?);
-    }
     let evaluation = Evaluation::joined(parts, Vec::new());
     Ok(EvaluationReport::new(
         first.subject.clone(),

@@ -1,5 +1,9 @@
 //! Scores a table of samples by the plan of a state, to check the state against the samples from which it was summed.
 
+mod phases;
+
+pub use phases::recount_phases;
+
 use std::num::NonZeroUsize;
 use std::ops::Range;
 
@@ -24,6 +28,9 @@ const EXACT: [Field; 10] = [
     Field::Kind,
     Field::Spacing,
 ];
+
+/// Column of predicted spacings, in mm.
+const PREDICTED_SPACING: &str = "spacing_predicted_mm";
 
 /// Scores of tables, computed by the plan and the facts of a state.
 #[derive(Debug)]
@@ -72,6 +79,7 @@ pub fn recount_samples(
         samples,
         provenance: &file.provenance,
         is_unbounded,
+        rows: (0..samples.rows()).collect(),
     };
     rows(false)
         .check(&plan)
@@ -124,6 +132,8 @@ struct SampleRows<'a> {
     provenance: &'a Provenance,
     /// True to read predictions before clipping to the bounds of the model.
     is_unbounded: bool,
+    /// Rows of the table that are summed, ascending.
+    rows: Vec<usize>,
 }
 
 impl SampleRows<'_> {
@@ -179,10 +189,10 @@ impl SampleRows<'_> {
         }
     }
 
-    fn labels(&self, field: Field, rows: Range<usize>) -> Labels {
+    fn labels(&self, field: Field, rows: &[usize]) -> Labels {
         let mut labels = Labels::default();
         for row in rows {
-            match self.samples.word(field.name(), row) {
+            match self.samples.word(field.name(), *row) {
                 Some(word) => labels.push(word),
                 None => labels.push_absent(),
             }
@@ -190,12 +200,18 @@ impl SampleRows<'_> {
         labels
     }
 
-    fn numbers(&self, field: Field, rows: Range<usize>) -> Column {
+    fn numbers(&self, field: Field, rows: &[usize]) -> Column {
+        let name = match field {
+            Field::PredictedSpacing => PREDICTED_SPACING,
+            field => field.name(),
+        };
         let number = |row: usize| {
-            let number = self.samples.number(field.name(), row)?;
+            let number = self.samples.number(name, row)?;
             match field {
                 // Spacings are summed in whole nanometres.
-                Field::Spacing => format!("{number:?}").parse().ok().map(Nanometre::to_f64),
+                Field::Spacing | Field::PredictedSpacing => {
+                    format!("{number:?}").parse().ok().map(Nanometre::to_f64)
+                }
                 _ => Some(number),
             }
         };
@@ -205,15 +221,16 @@ impl SampleRows<'_> {
 
 impl Rows for SampleRows<'_> {
     fn rows(&self) -> usize {
-        self.samples.rows()
+        self.rows.len()
     }
 
     fn batch(&self, plan: &MetricPlan, rows: Range<usize>) -> Result<Batch, EvaluateError> {
+        let rows = &self.rows[rows];
         let (mut truth, mut prediction) = (Vec::new(), Vec::new());
         for channel in plan.channels().iter() {
             let own = self.samples.channel(channel.name());
-            truth.push(column(rows.clone(), |row| own?.truth(row)));
-            prediction.push(column(rows.clone(), |row| match self.is_unbounded {
+            truth.push(column(rows, |row| own?.truth(row)));
+            prediction.push(column(rows, |row| match self.is_unbounded {
                 true => self.samples.unbounded(channel.name(), row),
                 false => own?.prediction(row),
             }));
@@ -221,11 +238,11 @@ impl Rows for SampleRows<'_> {
         let wanted = plan.fields();
         let points = wanted
             .contains(Field::Point)
-            .then(|| self.labels(Field::Point, rows.clone()));
+            .then(|| self.labels(Field::Point, rows));
         let mut batch = Batch::from_columns(plan.channels().clone(), truth, prediction, points);
         let mut clusters = Labels::default();
-        for row in rows.clone() {
-            match self.cluster(plan, row) {
+        for row in rows {
+            match self.cluster(plan, *row) {
                 Some(name) => clusters.push(&name),
                 None => clusters.push_absent(),
             }
@@ -238,11 +255,14 @@ impl Rows for SampleRows<'_> {
         for field in wanted.iter() {
             batch = match field {
                 Field::UnitId | Field::Scene | Field::Phase | Field::Kind => {
-                    batch.with_labels(field, self.labels(field, rows.clone()))
+                    batch.with_labels(field, self.labels(field, rows))
                 }
-                Field::DepthStep | Field::Repeat | Field::Spacing => {
-                    batch.with_numbers(field, self.numbers(field, rows.clone()))
-                }
+                Field::DepthStep
+                | Field::Repeat
+                | Field::Spacing
+                | Field::PredictedSpacing
+                | Field::Stamp
+                | Field::Intensity => batch.with_numbers(field, self.numbers(field, rows)),
                 _ => batch,
             };
         }
@@ -250,8 +270,8 @@ impl Rows for SampleRows<'_> {
     }
 }
 
-fn column(rows: Range<usize>, value: impl Fn(usize) -> Option<f64>) -> Column {
+fn column(rows: &[usize], value: impl Fn(usize) -> Option<f64>) -> Column {
     let mut column = Column::default();
-    rows.for_each(|row| column.push(value(row)));
+    rows.iter().for_each(|row| column.push(value(*row)));
     column
 }

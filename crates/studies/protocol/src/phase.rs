@@ -23,7 +23,7 @@ pub(crate) struct PhaseInputs<'a> {
     pub(crate) protocol: &'a Protocol,
     pub(crate) footprint: Footprint,
     pub(crate) depth_max: Nanometre,
-    /// Units of the sensor, never empty. All phases except the surface map use only the first unit.
+    /// Units of the sensor, never empty. All phases except the surface map use only the first unit, unless the scene repeats presses on every unit.
     pub(crate) units: &'a [String],
     /// Light scenes, that of calibration first; empty if the light cannot be set.
     pub(crate) lights: &'a [String],
@@ -74,7 +74,11 @@ impl PhaseInputs<'_> {
             }
             PhaseKind::Repeatability => {
                 let spec = &protocol.repeatability;
-                u64::from(spec.points.value) * u64::from(spec.trials.value)
+                let units = match spec.every_unit.value {
+                    true => self.units.len() as u64,
+                    false => 1,
+                };
+                units * u64::from(spec.points.value) * u64::from(spec.trials.value)
             }
             PhaseKind::LoadUnload => u64::from(protocol.hysteresis.points.value),
             PhaseKind::Gratings => {

@@ -272,6 +272,7 @@ impl Learnt {
         let mut rows: Vec<usize> = phases
             .into_iter()
             .flat_map(|kind| phase_rows.rows(kind))
+            .chain(phase_rows.of_other_units().iter().copied())
             .collect();
         rows.sort_unstable();
         rows.dedup();

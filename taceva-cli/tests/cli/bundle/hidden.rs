@@ -45,6 +45,34 @@ fn drop_state(bench: &Bench) {
 }
 
 #[test]
+fn results_and_states_of_another_major_version_are_refused_with_both() {
+    for (name, space, own, other) in [
+        (
+            "results.json",
+            " ",
+            "taceva.evaluation/1.0",
+            "taceva.evaluation/2.0",
+        ),
+        ("states/0.json", "", "taceva.state/1.0", "taceva.state/2.0"),
+    ] {
+        let bench = made();
+        let path = bench.path("b").join(name);
+        let [old, new] = [own, other].map(|schema| format!("\"schema\":{space}\"{schema}"));
+        edit(&path, |text| text.replacen(&old, &new, 1));
+        accept(&path);
+        relist(&bench, "b", of_another_version);
+        let found = verified(&bench, "b", 3);
+        let first = &found["damage"][0];
+        assert_eq!(first["path"], name, "{first}");
+        let problem = first["problem"].as_str().expect("words");
+        assert!(
+            problem.contains(own) && problem.contains(other),
+            "{problem}"
+        );
+    }
+}
+
+#[test]
 fn tables_that_are_withheld_leave_the_claims_at_the_scores() {
     let bench = bench();
     bench.ok(&format!("{BUNDLE} b --without predictions"));

@@ -4,7 +4,10 @@ use std::fs;
 
 use serde_json::Value;
 
-use super::forgery::manifest;
+use taceva_core::Isa;
+use taceva_files::seal::digest_of_bytes;
+
+use super::forgery::{accept, edit, manifest, of_another_version, relist};
 use super::{BUNDLE, bench, of_verdict, score, verified};
 use crate::support::Bench;
 
@@ -19,6 +22,14 @@ sensor = { driver = "sim/gelsight" }
 metrics = { want = ["mae", "noise_equivalent_force"] }
 protocol = { calibration = { points = 12, indentations = 2 }, idle = { frames = 12 } }
 "#;
+
+/// A run in the folder `run`.
+fn run() -> Bench {
+    let bench = Bench::new();
+    bench.write("small.toml", SCENE);
+    bench.ok("run small.toml --out run -q");
+    bench
+}
 
 #[test]
 fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_read() {
@@ -38,10 +49,8 @@ fn an_evaluation_is_verified_by_its_samples_as_far_as_they_hold_what_metrics_rea
 }
 
 #[test]
-fn a_run_is_verified_to_the_scores_by_the_states_of_its_phases() {
-    let bench = Bench::new();
-    bench.write("small.toml", SCENE);
-    bench.ok("run small.toml --out run -q");
+fn a_run_is_verified_by_its_samples_phase_by_phase() {
+    let bench = run();
     bench.ok("bundle run --draft --out b.tar.gz -q");
     let found = verified(&bench, "b.tar.gz", 0);
     let claims = found["claims"].as_array().expect("claims");
@@ -51,7 +60,121 @@ fn a_run_is_verified_to_the_scores_by_the_states_of_its_phases() {
         "{}",
         found["levels"]
     );
-    assert!(claims.iter().all(|claim| claim["level"] == "scores"));
+    let errors = claims.iter().filter(|claim| claim["metric"] == "mae");
+    let errors: Vec<&Value> = errors.collect();
+    assert!(!errors.is_empty());
+    assert!(
+        errors.iter().all(|claim| claim["level"] == "predictions"),
+        "{errors:?}"
+    );
+}
+
+#[test]
+fn an_edited_prediction_of_a_run_leaves_its_claims_below_the_level_that_they_state() {
+    let bench = run();
+    bench.ok("bundle run --draft --out b -q");
+    let table = bench.path("b/tables/samples-0.csv");
+    let digest = || digest_of_bytes(&fs::read(&table).expect("written"));
+    let old = digest();
+    edit(&table, |text| {
+        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+        let mut names = lines[0].split(',');
+        let at = names.position(|name| name == "Fz_predicted");
+        let at = at.expect("a predicted force");
+        for line in &mut lines[1..] {
+            let mut cells: Vec<&str> = line.split(',').collect();
+            if !cells[at].is_empty() {
+                cells[at] = "0.015625";
+                *line = cells.join(",");
+            }
+        }
+        lines.join("\n") + "\n"
+    });
+    let new = digest();
+    let results = bench.path("b/results.json");
+    edit(&results, |text| text.replace(&old, &new));
+    accept(&results);
+    relist(&bench, "b", of_another_version);
+    let found = verified(&bench, "b", 1);
+    let lost = of_verdict(&found, "not recomputable");
+    assert!(!lost.is_empty(), "{}", found["summary"]);
+    for claim in lost {
+        let reason = claim["reason"].as_str().expect("a reason");
+        assert!(reason.contains("states the level predictions"), "{reason}");
+    }
+}
+
+#[test]
+fn a_licence_is_an_spdx_identifier_and_a_mistyped_one_gets_the_nearest() {
+    let bench = bench();
+    for (licence, message) in [
+        ("cc-by-4.0", "did you mean `CC-BY-4.0`?"),
+        ("CC-BY-4.O", "did you mean `CC-BY-4.0`?"),
+        ("public", "expected an SPDX identifier"),
+    ] {
+        let words = format!("{BUNDLE} b --author Ada --licence {licence}");
+        bench.refused(&words, 2, message);
+    }
+}
+
+#[test]
+fn every_claim_is_equal_by_every_instruction_set_of_this_machine() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b"));
+    let sets = Isa::available();
+    assert!(sets.contains(&Isa::Portable));
+    for set in sets {
+        let mut command = bench.command("bundle verify b --level predictions --format json -q");
+        let output = command.env("TACEVA_ISA", set.name()).output();
+        let output = output.expect("the program starts");
+        assert_eq!(output.status.code(), Some(0), "{}", set.name());
+        let found: Value = serde_json::from_slice(&output.stdout).expect("JSON");
+        let claims = found["claims"].as_array().expect("claims").len();
+        assert_eq!(found["summary"]["equal"], claims, "{}", set.name());
+    }
+}
+
+#[test]
+fn a_page_has_a_tick_for_every_level_that_a_claim_reached() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b --name <b>"));
+    bench.ok("bundle verify b --html v.html");
+    let read = |name: &str| fs::read_to_string(bench.path(name)).expect("written");
+    let page = read("v.html");
+    for words in [
+        "mae of Fz",
+        "predictions",
+        "✓",
+        "&lt;b&gt;",
+        "A seal is a digest",
+    ] {
+        assert!(page.contains(words), "{words}");
+    }
+    assert!(
+        !page.contains("<td>✗") && !page.contains("of <b>"),
+        "{page}"
+    );
+    relist(&bench, "b", |manifest| {
+        manifest["claims"][0]["value"] = 123.5.into()
+    });
+    let ran = bench.run("bundle verify b --html w.html");
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let page = read("w.html");
+    assert!(page.contains("✗") && page.contains("123.5"), "{page}");
+    bench.refused("bundle verify b --html w.html", 3, "--force replaces it");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_full_disk_ends_a_verification_and_is_no_damage() {
+    let bench = bench();
+    bench.ok(&format!("{BUNDLE} b.tar.gz"));
+    let ran = bench.shell("trap '' XFSZ; ulimit -f 1; exec taceva bundle verify b.tar.gz -q");
+    assert_eq!(ran.code, 3, "{}{}", ran.out, ran.err);
+    let words = "b.tar.gz: cannot be unpacked into ";
+    assert!(ran.err.contains(words), "{}", ran.err);
+    assert!(ran.err.contains("TMPDIR"), "{}", ran.err);
+    assert!(!ran.out.contains("damage"), "{}", ran.out);
 }
 
 #[test]

@@ -78,6 +78,8 @@ fn a_bundle_states_the_instruction_sets_that_its_program_could_use() {
     let environment: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     let expected = serde_json::json!(["portable"]);
     assert_eq!(environment["instruction_sets"], expected, "{text}");
+    let machine = environment["machine"].as_str().expect("words");
+    assert!(machine.contains("`taceva bundle`"), "{machine}");
 }
 
 #[test]

@@ -159,12 +159,48 @@ fn a_number_of_a_bundle_that_no_entry_holds_is_found() {
 fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
     let bench = catalogue();
     forge(&bench, "foo", |manifest| {
-        manifest["licence"] = "ask me".into()
+        manifest["licence"] = "CC-BY-4".into()
     });
-    has(&findings(&bench), &["`ask me`", "SPDX identifier"]);
+    has(
+        &findings(&bench),
+        &["`CC-BY-4`", "SPDX identifier", "did you mean `CC-BY-4.0`?"],
+    );
     let bench = catalogue();
     forge(&bench, "foo", |manifest| manifest["draft"] = true.into());
     has(&findings(&bench), &["bundles/", "a draft: expected"]);
+}
+
+#[test]
+fn the_origin_of_a_number_is_that_of_its_study_in_the_manifest() {
+    let bench = catalogue();
+    forge(&bench, "foo", |manifest| {
+        manifest["source"] = "several".into()
+    });
+    assert!(findings(&bench).is_empty());
+    edit(&bench.path("c/entries/foo.toml"), |text| {
+        let text = text.replace("[[measured]]", "[[simulated]]");
+        text.replace("source = \"recorded\"", "source = \"simulated\"")
+    });
+    has(&findings(&bench), &["`source` of ", "expected recorded"]);
+}
+
+#[test]
+fn bundles_at_hand_are_verified_again_and_must_be_those_of_the_catalogue() {
+    let bench = catalogue();
+    bench.ok("catalogue check c --bundle one");
+    bundle(&bench, "two", "Foo", 0.02);
+    edit(&bench.path("one/tables/prediction.csv"), |text| {
+        text.replacen('1', "2", 1)
+    });
+    let ran = bench.run("catalogue check c --bundle one --bundle two --format csv");
+    assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
+    for words in [
+        "one,,damaged: tables/prediction.csv",
+        "two,,its manifest is not in the catalogue",
+    ] {
+        assert!(ran.out.replace('"', "").contains(words), "{}", ran.out);
+    }
+    bench.refused("catalogue check c --bundle nowhere", 3, "nowhere");
 }
 
 #[test]

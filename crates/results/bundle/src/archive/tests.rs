@@ -203,3 +203,25 @@ fn every_cut_is_refused_and_a_damaged_byte_changes_no_content_unnoticed() {
         }
     }
 }
+
+/// A disk without room.
+struct Full;
+
+impl Write for Full {
+    fn write(&mut self, _: &[u8]) -> io::Result<usize> {
+        Err(io::ErrorKind::StorageFull.into())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[test]
+fn a_full_disk_is_no_fault_of_the_archive() {
+    let fault = copy(&mut [7_u8; 9].as_slice(), &mut Full);
+    assert!(matches!(fault, Err(Fault::Write(_))));
+    let mut copied = Vec::new();
+    let whole = copy(&mut [7_u8; 9].as_slice(), &mut copied);
+    assert!(matches!(whole, Ok(9)) && copied == [7; 9]);
+}

@@ -7,9 +7,6 @@ use crate::author::Author;
 use crate::claim::Claim;
 use crate::manifest::Manifest;
 
-/// Origin of results whose studies have different ones.
-const SEVERAL: &str = "several";
-
 /// Fault of a row of the bundle with `manifest`; `None` if the manifest holds the number.
 pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
     let is_named = |claim: &&Claim| {
@@ -29,6 +26,8 @@ pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
     let by: Vec<String> = manifest.authors.iter().map(Author::to_string).collect();
     let protocol = protocol(manifest);
     let depth = claim.level.to_string();
+    let of_study = manifest.studies.get(row.study);
+    let source = of_study.map_or("", |files| files.source.as_str());
     let deepest = DEPTHS.iter().position(|word| *word == depth);
     let differing = [
         (
@@ -76,12 +75,7 @@ pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
             row.protocol != protocol,
             protocol.clone().unwrap_or_else(|| "none".to_owned()),
         ),
-        (
-            "source",
-            // Results of several origins have one for each study, which the manifest does not state.
-            manifest.source != SEVERAL && row.source != manifest.source,
-            manifest.source.clone(),
-        ),
+        ("source", row.source != source, source.to_owned()),
         (
             "verified",
             deepest.is_some_and(|deepest| row.depth() > deepest),

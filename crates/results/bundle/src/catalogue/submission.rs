@@ -10,13 +10,14 @@ use toml::value::Datetime;
 
 use super::error::CatalogueFolderError;
 use super::request::AddRequest;
-use crate::author::{Author, is_licence};
+use crate::author::Author;
 use crate::claim::{Claim, words};
 use crate::claim_list;
 use crate::error::BundleError;
 use crate::form;
 use crate::layout::{MANIFEST, MOST_MANIFEST, RESULTS};
 use crate::level::Level;
+use crate::licence::{expected_licence, is_licence};
 use crate::manifest::{Manifest, SealedManifest};
 use crate::source::Source;
 use crate::verification::{ClaimCheck, Outcome, Verdict, Verification};
@@ -197,11 +198,11 @@ pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
         return Some(problem.to_owned());
     }
     (!is_licence(licence))
-        .then(|| format!("the licence `{licence}`: expected an SPDX identifier such as CC-BY-4.0"))
+        .then(|| format!("the licence `{licence}`: {}", expected_licence(licence)))
 }
 
 /// Rejects a bundle that is damaged or not verified.
-fn check_outcome(found: &Verification, path: &Path) -> Result<(), CatalogueFolderError> {
+pub(super) fn check_outcome(found: &Verification, path: &Path) -> Result<(), CatalogueFolderError> {
     match found.outcome() {
         Outcome::Verified => return Ok(()),
         Outcome::Damaged => {

@@ -138,6 +138,18 @@ fn a_file_that_is_edited_and_listed_again_differs_from_its_digest_in_the_forms()
 }
 
 #[test]
+fn a_study_with_another_origin_in_the_manifest_is_damage() {
+    let bench = Bench::new();
+    let mut manifest = bench.json("bundle.json");
+    assert_eq!(manifest["studies"][0]["source"], "unknown");
+    manifest["studies"][0]["source"] = "recorded".into();
+    bench.relist(manifest);
+    let found = bench.verified(Level::Form);
+    let problem = &found.damage[0].problem;
+    assert!(problem.contains("expected `unknown`"), "{problem}");
+}
+
+#[test]
 fn simulated_samples_and_drafts_are_named_in_every_form_with_claims() {
     let bench = Bench::of(|request| {
         for (path, space) in [(&request.result, " "), (&request.states[0], "")] {

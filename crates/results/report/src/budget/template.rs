@@ -3,25 +3,14 @@
 use taceva_metrology::budget::{BudgetText, Evidence, Figure, Missing, MonteCarlo};
 use taceva_results::not_measured;
 
+use crate::budget_source::{
+    BETWEEN, BIAS, BudgetSource, CERTIFICATE, DRIFT, LIGHT, REPEATS, WITHIN,
+};
 use crate::escape::{terminal as line, toml_string as quoted};
 use crate::number::FormattedValue;
 
-/// Figures that become sources, each with the name and further keys of the source. A source with a key that the user must complete is written as a comment.
-const SOURCES: [(&str, &str, &str); 7] = [
-    ("bias", "mean residual", ""),
-    ("error.between", "place to place", ""),
-    ("error.within", "one reading", "readings = 1\n"),
-    (REPEATS, "repeats", "readings = 1\n"),
-    ("r_light", "other light", ""),
-    (
-        "drift",
-        "drift since calibration",
-        "hours = ?   # hours since the calibration of the zero\n",
-    ),
-    ("certificate", "reference", ""),
-];
-/// Figure that `error.within` already includes.
-const REPEATS: &str = "repeatability";
+/// Sources of the file. A source with a key that the user must complete is written as a comment.
+const SOURCES: [BudgetSource; 7] = [BIAS, BETWEEN, WITHIN, REPEATS, LIGHT, DRIFT, CERTIFICATE];
 
 /// Data for the file.
 #[derive(Clone, Copy, Debug)]
@@ -63,22 +52,19 @@ impl BudgetTemplate<'_> {
             quoted(self.measurand),
             quoted(&at)
         );
-        for (figure, name, keys) in SOURCES {
+        for source in SOURCES {
+            let figure = source.figure;
             if self.is_inside(figure) {
                 out += &format!("\n# {figure}: measured, and inside `error.within`\n");
                 continue;
             }
             if let Some(found) = self.found(figure) {
-                let source = format!(
-                    "[[source]]\nname = {}\nfrom = {}\n{keys}",
-                    quoted(name),
-                    quoted(figure)
-                );
-                let source = match keys.contains('?') {
-                    true => format!("# {}\n", source.trim_end().replace('\n', "\n# ")),
-                    false => source,
+                let text = source.text();
+                let text = match source.keys.contains('?') {
+                    true => format!("# {}\n", text.trim_end().replace('\n', "\n# ")),
+                    false => text,
                 };
-                out += &format!("\n# {}\n{source}", line(&found));
+                out += &format!("\n# {}\n{text}", line(&found));
             }
         }
         let remarks = self.remarks(&out);
@@ -87,12 +73,12 @@ impl BudgetTemplate<'_> {
 
     fn is_inside(&self, figure: &str) -> bool {
         let is_measured = |figure: &str| self.evidence.figure(figure).is_some();
-        figure == REPEATS && is_measured(figure) && is_measured("error.within")
+        figure == REPEATS.figure && is_measured(figure) && is_measured(WITHIN.figure)
     }
 
     /// Measured figure as text; `None` if it has no value.
     fn found(&self, figure: &str) -> Option<String> {
-        if figure == "certificate" {
+        if figure == CERTIFICATE.figure {
             let found = self.evidence.certificate()?;
             return Some(format!(
                 "certificate {} of {}, serial {}",
@@ -103,7 +89,7 @@ impl BudgetTemplate<'_> {
         let phrase = |value: f64, unit: &str| {
             FormattedValue::number(value, None).phrase(&format!(" {unit}"))
         };
-        if figure == "drift" {
+        if figure == DRIFT.figure {
             let slope = phrase(found.value, &format!("{}/h", self.unit));
             return Some(format!(
                 "slope {slope}; state the hours, then remove the `# ` of the lines below"

@@ -16,6 +16,10 @@ const DIGEST: &str = "sha256: and 64 hexadecimal digits";
 pub const ADDRESS: &str = "an address that begins with https://, in ASCII, with %20 for a blank";
 /// Beginning of a digest.
 const PREFIX: &str = "sha256:";
+/// Explanation of [`DEPTHS`] for readers.
+pub(crate) const DEPTH_NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` \
+                                     computes it again from sums, and `predictions` from tables of truth and prediction. `model` predicts again on the \
+                                     recording, and `fit` fits the model again.";
 /// Digits of a digest in names.
 const SHORT: usize = 8;
 

@@ -2,6 +2,7 @@
 
 use taceva_metrics::Better;
 
+use super::bundle_row::{DEPTH_NOTE, Measured};
 use super::facts::{SIZE, TESTED};
 use super::offer::Goods;
 use super::{Kind, Sensor};
@@ -11,7 +12,7 @@ use crate::table::{Column, Direction, Table};
 pub(crate) const MECHANISMS: &str = "IMM: the camera maps intensity. MDM: the camera follows displacements of markers. MFM: the sensor fuses modalities. \
                                      Magnetic, capacitive, resistive and optical sensors have taxels and no camera.";
 
-/// Table with one row for each sensor. A note names the studies of sensors.
+/// Table with one row for each sensor. A note names the studies of sensors. Counts of bundle numbers have a column if there are any.
 pub fn list(sensors: &[Sensor]) -> Table {
     let error = |name: &str, unit: &str| {
         let column = Column::new(name).unit(unit);
@@ -31,6 +32,9 @@ pub fn list(sensors: &[Sensor]) -> Table {
         Column::new("can be"),
         Column::new("numbers"),
     ];
+    let has_bundles = sensors.iter().any(Sensor::has_bundles);
+    let of_bundles = has_bundles.then(|| Column::new("of bundles"));
+    let columns = columns.into_iter().chain(of_bundles);
     let mut table = Table::new("Catalogue of tactile sensors, as published", columns);
     let is_sensor = |entry: &&Sensor| entry.kind == Kind::Sensor;
     for sensor in sensors.iter().filter(is_sensor) {
@@ -40,7 +44,8 @@ pub fn list(sensors: &[Sensor]) -> Table {
         let opaque = sensor
             .opaque
             .map_or("–", |opaque| if opaque { "yes" } else { "no" });
-        table.push([
+        let of_bundles = has_bundles.then(|| sensor.all_rows().count().to_string());
+        let cells = [
             sensor.name.clone(),
             sensor.mechanism.join("+"),
             opaque.to_owned(),
@@ -53,9 +58,10 @@ pub fn list(sensors: &[Sensor]) -> Table {
             prices(sensor),
             ways(sensor),
             sensor.known().to_string(),
-        ]);
+        ];
+        table.push(cells.into_iter().chain(of_bundles));
     }
-    table.note("A dash: no number of that definition is known here. The last column counts all known numbers, with sizes and prices; `taceva catalogue show NAME` lists each with its source, definition and conditions.");
+    table.note("A dash: no number of that definition is known here. `numbers` counts all published ones, with sizes and prices; `taceva catalogue show NAME` lists each with its source, definition and conditions.");
     table.note("Prices are in the currency of their source and not converted; `(parts)` is the cost of parts, not the price of a ready sensor.");
     table.note(MECHANISMS);
     for sensor in sensors.iter().filter(is_sensor) {
@@ -167,7 +173,35 @@ fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
     size.chain(prices).chain(ways).collect()
 }
 
-/// Table of all published numbers of a sensor, with source and conditions.
+/// Row of a number of a bundle, with the columns of [`details`].
+fn of_bundle(row: &Measured) -> [String; 7] {
+    let variant = row.variant.as_ref();
+    let variant = variant.map_or_else(String::new, |name| format!(".{name}"));
+    let interval = match row.ci95 {
+        Some([low, high]) => format!("95 % interval {low} to {high}"),
+        None => "no interval".to_owned(),
+    };
+    let by = match row.by.is_empty() {
+        true => "not stated".to_owned(),
+        false => row.by.join(", "),
+    };
+    [
+        format!("{}{variant}", row.metric),
+        row.channel.clone(),
+        row.value.to_string(),
+        row.unit.clone(),
+        format!(
+            "bundle {}, {}, level {}",
+            row.short_bundle(),
+            row.origin_word(),
+            row.verified
+        ),
+        row.definition.clone(),
+        format!("{interval}, n = {}, made on {}, by {by}", row.n, row.date),
+    ]
+}
+
+/// Table of all numbers of a sensor, with source and conditions: published ones, then those of bundles.
 pub fn details(sensor: &Sensor) -> Table {
     let others = [
         "channel",
@@ -178,6 +212,7 @@ pub fn details(sensor: &Sensor) -> Table {
         "conditions",
     ];
     let kind = match sensor.kind {
+        Kind::Sensor if sensor.mechanism.is_empty() => "mechanism not stated".to_owned(),
         Kind::Sensor => sensor.mechanism.join("+"),
         Kind::Study => "a study of sensors, not a sensor".to_owned(),
     };
@@ -212,6 +247,12 @@ pub fn details(sensor: &Sensor) -> Table {
             &conditions,
         ];
         table.push(row.map(ToOwned::to_owned));
+    }
+    for row in sensor.all_rows() {
+        table.push(of_bundle(row));
+    }
+    if sensor.has_bundles() {
+        table.note(DEPTH_NOTE);
     }
     if let Some(identity) = &sensor.identity {
         table.note(format!("{}: {identity}.", sensor.name));

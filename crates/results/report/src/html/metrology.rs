@@ -6,6 +6,7 @@ use taceva_metrology::budget::{Budget, BudgetText, Components, Evidence, Figure,
 use taceva_results::Samples;
 
 use super::drawn;
+use crate::budget_source::{BETWEEN, BIAS, BudgetSource, CERTIFICATE, WITHIN};
 use crate::contributions;
 use crate::escape::toml_string as quoted;
 use crate::names::names;
@@ -17,12 +18,8 @@ use crate::results::Study;
 const PLACES: [&str; 2] = ["calibration", "point_id"];
 /// Part of the protocol with several light scenes, and the column of the scene.
 const LIGHTS: [&str; 2] = ["light-sweep", "scene"];
-/// Figures that become sources of the budget, each with the name and a further key of the source.
-const SOURCES: [(&str, &str, &str); 3] = [
-    ("error.between", "between places", ""),
-    ("error.within", "within places", "readings = 1\n"),
-    ("bias", "bias", ""),
-];
+/// Sources of the budget, beside the certificate.
+const SOURCES: [BudgetSource; 3] = [BETWEEN, WITHIN, BIAS];
 /// Command that writes a budget file.
 const TEMPLATE: &str = "taceva budget --template RESULT.json > budget.toml";
 
@@ -147,13 +144,9 @@ impl Measurand {
             quoted(&self.name),
             quoted(symbol)
         );
-        let certificate = is_certified.then_some(("certificate", "reference", ""));
-        for (figure, name, keys) in SOURCES.into_iter().chain(certificate) {
-            text += &format!(
-                "[[source]]\nname = {}\nfrom = {}\n{keys}",
-                quoted(name),
-                quoted(figure)
-            );
+        let certificate = is_certified.then_some(CERTIFICATE);
+        for source in SOURCES.into_iter().chain(certificate) {
+            text += &source.text();
         }
         text
     }

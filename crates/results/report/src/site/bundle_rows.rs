@@ -5,17 +5,16 @@ use std::collections::BTreeMap;
 use maud::{Markup, html};
 
 use super::{SitePage, TITLE};
-use crate::catalogue::{DEPTHS, Measured, Origin, Sensor, short};
+use crate::catalogue::{DEPTH_NOTE, DEPTHS, Measured, Origin, Sensor, short};
 use crate::html::Document;
 use crate::markup::{filter, heads, right_heads, scroll};
 use crate::number::numeral;
 
 /// Name of the page with the numbers of all sensors.
 pub(super) const FILE: &str = "measured.html";
-/// Explanation of the columns.
-const NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` computes it \
-                    again from sums, and `predictions` from tables of truth and prediction. Numbers of different samples or definitions are not comparable, \
-                    and none is ranked. A grey number has no interval. A seal is a digest and no signature.";
+/// Remarks on the numbers.
+const NOTE: &str = "Numbers of different samples or definitions are not comparable, and none is ranked. A grey number has no interval. A seal is a \
+                    digest and no signature.";
 
 /// Number of a bundle, with its sensor.
 struct Entry<'a> {
@@ -84,7 +83,7 @@ fn add_table(document: &mut Document, origin: Origin, entries: &[Entry<'_>]) {
     let body = html! {
         @if let Some(badge) = badge { p.badge { (badge) } "\n" }
         (scroll(title, &table))
-        p.note { (NOTE) }
+        p.note { (DEPTH_NOTE) " " (NOTE) }
     };
     document.section(origin.table(), title, body);
 }
@@ -190,6 +189,8 @@ mod tests {
             "level-predictions sensor-x--b- metric-mae certified",
             "D-K-1",
             "2026-11-28",
+            "`model` predicts again",
+            "`fit` fits the model again",
         ] {
             assert!(text.contains(words), "{words}");
         }

@@ -6,7 +6,8 @@ use super::{PhaseInputs, nanometres, straight};
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
 
-/// Presses to every depth at each point, trial by trial. If the gel has markers, a trial ends with a shear at the greatest depth.
+/// Presses to every depth at each point, trial by trial, on the first unit or on every unit. If the gel has markers, a trial ends with
+/// a shear at the greatest depth.
 pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let draws = inputs.draws(PhaseKind::Repeatability);
     let spec = &inputs.protocol.repeatability;
@@ -24,14 +25,20 @@ pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
         .map(straight)
         .chain(sheared)
         .collect();
-    (0..u64::from(spec.points.value))
-        .flat_map(|point| {
+    let units = match spec.every_unit.value {
+        true => inputs.units,
+        false => &inputs.units[..1],
+    };
+    let mut presses = Vec::new();
+    for unit in units {
+        for point in 0..u64::from(spec.points.value) {
             let place = draws.place(&inputs.footprint, point);
-            let waypoints = &waypoints;
-            (0..spec.trials.value).map(move |trial| Press {
+            presses.extend((0..spec.trials.value).map(|trial| Press {
+                unit: unit.clone(),
                 repeat: Some(trial),
                 ..inputs.press(place, Motion::Indent(waypoints.clone()))
-            })
-        })
-        .collect()
+            }));
+        }
+    }
+    presses
 }

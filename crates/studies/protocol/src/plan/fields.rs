@@ -7,7 +7,8 @@ use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 
-/// Removes fields that no planned metric or model reads, and frames of presses whose phases read none.
+/// Removes fields that no planned metric or model reads, and frames of presses whose phases read none. Loading and unloading keep their
+/// frames if the scene asks for their predictions.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     let of_metrics = collected.metrics.iter().map(|metric| metric.fields);
     let read = of_metrics.fold(FieldSet::EMPTY, |all, fields| all | fields);
@@ -29,6 +30,13 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
         true => needed.with(Field::Stamp),
         false => needed,
     };
+    let inputs = facts.phase_inputs.as_ref();
+    let are_units_compared = collected.phases.contains(&PhaseKind::Repeatability)
+        && inputs.is_some_and(|inputs| inputs.protocol.repeatability.every_unit.value);
+    let needed = match are_units_compared {
+        true => needed.with(Field::UnitId),
+        false => needed,
+    };
     for field in collected.fields.iter().collect::<Vec<Field>>() {
         if !needed.contains(field) {
             collected.fields = collected.fields.without(field);
@@ -44,11 +52,16 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
         let height = Subject::Channel(SURFACE.to_owned());
         collected.skip(height, PlanReason::NoMetricNeeds);
     }
+    let are_branches_predicted =
+        predicted && inputs.is_some_and(|inputs| inputs.protocol.hysteresis.predicted.value);
     let seen: Vec<_> = collected
         .phases
         .iter()
         .copied()
-        .filter(|kind| collected.looks_at_pictures(*kind))
+        .filter(|kind| {
+            let is_branch = *kind == PhaseKind::LoadUnload && are_branches_predicted;
+            is_branch || collected.looks_at_pictures(*kind)
+        })
         .collect();
     for press in &mut collected.presses {
         press.frames &= press.phases.iter().any(|kind| seen.contains(kind));

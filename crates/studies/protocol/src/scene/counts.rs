@@ -143,6 +143,8 @@ table! {
         depth_step_mm: f64 = 0.1,
         /// Shear along x at the greatest depth, in mm; 0 for none.
         shear_mm: f64 = 0.75,
+        /// True to repeat the presses on every unit, which shows the differences between units.
+        every_unit: bool = false,
     }
 }
 
@@ -153,6 +155,8 @@ table! {
         points: u32 = 100,
         /// Step between depths, in mm.
         depth_step_mm: f64 = 0.1,
+        /// True to capture a frame at each depth of both branches, which the model predicts.
+        predicted: bool = false,
     }
 }
 

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use taceva_core::{Field, Unit};
 use taceva_dataset::Dataset;
 use taceva_metrics::{Metric, catalogue};
-use taceva_protocol::{PhaseKind, Plan, PlannedMetric};
+use taceva_protocol::{PhaseKind, Plan, PlannedMetric, PlannedPress};
 
 use taceva_acquire::PlannedStudy;
 use taceva_evaluate::EvaluateError;
@@ -19,16 +19,23 @@ pub(super) struct PhaseRows<'a> {
     dataset: &'a Dataset,
     /// Rows of each phase; `None` if the plan has no presses, and every row then belongs to every phase.
     rows: Option<BTreeMap<PhaseKind, Vec<usize>>>,
+    /// Rows of repeated presses on further units, ascending. They belong to no phase: no metric of one unit reads them.
+    of_other_units: Vec<usize>,
 }
+
+/// Word of the protocol for rows of repeated presses on further units.
+const OTHER_UNITS: &str = "other-units";
 
 impl<'a> PhaseRows<'a> {
     pub(super) fn new(study: &'a PlannedStudy, dataset: &'a Dataset) -> PhaseRows<'a> {
         let plan = &study.plan;
-        let rows = (!plan.presses.is_empty()).then(|| by_phase(plan, dataset));
+        let mut of_other_units = Vec::new();
+        let rows = (!plan.presses.is_empty()).then(|| by_phase(plan, dataset, &mut of_other_units));
         PhaseRows {
             plan,
             dataset,
             rows,
+            of_other_units,
         }
     }
 
@@ -43,10 +50,15 @@ impl<'a> PhaseRows<'a> {
     /// Rows of every phase of the protocol, by name of the phase; `None` for a recording without a plan.
     pub(super) fn protocol(&self) -> Option<BTreeMap<&'static str, Vec<usize>>> {
         let rows = self.rows.as_ref()?.iter();
-        Some(
-            rows.map(|(kind, rows)| (kind.name(), rows.clone()))
-                .collect(),
-        )
+        let phases = rows.map(|(kind, rows)| (kind.name(), rows.clone()));
+        let others =
+            (!self.of_other_units.is_empty()).then(|| (OTHER_UNITS, self.of_other_units.clone()));
+        Some(phases.chain(others).collect())
+    }
+
+    /// Rows of repeated presses on further units, ascending.
+    pub(super) fn of_other_units(&self) -> &[usize] {
+        &self.of_other_units
     }
 
     /// The planned metrics with their entries in the catalogue.
@@ -67,12 +79,17 @@ impl<'a> PhaseRows<'a> {
     }
 
     /// Phases of the protocol with needed predictions: the phases of metrics, and the calibration, which gives the skill of the model.
+    /// Loading and unloading are among them if their presses have frames.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
         let mut phases: BTreeSet<PhaseKind> = predicted.map(|(planned, _)| planned.phase).collect();
         if !phases.is_empty() {
             phases.insert(PhaseKind::Calibration);
+            let mut branches = self.plan.presses_of(PhaseKind::LoadUnload);
+            if branches.any(|press| press.frames) {
+                phases.insert(PhaseKind::LoadUnload);
+            }
         }
         phases
     }
@@ -170,18 +187,38 @@ pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     rows
 }
 
-/// Rows of each phase of the protocol. Samples are named `<press>/<number>`.
-fn by_phase(plan: &Plan, dataset: &Dataset) -> BTreeMap<PhaseKind, Vec<usize>> {
+/// Rows of each phase of the protocol, without those of repeated presses on further units, which are added to `others`. Samples are named
+/// `<press>/<number>`.
+fn by_phase(
+    plan: &Plan,
+    dataset: &Dataset,
+    others: &mut Vec<usize>,
+) -> BTreeMap<PhaseKind, Vec<usize>> {
+    let first = plan.units.first();
+    let is_other = |press: &PlannedPress| {
+        press.phases.contains(&PhaseKind::Repeatability) && Some(&press.press.unit) != first
+    };
     let presses = plan.presses.iter();
+    // No phase for a repeated press on another unit.
     let phases: BTreeMap<String, &[PhaseKind]> = presses
-        .map(|press| (press.id.to_string(), press.phases.as_slice()))
+        .map(|press| {
+            let phases: &[PhaseKind] = match is_other(press) {
+                true => &[],
+                false => press.phases.as_slice(),
+            };
+            (press.id.to_string(), phases)
+        })
         .collect();
     let mut rows: BTreeMap<PhaseKind, Vec<usize>> = BTreeMap::new();
     for (row, sample) in dataset.table().samples().iter().enumerate() {
         let press = sample
             .split_once('/')
             .map_or(sample.as_str(), |(press, _)| press);
-        for kind in phases.get(press).copied().unwrap_or_default() {
+        let of_press = phases.get(press).copied();
+        if of_press.is_some_and(<[PhaseKind]>::is_empty) {
+            others.push(row);
+        }
+        for kind in of_press.unwrap_or_default() {
             rows.entry(*kind).or_default().push(row);
         }
     }

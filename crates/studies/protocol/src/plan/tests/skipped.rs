@@ -62,6 +62,36 @@ fn pictures_are_taken_on_the_presses_of_those_who_look_at_them_alone() {
 }
 
 #[test]
+fn loading_and_unloading_take_pictures_on_request_if_a_model_predicts() {
+    let rig = || SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
+    let text = SMALL.replace(
+        "hysteresis = { points = 2 }",
+        "hysteresis = { points = 2, predicted = true }",
+    );
+    let plan = planned_as(&text, rig(), &only(&["mae", "hysteresis"]));
+    assert!(plan.presses_of(PhaseKind::LoadUnload).count() > 0);
+    assert!(plan.presses.iter().all(|press| press.frames));
+    let blind = planned_as(&text, rig(), &only(&["sensitivity", "hysteresis"]));
+    assert!(blind.presses.iter().all(|press| !press.frames));
+}
+
+#[test]
+fn presses_are_repeated_on_every_unit_on_request() {
+    let rig = || SourceInfo::Rig(Box::new(rig_of(sensor(), Axes::FORCE)));
+    let text = SMALL.replace("trials = 3,", "trials = 3, every_unit = true,");
+    let wanted = only(&["repeatability"]);
+    let [one, every] = [SMALL, text.as_str()].map(|text| planned_as(text, rig(), &wanted));
+    let count = |plan: &Plan, unit: &str| {
+        let presses = plan.presses_of(PhaseKind::Repeatability);
+        presses.filter(|press| press.press.unit == unit).count()
+    };
+    assert_eq!([count(&one, "a"), count(&one, "b")], [6, 0]);
+    assert_eq!([count(&every, "a"), count(&every, "b")], [6, 6]);
+    assert!(every.presses.iter().all(|press| press.frames));
+    assert!(every.fields.contains(Field::UnitId) && !one.fields.contains(Field::UnitId));
+}
+
+#[test]
 fn without_a_model_predictions_are_a_chain_that_ends_there() {
     let text = SMALL.replace("[model]\nname = \"ridge\"\n", "");
     let plan = planned(&text, rig_of(sensor(), Axes::FORCE));

@@ -1,0 +1,51 @@
+//! Bundles at hand whose numbers stand in a catalogue, verified again.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use taceva_core::shown;
+use taceva_files::seal::digest_of_bytes;
+
+use super::error::CatalogueFolderError;
+use super::finding::CatalogueFinding;
+use super::folder::manifest_path;
+use super::submission::check_outcome;
+use crate::error::BundleError;
+use crate::layout::{MANIFEST, MOST_BYTES, MOST_MANIFEST};
+use crate::source::Source;
+use crate::verify::{VerifyRequest, verify};
+
+/// Verifies `bundles` as deep as their files allow. The manifest of each must be that in the catalogue at `root`, byte for byte.
+///
+/// The manifest states the level of each claim, which limits the level of its row. So a row cannot state a deeper level than its bundle reaches.
+///
+/// # Errors
+/// [`CatalogueFolderError::Bundle`] for a bundle that cannot be read. A damaged bundle and a number that differs are no errors: they are listed.
+pub fn check_bundles(
+    root: &Path,
+    bundles: &[PathBuf],
+    jobs: NonZeroUsize,
+) -> Result<Vec<CatalogueFinding>, CatalogueFolderError> {
+    let mut findings = Vec::new();
+    for bundle in bundles {
+        let named = shown(bundle).to_string();
+        let mut asked = VerifyRequest::new(bundle);
+        asked.jobs = jobs;
+        if let Err(error) = check_outcome(&verify(&asked)?, bundle) {
+            let message = error.to_string();
+            let problem = message.strip_prefix(&format!("{named}: "));
+            findings.push(CatalogueFinding::new(&named, problem.unwrap_or(&message)));
+            continue;
+        }
+        let text = Source::open(bundle, MOST_BYTES)?.text(MANIFEST, MOST_MANIFEST);
+        let text = text.map_err(BundleError::Damaged)?;
+        let path = manifest_path(&digest_of_bytes(text.as_bytes()));
+        if !root.join(&path).is_file() {
+            let problem = format!(
+                "its manifest is not in the catalogue: expected {path}; add it by `taceva catalogue add`"
+            );
+            findings.push(CatalogueFinding::new(&named, problem));
+        }
+    }
+    Ok(findings)
+}

@@ -1,0 +1,48 @@
+//! Sources of a budget that a result can give.
+
+use crate::escape::toml_string as quoted;
+
+/// Source of a budget: a measured figure with a name for readers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct BudgetSource {
+    /// Figure of the result: `error.within`.
+    pub(crate) figure: &'static str,
+    pub(crate) name: &'static str,
+    /// Lines with further keys. A value `?` is left to the user.
+    pub(crate) keys: &'static str,
+}
+
+const fn source(figure: &'static str, name: &'static str, keys: &'static str) -> BudgetSource {
+    BudgetSource { figure, name, keys }
+}
+
+/// Correction of the mean residual.
+pub(crate) const BIAS: BudgetSource = source("bias", "mean residual", "");
+/// Residuals from place to place.
+pub(crate) const BETWEEN: BudgetSource = source("error.between", "place to place", "");
+/// Residual of one reading at its place.
+pub(crate) const WITHIN: BudgetSource = source("error.within", "one reading", "readings = 1\n");
+/// Repeated presses. [`WITHIN`] includes them.
+pub(crate) const REPEATS: BudgetSource = source("repeatability", "repeats", "readings = 1\n");
+/// Light scenes.
+pub(crate) const LIGHT: BudgetSource = source("r_light", "other light", "");
+/// Change of the zero over time.
+pub(crate) const DRIFT: BudgetSource = source(
+    "drift",
+    "drift since calibration",
+    "hours = ?   # hours since the calibration of the zero\n",
+);
+/// Certificate of the reference.
+pub(crate) const CERTIFICATE: BudgetSource = source("certificate", "reference", "");
+
+impl BudgetSource {
+    /// The source in a budget file.
+    pub(crate) fn text(&self) -> String {
+        format!(
+            "[[source]]\nname = {}\nfrom = {}\n{}",
+            quoted(self.name),
+            quoted(self.figure),
+            self.keys
+        )
+    }
+}
