@@ -44,6 +44,7 @@ mod scene;
 pub(crate) mod score;
 pub(crate) mod stress;
 pub(crate) mod sweep;
+pub(crate) mod watch;
 pub(crate) mod wear;
 
 use std::path::{Path, PathBuf};

@@ -105,6 +105,17 @@ fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0.0).then_some(sum / count)
 }
 
+/// A row with its contact.
+pub(crate) struct Touch {
+    pub(crate) row: usize,
+    pub(crate) is_contact: bool,
+}
+
+/// Those of `rows` whose load is known, in order; `None` for a recording without a channel of loads.
+pub(crate) fn touches(dataset: &Dataset, rows: &[usize]) -> Option<Vec<Touch>> {
+    Loads::of(dataset, rows).touches()
+}
+
 /// A row with its load.
 struct Load {
     row: usize,
@@ -153,6 +164,16 @@ impl Loads {
         let contact: Vec<&Load> = self.rows.iter().filter(|load| load.load > least).collect();
         let every = contact.len().div_ceil(PICTURES).max(1);
         contact.into_iter().step_by(every).collect()
+    }
+
+    /// Rows of known load with their contact; `None` without a channel of loads.
+    fn touches(&self) -> Option<Vec<Touch>> {
+        let untouched_to = self.untouched_to?;
+        let rows = self.rows.iter().map(|load| Touch {
+            row: load.row,
+            is_contact: load.load > untouched_to,
+        });
+        Some(rows.collect())
     }
 
     /// Row of the least load, if loads are known.
