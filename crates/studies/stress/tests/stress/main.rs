@@ -3,6 +3,7 @@
 mod bad_input;
 mod bench_monitor;
 mod drawing;
+mod golden;
 mod monitor;
 mod pictures;
 mod scores;
