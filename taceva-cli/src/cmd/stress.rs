@@ -36,6 +36,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
             StressBy::Parameter => By::Parameter,
         },
         seed: args.seed.value,
+        draws: args.draws,
         part: args.part.map(|part| match part {
             StressPart::Test => DataPart::Test,
             StressPart::All => DataPart::All,

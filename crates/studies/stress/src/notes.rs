@@ -5,11 +5,12 @@ use taceva_metrics::LEAST_CLUSTERS;
 
 use crate::fault::{Fault, Scope};
 use crate::score::Scored;
+use crate::setup::StressRequest;
 
-/// Limits of the numbers of `faults`, drawn by `seed`. `clean` has the scores of `samples` predicted samples without a fault.
+/// Limits of the numbers of `faults`, as requested. `clean` has the scores of `samples` predicted samples without a fault.
 pub(crate) fn notes(
     faults: &[&'static Fault],
-    seed: u64,
+    request: &StressRequest,
     clean: &Scored,
     samples: usize,
 ) -> Vec<String> {
@@ -25,10 +26,15 @@ pub(crate) fn notes(
     let drawn = faults.iter().filter(|fault| fault.scope == Scope::Drawn);
     let drawn: Vec<&str> = drawn.map(|fault| fault.id).collect();
     if !drawn.is_empty() {
-        notes.push(format!(
-            "{}: one draw of places, by seed {seed}; the interval does not contain their chance, so repeat with another --seed.",
-            drawn.join(", ")
-        ));
+        let (names, seed) = (drawn.join(", "), request.seed);
+        notes.push(match request.draws {
+            1 => format!(
+                "{names}: one draw of places, by seed {seed}; the interval does not contain their chance, so repeat with --draws 5."
+            ),
+            draws => format!(
+                "{names}: means over {draws} draws of places, by seed {seed}; the interval does not contain their chance, the spread shows it."
+            ),
+        });
     }
     let counts = clean.names().map(|name| (name, clean.count(name)));
     let partial = counts.filter(|(_, count)| *count < samples as u64);
