@@ -100,7 +100,7 @@ fn several_draws_of_places_are_stated_with_their_spread() {
     assert_eq!(spread(1).as_array().map(Vec::len), Some(2));
     let said = bench.ok(&format!("{words} --draws 3 -q"));
     assert!(said.contains("3 draws of places"), "{said}");
-    assert!(said.contains("single draws of severity 3: Px "), "{said}");
+    assert!(said.contains("single draws of severity 3: Fz "), "{said}");
     let csv = bench.ok(&format!("{words} --draws 3 --format csv -q"));
     assert!(csv.contains(",greatest_of_draws,"), "{csv}");
     assert_eq!(bench.run(&format!("{words} --draws 0")).code, 2);

@@ -39,18 +39,8 @@ impl Scale {
                 frames.push((load.load, frame));
             }
         }
-        let mut decoded = frames.len() as u64;
-        let reference = dataset.reference()?;
-        let is_reference = reference.is_some();
-        let untouched = match (reference, loads.least()) {
-            (Some(reference), _) => Some(reference),
-            (None, Some(row)) => {
-                decoded += 1;
-                dataset.frame(row)?
-            }
-            (None, None) => None,
-        };
-        let changes = untouched.iter().flat_map(|untouched| {
+        let alone = Scale::untouched(dataset, rows)?;
+        let changes = alone.untouched.iter().flat_map(|untouched| {
             let frames = frames.iter();
             frames.map(move |(_, frame)| difference(frame, untouched))
         });
@@ -64,11 +54,29 @@ impl Scale {
             .map(|(_, frame)| frame)
             .collect();
         Ok(Scale {
-            untouched,
-            is_reference,
             contact,
             successive: successive.unwrap_or(0.0),
             pressed,
+            decoded: alone.decoded + picked.len() as u64,
+            ..alone
+        })
+    }
+
+    /// The untouched picture alone, without the change by contact. Decodes at most one picture beside it.
+    pub(crate) fn untouched(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
+        let reference = dataset.reference()?;
+        let is_reference = reference.is_some();
+        let (untouched, decoded) = match (reference, Loads::of(dataset, rows).least()) {
+            (Some(reference), _) => (Some(reference), 0),
+            (None, Some(row)) => (dataset.frame(row)?, 1),
+            (None, None) => (None, 0),
+        };
+        Ok(Scale {
+            untouched,
+            is_reference,
+            contact: None,
+            successive: 0.0,
+            pressed: Vec::new(),
             decoded,
         })
     }
