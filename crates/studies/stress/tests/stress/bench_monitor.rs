@@ -47,13 +47,15 @@ impl Watched {
         quiet.camera = CameraSpec::QUIET;
         let mut quiet = Camera::new(&quiet, size, 0, 7).expect("a small frame");
         let clean = taken(&mut quiet, &View::default());
+        let mut camera = Camera::new(&spec, size, 0, 7).expect("a small frame");
+        let reference = untouched(&mut camera, 0);
         let solid = Solid::new(&parameters);
         let probing = &parameters.probing;
         let presses = (0..12_u32).map(|number| {
             let turn = f64::from(number);
             let (sin, cos) = (2.399_963 * turn).sin_cos();
             let out = 0.8 * (turn / 12.0).sqrt();
-            let depth_mm = probing.depth_max_mm * (0.2 + 0.8 * (turn * 0.618).fract());
+            let depth_mm = probing.depth_max_mm * (0.4 + 0.6 * (turn * 0.618).fract());
             let contact = solid.contact(&Indentation {
                 place_mm: [
                     probing.half_width_mm * out * cos,
@@ -67,13 +69,12 @@ impl Watched {
             });
             let view = View {
                 stimulus: Stimulus::Ball(contact),
+                picture: 500_000 + number,
                 ..View::default()
             };
-            difference(&taken(&mut quiet, &view), &clean)
+            difference(&taken(&mut camera, &view), &reference)
         });
         let contact = presses.sum::<f64>() / 12.0;
-        let mut camera = Camera::new(&spec, size, 0, 7).expect("a small frame");
-        let reference = untouched(&mut camera, 0);
         let mut monitor = Monitor::new(reference, contact).expect("a monitor");
         for number in 1..=LEARNT {
             let alarms = monitor.untouched(&untouched(&mut camera, number));
