@@ -45,6 +45,9 @@ pub(crate) struct Stress {
     pub(crate) part: Option<StressPart>,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
+    /// An SVG file: the growth of each error by fault and severity
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }

@@ -1,5 +1,6 @@
 //! Tables of errors with faults.
 
+mod grid;
 mod numbers;
 
 use taceva_core::counted;
@@ -9,6 +10,7 @@ use taceva_stress::{
     By, ByChannel, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined,
 };
 
+pub(crate) use self::grid::grid;
 pub(crate) use self::numbers::numbers;
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.

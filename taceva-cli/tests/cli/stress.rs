@@ -107,6 +107,17 @@ fn several_draws_of_places_are_stated_with_their_spread() {
 }
 
 #[test]
+fn a_figure_shows_the_growth_by_fault_and_severity() {
+    let bench = bench();
+    let words = format!("{STRESS} --by parameter --svg faults.svg");
+    bench.ok(&format!("{words} -q"));
+    let svg = fs::read_to_string(bench.path("faults.svg")).expect("written");
+    assert!(svg.contains("defocus, severity 4: "), "{svg}");
+    assert!(!svg.contains("defocus, severity 3: "), "not tested");
+    bench.refused(&words, 3, "faults.svg exists already; --force replaces it");
+}
+
+#[test]
 fn a_result_is_written_to_a_file_once() {
     let bench = bench();
     let words = format!("{STRESS} --format json --out stress.json");
