@@ -21,6 +21,7 @@ mod stress;
 mod study;
 mod sweep;
 mod task;
+mod watch;
 mod wear;
 
 use std::ffi::OsString;
@@ -64,6 +65,7 @@ pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
 };
 pub(crate) use self::task::TaskArgs;
+pub(crate) use self::watch::Watch;
 pub(crate) use self::wear::{Wear, WearByArg};
 
 /// First commands for a new user, by kind of data.
@@ -155,6 +157,8 @@ pub(crate) enum Command {
     Stress(Stress),
     /// Compare the errors of a fitted model over the life of a gel: recordings of one unit, by presses or by date
     Wear(Wear),
+    /// Watch a sensor in use, or a recording of it: changes of the camera, the light and the gel, with what to do
+    Watch(Watch),
     /// Write a model's predictions as a table
     Predict(Predict),
     /// Score the predictions of another program: no pictures, no model

@@ -46,6 +46,7 @@ pub(crate) mod show;
 pub(crate) mod stress;
 pub(crate) mod sweep;
 mod task_scores;
+pub(crate) mod watch;
 pub(crate) mod wear;
 
 use std::path::{Path, PathBuf};

@@ -101,6 +101,7 @@ fn run(command: &Command, context: &Context) -> anyhow::Result<u8> {
         Command::Evaluate(args) => cmd::evaluate::run(args, context),
         Command::Stress(args) => cmd::stress::run(args, context),
         Command::Wear(args) => cmd::wear::run(args, context),
+        Command::Watch(args) => cmd::watch::run(args, context),
         Command::Predict(args) => cmd::predict::run(args, context),
         Command::Score(args) => cmd::score::run(args, context),
         Command::Merge(args) => cmd::merge::run(args, context),
@@ -137,6 +138,7 @@ fn patience(command: &Command) -> Option<Duration> {
         Command::Sweep(_)
         | Command::Capture(_)
         | Command::Preview(_)
+        | Command::Watch(_)
         | Command::Run(_)
         | Command::Rig(_)
         | Command::Plugin(_) => None,

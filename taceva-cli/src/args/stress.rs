@@ -37,11 +37,17 @@ pub(crate) struct Stress {
     pub(crate) by: StressBy,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
+    /// Draws of the places of dead pixels, scratches, tears and dust, so that one draw does not decide; each is predicted
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
+    pub(crate) draws: u32,
     /// The part of the recording [default: test, or all if the model was fitted on another recording]
     #[arg(long, value_enum)]
     pub(crate) part: Option<StressPart>,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
+    /// An SVG file: the growth of each error by fault and severity
+    #[arg(long, value_name = "FILE.svg")]
+    pub(crate) svg: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }

@@ -9,7 +9,7 @@ use taceva_stress::{By, StressRequest, severities, stress, stress_plan};
 
 use super::{Context, Usage, open_seen, results};
 use crate::args::{Format, Stress, StressBy, StressPart};
-use crate::report::stress::{numbers, table};
+use crate::report::stress::{grid, numbers, table};
 use crate::{exit, output};
 
 /// Refuses a model that is no file: nothing is fitted here.
@@ -24,9 +24,8 @@ pub(super) fn check_model_file(path: &Path) -> anyhow::Result<()> {
 }
 
 pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
-    if let Some(path) = &args.output.path {
-        output::check_free(path, args.output.force)?;
-    }
+    let files = args.output.path.iter().chain(&args.svg);
+    output::check_all_free(files, args.output.force)?;
     check_model_file(&args.model)?;
     let request = StressRequest {
         faults: args.faults.clone(),
@@ -36,6 +35,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
             StressBy::Parameter => By::Parameter,
         },
         seed: args.seed.value,
+        draws: args.draws,
         part: args.part.map(|part| match part {
             StressPart::Test => DataPart::Test,
             StressPart::All => DataPart::All,
@@ -58,5 +58,9 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     };
     let json = serde_json::to_string_pretty(&found)?;
     results::write(&written, &args.output, || format!("{json}\n"))?;
+    if let Some(path) = &args.svg {
+        let figure = grid(&found);
+        output::write(Some(path), |out| out.write_all(figure.svg().as_bytes()))?;
+    }
     Ok(exit::DONE)
 }

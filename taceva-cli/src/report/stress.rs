@@ -1,5 +1,6 @@
 //! Tables of errors with faults.
 
+mod grid;
 mod numbers;
 
 use taceva_core::counted;
@@ -9,6 +10,7 @@ use taceva_stress::{
     By, ByChannel, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined,
 };
 
+pub(crate) use self::grid::grid;
 pub(crate) use self::numbers::numbers;
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
@@ -61,9 +63,13 @@ fn caption(report: &StressReport) -> String {
         false => "",
     };
     format!(
-        "Mean absolute errors with faults, divided by those without{intervals}: faults {}, severity by {by}, seed {}, {} samples of the part {}",
+        "Mean absolute errors with faults, divided by those without{intervals}: faults {}, severity by {by}, seed {}{}, {} samples of the part {}",
         report.list.name,
         report.seed,
+        match report.draws {
+            1 => String::new(),
+            draws => format!(", {draws} draws of places"),
+        },
         report.samples,
         report.provenance.part.as_deref().unwrap_or("all")
     )
@@ -168,6 +174,7 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
             tested.join(", ")
         ));
     }
+    line.push_str(&spread(fault, channels));
     line.push_str(&match common_reason(fault) {
         Some(reason) => format!("; recovers unknown: {reason}"),
         None => {
@@ -185,6 +192,26 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     }
     line.push('.');
     line
+}
+
+/// Spread of the degradation between draws, at the highest tested severity; empty for one draw.
+fn spread(fault: &FaultReport, channels: &[&str]) -> String {
+    let Some(last) = fault.severities.last() else {
+        return String::new();
+    };
+    let ends = channels.iter().filter_map(|name| {
+        let [least, most] = last.stale.get(*name)?.spread?;
+        Some(format!("{name} {} to {}", short(least), short(most)))
+    });
+    let ends: Vec<String> = ends.collect();
+    match ends.is_empty() {
+        true => ends.concat(),
+        false => format!(
+            "; single draws of severity {}: {}",
+            last.severity,
+            ends.join(", ")
+        ),
+    }
 }
 
 /// Reason for the absence of every share that a new untouched picture removes, if it is the same.

@@ -56,6 +56,9 @@ pub(crate) fn table(report: &WearReport) -> Table {
             of.recording, of.untouched
         ));
     }
+    for words in &report.notes {
+        table.note(words.clone());
+    }
     if let Some(words) = &report.not_measured {
         table.note(words.clone());
     }

@@ -55,5 +55,6 @@ mod threads;
 mod uncertainty;
 mod views;
 mod waiting;
+mod watch;
 mod wear;
 mod words;

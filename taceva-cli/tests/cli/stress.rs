@@ -89,6 +89,35 @@ fn csv_names_severities_that_are_not_possible_and_draws_of_places() {
 }
 
 #[test]
+fn several_draws_of_places_are_stated_with_their_spread() {
+    let bench = bench();
+    let words = "stress unseen --model m.taceva --faults tear,defocus --severity 3 --by parameter";
+    let report = bench.json(&format!("{words} --draws 3"));
+    crate::schema::check("stress", &report);
+    assert_eq!(report["draws"], 3);
+    let spread = |fault: usize| &report["faults"][fault]["severities"][0]["stale"]["Fz"]["spread"];
+    assert!(spread(0).is_null(), "blur has no places");
+    assert_eq!(spread(1).as_array().map(Vec::len), Some(2));
+    let said = bench.ok(&format!("{words} --draws 3 -q"));
+    assert!(said.contains("3 draws of places"), "{said}");
+    assert!(said.contains("single draws of severity 3: Fz "), "{said}");
+    let csv = bench.ok(&format!("{words} --draws 3 --format csv -q"));
+    assert!(csv.contains(",greatest_of_draws,"), "{csv}");
+    assert_eq!(bench.run(&format!("{words} --draws 0")).code, 2);
+}
+
+#[test]
+fn a_figure_shows_the_growth_by_fault_and_severity() {
+    let bench = bench();
+    let words = format!("{STRESS} --by parameter --svg faults.svg");
+    bench.ok(&format!("{words} -q"));
+    let svg = fs::read_to_string(bench.path("faults.svg")).expect("written");
+    assert!(svg.contains("defocus, severity 4: "), "{svg}");
+    assert!(!svg.contains("defocus, severity 3: "), "not tested");
+    bench.refused(&words, 3, "faults.svg exists already; --force replaces it");
+}
+
+#[test]
 fn a_result_is_written_to_a_file_once() {
     let bench = bench();
     let words = format!("{STRESS} --format json --out stress.json");

@@ -1,6 +1,7 @@
 //! Figures of results. Each figure depends only on the studies, and is omitted without data.
 
 mod crosstalk;
+mod fault_grid;
 mod gaps;
 mod heat;
 mod histograms;
@@ -20,6 +21,7 @@ mod spatial;
 mod thin;
 mod undrawn;
 
+pub use fault_grid::{FaultGrid, FaultPanel, FaultRow, fault_grid};
 pub use models::model_bench;
 pub use of_study::{StudyFigures, study_figures};
 pub use race::{Race, RacePoint, race};

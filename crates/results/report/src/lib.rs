@@ -51,7 +51,8 @@ pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveReq
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{
-    Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
+    FaultGrid, FaultPanel, FaultRow, Race, RacePoint, StudyFigures, fault_grid, figures,
+    figures_for, model_bench, race, study_figures, undrawn,
 };
 pub use gauge::{ChannelGauge, GaugeColumns, GaugeStudies};
 pub use html::{Pick, Picture, ReportPage, Triple, picks, report};

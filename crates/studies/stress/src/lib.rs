@@ -5,6 +5,7 @@ mod estimate;
 mod fault;
 mod faults;
 mod findings;
+mod monitor;
 mod notes;
 mod pass;
 mod ratio;
@@ -21,6 +22,7 @@ mod wear;
 pub use estimate::{Estimate, Undefined};
 pub use fault::{Fault, Scope};
 pub use faults::{FAULTS, LIST, select};
+pub use monitor::{Alarm, Change, Monitor, watch};
 pub use report::{
     ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
     SkippedFault, StressReport, Unnoticed,

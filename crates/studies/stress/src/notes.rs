@@ -5,41 +5,53 @@ use taceva_metrics::LEAST_CLUSTERS;
 
 use crate::fault::{Fault, Scope};
 use crate::score::Scored;
+use crate::setup::StressRequest;
 
-/// Limits of the numbers of `faults`, drawn by `seed`. `clean` has the scores of `samples` predicted samples without a fault.
+/// Limits of the numbers of `faults`, as requested. `clean` has the scores of `samples` predicted samples without a fault.
 pub(crate) fn notes(
     faults: &[&'static Fault],
-    seed: u64,
+    request: &StressRequest,
     clean: &Scored,
     samples: usize,
 ) -> Vec<String> {
-    let mut notes = Vec::new();
-    match clean.clusters() {
-        Some(count) if count < LEAST_CLUSTERS => notes.push(format!(
+    let drawn = faults.iter().filter(|fault| fault.scope == Scope::Drawn);
+    let drawn: Vec<&str> = drawn.map(|fault| fault.id).collect();
+    let (names, seed) = (drawn.join(", "), request.seed);
+    let of_draws = (!drawn.is_empty()).then(|| match request.draws {
+        1 => format!(
+            "{names}: one draw of places, by seed {seed}; the interval does not contain their chance, so repeat with --draws 5."
+        ),
+        draws => format!(
+            "{names}: means over {draws} draws of places, by seed {seed}; the interval does not contain their chance, the spread shows it."
+        ),
+    });
+    let [intervals, labels] = of_scores(clean, samples);
+    [intervals, of_draws, labels]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Limits of scores of `samples` predicted samples: absent intervals, and absent labels.
+pub(crate) fn of_scores(scored: &Scored, samples: usize) -> [Option<String>; 2] {
+    let intervals = match scored.clusters() {
+        Some(count) if count < LEAST_CLUSTERS => Some(format!(
             "No intervals: {}, {LEAST_CLUSTERS} are needed; a cluster is a contact point or a group.",
             counted(count, "cluster")
         )),
-        Some(_) => {}
-        None => notes.push("No intervals of ratios: the samples name no contact points.".to_owned()),
-    }
-    let drawn = faults.iter().filter(|fault| fault.scope == Scope::Drawn);
-    let drawn: Vec<&str> = drawn.map(|fault| fault.id).collect();
-    if !drawn.is_empty() {
-        notes.push(format!(
-            "{}: one draw of places, by seed {seed}; the interval does not contain their chance, so repeat with another --seed.",
-            drawn.join(", ")
-        ));
-    }
-    let counts = clean.names().map(|name| (name, clean.count(name)));
+        Some(_) => None,
+        None => Some("No intervals: the samples name no contact points.".to_owned()),
+    };
+    let counts = scored.names().map(|name| (name, scored.count(name)));
     let partial = counts.filter(|(_, count)| *count < samples as u64);
     let partial: Vec<String> = partial
         .map(|(name, count)| format!("{name} {count} of {samples}"))
         .collect();
-    if !partial.is_empty() {
-        notes.push(format!(
+    let labels = (!partial.is_empty()).then(|| {
+        format!(
             "Not every sample has a label; scored samples: {}.",
             partial.join(", ")
-        ));
-    }
-    notes
+        )
+    });
+    [intervals, labels]
 }

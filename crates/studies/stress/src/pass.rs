@@ -14,6 +14,12 @@ pub(crate) struct Cell {
     /// Position of the fault in the list.
     pub(crate) fault: usize,
     pub(crate) level: Level,
+    /// The draws of the fault, at least one.
+    pub(crate) draws: Vec<CellDraw>,
+}
+
+/// One draw of a fault.
+pub(crate) struct CellDraw {
     pub(crate) stress: Stress,
     /// Features beside an untouched picture from after the fault; `None` if the model or the fault has none.
     fresh: Option<Extractor>,
@@ -24,22 +30,34 @@ impl Cell {
     pub(crate) fn new(
         fault: usize,
         level: Level,
-        stress: Stress,
+        stresses: Vec<Stress>,
         model: &Model,
         untouched: Option<&Frame>,
     ) -> Cell {
-        let fresh = untouched.and_then(|untouched| {
-            let faulty = stress.apply(untouched, UNTOUCHED, None);
-            // A picture in which markers are no longer found gives no extractor.
-            let reference = Some(Input::from(&faulty));
-            model.extractor(faulty.info(), reference).ok()
+        let draws = stresses.into_iter().map(|stress| CellDraw {
+            fresh: untouched.and_then(|untouched| {
+                let faulty = stress.apply(untouched, UNTOUCHED, None);
+                // A picture in which markers are no longer found gives no extractor.
+                let reference = Some(Input::from(&faulty));
+                model.extractor(faulty.info(), reference).ok()
+            }),
+            stress,
         });
+        let mut draws: Vec<CellDraw> = draws.collect();
+        if draws.iter().any(|draw| draw.fresh.is_none()) {
+            draws.iter_mut().for_each(|draw| draw.fresh = None);
+        }
         Cell {
             fault,
             level,
-            stress,
-            fresh,
+            draws,
         }
+    }
+
+    /// The fault, if it repeats pictures.
+    fn repeating(&self) -> Option<&Stress> {
+        let mut stresses = self.draws.iter().map(|draw| &draw.stress);
+        stresses.find(|stress| stress.repeats())
     }
 }
 
@@ -49,7 +67,7 @@ pub(crate) const UNTOUCHED: &str = "untouched";
 /// Predictions without a fault, and of every cell. They stay in memory until all pictures are read, because each picture is decoded once.
 ///
 /// # Shapes
-/// `[rows, channels]`, row after row.
+/// `[rows, draws, channels]`, row after row; one draw without a fault.
 pub(crate) struct Predictions {
     pub(crate) clean: Vec<f64>,
     pub(crate) cells: Vec<CellPredictions>,
@@ -62,7 +80,7 @@ pub(crate) struct CellPredictions {
     pub(crate) stale: Vec<f64>,
     /// With one from after the fault; empty without.
     pub(crate) fresh: Vec<f64>,
-    /// Sum of the changes of all pictures.
+    /// Sum over all pictures of their changes, each a mean over draws.
     changes: f64,
 }
 
@@ -101,17 +119,19 @@ impl Predictor<'_> {
     fn row(&self, sample: &str, frame: Frame, cells: &[Cell]) -> Result<Row, EvaluateError> {
         let clean = self.of(&frame, self.clean.as_ref())?;
         let of_cell = |cell: &Cell| -> Result<CellPredictions, EvaluateError> {
-            if cell.stress.repeats() {
-                return Ok(CellPredictions::default());
+            let mut found = CellPredictions::default();
+            if cell.repeating().is_some() {
+                return Ok(found);
             }
-            let faulty = cell.stress.apply(&frame, sample, None);
-            let fresh = cell.fresh.as_ref().filter(|_| self.clean.is_some());
-            let fresh = fresh.map(|fresh| self.of(&faulty, Some(fresh)));
-            Ok(CellPredictions {
-                stale: self.of(&faulty, self.clean.as_ref())?,
-                fresh: fresh.transpose()?.unwrap_or_default(),
-                changes: difference(&faulty, &frame),
-            })
+            for draw in &cell.draws {
+                let faulty = draw.stress.apply(&frame, sample, None);
+                found.stale.extend(self.of(&faulty, self.clean.as_ref())?);
+                if let (Some(fresh), Some(_)) = (&draw.fresh, &self.clean) {
+                    found.fresh.extend(self.of(&faulty, Some(fresh))?);
+                }
+                found.changes += difference(&faulty, &frame) / cell.draws.len() as f64;
+            }
+            Ok(found)
         };
         let cells = cells.iter().map(of_cell).collect::<Result<_, _>>()?;
         Ok(Row {
@@ -145,10 +165,10 @@ pub(crate) fn predictions(
         |row, found| {
             let mut found: Row = found?;
             for (cell, own) in cells.iter().zip(&mut found.cells) {
-                if cell.stress.repeats() {
+                if let Some(stress) = cell.repeating() {
                     let repeated = before
                         .as_ref()
-                        .filter(|_| cell.stress.is_repeated(&samples[row]));
+                        .filter(|_| stress.is_repeated(&samples[row]));
                     own.stale = repeated.map_or(&found.clean, |row| &row.clean).clone();
                     own.changes = repeated.map_or(0.0, |row| difference(&row.frame, &found.frame));
                 }

@@ -30,6 +30,8 @@ pub struct StressReport {
     pub list: FaultList,
     /// Seed of all faults.
     pub seed: u64,
+    /// Draws of the places of dead pixels, scratches, tears and dust.
+    pub draws: u32,
     /// Number of predicted samples.
     pub samples: usize,
     /// Number of samples of the part that have no picture.
@@ -88,6 +90,8 @@ pub struct CellScore {
     pub degradation: Estimate,
     /// The error, or that of the constant prediction if it is less.
     pub capped: Option<f64>,
+    /// Least and greatest degradation of a single draw; `None` for one draw.
+    pub spread: Option<[f64; 2]>,
 }
 
 /// Numbers of one fault.
@@ -125,7 +129,7 @@ pub struct SeverityReport {
     pub stimulus: Option<f64>,
     /// True if the stimulus is below 0.05, so that the fault is hardly there.
     pub low_stimulus: bool,
-    /// Codes of the checks of untouched pictures that find the fault.
+    /// Codes of the checks of untouched pictures that find the fault, in every draw.
     pub check: Vec<&'static str>,
     /// Scores with an untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,

@@ -39,18 +39,8 @@ impl Scale {
                 frames.push((load.load, frame));
             }
         }
-        let mut decoded = frames.len() as u64;
-        let reference = dataset.reference()?;
-        let is_reference = reference.is_some();
-        let untouched = match (reference, loads.least()) {
-            (Some(reference), _) => Some(reference),
-            (None, Some(row)) => {
-                decoded += 1;
-                dataset.frame(row)?
-            }
-            (None, None) => None,
-        };
-        let changes = untouched.iter().flat_map(|untouched| {
+        let alone = Scale::untouched(dataset, rows)?;
+        let changes = alone.untouched.iter().flat_map(|untouched| {
             let frames = frames.iter();
             frames.map(move |(_, frame)| difference(frame, untouched))
         });
@@ -64,11 +54,29 @@ impl Scale {
             .map(|(_, frame)| frame)
             .collect();
         Ok(Scale {
-            untouched,
-            is_reference,
             contact,
             successive: successive.unwrap_or(0.0),
             pressed,
+            decoded: alone.decoded + picked.len() as u64,
+            ..alone
+        })
+    }
+
+    /// The untouched picture alone, without the change by contact. Decodes at most one picture beside it.
+    pub(crate) fn untouched(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
+        let reference = dataset.reference()?;
+        let is_reference = reference.is_some();
+        let (untouched, decoded) = match (reference, Loads::of(dataset, rows).least()) {
+            (Some(reference), _) => (Some(reference), 0),
+            (None, Some(row)) => (dataset.frame(row)?, 1),
+            (None, None) => (None, 0),
+        };
+        Ok(Scale {
+            untouched,
+            is_reference,
+            contact: None,
+            successive: 0.0,
+            pressed: Vec::new(),
             decoded,
         })
     }
@@ -103,6 +111,17 @@ fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
         (sum + number, count + 1.0)
     });
     (count > 0.0).then_some(sum / count)
+}
+
+/// A row with its contact.
+pub(crate) struct Touch {
+    pub(crate) row: usize,
+    pub(crate) is_contact: bool,
+}
+
+/// Those of `rows` whose load is known, in order; `None` for a recording without a channel of loads.
+pub(crate) fn touches(dataset: &Dataset, rows: &[usize]) -> Option<Vec<Touch>> {
+    Loads::of(dataset, rows).touches()
 }
 
 /// A row with its load.
@@ -153,6 +172,16 @@ impl Loads {
         let contact: Vec<&Load> = self.rows.iter().filter(|load| load.load > least).collect();
         let every = contact.len().div_ceil(PICTURES).max(1);
         contact.into_iter().step_by(every).collect()
+    }
+
+    /// Rows of known load with their contact; `None` without a channel of loads.
+    fn touches(&self) -> Option<Vec<Touch>> {
+        let untouched_to = self.untouched_to?;
+        let rows = self.rows.iter().map(|load| Touch {
+            row: load.row,
+            is_contact: load.load > untouched_to,
+        });
+        Some(rows.collect())
     }
 
     /// Row of the least load, if loads are known.

@@ -40,6 +40,8 @@ pub(crate) struct Scored {
     pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
     errors: ByChannel<Errors>,
+    /// Least and greatest mean error of a single draw; empty for one draw.
+    spread: ByChannel<[f64; 2]>,
 }
 
 impl<'a> Scorer<'a> {
@@ -106,18 +108,27 @@ impl<'a> Scorer<'a> {
     /// Scores of `predictions`.
     ///
     /// # Shapes
-    /// `[rows, channels of the model]`.
+    /// `[rows, draws, channels of the model]`.
     pub(crate) fn score(&self, predictions: &[f64]) -> Result<Scored, EvaluateError> {
         let columns = self.positions.iter().map(|position| {
             let own = predictions.iter().skip(*position).step_by(self.width);
             Column::full(own.copied().collect())
         });
         let columns: Vec<Column> = columns.collect();
+        let draws = self.draws(&columns);
+        let places: Vec<usize> = (0..draws * self.rows.len())
+            .map(|place| place / draws)
+            .collect();
+        let of_places =
+            |column: &Column| -> Column { places.iter().map(|place| column.get(*place)).collect() };
+        let truth = self.truth.iter().map(of_places);
+        let truth: Vec<Column> = truth.collect();
+        let rows: Vec<usize> = places.iter().map(|place| self.rows[*place]).collect();
         let source = Columns {
-            truth: &self.truth,
+            truth: &truth,
             prediction: &columns,
             dataset: self.dataset,
-            rows: self.rows,
+            rows: &rows,
             groups: self.groups,
         };
         let evaluation = accumulate(&source, &self.plan, self.jobs)?.finish()?;
@@ -134,8 +145,11 @@ impl<'a> Scorer<'a> {
         let mae = of_metric(MAE);
         let errors = mae.keys();
         let errors = errors.map(|name| (name.clone(), self.errors(name, &columns)));
+        let spread = mae.keys().filter(|_| draws > 1);
+        let spread = spread.map(|name| (name.clone(), self.spread(name, &columns)));
         Ok(Scored {
             scores,
+            spread: spread.collect(),
             errors: errors.collect(),
             skill: of_metric(SKILL),
             mae,
@@ -171,24 +185,58 @@ impl<'a> Scorer<'a> {
         errors.collect()
     }
 
-    /// Absolute errors of a channel, or means over both axes of a plane.
+    /// Number of predictions of each row: one for each draw.
+    fn draws(&self, predicted: &[Column]) -> usize {
+        let length = predicted.first().map_or(0, Column::len);
+        (length / self.rows.len().max(1)).max(1)
+    }
+
+    /// Absolute errors of a channel, means over all draws of a row.
     fn errors(&self, name: &str, predicted: &[Column]) -> Errors {
+        let draws = self.draws(predicted);
+        let all = self.absolute(name, predicted);
+        let means = all.chunks(draws).map(|of_row| {
+            let sum: Option<f64> = of_row.iter().copied().sum();
+            sum.map(|sum| sum / draws as f64)
+        });
+        let means: Vec<Option<f64>> = means.collect();
+        Errors::of(&means, self.clusters.as_deref())
+    }
+
+    /// Least and greatest mean of the absolute errors of a single draw.
+    fn spread(&self, name: &str, predicted: &[Column]) -> [f64; 2] {
+        let draws = self.draws(predicted);
+        let all = self.absolute(name, predicted);
+        let means = (0..draws).filter_map(|draw| {
+            let own: Vec<Option<f64>> = all.iter().skip(draw).step_by(draws).copied().collect();
+            Errors::of(&own, None).mean()
+        });
+        means.fold([f64::INFINITY, f64::NEG_INFINITY], |[least, most], mean| {
+            [least.min(mean), most.max(mean)]
+        })
+    }
+
+    /// Absolute errors of a channel, or means over both axes of a plane.
+    ///
+    /// # Shapes
+    /// `[rows, draws]`.
+    fn absolute(&self, name: &str, predicted: &[Column]) -> Vec<Option<f64>> {
         let channels = self.plan.channels();
         let positions: Option<Vec<usize>> = match plane_axes(name) {
             Some(axes) => axes.iter().map(|axis| channels.position(axis)).collect(),
             None => channels.position(name).map(|position| vec![position]),
         };
         let positions = positions.unwrap_or_default();
+        let draws = self.draws(predicted);
         let error = |row: usize| -> Option<f64> {
             let mut sum = 0.0;
             for &position in &positions {
-                let label = self.truth[position].get(row)?;
+                let label = self.truth[position].get(row / draws)?;
                 sum += (predicted[position].get(row)? - label).abs();
             }
             (!positions.is_empty()).then_some(sum / positions.len() as f64)
         };
-        let errors: Vec<Option<f64>> = (0..self.rows.len()).map(error).collect();
-        Errors::of(&errors, self.clusters.as_deref())
+        (0..draws * self.rows.len()).map(error).collect()
     }
 
     /// Scores without a fault, for readers.
@@ -221,6 +269,7 @@ impl Scored {
                 skill: self.skill_of(name),
                 degradation: degradation(name, [self], baseline),
                 capped: capped.map(|(error, constant)| error.min(constant)),
+                spread: self.spread_beside(name, baseline),
             };
             (name.clone(), score)
         });
@@ -240,6 +289,13 @@ impl Scored {
     /// Number of samples with an error of this channel or plane.
     pub(crate) fn count(&self, name: &str) -> u64 {
         self.errors.get(name).map_or(0, Errors::count)
+    }
+
+    /// Least and greatest degradation of a single draw.
+    fn spread_beside(&self, name: &str, baseline: &Scored) -> Option<[f64; 2]> {
+        let clean = baseline.errors.get(name)?.mean().filter(|of| *of > 0.0)?;
+        let ends = self.spread.get(name)?.map(|error| error / clean);
+        ends[0].is_finite().then_some(ends)
     }
 
     fn skill_of(&self, name: &str) -> Estimate {

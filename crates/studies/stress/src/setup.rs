@@ -12,7 +12,7 @@ use crate::report::SkippedFault;
 use crate::samples::Unseen;
 use crate::scale::PICTURES;
 use crate::severity::By;
-use crate::stress::Stress;
+use crate::stress::{Stress, draw_seeds};
 
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
@@ -25,6 +25,8 @@ pub struct StressRequest {
     pub by: By,
     /// Seed of all faults.
     pub seed: u64,
+    /// Draws of the places of dead pixels, scratches, tears and dust, at least 1.
+    pub draws: u32,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
 }
@@ -36,6 +38,7 @@ impl Default for StressRequest {
             severities: (1..=5).collect(),
             by: By::default(),
             seed: 0,
+            draws: 1,
             part: None,
         }
     }
@@ -63,6 +66,9 @@ impl Setup {
             || !severities.is_sorted_by(|one, next| one < next)
         {
             return refused("severities: expected some numbers from 1 to 5, ascending".to_owned());
+        }
+        if request.draws == 0 {
+            return refused("draws: found 0, expected at least 1".to_owned());
         }
         let samples = Unseen::of(dataset, model, request.part)?;
         let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
@@ -124,7 +130,9 @@ pub fn stress_plan(
             counted(PICTURES.min(scored) + 1, "frame")
         ),
     );
-    let cells = setup.faults.len() * request.severities.len();
+    let draws = |fault: &Fault| draw_seeds(fault, request.seed, request.draws).len();
+    let cells: usize = setup.faults.iter().map(|fault| draws(fault)).sum();
+    let cells = cells * request.severities.len();
     for fault in &setup.faults {
         plan.step("fault", format!("{}: {}", fault.id, fault.title));
     }
@@ -133,7 +141,8 @@ pub fn stress_plan(
     }
     let fresh = setup.faults.iter();
     let fresh = fresh.filter(|fault| compares(model) && fault.scope != Scope::Each);
-    let fresh = fresh.count() * request.severities.len();
+    let fresh: usize = fresh.map(|fault| draws(fault)).sum();
+    let fresh = fresh * request.severities.len();
     plan.step(
         "predict",
         format!(

@@ -7,7 +7,7 @@ use taceva_evaluate::EvaluateError;
 
 use crate::fault::{Fault, Scope};
 use crate::scale::{Scale, difference};
-use crate::stress::Stress;
+use crate::stress::{Stress, draw_seeds};
 
 /// Change of the untouched picture at severities 1 to 5, as a share of the change by contact.
 pub const TARGETS: [f64; 5] = [0.03, 0.1, 0.3, 1.0, 3.0];
@@ -168,23 +168,29 @@ pub(crate) struct Reference<'a> {
     pub(crate) untouched: &'a Frame,
     pub(crate) contact: f64,
     pub(crate) seed: u64,
+    /// Draws of the places of a fault.
+    pub(crate) draws: u32,
 }
 
 impl Reference<'_> {
     /// Change of the untouched picture by the fault, as a share of that by contact.
     fn stimulus(&self, fault: &'static Fault, parameter: f64) -> f64 {
-        let stress = Stress::new(fault, parameter, self.seed);
-        if stress.repeats() {
+        if Stress::new(fault, parameter, self.seed).repeats() {
             return parameter * self.scale.successive / self.contact;
         }
+        let seeds = draw_seeds(fault, self.seed, self.draws);
         let drawn = match fault.scope {
             Scope::Fixed | Scope::Drawn => 1,
             Scope::Each => (LINES / self.untouched.info().height.max(1)).clamp(1, DRAWN),
         };
-        let changes = (0..drawn).map(|number| {
+        let pictures = seeds
+            .iter()
+            .flat_map(|&seed| (0..drawn).map(move |number| (seed, number)));
+        let changes = pictures.map(|(seed, number)| {
+            let stress = Stress::new(fault, parameter, seed);
             let sample = format!("untouched {number}");
             difference(&stress.apply(self.untouched, &sample, None), self.untouched)
         });
-        changes.sum::<f64>() / (f64::from(drawn) * self.contact)
+        changes.sum::<f64>() / (f64::from(drawn) * seeds.len() as f64 * self.contact)
     }
 }

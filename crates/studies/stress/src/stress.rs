@@ -6,6 +6,16 @@ use taceva_core::{Frame, single};
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
+/// Seeds of the draws of `fault`: of `count` for a fault with drawn places, otherwise of one. The first is `seed`.
+pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
+    let others = match fault.scope {
+        Scope::Drawn => 1..count,
+        Scope::Fixed | Scope::Each => 1..1,
+    };
+    let others = others.map(|draw| mix(mix(seed) ^ u64::from(draw)));
+    [seed].into_iter().chain(others).collect()
+}
+
 /// A fault of one strength, with its random numbers.
 ///
 /// A picture with the fault depends only on the picture, the fault, its parameter, the seed and the name of the sample. The order of the pictures

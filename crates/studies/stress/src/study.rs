@@ -20,7 +20,7 @@ use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest, compares};
 use crate::severity::{By, Levels, Reference};
-use crate::stress::Stress;
+use crate::stress::{Stress, draw_seeds};
 
 /// Stimulus below which a fault is hardly there.
 const LOW: f64 = 0.05;
@@ -75,6 +75,7 @@ pub fn stress(
         by: request.by,
         list: list(&setup.faults, request),
         seed: request.seed,
+        draws: request.draws,
         samples: setup.samples.rows.len(),
         left_out: setup.samples.left_out(),
         untouched: scale.source(),
@@ -83,12 +84,7 @@ pub fn stress(
         clean,
         mean,
         unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
-        notes: notes(
-            &setup.faults,
-            request.seed,
-            &baseline,
-            setup.samples.rows.len(),
-        ),
+        notes: notes(&setup.faults, request, &baseline, setup.samples.rows.len()),
         faults,
         skipped: setup.skipped,
         provenance,
@@ -118,6 +114,7 @@ fn levels(
         untouched,
         contact,
         seed: request.seed,
+        draws: request.draws,
     };
     let levels = faults.map(|&fault| Levels::by_stimulus(fault, &request.severities, &reference));
     Ok(levels.collect())
@@ -137,8 +134,11 @@ fn cells(
     for (position, &fault) in setup.faults.iter().enumerate() {
         let untouched = reference.filter(|_| fault.scope != Scope::Each);
         for level in &levels[position].reached {
-            let stress = Stress::new(fault, level.parameter, request.seed);
-            cells.push(Cell::new(position, *level, stress, model, untouched));
+            let seeds = draw_seeds(fault, request.seed, request.draws);
+            let stresses = seeds.into_iter();
+            let stresses = stresses.map(|seed| Stress::new(fault, level.parameter, seed));
+            let stresses = stresses.collect();
+            cells.push(Cell::new(position, *level, stresses, model, untouched));
         }
     }
     cells
@@ -149,12 +149,15 @@ fn list(faults: &[&'static Fault], request: &StressRequest) -> FaultList {
     let ids: Vec<&str> = faults.iter().map(|fault| fault.id).collect();
     let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
     let is_whole = faults.len() == FAULTS.len() && request.severities.len() == 5;
-    let text = format!(
+    let mut text = format!(
         "{LIST_VERSION}\n{:?}\n{}\n{}\n",
         request.by,
         severities.join(","),
         ids.join(",")
     );
+    if request.draws > 1 {
+        text.push_str(&format!("{} draws\n", request.draws));
+    }
     FaultList {
         name: match is_whole {
             true => format!("{LIST}/{LIST_VERSION}"),
@@ -240,7 +243,7 @@ impl Results<'_> {
             parameter: cell.level.parameter,
             stimulus,
             low_stimulus: stimulus.is_some_and(|stimulus| stimulus < LOW),
-            check: match self.is_noticed(&cell.stress) {
+            check: match cell.draws.iter().all(|draw| self.is_noticed(&draw.stress)) {
                 true => vec![CHANGED_REST],
                 false => Vec::new(),
             },

@@ -14,6 +14,7 @@ use taceva_metrics::PLANES;
 use taceva_models::Model;
 use taceva_results::{Provenance, Subject, not_measured};
 
+use crate::notes::of_scores;
 use crate::pass::predictions;
 use crate::report::ByChannel;
 use crate::samples::Unseen;
@@ -54,8 +55,11 @@ pub fn wear(
         samples.map_err(|error| named(dataset, error))
     });
     let unseen: Vec<Unseen> = unseen.collect::<Result<_, EvaluateError>>()?;
-    let measured = recordings.iter().zip(unseen);
-    let measured = measured.map(|(dataset, samples)| Measured::of(dataset, model, samples, work));
+    let measured = recordings.iter().zip(unseen).enumerate();
+    let measured = measured.map(|(at, (dataset, samples))| {
+        let is_first = order.gels.iter().any(|gel| gel[0].at == at);
+        Measured::of(dataset, model, samples, is_first, work)
+    });
     let measured: Vec<Measured> = measured.collect::<Result<_, EvaluateError>>()?;
     let subjects: Vec<Subject> = recordings.iter().map(subject_of).collect();
     let gels = order.gels.iter().map(|placed| Gel {
@@ -69,6 +73,8 @@ pub fn wear(
     for of in &measured {
         units.extend(of.units.clone());
     }
+    let notes = recordings.iter().zip(&measured);
+    let notes = notes.flat_map(|(dataset, own)| own.notes(dataset));
     Ok(WearReport {
         schema: WEAR_SCHEMA,
         not_measured: not_measured(subjects.iter().map(|of| of.source.as_str())),
@@ -79,6 +85,7 @@ pub fn wear(
         step: order.by.step(),
         units,
         gels: gels.map(|gel| gel.report()).collect(),
+        notes: notes.collect(),
     })
 }
 
@@ -131,7 +138,7 @@ struct Measured {
     left_out: usize,
     untouched: Option<Frame>,
     source: &'static str,
-    /// Mean change of a picture by contact.
+    /// Mean change of a picture by contact; `None` in later recordings of a gel.
     contact: Option<f64>,
     provenance: Provenance,
 }
@@ -141,9 +148,14 @@ impl Measured {
         dataset: &Dataset,
         model: &Model,
         samples: Unseen,
+        is_first: bool,
         work: Work<'_>,
     ) -> Result<Measured, EvaluateError> {
-        let scale = Scale::of(dataset, &samples.rows)?;
+        // Changes are compared with contact in the first recording of a gel.
+        let scale = match is_first {
+            true => Scale::of(dataset, &samples.rows)?,
+            false => Scale::untouched(dataset, &samples.rows)?,
+        };
         let found = predictions(dataset, model, &samples.rows, &[], work)?;
         let scorer = Scorer::new(dataset, model, &samples.target, &samples.rows, work.jobs)?;
         let scored = scorer.score(&found.clean)?;
@@ -157,6 +169,13 @@ impl Measured {
             untouched: scale.untouched,
             contact: scale.contact,
         })
+    }
+
+    /// Limits of the scores, with the folder of the recording.
+    fn notes(&self, dataset: &Dataset) -> Vec<String> {
+        let notes = of_scores(&self.scored, self.samples).into_iter().flatten();
+        let notes = notes.map(|note| format!("{}: {note}", shown(dataset.path())));
+        notes.collect()
     }
 
     /// Change of the untouched picture from that of `first`, beside the change by contact there.

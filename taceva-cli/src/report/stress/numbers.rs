@@ -113,6 +113,18 @@ impl<'a> Rows<'a> {
         self.push(place, channel, "degradation", &score.degradation, "1");
         let capped = Estimate::of_known(score.capped);
         self.push(place, channel, "capped", &capped, unit);
+        for (quantity, end) in ["least_of_draws", "greatest_of_draws"]
+            .into_iter()
+            .zip(score.spread.into_iter().flatten())
+        {
+            self.push(
+                place,
+                channel,
+                quantity,
+                &Estimate::of_known(Some(end)),
+                "1",
+            );
+        }
     }
 
     /// Findings of the check of untouched pictures, and the errors that it does not notice.

@@ -29,6 +29,8 @@ pub struct WearReport {
     pub units: ByChannel<&'static str>,
     /// Gels of the unit, by name.
     pub gels: Vec<GelWear>,
+    /// Limits of what the numbers contain, as sentences.
+    pub notes: Vec<String>,
 }
 
 /// Recordings of one gel.

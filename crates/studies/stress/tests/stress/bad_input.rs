@@ -64,6 +64,21 @@ fn severities_outside_of_one_to_five_or_out_of_order_are_refused() {
 }
 
 #[test]
+fn no_draw_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let request = StressRequest {
+        draws: 0,
+        ..StressRequest::default()
+    };
+    let said = refused(&dataset, &model, &request);
+    assert!(
+        said.contains("draws: found 0, expected at least 1"),
+        "{said}"
+    );
+}
+
+#[test]
 fn samples_that_the_model_was_fitted_on_are_refused_and_its_test_part_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let seen = record(&folder.path().join("seen"), 1);

@@ -41,6 +41,48 @@ fn a_fault_that_changes_no_pixel_has_a_degradation_of_exactly_one() {
 }
 
 #[test]
+fn several_draws_of_places_have_their_mean_and_their_spread() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let of_draws = |draws: u32| {
+        let request = StressRequest {
+            severities: vec![3],
+            draws,
+            ..by_parameter(&["exposure_low", "tear"])
+        };
+        stress(&dataset, &model, &request, WORK).expect("tested")
+    };
+    let (one, four) = (of_draws(1), of_draws(4));
+    assert_eq!((one.draws, four.draws), (1, 4));
+    assert_ne!(one.list.digest, four.list.digest);
+    // Lost light has no places.
+    let dark = |report: &StressReport| fault(report, "exposure_low").severities[0].stale.clone();
+    assert_eq!(dark(&one), dark(&four));
+    let torn = |report: &StressReport| fault(report, "tear").severities[0].clone();
+    let (single, several) = (torn(&one), torn(&four));
+    assert_ne!(single.stimulus, several.stimulus);
+    for (channel, score) in &several.stale {
+        let [least, most] = score.spread.expect("four draws");
+        let mean = score.degradation.value.expect("a ratio");
+        assert!(least < mean && mean < most, "{channel}: {score:?}");
+        let first = &single.stale[channel];
+        assert_eq!(first.spread, None);
+        let first = first.degradation.value.expect("a ratio");
+        let tolerance = 1e-9 * first;
+        assert!(
+            (least - tolerance..=most + tolerance).contains(&first),
+            "{channel}: the first draw is one of them"
+        );
+        assert!(score.mae.value.expect("a mean") > 0.0);
+    }
+    let said = four.notes.join(" ");
+    assert!(
+        said.contains("tear: means over 4 draws of places"),
+        "{said}"
+    );
+}
+
+#[test]
 fn a_constant_model_breaks_at_the_first_severity_of_every_fault_and_never_degrades() {
     let folder = tempfile::tempdir().expect("a folder");
     let seen = record(&folder.path().join("seen"), 1);

@@ -221,6 +221,10 @@ fn samples_of_the_fit_are_left_out_and_wrong_limits_are_refused() {
     assert_eq!(part(first).as_deref(), Some("test"));
     assert_eq!(part(later).as_deref(), Some("all"));
     assert!(first.samples < later.samples);
+    // The test part has two of the twelve points.
+    let said = report.notes.join(" ");
+    assert!(said.contains("seen: No intervals: "), "{said}");
+    assert!(!said.contains("later: "), "{said}");
     let with = |name: &str, value: f64, unit: Unit| WearRequest {
         limits: ByChannel::from([(name.to_owned(), Amount { value, unit })]),
         ..WearRequest::default()
@@ -257,4 +261,22 @@ fn one_of_several_recordings_of_the_fit_is_refused_and_named_once() {
     let expected = "one: the model was fitted on this and others";
     assert!(said.contains(expected), "{said}");
     assert_eq!(said.matches("one: ").count(), 1, "{said}");
+}
+
+#[test]
+fn later_recordings_decode_no_picture_of_contact_twice() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recordings = falling(folder.path());
+    let report = wear(
+        &recordings,
+        &model(folder.path()),
+        &WearRequest::default(),
+        WORK,
+    )
+    .expect("worn");
+    let decoded = report.gels[0].recordings.iter();
+    let decoded: Vec<u64> = decoded.map(|of| of.provenance.frames_decoded).collect();
+    assert_eq!(decoded[1..], [60, 60, 60]);
+    assert!(decoded[0] > 60, "{decoded:?}");
+    assert!(report.notes.is_empty(), "{:?}", report.notes);
 }

@@ -1,0 +1,102 @@
+//! Changes of pictures that a monitor finds, with their remedies.
+
+use std::fmt;
+
+use super::limit::WINDOW;
+
+/// Kind of a change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+#[non_exhaustive]
+pub enum Change {
+    /// Untouched pictures differed from the reference before the monitor began.
+    Reference,
+    /// Untouched pictures are brighter or darker: light, exposure.
+    Brightness,
+    /// Untouched pictures have changed in large parts: a lamp, position, a tear.
+    Pattern,
+    /// Untouched pictures have changed in detail: blur, noise, dead pixels, bad lines, scratches, dust.
+    Detail,
+    /// Untouched pictures repeat the one before.
+    Repeats,
+    /// Pictures of contact are unlike the training pictures.
+    Contact,
+}
+
+impl Change {
+    /// Action that mends the change.
+    pub fn remedy(self) -> &'static str {
+        match self {
+            Change::Reference => {
+                "record a new untouched picture; if readings stay wrong, calibrate again"
+            }
+            Change::Brightness => {
+                "record a new untouched picture, which corrects most changes of light and exposure; if readings stay wrong, look at the lamps and \
+                 the settings of the camera, then calibrate again"
+            }
+            Change::Pattern => {
+                "record a new untouched picture, which corrects most changes of light and position; if readings stay wrong, look at lamps, gel and \
+                 the mount of the camera, then calibrate again"
+            }
+            Change::Detail => {
+                "look at the camera: focus, dirt on the lens, dead pixels, cable; for scratches and dust on the gel, record a new untouched picture"
+            }
+            Change::Repeats => {
+                "look at the camera, its cable and its driver: new pictures do not arrive"
+            }
+            Change::Contact => {
+                "compare object, place and force with those of the calibration; if they are the same, calibrate again"
+            }
+        }
+    }
+}
+
+/// A change, when it was found, and how strong it is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub struct Alarm {
+    /// Kind of the change.
+    pub change: Change,
+    /// Number of the picture, from 1, among all untouched pictures, or among all pictures of contact.
+    pub picture: u64,
+    /// Stimulus: the change beside that by contact. For repeats and contact, the share of the newest 30 pictures.
+    pub strength: f64,
+}
+
+impl Alarm {
+    /// Alarm for a change that has a strength.
+    pub(super) fn of(change: Change, picture: u64, strength: Option<f64>) -> Option<Alarm> {
+        let strength = strength?;
+        Some(Alarm {
+            change,
+            picture,
+            strength,
+        })
+    }
+}
+
+impl fmt::Display for Alarm {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let stimulus = format!("by {:.2} of the change by contact", self.strength);
+        let share = format!("{:.0} % of the newest {WINDOW}", 100.0 * self.strength);
+        let words = match self.change {
+            Change::Reference => {
+                format!(
+                    "untouched pictures differed from the reference from the beginning, {stimulus}"
+                )
+            }
+            Change::Brightness => {
+                format!("untouched pictures have become brighter or darker, {stimulus}")
+            }
+            Change::Pattern => {
+                format!("untouched pictures have changed in large parts, {stimulus}")
+            }
+            Change::Detail => format!("untouched pictures have changed in detail, {stimulus}"),
+            Change::Repeats => format!("{share} untouched pictures repeat the one before"),
+            Change::Contact => {
+                format!("{share} pictures of contact are outside the training pictures")
+            }
+        };
+        let remedy = self.change.remedy();
+        write!(f, "{words} (picture {}): {remedy}", self.picture)
+    }
+}

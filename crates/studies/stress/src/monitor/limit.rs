@@ -1,0 +1,131 @@
+//! Limit that untouched pictures set, and the newest pictures beyond it.
+
+use std::collections::VecDeque;
+
+/// Pictures that set a limit.
+pub(super) const LEARNT: usize = 200;
+/// Rank of the limit among them, from the greatest number.
+const RANK: usize = 20;
+/// Newest pictures that are compared with the limit.
+pub(super) const WINDOW: usize = 30;
+/// Least number of them beyond the limit that shows a change.
+const BEYOND: usize = 19;
+
+/// A number of each untouched picture, with its limit.
+#[derive(Clone, Debug)]
+pub(super) struct Limited {
+    /// Least excess over the median that counts as beyond.
+    least: f64,
+    learnt: Vec<f64>,
+    /// Set by the last of the [`LEARNT`] pictures.
+    limit: Option<Limit>,
+    newest: VecDeque<f64>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Limit {
+    median: f64,
+    limit: f64,
+}
+
+impl Limited {
+    pub(super) fn new(least: f64) -> Limited {
+        Limited {
+            least,
+            learnt: Vec::new(),
+            limit: None,
+            newest: VecDeque::new(),
+        }
+    }
+
+    /// Number of pictures that are still needed to set the limit.
+    pub(super) fn missing(&self) -> usize {
+        LEARNT - self.learnt.len()
+    }
+
+    /// Least excess over the median that is found. `None` before the limit is set.
+    pub(super) fn smallest(&self) -> Option<f64> {
+        self.limit.map(|of| of.limit - of.median)
+    }
+
+    /// Takes the number of the next picture. Returns its usual excess over the median, if [`BEYOND`] of the newest pictures are beyond the limit.
+    pub(super) fn push(&mut self, number: f64) -> Option<f64> {
+        let Some(Limit { median, limit }) = self.limit else {
+            self.learnt.push(number);
+            if self.missing() == 0 {
+                self.limit = Some(self.limit_of_learnt());
+            }
+            return None;
+        };
+        if self.newest.len() == WINDOW {
+            self.newest.pop_front();
+        }
+        self.newest.push_back(number);
+        let beyond = self.newest.iter().copied();
+        let mut beyond: Vec<f64> = beyond.filter(|number| *number > limit).collect();
+        beyond.sort_unstable_by(f64::total_cmp);
+        (beyond.len() >= BEYOND).then(|| beyond[beyond.len() / 2] - median)
+    }
+
+    fn limit_of_learnt(&self) -> Limit {
+        let mut sorted = self.learnt.clone();
+        sorted.sort_unstable_by(f64::total_cmp);
+        let median = sorted[LEARNT / 2];
+        Limit {
+            median,
+            limit: sorted[LEARNT - RANK].max(median + self.least),
+        }
+    }
+}
+
+/// Expected number of false alarms of one number in `pictures` untouched pictures that are exchangeable with those that set the limit.
+///
+/// The share q of pictures beyond the k-th greatest of n numbers has the distribution Beta(k, n + 1 − k), whatever the distribution of the numbers.
+/// The number of pictures of a window beyond the limit is therefore beta-binomial. The sum over all windows is an upper bound, because windows overlap.
+pub(super) fn false_alarms(pictures: u64) -> f64 {
+    let chance: f64 = (BEYOND..=WINDOW).map(chance_of).sum();
+    pictures as f64 * chance
+}
+
+/// Probability that exactly `beyond` pictures of a window are beyond the limit.
+fn chance_of(beyond: usize) -> f64 {
+    let within = WINDOW - beyond;
+    let rising = |from: usize, factors: usize| -> f64 {
+        let factors = from..from + factors;
+        factors.map(|factor| factor as f64).product()
+    };
+    let choices = rising(within + 1, beyond) / rising(1, beyond);
+    choices * rising(RANK, beyond) * rising(LEARNT + 1 - RANK, within) / rising(LEARNT + 1, WINDOW)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chances_of_all_numbers_of_pictures_add_up_to_one() {
+        let sum: f64 = (0..=WINDOW).map(chance_of).sum();
+        assert!((sum - 1.0).abs() < 1e-12, "{sum}");
+    }
+
+    #[test]
+    fn a_change_is_nineteen_of_thirty_pictures_beyond_the_limit() {
+        let mut limited = Limited::new(0.05);
+        for number in 0_u16..200 {
+            assert_eq!(limited.missing(), 200 - usize::from(number));
+            assert_eq!(limited.push(f64::from(number) / 2000.0), None);
+        }
+        let smallest = limited.smallest().expect("a limit");
+        assert!((smallest - 0.05).abs() < 1e-12, "{smallest}");
+        for _ in 1..BEYOND {
+            assert_eq!(limited.push(0.3), None);
+        }
+        let excess = limited.push(0.3).expect("a change");
+        assert!((excess - 0.25).abs() < 1e-12, "{excess}");
+        // The first of them leaves the window at last.
+        for _ in BEYOND..WINDOW {
+            assert!(limited.push(0.09).is_some());
+        }
+        assert_eq!(limited.push(0.09), None);
+    }
+}

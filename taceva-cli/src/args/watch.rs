@@ -1,0 +1,39 @@
+//! Arguments of `taceva watch`.
+
+use std::path::PathBuf;
+
+use clap::{ArgGroup, Args};
+
+use super::{LiveArgs, ViewArgs};
+
+const WATCH_HELP: &str = "\
+Untouched pictures are those with a force below 0.05 N by --force or by the rig file, and pictures of contact those above 0.1 N. Without a
+transducer every picture counts as untouched: touch nothing. In a recording the labels Fz or Pz show the contact.
+
+The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. They are taken from --calibration if it has as many, otherwise
+from the beginning of what is watched. Then a change is found within 30 untouched pictures. Each kind of change is printed once, with what to do.
+
+The exit code is 1 if a change was found, otherwise 0.";
+
+/// Watch a sensor in use. Untouched pictures are compared with those of the calibration, and pictures of contact with the training pictures of the
+/// model. Each change is printed in one line, with its strength beside the change by contact and its remedy.
+#[derive(Debug, Args)]
+#[command(after_help = WATCH_HELP, group = ArgGroup::new("watched").required(true).multiple(true).args(["sensor", "rig", "recording"]))]
+pub(crate) struct Watch {
+    /// A fitted model file
+    #[arg(value_name = "MODEL")]
+    pub(crate) model: PathBuf,
+    /// Watch this recording instead of a sensor
+    #[arg(long, value_name = "DATASET", conflicts_with_all = ["sensor", "force", "rig", "frames"])]
+    pub(crate) recording: Option<PathBuf>,
+    #[command(flatten)]
+    pub(crate) live: LiveArgs,
+    /// The recording of the calibration: its reference picture and its change by contact [default: the watched recording]
+    #[arg(long, value_name = "DATASET", required_unless_present = "recording")]
+    pub(crate) calibration: Option<PathBuf>,
+    /// Number of pictures of the sensor [default: until Ctrl-C]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    pub(crate) frames: Option<u64>,
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
+}

@@ -1,0 +1,199 @@
+//! `taceva watch`.
+
+use std::path::PathBuf;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use anyhow::Context as _;
+use taceva_acquire::{Viewer, preview};
+use taceva_core::{Axis, Frame, Pose, Progress, Wrench, counted, shown};
+use taceva_dataset::StreamFacts;
+use taceva_protocol::{ContentId, Event, Plan};
+use taceva_stress::{Alarm, Monitor, watch};
+
+use super::capture::open;
+use super::{Context, Usage, open_seen};
+use crate::args::Watch;
+use crate::{exit, output};
+
+/// Force below which the gel is untouched, and above which it is touched, N. Pictures between them are not watched.
+const UNTOUCHED_N: f64 = 0.05;
+const TOUCHED_N: f64 = 0.1;
+
+pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
+    let model = context.models()?.open(&args.model)?;
+    let seen = |path: &PathBuf| open_seen(std::slice::from_ref(path), &args.view, Some(&model));
+    let Some(path) = args.calibration.as_ref().or(args.recording.as_ref()) else {
+        return Err(Usage::error(
+            "--calibration: expected the recording of the calibration, because a change is compared with the change by contact there",
+        ));
+    };
+    let calibration = seen(path)?;
+    let recording = args.recording.as_ref().map(seen).transpose()?;
+    let applied = || super::applied(&args.model, std::slice::from_ref(path));
+    let monitor = Monitor::of(&calibration)?;
+    let mut monitor = monitor
+        .with_model(model, &calibration)
+        .with_context(applied)?;
+    let work = context.work(None);
+    if args.calibration.is_some() && !monitor.learn_from(&calibration, work)? {
+        context.say(format_args!(
+            "{}: too few untouched pictures, so the first {} that are watched set the limits",
+            shown(path),
+            monitor.missing()
+        ));
+    }
+    let monitor = match &recording {
+        None => watch_sensor(args, monitor, context)?,
+        Some(recording) => {
+            let mut written = Ok(());
+            watch(recording, &mut monitor, work, &mut |sample, alarm| {
+                if written.is_ok() {
+                    written = line(&format!("{}: {alarm}", shown(&sample)));
+                }
+            })?;
+            written?;
+            monitor
+        }
+    };
+    summarise(&monitor, context);
+    Ok(match monitor.found().is_empty() {
+        true => exit::DONE,
+        false => exit::CHECK_FAILED,
+    })
+}
+
+/// Watches the sensor of the arguments.
+fn watch_sensor(args: &Watch, monitor: Monitor, context: &Context) -> anyhow::Result<Monitor> {
+    let (_, mut live) = open(&args.live, context)?;
+    let has_force = live.measures(Axis::Fz);
+    let call = match has_force {
+        true => "touch nothing until the force has its zero",
+        false => "no force is measured, so every picture counts as untouched: touch nothing",
+    };
+    context.say(format_args!("{call}; Ctrl-C ends the watch"));
+    let watcher = Watcher(Mutex::new(Watched {
+        monitor,
+        has_force,
+        normal_n: None,
+        left: args.frames,
+        failure: None,
+    }));
+    let until = Until {
+        watcher: &watcher,
+        progress: &context.progress,
+    };
+    preview(&mut live, &watcher, None, &until)?;
+    let Watched {
+        monitor, failure, ..
+    } = watcher
+        .0
+        .into_inner()
+        .unwrap_or_else(PoisonError::into_inner);
+    if let Some(failure) = failure {
+        return Err(failure);
+    }
+    if monitor.missing() > 0 {
+        anyhow::bail!(
+            "nothing was watched: {} more untouched pictures are needed to set the limits; take more by --frames, or name by --calibration a recording \
+             with 250 untouched pictures",
+            monitor.missing()
+        );
+    }
+    Ok(monitor)
+}
+
+/// Prints a line of the result.
+fn line(words: &str) -> anyhow::Result<()> {
+    output::write(None, |out| writeln!(out, "{words}"))
+}
+
+fn summarise(monitor: &Monitor, context: &Context) {
+    let [untouched, touched] = monitor.pictures();
+    let changes = match monitor.found().len() {
+        0 => "no change".to_owned(),
+        count => counted(count, "change"),
+    };
+    context.say(format_args!(
+        "{} and {touched} of contact: {changes}",
+        counted(untouched, "untouched picture")
+    ));
+    if let Some([level, pattern, detail]) = monitor.smallest() {
+        context.say(format_args!(
+            "least changes that are found, beside the change by contact: brightness {level:.2}, large parts {pattern:.2}, detail {detail:.2}"
+        ));
+    }
+}
+
+/// Viewer that passes pictures to a monitor.
+struct Watcher(Mutex<Watched>);
+
+struct Watched {
+    monitor: Monitor,
+    has_force: bool,
+    /// Normal force of the newest reading.
+    normal_n: Option<f64>,
+    /// Number of pictures until the end.
+    left: Option<u64>,
+    failure: Option<anyhow::Error>,
+}
+
+impl Watcher {
+    fn watched(&self) -> MutexGuard<'_, Watched> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Watched {
+    fn is_over(&self) -> bool {
+        self.failure.is_some() || self.left == Some(0)
+    }
+
+    fn take(&mut self, frame: &Frame) -> anyhow::Result<()> {
+        let alarms: Vec<Alarm> = match (self.has_force, self.normal_n) {
+            (false, _) => self.monitor.untouched(frame)?,
+            (true, Some(normal_n)) if normal_n.abs() < UNTOUCHED_N => {
+                self.monitor.untouched(frame)?
+            }
+            (true, Some(normal_n)) if normal_n.abs() > TOUCHED_N => self.monitor.touched(frame)?,
+            _ => Vec::new(),
+        };
+        alarms.iter().try_for_each(|alarm| line(&alarm.to_string()))
+    }
+}
+
+impl Viewer for Watcher {
+    fn begins(&self, _: &Plan, _: &str, _: &dyn Fn(ContentId) -> bool) {}
+
+    fn event(&self, _: &Event) {}
+
+    fn frame(&self, frame: &Frame) {
+        let mut watched = self.watched();
+        if watched.is_over() {
+            return;
+        }
+        if let Err(error) = watched.take(frame) {
+            watched.failure = Some(error);
+        }
+        watched.left = watched.left.map(|left| left - 1);
+    }
+
+    fn force(&self, wrench: &Wrench) {
+        self.watched().normal_n = Some(wrench.force[2].0);
+    }
+
+    fn pose(&self, _: &Pose) {}
+
+    fn lost(&self, _: StreamFacts) {}
+}
+
+/// Progress that also ends with the last picture of a watcher.
+struct Until<'a> {
+    watcher: &'a Watcher,
+    progress: &'a dyn Progress,
+}
+
+impl Progress for Until<'_> {
+    fn is_cancelled(&self) -> bool {
+        self.progress.is_cancelled() || self.watcher.watched().is_over()
+    }
+}
