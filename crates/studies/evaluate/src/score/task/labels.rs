@@ -79,7 +79,7 @@ impl ClassNames {
                     "column `{0}` has {1}, expected two or more: state all classes with --task {0}={2}:names=A|B",
                     shown(&task.name),
                     counted(names.len(), "class"),
-                    task.kind
+                    task.kind.name()
                 ),
             });
         }
