@@ -217,20 +217,21 @@ impl TopK {
             }
         }
         let value = |places: &Places| self.share_of(places, k, ties);
-        let parts = self.clusters.values().map(|part| {
-            let mut left = all.clone();
-            for (place, count) in part {
-                if let Some(left) = left.get_mut(place) {
-                    *left -= count;
-                }
-            }
-            Part {
-                n: part.values().sum(),
-                value: value(&left),
-            }
-        });
         let found = value(&all);
-        estimate(found, share(found), &parts.collect::<Vec<_>>(), None)
+        // Each cluster is taken away and put back.
+        let parts = self.clusters.values().map(|part| {
+            for (place, count) in part {
+                *all.entry(*place).or_insert(0) -= count;
+            }
+            let value = value(&all);
+            for (place, count) in part {
+                *all.entry(*place).or_insert(0) += count;
+            }
+            let n = part.values().sum();
+            Part { n, value }
+        });
+        let parts: Vec<Part> = parts.collect();
+        estimate(found, share(found), &parts, None)
     }
 
     fn share_of(&self, places: &Places, k: u64, ties: Ties) -> Result<f64, Undefined> {

@@ -139,3 +139,12 @@ fn log_odds_are_flagged_in_words() {
     let flags = &auc.expect("scores of two classes")["flags"];
     assert_eq!(flags[0], "all scores outside 0 to 1");
 }
+
+#[test]
+fn predictions_without_classes_and_scores_are_refused_with_both_columns() {
+    let bench = Bench::new();
+    cloth(&bench, ["denim", "silk", "silk"], ["denim"; 3]);
+    bench.write("pred.csv", "id,cloth_p\n1,0.5\n2,0.5\n3,0.5\n");
+    let message = "no column `cloth` with classes and no column `cloth.p.CLASS` with scores";
+    bench.refused(CLOTH, 3, message);
+}

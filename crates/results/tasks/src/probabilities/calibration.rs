@@ -84,6 +84,13 @@ mod tests {
     }
 
     #[test]
+    fn levels_without_samples_add_nothing() {
+        let levels = [(0.25, 0, 4), (0.375, 0, 0), (0.5, 4, 0), (0.75, 0, 0)];
+        let levels = levels.map(|(score, positive, negative)| level(score, positive, negative));
+        assert_eq!(expected_error(&levels), Ok(0.375));
+    }
+
+    #[test]
     fn distances_within_a_bin_cancel() {
         // Thirty levels of one sample: two in each bin.
         let mut levels: Vec<Level> = (0..30).map(|_| level(0.5, 0, 0)).collect();

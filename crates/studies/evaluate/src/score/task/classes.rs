@@ -82,6 +82,9 @@ fn rows<'a>(
     let of_prediction = match &columns {
         _ if is_by_threshold => None,
         Some(_) if !tables.prediction.has(&task.name) => None,
+        None if !tables.prediction.has(&task.name) => {
+            return Err(without_predictions(tables, task));
+        }
         _ => Some(ClassColumn::of(&tables.prediction, &task.name, names)?),
     };
     let mut rows = Vec::with_capacity(tables.pairs.len());
@@ -111,6 +114,19 @@ fn rows<'a>(
         });
     }
     Ok((rows, left_out))
+}
+
+/// Refusal of predictions without classes and without scores.
+fn without_predictions(tables: &TaskTables, task: &TaskSpec) -> EvaluateError {
+    let table = &tables.prediction;
+    EvaluateError::Tables {
+        path: table.path().to_owned(),
+        problem: format!(
+            "no column `{0}` with classes and no column `{0}.p.CLASS` with scores, expected one of them; the columns are {1}",
+            shown(&task.name),
+            listed(table.names().iter().map(String::as_str))
+        ),
+    }
 }
 
 /// Applies the threshold to the scores of the positive class, then the debounce to the rows of each cluster in their order.
