@@ -128,7 +128,7 @@ def test_a_dataset_is_indexed_as_numpy_indexes(drawn: taceva.Dataset) -> None:
         frame, own = drawn[row]
         assert frame is not None and np.array_equal(frame, frames[row]) and np.array_equal(own, labels[row])
     assert [own[1] for _, own in drawn] == labels[:, 1].tolist()
-    with pytest.raises(IndexError, match="row 30 of a recording of 30"):
+    with pytest.raises(IndexError, match="row 30: the recording has 30 rows"):
         drawn[30]
     with pytest.raises(IndexError, match="row -31"):
         drawn.frames([-31])

@@ -1,4 +1,4 @@
-//! Calls of a robot.
+//! Function table of a robot.
 
 use core::ffi::c_void;
 

@@ -6,7 +6,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused};
 use crate::report::Report;
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tests a lighting.
+/// Tests a lighting device.
 pub fn lighting(factory: &dyn Factory<dyn Lighting>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }

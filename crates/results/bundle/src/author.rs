@@ -111,7 +111,8 @@ fn is_orcid(text: &str) -> bool {
     check == expected
 }
 
-/// True if `text` has the form of an SPDX identifier: letters, digits, `.`, `-` and `+`. A `LicenseRef-…` has no page at SPDX, to which forms link.
+/// True if `text` has the form of an SPDX identifier: letters, digits, `.`, `-` and `+`. A `LicenseRef-…` is refused,
+/// because generated files link to the page of the licence at SPDX.
 ///
 /// ```
 /// assert!(taceva_bundle::is_licence("CC-BY-4.0") && !taceva_bundle::is_licence("ask me"));

@@ -12,7 +12,7 @@ use crate::manifest::{Manifest, StudyFiles};
 use crate::sample_digest::IDS;
 use crate::source::Source;
 
-/// Most bytes of a line with the names of columns.
+/// Maximum length of a line of column names, bytes.
 const MOST_LINE: u64 = 1 << 20;
 
 /// Table of a bundle that readers of Croissant can load.
@@ -30,7 +30,7 @@ pub(crate) struct Column {
 }
 
 impl TableColumns {
-    /// Tables behind the studies of `manifest`. They are read, so that neither manifest nor Croissant can state other columns.
+    /// Tables behind the studies of `manifest`. Columns are read from the tables, so `croissant.json` cannot state others.
     ///
     /// Tables that cannot be read, those with another separator than a comma, and those with too many columns are left out.
     pub(crate) fn of(

@@ -1,4 +1,4 @@
-//! Limits of what the numbers of a stress test contain.
+//! Notes on the limitations of the numbers of a stress test.
 
 use taceva_core::counted;
 use taceva_metrics::LEAST_CLUSTERS;
@@ -6,7 +6,7 @@ use taceva_metrics::LEAST_CLUSTERS;
 use crate::fault::{Fault, Scope};
 use crate::score::Scored;
 
-/// Limits of the numbers of `faults`, drawn by `seed`. `clean` has the scores of `samples` predicted samples without a fault.
+/// Limitations of the numbers of `faults`, drawn by `seed`. `clean` has the scores of `samples` predicted samples without a fault.
 pub(crate) fn notes(
     faults: &[&'static Fault],
     seed: u64,
@@ -26,7 +26,7 @@ pub(crate) fn notes(
     let drawn: Vec<&str> = drawn.map(|fault| fault.id).collect();
     if !drawn.is_empty() {
         notes.push(format!(
-            "{}: one draw of places, by seed {seed}; the interval does not contain their chance, so repeat with another --seed.",
+            "{}: the places were drawn once, with seed {seed}; the interval does not include their variation, so repeat with another --seed.",
             drawn.join(", ")
         ));
     }

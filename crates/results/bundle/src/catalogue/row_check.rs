@@ -7,7 +7,7 @@ use crate::author::Author;
 use crate::claim::Claim;
 use crate::manifest::Manifest;
 
-/// Origin of results whose studies have different ones.
+/// Origin stated for results whose studies have different origins.
 const SEVERAL: &str = "several";
 
 /// Fault of a row of the bundle with `manifest`; `None` if the manifest holds the number.
