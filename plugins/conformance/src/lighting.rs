@@ -1,4 +1,4 @@
-//! Promises of lightings, and of sensors that control their lighting.
+//! Promises of lighting devices, and of sensors that control their lighting.
 
 use taceva_core::{Deadline, ErrorKind, Factory, Facts, Lighting};
 

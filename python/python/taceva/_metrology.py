@@ -400,7 +400,9 @@ class _Table:
         if isinstance(given, tuple):
             # A tuple names columns; labels are a list or an array.
             absent = [word for word in given if word not in self._columns]
-            raise ValueError(f"{name}: no column {absent[0]!r}, expected an array or names of columns" if absent else f"{name}: an empty tuple, expected names of columns")
+            if not absent:
+                raise ValueError(f"{name}: an empty tuple, expected names of columns")
+            raise ValueError(f"{name}: no column {absent[0]!r}, expected an array or names of columns")
         if name in self._columns:
             raise ValueError(f"{name}: an array and a column of this name are given, expected one of the two")
         if self.index is None and hasattr(given, "iloc"):

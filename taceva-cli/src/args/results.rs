@@ -160,7 +160,7 @@ pub(crate) struct Accept {
     /// Results of other units of the same make, five or more: print consumer's and producer's risk of each limit; may be repeated
     #[arg(long, value_name = "UNITS.json")]
     pub(crate) process: Vec<PathBuf>,
-    /// Print the acceptance limit for this share of units that are accepted and do not meet the limit, such as 0.005
+    /// Print the acceptance limit for this consumer's risk, such as 0.005: the share of units that are accepted and do not meet the limit
     #[arg(long, value_name = "SHARE", requires = "process")]
     pub(crate) target_risk: Option<f64>,
     /// Count a conditional pass as met: within the limit, not accepted by its rule

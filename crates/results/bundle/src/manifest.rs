@@ -47,7 +47,7 @@ pub struct Manifest {
     /// Statement on samples that were not measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub badge: Option<String>,
-    /// Every other file.
+    /// All files except the manifest.
     pub files: Vec<BundledFile>,
     /// Files behind each study of the results.
     pub studies: Vec<StudyFiles>,
