@@ -30,7 +30,7 @@ pub const CHANGER_FACTORY: &str = "taceva.changer/1";
 /// Id of the [`EstimatorFactory`](crate::EstimatorFactory).
 pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 
-/// `taceva_plugin`: the exported data of a plugin. New versions append fields. Each side reads at most the bytes that the other side's `size` states.
+/// `taceva_plugin`: the exported data of a plugin.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///
