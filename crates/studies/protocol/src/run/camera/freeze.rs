@@ -12,7 +12,8 @@ const NOISY_FRAMES: u32 = 4;
 /// Number of repeats of one frame after which a camera with fewer changes counts as frozen. A similar change of the force must have changed
 /// its frame before.
 const STUCK_REPEATS: u32 = 3;
-/// Part of the greatest change of the force that changed the frame. A change of this part must change the frame again. Presses to one depth differ in force.
+/// Part of the greatest change of the force that changed the frame. A change of this part must change the frame again. Presses to one depth differ in
+/// force.
 const SHOWN_PART: f64 = 0.75;
 /// Number of repeated older frames after which a camera counts as frozen: for a noisy camera, and for any other.
 const NOISY_RETURNS: u32 = 3;
