@@ -111,8 +111,7 @@ fn is_orcid(text: &str) -> bool {
     check == expected
 }
 
-/// True if `text` has the form of an SPDX identifier: letters, digits, `.`, `-` and `+`. A `LicenseRef-…` is refused,
-/// because generated files link to the page of the licence at SPDX.
+/// True if `text` has the form of an SPDX identifier: letters, digits, `.`, `-` and `+`. A `LicenseRef-…` is refused: it has no page at SPDX.
 ///
 /// ```
 /// assert!(taceva_bundle::is_licence("CC-BY-4.0") && !taceva_bundle::is_licence("ask me"));

@@ -9,11 +9,9 @@ use super::moment::Moment;
 const LIVE_FRAMES: u32 = 8;
 /// Number of changed frames of the untouched gel after which a camera counts as noisy. No two frames of a noisy camera are equal.
 const NOISY_FRAMES: u32 = 4;
-/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. A similar change of the force must have changed
-/// its frame before.
+/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. A similar change must have changed the frame before.
 const STUCK_REPEATS: u32 = 3;
-/// Part of the greatest change of the force that changed the frame. A change of this part must change the frame again. Presses to one depth differ in
-/// force.
+/// Part of the greatest change of the force that changed the frame. A change of this part must change it again. Presses to one depth differ.
 const SHOWN_PART: f64 = 0.75;
 /// Number of repeated older frames after which a camera counts as frozen: for a noisy camera, and for any other.
 const NOISY_RETURNS: u32 = 3;
