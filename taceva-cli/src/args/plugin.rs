@@ -204,7 +204,7 @@ pub(crate) struct PluginPack {
     pub(crate) force: bool,
 }
 
-/// A plugin runs in a process. It has access only to needs of its manifest that the user allows. This command writes to the user's
+/// A plugin runs in its own process, which has access only to needs of its manifest that the user allows. This command writes to the user's
 /// settings, `~/.config/taceva/config.toml`, and keeps everything else in that file.
 ///
 /// usb, camera, hid           devices on USB, cameras (/dev/video*), scales and pedals (/dev/hidraw*)

@@ -57,7 +57,7 @@ fn faults_help() -> String {
 /// Samples that the model has not seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StressPart {
-    /// Unseen samples of the recording of the fit
+    /// Unseen samples of the recording that the model was fitted on
     Test,
     /// Every sample of another recording
     All,
