@@ -35,7 +35,7 @@ def held(points, slopes, random):
 
 def main():
     random = np.random.default_rng(1)
-    print("| leaks as large as the greatest | others | locations | held |")
+    print("| leaks as large as the greatest | others | locations | contained |")
     print("|---|---|---|---|")
     for count in [1, 5, 30]:
         for points in [10, 40]:

@@ -47,7 +47,7 @@ def spreads(random, kind, locations):
 
 def main():
     random = np.random.default_rng(1)
-    print("| spread of locations | locations | held, skill 0.9 | shown, skill 0.9 | held, skill 0 | shown, skill 0 |")
+    print("| spread of locations | locations | contained, skill 0.9 | shown, skill 0.9 | contained, skill 0 | shown, skill 0 |")
     print("|---|---|---|---|---|---|")
     for kind in ["log-normal 0.5", "log-normal 1", "one in twelve"]:
         for locations in [10, 16, 46]:

@@ -43,7 +43,7 @@ def test_an_array_shares_the_memory_it_was_decoded_into(recording: Path) -> None
 
 def test_rows_that_are_none_are_refused(recording: Path) -> None:
     dataset = taceva.open(recording)
-    with pytest.raises(IndexError, match=f"row {len(dataset)} of a recording of {len(dataset)}"):
+    with pytest.raises(IndexError, match=f"row {len(dataset)}: the recording has {len(dataset)} rows"):
         dataset.frames([len(dataset)])
     with pytest.raises(IndexError, match=f"row -{len(dataset) + 1} of a recording"):
         dataset.frame(-len(dataset) - 1)

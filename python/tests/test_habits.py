@@ -128,7 +128,7 @@ def test_a_dataset_is_indexed_as_numpy_indexes(drawn: taceva.Dataset) -> None:
         frame, own = drawn[row]
         assert frame is not None and np.array_equal(frame, frames[row]) and np.array_equal(own, labels[row])
     assert [own[1] for _, own in drawn] == labels[:, 1].tolist()
-    with pytest.raises(IndexError, match="row 30 of a recording of 30"):
+    with pytest.raises(IndexError, match="row 30: the recording has 30 rows"):
         drawn[30]
     with pytest.raises(IndexError, match="row -31"):
         drawn.frames([-31])
@@ -311,12 +311,12 @@ def test_rows_of_xarray_are_matched_in_every_form(drawn: taceva.Dataset) -> None
 
 def test_names_that_are_typed_wrong_are_refused(tmp_path: Path) -> None:
     rows = [[0.0, 1.0], [1.0, 2.0]]
-    with pytest.raises(ValueError, match="units of mz"):
+    with pytest.raises(ValueError, match="units: no channel mz"):
         taceva.from_arrays(tmp_path / "a", rows, channels=["Fz", "Mz"], units={"mz": "N·mm"}, sensor="gel", source="synthetic")
     with pytest.raises(TypeError, match="found the text 'Fz'"):
         taceva.from_arrays(tmp_path / "b", rows, channels="Fz", sensor="gel", source="synthetic")
     worst = lambda truth, prediction: float(np.abs(prediction - truth).max())  # noqa: E731
     with pytest.raises(ValueError, match="named twice"):
         taceva.score_function(worst, rows, rows, channels=["Fz", "Fz"])
-    with pytest.raises(ValueError, match="unit of Pz"):
+    with pytest.raises(ValueError, match="unit: no channel Pz"):
         taceva.score_function(worst, rows, rows, channels=["Fz", "Mz"], unit={"Pz": "m"})

@@ -78,7 +78,7 @@ def test_a_file_that_is_no_model_of_frames_is_refused_with_its_name(drawn: tacev
         taceva.onnx(tmp_path / "nowhere.onnx")
     text = tmp_path / "text.onnx"
     text.write_text("no model")
-    with pytest.raises(ValueError, match="text.onnx: no model that onnxruntime"):
+    with pytest.raises(ValueError, match="text.onnx: onnxruntime"):
         taceva.onnx(text)
     with pytest.raises(ValueError, match="expected four axes"):
         taceva.onnx(file_of(tmp_path / "flat.onnx", ["n", 48]))
@@ -89,7 +89,7 @@ def test_a_file_that_is_no_model_of_frames_is_refused_with_its_name(drawn: tacev
     with pytest.raises(ValueError, match="expected nchw or nhwc"):
         taceva.onnx(file_of(tmp_path / "order.onnx", ["n", 1, HEIGHT, WIDTH]), order="chwn")
     larger = taceva.onnx(file_of(tmp_path / "larger.onnx", ["n", 3, 64, 64]))
-    with pytest.raises(ValueError, match=f"{HEIGHT}×{WIDTH} pixels of 1 sample do not fit"):
+    with pytest.raises(ValueError, match=f"{HEIGHT}×{WIDTH} pixels of 1 sample"):
         taceva.evaluate(drawn, larger)
 
 

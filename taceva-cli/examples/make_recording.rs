@@ -5,7 +5,7 @@
 //! cargo run --release -- evaluate demo --model ridge --split by-point --metrics accuracy
 //! ```
 //!
-//! Optional arguments after the folder are the number of contact points and the seed: `make_recording -- demo 5000` draws 20,000 pictures, and
+//! Optional arguments after the folder are the number of contact points and the seed. `make_recording -- demo 5000` draws 20,000 pictures, and
 //! `make_recording -- tuesday 40 2` draws other presses than `make_recording -- monday 40 1`.
 //!
 //! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset says
@@ -42,7 +42,7 @@ impl Default for Drawing {
 }
 
 impl Drawing {
-    /// Parses the number of points and the seed, with defaults for missing words. `None` for 0 points, or if a word is no number.
+    /// Parses the number of points and the seed, with defaults for missing words. `None` for 0 points, or if a word is not a number.
     fn of(mut words: impl Iterator<Item = String>) -> Option<Drawing> {
         let mut drawing = Drawing::default();
         if let Some(points) = words.next() {

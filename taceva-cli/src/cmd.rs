@@ -152,7 +152,7 @@ fn check_free(scoring: &ScoringArgs, output: &Output) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Scores that a table of `format` contains. Fails if `--scores` is combined with JSON, which contains every number.
+/// Scores that a table of `format` contains. Fails if `--table` is combined with JSON, which contains every number.
 pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<TableScores> {
     match (args.scores, format) {
         (Some(_), Format::Json) => Err(Usage::error(

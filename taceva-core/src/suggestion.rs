@@ -39,7 +39,7 @@ pub fn suggestion(wrong: &str, accepted: &[&str]) -> String {
     }
 }
 
-/// Longest word for the comparison, letters. A longer word is no typing mistake, and the run time grows with the square of the length.
+/// Longest word for the comparison, letters. A longer word is not a typing mistake, and the run time grows with the square of the length.
 const LONGEST: usize = 256;
 
 fn edits(first: &[char], second: &[char]) -> usize {

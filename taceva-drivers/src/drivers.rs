@@ -17,7 +17,7 @@ pub struct Drivers {
     pub robots: Registry<dyn Robot>,
     /// Drivers of force transducers.
     pub forces: Registry<dyn ForceTransducer>,
-    /// Drivers of lightings.
+    /// Drivers of lighting devices.
     pub lightings: Registry<dyn Lighting>,
     /// Drivers of changers.
     pub changers: Registry<dyn Changer>,

@@ -338,7 +338,7 @@ fn more_folds_than_groups_are_refused_with_both_numbers() {
     let error = folds_of_points("cv:5 by-point", &points).expect_err("four points");
     assert_eq!(
         error.to_string(),
-        "5 folds, but the recording has 4 groups (by-point); name fewer folds, or another --split"
+        "5 folds, but the recording has 4 groups (by-point); use fewer folds or another --split"
     );
     assert!(folds_of_points("cv:4", &points).is_ok());
     let one = vec!["p".to_owned(); 8];

@@ -1,4 +1,4 @@
-//! Directories of temporary files on another file system, full, or of another owner; and a home that is no folder.
+//! Directories of temporary files on another file system, full, or of another owner; and a home that is not a folder.
 
 use std::fs::Permissions;
 use std::os::unix::fs::{MetadataExt, PermissionsExt};

@@ -45,7 +45,7 @@ pub enum NetworkError {
         position: usize,
     },
     /// The number of values is not a multiple of the picture size.
-    #[error("{values} numbers, expected a multiple of a picture of {expected}")]
+    #[error("{values} numbers, expected whole pictures of {expected}")]
     Pictures {
         /// Number of values found.
         values: usize,
@@ -63,7 +63,7 @@ pub enum NetworkError {
         position: usize,
     },
     /// The number of labels does not match the number of pictures.
-    #[error("{part}: {labels} labels for {pictures} pictures of {outputs} outputs")]
+    #[error("{part}: {labels} labels, expected {outputs} for each of {pictures} pictures")]
     Labels {
         /// Part that contains the labels.
         part: SampleSet,

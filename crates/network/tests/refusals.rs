@@ -47,12 +47,12 @@ fn samples_that_cannot_be_learnt_from_are_refused_where_they_stand() {
     let short = (good.0.clone(), good.1[1..].to_vec());
     assert_eq!(
         refusal(&recipe(), values(&short)),
-        "training: 31 labels for 16 pictures of 2 outputs"
+        "training: 31 labels, expected 2 for each of 16 pictures"
     );
     let torn = (good.0[1..].to_vec(), good.1.clone());
     assert_eq!(
         refusal(&recipe(), values(&torn)),
-        "1919 numbers, expected a multiple of a picture of 12×10×1"
+        "1919 numbers, expected whole pictures of 12×10×1"
     );
     let classes = vec![2; 16];
     let samples = Samples {

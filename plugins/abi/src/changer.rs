@@ -1,4 +1,4 @@
-//! Calls of a changer.
+//! Function table of a changer.
 
 use core::ffi::c_void;
 

@@ -8,9 +8,9 @@ use crate::error::Error;
 use crate::status::Status;
 use crate::text::{TakeText, Text};
 
-/// `taceva_stamp`: times at which an observation was valid and received. Frozen, because other structs contain a `Stamp`.
+/// `taceva_stamp`: times at which an observation was valid and received.
 ///
-/// Frozen: it is part of other structs.
+/// Frozen, because other structs contain a `Stamp`.
 ///
 /// ```
 /// use taceva_abi::Stamp;
@@ -66,9 +66,9 @@ pub struct DeviceCalls {
     pub extension: Option<unsafe extern "C" fn(handle: *mut c_void, id: Text) -> *const c_void>,
 }
 
-/// `taceva_device`: an open device, filled in by `open`. Frozen, because the caller allocates exactly this size.
+/// `taceva_device`: an open device, filled in by `open`.
 ///
-/// Frozen: the caller has memory for exactly this size.
+/// Frozen, because the caller allocates exactly this size.
 ///
 /// ```
 /// use taceva_abi::Device;

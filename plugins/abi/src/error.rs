@@ -6,7 +6,7 @@ use core::mem::size_of;
 /// Length of a message with its NUL, bytes.
 pub const MESSAGE_SIZE: usize = 504;
 
-/// `taceva_error`: failure of a call. New versions append fields. Each side reads at most the bytes that the other side's `size` states.
+/// `taceva_error`: failure of a call.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

@@ -1,4 +1,4 @@
-//! Calls of a force transducer.
+//! Function table of a force transducer.
 
 use core::ffi::c_void;
 

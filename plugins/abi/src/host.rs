@@ -4,8 +4,7 @@ use core::ffi::c_void;
 
 use crate::text::Text;
 
-/// `taceva_host`: table of services. The table outlives all objects of a plugin. New versions append fields. Each side reads at most the bytes that the other
-/// side's `size` states.
+/// `taceva_host`: table of services. The table outlives all objects of a plugin.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

@@ -1,4 +1,4 @@
-//! Calls of a lighting.
+//! Function table of a lighting device.
 
 use core::ffi::c_void;
 

@@ -23,14 +23,14 @@ pub const SENSOR_FACTORY: &str = "taceva.sensor/1";
 pub const ROBOT_FACTORY: &str = "taceva.robot/1";
 /// Id of the [`Factory`](crate::Factory) of force transducers, since minor 3: their torques are in N·mm.
 pub const FORCE_FACTORY: &str = "taceva.force/2";
-/// Id of the [`Factory`](crate::Factory) of lightings.
+/// Id of the [`Factory`](crate::Factory) of lighting devices.
 pub const LIGHTING_FACTORY: &str = "taceva.lighting/1";
 /// Id of the [`Factory`](crate::Factory) of changers, since minor 2.
 pub const CHANGER_FACTORY: &str = "taceva.changer/1";
 /// Id of the [`EstimatorFactory`](crate::EstimatorFactory).
 pub const ESTIMATOR_FACTORY: &str = "taceva.estimator/1";
 
-/// `taceva_plugin`: the exported data of a plugin. New versions append fields. Each side reads at most the bytes that the other side's `size` states.
+/// `taceva_plugin`: the exported data of a plugin.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

@@ -1,4 +1,4 @@
-//! Calls of a robot.
+//! Function table of a robot.
 
 use core::ffi::c_void;
 
@@ -6,9 +6,9 @@ use crate::device::{DeviceCalls, Stamp};
 use crate::error::Error;
 use crate::status::Status;
 
-/// `taceva_pose`: pose of the tip in the frame of the sensor: position in m and a unit quaternion. Frozen, because other structs contain a `Pose`.
+/// `taceva_pose`: pose of the tip in the frame of the sensor: position in m and a unit quaternion.
 ///
-/// Frozen: it is part of other structs.
+/// Frozen, because other structs contain a `Pose`.
 ///
 /// ```
 /// use taceva_abi::Pose;
@@ -34,7 +34,7 @@ pub struct Pose {
     pub qz: f64,
 }
 
-/// `taceva_motion`: a requested motion. New versions append fields. Each side reads at most the bytes that the other side's `size` states.
+/// `taceva_motion`: a requested motion.
 ///
 /// New versions append fields. Each side reads at most the bytes that the other side's `size` states.
 ///

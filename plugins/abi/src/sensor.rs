@@ -1,4 +1,4 @@
-//! Calls of a sensor.
+//! Function table of a sensor.
 
 use core::ffi::c_void;
 

@@ -1,4 +1,4 @@
-//! Promises of lightings, and of sensors that control their lighting.
+//! Promises of lighting devices, and of sensors that control their lighting.
 
 use taceva_core::{Deadline, ErrorKind, Factory, Facts, Lighting};
 
@@ -6,7 +6,7 @@ use crate::promise::{Unmet, answered, broken, expect, refused};
 use crate::report::Report;
 use crate::trial::{Promise, Trial, Tried, report};
 
-/// Tests a lighting.
+/// Tests a lighting device.
 pub fn lighting(factory: &dyn Factory<dyn Lighting>, trial: &Trial) -> Report {
     report(factory, trial, PROMISES)
 }

@@ -53,7 +53,7 @@ pub trait Session: Send + Sync {
         args: &Args,
     ) -> Result<Box<dyn ForceTransducer>, DriverError>;
 
-    /// Opens a lighting.
+    /// Opens a lighting device.
     ///
     /// # Errors
     /// As [`Factory::open`](taceva_core::Factory::open).

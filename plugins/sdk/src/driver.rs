@@ -34,7 +34,7 @@ pub enum Driver {
     Robot(Builtin<dyn Robot>),
     /// Driver of a force transducer.
     Force(Builtin<dyn ForceTransducer>),
-    /// Driver of a lighting.
+    /// Driver of a lighting device.
     Lighting(Builtin<dyn Lighting>),
     /// Driver of a changer.
     Changer(Builtin<dyn Changer>),
@@ -69,7 +69,7 @@ pub enum Made {
     Robot(Box<dyn Factory<dyn Robot>>),
     /// Factory of a force transducer.
     Force(Box<dyn Factory<dyn ForceTransducer>>),
-    /// Factory of a lighting.
+    /// Factory of a lighting device.
     Lighting(Box<dyn Factory<dyn Lighting>>),
     /// Factory of a changer.
     Changer(Box<dyn Factory<dyn Changer>>),

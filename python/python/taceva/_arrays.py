@@ -59,7 +59,7 @@ def with_units(channels: Sequence[str], units: Mapping[str, str]) -> list[tuple[
     """Return each channel with its unit: the given one, that of the six, or ``1``."""
     unknown = sorted(set(units) - set(channels))
     if unknown:
-        raise ValueError(f"units of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
+        raise ValueError(f"units: no channel {', '.join(unknown)}, expected channels among {', '.join(channels)}")
     for name in channels:
         if name not in units and _taceva.unit_of(name) is None and _is_mistyped(name):
             raise ValueError(f"channel {name!r} has no known unit: expected Px, Py, Pz, Fx, Fy or Fz, or its unit, such as units={{{name!r}: 'N'}}")

@@ -330,7 +330,7 @@ class Dataset:
             return [int(row) for row in np.flatnonzero(wanted).tolist()]
         beyond = wanted[(wanted < -len(self)) | (wanted >= len(self))]
         if beyond.size:
-            raise IndexError(f"row {int(beyond[0])} of a recording of {len(self)}")
+            raise IndexError(f"row {int(beyond[0])}: the recording has {counted(len(self), 'row')}")
         return [int(row) + len(self) if row < 0 else int(row) for row in wanted.tolist()]
 
     def __repr__(self) -> str:

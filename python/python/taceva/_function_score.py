@@ -95,7 +95,7 @@ def score_function(
     called = name or str(getattr(function, "__name__", type(function).__name__))
     parts: dict[str, Any] = {"+".join(wanted): slice(None)} if together else {channel: at for at, channel in enumerate(wanted)}
     if isinstance(unit, Mapping) and (unknown := sorted(set(unit) - set(parts))):
-        raise ValueError(f"unit of {', '.join(unknown)}, expected channels among {', '.join(parts)}")
+        raise ValueError(f"unit: no channel {', '.join(unknown)}, expected channels among {', '.join(parts)}")
     scores = {}
     for channel, columns in parts.items():
         own = [np.ascontiguousarray(table[:, columns]) for table in tables]

@@ -80,7 +80,7 @@ class TactileMetrics:
         units = dict(units or {})
         unknown = sorted(set(periods) - set(channels))
         if unknown:
-            raise ValueError(f"periods of {', '.join(unknown)}, expected channels among {', '.join(channels)}")
+            raise ValueError(f"periods: no channel {', '.join(unknown)}, expected channels among {', '.join(channels)}")
         self._angles = LikelyRadians.of(periods, stated=units)
         units = dict.fromkeys(periods, "deg") | units
         own_units = with_units(channels, units)

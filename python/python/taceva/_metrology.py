@@ -400,9 +400,11 @@ class _Table:
         if isinstance(given, tuple):
             # A tuple names columns; labels are a list or an array.
             absent = [word for word in given if word not in self._columns]
-            raise ValueError(f"{name}: no column {absent[0]!r}, expected an array or names of columns" if absent else f"{name}: no name of a column")
+            if not absent:
+                raise ValueError(f"{name}: an empty tuple, expected names of columns")
+            raise ValueError(f"{name}: no column {absent[0]!r}, expected an array or names of columns")
         if name in self._columns:
-            raise ValueError(f"{name}: an array beside a column of this name, expected one of both")
+            raise ValueError(f"{name}: an array and a column of this name are given, expected one of the two")
         if self.index is None and hasattr(given, "iloc"):
             self.index = given.index.to_numpy()
         self._columns[name] = beside(given, self.index, name)

@@ -46,7 +46,7 @@ class OnnxModel:
                 os.fspath(path), options, providers=providers or onnxruntime.get_available_providers()
             )
         except Exception as error:
-            raise ValueError(f"{path}: no model that onnxruntime {onnxruntime.__version__} runs: {error}") from error
+            raise ValueError(f"{path}: onnxruntime {onnxruntime.__version__} cannot run this model: {error}") from error
         inputs, outputs = self._session.get_inputs(), self._session.get_outputs()
         if len(inputs) != 1 or len(outputs) != 1:
             raise ValueError(
@@ -115,8 +115,8 @@ class OnnxModel:
         ]
         if not fit:
             raise ValueError(
-                f"{self._path}: the input {self._input.name} has the shape {self._shape}, which frames of "
-                f"{height}×{width} pixels of {counted(samples, 'sample')} do not fit"
+                f"{self._path}: the input {self._input.name} has the shape {self._shape}, expected one that fits "
+                f"frames of {height}×{width} pixels of {counted(samples, 'sample')}"
             )
         return fit[0]
 

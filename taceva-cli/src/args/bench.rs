@@ -40,9 +40,9 @@ pub(crate) struct BenchKernels {
     pub(crate) output: Output,
 }
 
-/// Fits every model on the training part of one recording and scores it on the test part of the same split: mean absolute errors with
-/// intervals by contact point, beside seconds to fit, to predict, and from one frame to its prediction. A model that cannot be fitted is
-/// listed with the reason, and the others continue.
+/// Fits every model on the training part of one recording and scores it on the test part of the same split. The table has mean absolute errors with
+/// intervals by contact point, and the seconds to fit, to predict, and from one frame to its prediction. A model that cannot be fitted is listed with
+/// the reason, and the others continue.
 #[derive(Debug, Args)]
 pub(crate) struct BenchModels {
     /// The dataset [default: one of the simulated bench, 400 points of four presses]

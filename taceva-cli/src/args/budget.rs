@@ -65,7 +65,7 @@ pub(crate) struct Budget {
     /// The greatest expanded uncertainty that is allowed, with its unit, such as 0.05N
     #[arg(long = "most-U", value_name = "U")]
     pub(crate) most: Option<String>,
-    /// Write sources for every figure that this result measures, and name the others in comments
+    /// Write a file of sources with every figure that this result measures; other effects are listed as comments
     #[arg(long, value_name = "RESULT", conflicts_with_all = ["sources", "results", "at", "draws", "seed", "most", "html", "format"])]
     pub(crate) template: Option<PathBuf>,
     /// The channel of the template [default: Fz, or the first predicted one]

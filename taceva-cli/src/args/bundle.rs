@@ -24,7 +24,7 @@ pub(crate) struct Bundle {
 pub(crate) enum BundleSubject {
     /// Compute the numbers of a bundle again, as deep as its files allow; the exit code is 1 if a claim differs and 3 if the bundle is damaged
     Verify(BundleVerify),
-    /// Print claims and definitions of two bundles that differ, and if they are of the same samples; neither is verified
+    /// Print claims and definitions of two bundles that differ, and whether both are of the same samples; neither bundle is verified
     Diff(BundleDiff),
 }
 
@@ -92,7 +92,7 @@ pub(crate) struct BundleMake {
 /// Files that are added on request.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum WithPart {
-    /// Model files, from which predictions are made again
+    /// Model files, so that the predictions can be computed again
     Model,
 }
 
@@ -113,10 +113,10 @@ pub(crate) struct BundleVerify {
     /// A recording of the results, on which their model predicts again; the deepest level is then that of the model; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// The greatest difference of numbers that count as within, in the unit of each
+    /// The greatest difference at which two numbers count as within, in the unit of each score
     #[arg(long, value_name = "NUMBER", default_value_t = 0.0, value_parser = tolerance)]
     pub(crate) tolerance: f64,
-    /// The most bytes of all files together
+    /// The maximum size of all files together, in bytes
     #[arg(long, value_name = "BYTES", default_value_t = MOST_BYTES)]
     pub(crate) most: u64,
     #[command(flatten)]
@@ -140,15 +140,15 @@ pub(crate) struct BundleDiff {
 pub(crate) enum LevelArg {
     /// Files are those of bundle.json, byte for byte
     Files,
-    /// Schemas, seals and generated files are right, and claims stand in the results
+    /// Schemas, seals and generated files are valid, and the results contain the claims
     Form,
-    /// States give the scores
+    /// States reproduce the scores
     Scores,
-    /// Tables give the states and the scores
+    /// Tables reproduce the states and the scores
     Predictions,
-    /// The model gives the predictions again, on the recording that --dataset names
+    /// The model reproduces the predictions on the recording that --dataset names
     Model,
-    /// A fit by the card of the model gives it again, or scores within their intervals; takes as long as the fit did
+    /// A fit by the model card reproduces the model, or gives scores within the intervals of the claims; takes as long as the first fit
     Fit,
 }
 

@@ -78,10 +78,10 @@ pub(crate) struct CatalogueAdd {
     /// The folder of the catalogue, which is made if it is missing
     #[arg(long = "to", value_name = "DIR")]
     pub(crate) catalogue: PathBuf,
-    /// The address from which others get the bundle
+    /// The public address of the bundle
     #[arg(long, value_name = "URL", value_parser = address)]
     pub(crate) url: Option<String>,
-    /// The most bytes of all files of the bundle together
+    /// The maximum size of all files of the bundle together, in bytes
     #[arg(long, value_name = "BYTES", default_value_t = MOST_BYTES)]
     pub(crate) most: u64,
 }

@@ -224,7 +224,7 @@ pub(crate) enum ListFormat {
 pub(crate) enum PartArg {
     /// Samples that the model was fitted on
     Train,
-    /// Samples that its settings were chosen on
+    /// Samples on which the settings of the model were chosen
     Validation,
     /// Unseen samples
     Test,

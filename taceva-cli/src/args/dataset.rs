@@ -110,7 +110,7 @@ pub(crate) struct Reseal {
     /// The dataset, or the file: dataset.toml, results or a state
     #[arg(value_name = "FILE|DATASET")]
     pub(crate) file: PathBuf,
-    /// The reason of the edit; reports show it
+    /// The reason for the edit; reports show it
     #[arg(long, value_name = "TEXT")]
     pub(crate) reason: String,
 }

@@ -1,4 +1,4 @@
-//! Options of the size and the letters of figures.
+//! Options for the size and the font of figures.
 
 use clap::Args;
 use taceva_report::FigureStyle;
@@ -6,7 +6,7 @@ use taceva_report::FigureStyle;
 /// Units of length with their values in mm: point (1/72 in), millimetre, centimetre and inch.
 const LENGTHS: [(&str, f64); 4] = [("pt", 25.4 / 72.0), ("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
 
-/// Size and lettering of every figure file.
+/// Size and font of every figure file.
 #[derive(Debug, Args)]
 pub(crate) struct FigureArgs {
     /// The width of each figure file, such as 88mm, 3.5in or 250pt; panels use as many columns as fit [default: as drawn for a screen]
@@ -15,7 +15,7 @@ pub(crate) struct FigureArgs {
     /// The preferred font family of SVG figures; PDF figures embed Arimo, which has the widths of Arial
     #[arg(id = "figure_font", long = "figure-font", value_name = "FAMILY")]
     font: Option<String>,
-    /// The size of letters in figure files, such as 7pt [default: 8pt with --figure-width, else 11pt]
+    /// The font size in figure files, such as 7pt [default: 8pt with --figure-width, else 11pt]
     #[arg(id = "figure_size", long = "figure-size", value_name = "LENGTH", value_parser = letters_pt)]
     letters_pt: Option<f64>,
 }

@@ -24,7 +24,7 @@ pub(crate) struct Gauge {
     /// The columns whose cells name a trial, separated by commas
     #[arg(long, value_name = "COLUMNS", value_delimiter = ',', default_values = ["repeat"])]
     pub(crate) trial: Vec<String>,
-    /// Each part is measured by one operator; equal names below two operators are two parts
+    /// Each part is measured by one operator; the same name under two operators means two parts
     #[arg(long)]
     pub(crate) nested: bool,
     /// The estimator of the components

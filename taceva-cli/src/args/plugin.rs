@@ -22,7 +22,7 @@ pub(crate) struct PluginArgs {
     pub(crate) trusted: Vec<PluginId>,
 }
 
-/// Plugins add sensors, robots, force transducers, lightings, changers and estimators in any language.
+/// Plugins add sensors, robots, force transducers, lighting devices, changers and estimators in any language.
 #[derive(Debug, Subcommand)]
 pub(crate) enum Plugin {
     /// List the plugins that are found, and their isolation; runs none of their code
@@ -43,7 +43,7 @@ pub(crate) enum Plugin {
     Install(PluginInstall),
     /// Remove an installed plugin
     Uninstall(PluginUninstall),
-    /// Allow a plugin access to the needs of its manifest: a camera, a port, a machine, a file
+    /// Allow a plugin to access needs that its manifest declares: a camera, a port, a machine, a file
     Allow(PluginAllow),
     /// Revoke access of a plugin
     Deny(PluginDeny),
@@ -204,7 +204,7 @@ pub(crate) struct PluginPack {
     pub(crate) force: bool,
 }
 
-/// A plugin runs in a process that has access only to the needs of its manifest that the user allows. This command writes to the user's
+/// A plugin runs in its own process, which has access only to needs of its manifest that the user allows. This command writes to the user's
 /// settings, `~/.config/taceva/config.toml`, and keeps everything else in that file.
 ///
 /// usb, camera, hid           devices on USB, cameras (/dev/video*), scales and pedals (/dev/hidraw*)

@@ -54,7 +54,7 @@ pub(crate) struct ReportArgs {
     /// The channels and planes to report, separated by commas, such as Fz [default: all]
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(crate) channels: Vec<String>,
-    /// Also write the tables and figures of a published study in its own form, with its printed numbers and the ratio of ours to them, into `like-STUDY/`
+    /// Also write the tables and figures in the form of a published study, with its numbers and the ratios to them, into `like-STUDY/`
     #[arg(long, value_enum, value_name = "STUDY")]
     pub(crate) like: Option<Like>,
     #[command(flatten)]
@@ -90,7 +90,7 @@ pub(crate) struct Choose {
     /// Choose among these results instead of the catalogue; may be repeated
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
-    /// The folder of a catalogue, whose measured numbers take part; each states its level, and those of different samples are not ranked
+    /// The folder of a catalogue, whose measured numbers are included; each states its level, and numbers of different samples are not ranked
     #[arg(long, value_name = "DIR", conflicts_with = "results")]
     pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
@@ -160,7 +160,7 @@ pub(crate) struct Accept {
     /// Results of other units of the same make, five or more: print consumer's and producer's risk of each limit; may be repeated
     #[arg(long, value_name = "UNITS.json")]
     pub(crate) process: Vec<PathBuf>,
-    /// Print the acceptance limit for this share of units that are accepted and do not meet the limit, such as 0.005
+    /// Print the acceptance limit for this consumer's risk, such as 0.005: the share of units that are accepted and do not meet the limit
     #[arg(long, value_name = "SHARE", requires = "process")]
     pub(crate) target_risk: Option<f64>,
     /// Count a conditional pass as met: within the limit, not accepted by its rule

@@ -97,8 +97,8 @@ pub(crate) struct RigTeachArgs {
 /// The robot taps the middle of the gel 20 times, fast and slowly in turn, with the specimen of the first press. Tip, force and picture
 /// change at the same moment, so a delay after the robot is a latency. A spread of more than half a frame between taps is rejected.
 ///
-/// The taps begin and are guarded like a run: you permit motion by typing the name of the robot, it passes through the air and touches gently,
-/// and any contradiction to the rig file ends it. The maximum depth and force of the gel must be stated by the driver of the sensor or under
+/// The taps begin and are guarded like a run. You permit motion by typing the name of the robot. The robot moves through the air and touches gently,
+/// and any contradiction to the rig file ends the command. The maximum depth and force of the gel must be stated by the driver of the sensor or under
 /// [limits] of the rig file: Pz_max_mm and Fz_max_N. Every tap stays below half of both.
 ///
 /// Latencies are printed, and then written into the file; everything else in it stays. Taps show only differences: a latency that all

@@ -8,8 +8,8 @@ use taceva_stress::FAULTS;
 use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
 /// Faults are applied to the pictures of the recording, and the model predicts them without being fitted again. Severities 1 to 5 change the
-/// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. Faults that stay are scored with an untouched picture from before and
-/// from after the fault. A fitted model is scored on samples that it has not seen.
+/// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. If the model reads an untouched picture, a fault
+/// that is alike in all pictures is also scored with an untouched picture from after it. A fitted model is scored on samples that it has not seen.
 #[derive(Debug, Args)]
 #[command(after_help = faults_help())]
 pub(crate) struct Stress {
@@ -21,7 +21,7 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 or all is the list of all
+    /// Faults, separated by commas; gel-12 and all each name the whole list
     #[arg(
         long,
         value_name = "FAULTS",
@@ -63,7 +63,7 @@ fn faults_help() -> String {
 /// Samples that the model has not seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StressPart {
-    /// Unseen samples of the recording of the fit
+    /// Unseen samples of the recording that the model was fitted on
     Test,
     /// Every sample of another recording
     All,
@@ -72,7 +72,7 @@ pub(crate) enum StressPart {
 /// Quantity that sets severity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum StressBy {
-    /// The change of the untouched picture, beside that by contact
+    /// The change of the untouched picture, relative to the change by contact
     #[default]
     Stimulus,
     /// The parameter of the fault, from a table

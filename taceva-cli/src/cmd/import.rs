@@ -129,7 +129,7 @@ impl Source {
         let path = args
             .source
             .as_deref()
-            .ok_or_else(|| Usage::error("no folder is named"))?;
+            .ok_or_else(|| Usage::error("the folder or file to import is missing"))?;
         if !UnpackedArchive::is_archive(path) {
             return Ok(Source::Folder(folder_of(path).to_owned()));
         }

@@ -12,7 +12,7 @@ use crate::args::{Format, Stress, StressBy, StressPart};
 use crate::report::stress::{grid, numbers, table};
 use crate::{exit, output};
 
-/// Refuses a model that is no file: nothing is fitted here.
+/// Refuses a model that is not a file: nothing is fitted here.
 pub(super) fn check_model_file(path: &Path) -> anyhow::Result<()> {
     match path.is_file() {
         true => Ok(()),

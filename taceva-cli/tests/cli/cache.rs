@@ -225,7 +225,8 @@ fn a_damaged_entry_is_removed_and_made_again() {
             }
             let ran = run(&name);
             assert_eq!(ran.code, 0, "{}", ran.err);
-            let is_noted = ran.err.contains("made again");
+            let is_noted =
+                ran.err.contains("computed again") || ran.err.contains("simulated again");
             let is_absent = way == "gone" && *stage != "acquire";
             assert_eq!(is_noted, !is_absent, "{name}: {}", ran.err);
             let expected = STAGES.iter().filter(|other| *other != stage);
@@ -244,13 +245,17 @@ fn a_recording_that_its_run_took_along_or_exchanged_is_pressed_again() {
     let whole = written(&bench, "first");
     fs::rename(bench.path("first"), bench.path("elsewhere")).expect("moved");
     let gone = bench.run("run small.toml --out second --cache kept");
-    assert!(!gone.err.contains("made again"), "{}", gone.err);
+    assert!(!gone.err.contains("simulated again"), "{}", gone.err);
     assert_eq!(reused(&bench, "second"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "second"), whole);
     // Another complete recording at the noted place.
     bench.ok("run small.toml --out second --force --seed 8 --cache kept -q");
     let exchanged = bench.run("run small.toml --out third --cache kept");
-    assert!(exchanged.err.contains("made again"), "{}", exchanged.err);
+    assert!(
+        exchanged.err.contains("simulated again"),
+        "{}",
+        exchanged.err
+    );
     assert_eq!(reused(&bench, "third"), ["fit", "predict", "classify"]);
     assert_eq!(written(&bench, "third"), whole);
     // The same file, not a copy.

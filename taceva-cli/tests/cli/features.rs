@@ -104,7 +104,7 @@ fn features_are_made_once_for_every_model_and_found_by_what_they_are_made_of() {
         fs::write(&path, bytes).expect("altered");
     }
     let ran = bench.run("evaluate data --metrics mae --model knn --split by-point --format json");
-    assert!(ran.err.contains("made again"), "{}", ran.err);
+    assert!(ran.err.contains("computed again"), "{}", ran.err);
     let found: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
     assert_eq!(found, bare);
 }

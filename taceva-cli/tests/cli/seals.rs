@@ -76,7 +76,7 @@ fn a_dataset_without_a_seal_or_of_an_earlier_format_is_refused() {
     let text = std::fs::read_to_string(bench.path("data/dataset.toml")).expect("there");
     let (body, _) = text.split_once("\n[seal]").expect("sealed");
     bench.write("data/dataset.toml", body);
-    bench.refused("check data", 3, "dataset.toml: the seal is gone");
+    bench.refused("check data", 3, "dataset.toml: the seal is missing");
     bench.write("data/dataset.toml", &of_format(&text, "1.4"));
     bench.refused(
         "check data",
@@ -118,7 +118,7 @@ fn results_that_were_changed_are_refused_by_metric_and_channel() {
     let text = std::fs::read_to_string(bench.path("b.json")).expect("there");
     let (body, _) = text.rsplit_once(",\n  \"seal\"").expect("sealed");
     bench.write("b.json", &format!("{body}\n}}\n"));
-    bench.refused("compare a.json b.json", 3, "b.json: the seal is gone");
+    bench.refused("compare a.json b.json", 3, "b.json: the seal is missing");
     bench.write("b.json", &text);
     let table = std::fs::read_to_string(bench.path("b.samples.csv")).expect("there");
     bench.write("b.samples.csv", &table.replacen("0.2", "0.3", 1));

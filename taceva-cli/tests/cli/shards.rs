@@ -98,7 +98,7 @@ fn a_state_that_was_changed_is_refused_by_its_key_and_one_of_another_schema_by_b
     );
     let (body, _) = text.split_once(",\"seal\":").expect("a seal");
     bench.write("bare.state", &format!("{body}}}"));
-    bench.refused("merge bare.state", 3, "the seal is gone");
+    bench.refused("merge bare.state", 3, "the seal is missing");
     bench.write(
         "older.state",
         &text.replacen("taceva.state/1.0", "taceva.state/1.2", 1),

@@ -89,7 +89,7 @@ fn deviations_are_not_made_up_for_a_model_that_knows_none() {
     bench.refused(
         "predict data --with ridge.model --out found.csv --truth-out found.csv",
         2,
-        "name one file",
+        "name the same file",
     );
     assert!(!bench.path("found.csv").exists());
     let report = bench.json("evaluate data --with ridge.model --metrics mae");

@@ -4,7 +4,7 @@ use super::DriverError;
 
 /// Enabling switch. The robot may move while a person holds the switch, and halts on release.
 ///
-/// The switch is no safety function: its state passes through an operating system and a program. The switch of the robot's own safety
+/// The switch is not a safety function: its state passes through an operating system and a program. The switch of the robot's own safety
 /// circuit remains necessary.
 ///
 /// A caller polls the switch at least as often as a release must be noticed, and treats an error as a release.

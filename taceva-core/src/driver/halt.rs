@@ -4,7 +4,7 @@ use super::DriverError;
 
 /// Stops its robot from any thread, in every state, during any other call.
 ///
-/// The handle may outlive the robot: once the robot is dropped, the halt succeeds without effect. The halt is no safety function: only the
+/// The handle may outlive the robot: once the robot is dropped, the halt succeeds without effect. The halt is not a safety function: only the
 /// emergency stop of the site is.
 ///
 /// ```

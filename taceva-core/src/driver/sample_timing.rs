@@ -8,7 +8,7 @@ use crate::stamp::Stamp;
 
 /// Late limit, in periods of the declared rate.
 const LATE_PERIODS: f64 = 10.0;
-/// Least late limit, s. Links and busy machines deliver many samples at once, and a driver keeps the newest.
+/// Minimum of the late limit, s. Links and busy machines deliver many samples at once, and a driver keeps the newest.
 const LATE_LEAST_S: f64 = 0.05;
 /// Number of consecutive late samples that is an error of the device.
 const LATE_MAX: u32 = 10;

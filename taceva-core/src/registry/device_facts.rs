@@ -31,7 +31,7 @@ pub enum Facts {
     Robot(RobotFacts),
     /// Facts of a force transducer.
     Force(ForceFacts),
-    /// Facts of a lighting.
+    /// Facts of a lighting device.
     Lighting(LightingFacts),
     /// Facts of a changer.
     Changer(ChangerFacts),

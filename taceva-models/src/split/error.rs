@@ -38,7 +38,7 @@ pub enum SplitError {
     },
     /// There are fewer groups than folds.
     #[error(
-        "{folds} folds, but the recording has {groups} groups{}; name fewer folds, or another --split",
+        "{folds} folds, but the recording has {groups} groups{}; use fewer folds or another --split",
         by_words(by)
     )]
     FewGroups {

@@ -95,7 +95,7 @@ fn a_number_a_setting_or_a_seal_that_is_another_one_is_refused_by_its_key() {
         let (card, _) = card.split_once(",\"seal\"").expect("a seal");
         format!("{card}}}")
     });
-    assert!(refused(&without).contains("the seal is gone"));
+    assert!(refused(&without).contains("the seal is missing"));
 }
 
 #[test]
@@ -150,7 +150,7 @@ fn a_card_that_does_not_fit_its_tensors_is_refused() {
     };
     assert_eq!(
         refused(|card| card["features"]["width"] = 6.into()),
-        "tensor `weights` is F64 [2, 20], the card says F64 [2, 24]"
+        "tensor `weights` is F64 [2, 20], the card states F64 [2, 24]"
     );
     assert!(refused(|card| card["features"]["width"] = 0.into()).contains("contradicts itself"));
     assert!(refused(|card| card["channels"][0]["unit"] = "mm".into()).contains("channel"));

@@ -15,7 +15,7 @@ pub enum SealError {
     },
     /// Missing seal in a file whose version requires a seal.
     #[error(
-        "the seal is gone, but files of this version need one; restore it, or accept the file as it is with `taceva reseal FILE \
+        "the seal is missing, but files of this version need one; restore it, or accept the file as it is with `taceva reseal FILE \
          --reason …`"
     )]
     Gone,

@@ -33,8 +33,8 @@ impl McapFile {
     /// Opens the recording of `source`.
     ///
     /// # Errors
-    /// [`TableError::Damaged`] if the file is no MCAP file or has a wrong checksum; [`TableError::Cut`] if the file is truncated or was not closed;
-    /// [`TableError::TooLarge`] if its summary exceeds the limit.
+    /// [`TableError::Damaged`] if the file is not an MCAP file or has a wrong checksum; [`TableError::Cut`] if the file is truncated or was not
+    /// closed; [`TableError::TooLarge`] if its summary exceeds the limit.
     pub(crate) fn open(source: Source) -> Result<McapFile, TableError> {
         let contents = contents::read(&source)?;
         Ok(McapFile::of(source, contents, None))

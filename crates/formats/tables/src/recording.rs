@@ -57,9 +57,9 @@ impl Recording {
     /// Opens the recording at `path`.
     ///
     /// # Errors
-    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if the file is no recording or has a wrong checksum. [`TableError::Cut`] if the
-    /// recording is truncated or was not closed. [`TableError::Unsupported`] if the recording has a later version, is compressed as a whole, or has messages in
-    /// a separate log. [`TableError::TooLarge`] if its summary exceeds the limit.
+    /// [`TableError::Io`] if the file cannot be read; [`TableError::Damaged`] if the file is not a recording or has a wrong checksum.
+    /// [`TableError::Cut`] if the recording is truncated or was not closed. [`TableError::Unsupported`] if the recording has a later version, is
+    /// compressed as a whole, or has messages in a separate log. [`TableError::TooLarge`] if its summary exceeds the limit.
     pub fn open(path: &Path) -> Result<Recording, TableError> {
         Ok(Recording::of_store(store(Source::new(path)?, false)?))
     }

@@ -50,7 +50,7 @@ impl Rosbag2 {
     /// Opens the recording in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] for a later schema, or if the database is no recording; [`TableError::Damaged`] for an invalid page or row;
+    /// [`TableError::Unsupported`] for a later schema, or if the database is not a recording; [`TableError::Damaged`] for an invalid page or row;
     /// [`TableError::Cut`] if pages are missing at the end.
     pub(crate) fn open(source: Source) -> Result<Rosbag2, TableError> {
         let database = Database::open(source)?;
@@ -231,7 +231,7 @@ impl MessageReader for Rows<'_> {
     }
 }
 
-/// Rejects a database of a later rosbag2, or a database that is no recording.
+/// Rejects a database of a later rosbag2, or a database that is not a recording.
 fn check_schema(database: &Database) -> Result<(), TableError> {
     let source = database.source();
     let names: Vec<&str> = database

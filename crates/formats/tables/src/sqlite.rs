@@ -61,7 +61,7 @@ impl Database {
     /// Opens the database in `source`.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] if a log beside the database has pending changes; [`TableError::Damaged`] if the file is no database.
+    /// [`TableError::Unsupported`] if a log beside the database has pending changes; [`TableError::Damaged`] if the file is not a database.
     pub(crate) fn open(source: Source) -> Result<Database, TableError> {
         check_logs(&source)?;
         let mut file = source.open()?;

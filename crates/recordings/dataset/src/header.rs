@@ -258,7 +258,7 @@ impl Header {
                 found: format,
             });
         }
-        // Text that is no TOML is rejected with its line.
+        // Text that is not TOML is rejected with its line.
         parse_toml::<toml::Table>(path, &text)?;
         let checked = toml_text::check(&text);
         let seal = checked.map_err(|source| DatasetError::Seal {

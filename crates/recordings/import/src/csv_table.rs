@@ -52,7 +52,7 @@ pub struct CsvTable {
     counted: OnceLock<Vec<u64>>,
     /// Number of lines in the text that are not in the file: the generated header of a headerless file.
     added_lines: u64,
-    /// Number of lines in the file that are not in the text: the rows before a part.
+    /// Number of lines of the file before the text, if the text is a part of the file.
     left_out_lines: u64,
 }
 

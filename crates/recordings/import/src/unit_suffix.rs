@@ -250,7 +250,7 @@ impl UnitSuffix {
     }
 }
 
-/// Possible units of `text`; empty if `text` is no unit.
+/// Possible units of `text`; empty if `text` is not a unit.
 fn units_of(text: &str) -> Vec<SourceUnit> {
     let text = text.trim();
     if text.is_empty()

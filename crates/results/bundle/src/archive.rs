@@ -50,8 +50,8 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
 /// Unpacks the bundle at `path` into the empty folder `into`. At most `most` bytes are unpacked, and no more than its size allows.
 ///
 /// # Errors
-/// [`BundleError::Damaged`] for the first entry that is refused: a link, a device, a name that leads out or comes twice; for too many files
-/// or bytes, and for a file that is no `.tar.gz`.
+/// [`BundleError::Damaged`] for the first entry that is refused: a link, a device, a name that leads out of the bundle or occurs twice; for too many
+/// files or bytes, and for a file that is no `.tar.gz`.
 pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleError> {
     // A pipe would be waited for if it was opened.
     let about = fs::metadata(path).map_err(BundleError::file(path))?;

@@ -7,7 +7,7 @@ use taceva_results::{EvaluationReport, Interval, Score};
 
 use crate::level::Level;
 
-/// Number of the results, with what it was computed from.
+/// A number of the results, with the files behind it.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Claim {
@@ -119,7 +119,7 @@ impl Claim {
         scores.find(|score| score.metric == self.metric && score.channel == self.channel)
     }
 
-    /// True if unit, number of samples and definition are those of `score`.
+    /// True if unit, number of samples and definition equal those of `score`.
     pub(crate) fn is_of(&self, score: &Score) -> bool {
         unit_of(score, self.variant.as_deref()) == Some(self.unit)
             && score.n == self.n
@@ -131,7 +131,7 @@ impl Claim {
         full_metric(&self.metric, self.variant.as_deref())
     }
 
-    /// Everything but the value in words, for forms without places for it.
+    /// All facts except the value as text, for formats that have no fields for them.
     pub(crate) fn facts(&self) -> String {
         let interval = match self.ci95 {
             Some([low, high]) => format!("ci95 [{low}, {high}]"),

@@ -1,4 +1,4 @@
-//! Claims of a manifest against the numbers of the results: none missing, none twice, and each with the files behind it.
+//! Compares the claims of a manifest with the numbers of the results. Finds missing and duplicate claims, and wrong files behind a claim.
 
 use std::collections::BTreeSet;
 
@@ -40,7 +40,7 @@ pub(crate) fn fault(manifest: &Manifest, reports: &[EvaluationReport]) -> Option
     None
 }
 
-/// Name of the number of a claim.
+/// Identity of a claim: study, metric, channel and variant.
 pub(crate) fn key(claim: &Claim) -> (usize, &str, &str, Option<&str>) {
     let (metric, channel) = (claim.metric.as_str(), claim.channel.as_str());
     (claim.study, metric, channel, claim.variant.as_deref())

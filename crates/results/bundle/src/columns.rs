@@ -9,7 +9,7 @@ use taceva_evaluate::CsvTable;
 use crate::layout::{MOST_COLUMNS, MOST_NAME};
 use crate::sample_digest::IDS;
 
-/// Most bytes of a line with the names of columns.
+/// Maximum length of a line of column names, bytes.
 const MOST_LINE: u64 = 1 << 20;
 
 /// Table of a bundle that readers of Croissant can load.

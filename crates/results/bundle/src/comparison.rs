@@ -25,7 +25,7 @@ pub struct BundleComparison {
     pub has_same_samples: bool,
     /// Number of equal claims.
     pub equal: u64,
-    /// Claims that differ, or that one of both lacks.
+    /// Claims that differ, or that only one bundle contains.
     pub claims: Vec<ClaimDifference>,
     /// Claims whose definitions differ, so that their numbers are not comparable.
     pub definitions: Vec<DefinitionDifference>,

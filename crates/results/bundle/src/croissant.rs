@@ -155,7 +155,7 @@ fn record_set(table: &TableColumns) -> Value {
     })
 }
 
-/// Field of a column. An identifier holds no blanks, so columns with such names are numbered, as are those called like a number.
+/// Field of a column. Identifiers contain no blanks, so a column with a blank in its name is numbered. So are names like such a number.
 fn field(table: &TableColumns, record_set: &str, position: usize, column: &Column) -> Value {
     let is_plain = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
     let is_numbered = column.name.starts_with(NUMBERED) || !column.name.chars().all(is_plain);

@@ -20,7 +20,7 @@ pub enum BundleError {
         /// Error of the system.
         source: io::Error,
     },
-    /// The bundle is damaged, or is none.
+    /// The bundle is damaged, or the path is not a bundle.
     #[error("{0}")]
     Damaged(Damage),
     /// The results are refused.

@@ -26,7 +26,7 @@ use crate::texts;
 const TABLE_RULE: &str = "the table of samples is that of the results";
 /// Rule of model files.
 const MODEL_RULE: &str = "the model is that of the results";
-/// Most findings of damage that are listed.
+/// Maximum number of findings of damage that are listed.
 const MOST_DAMAGE: usize = 50;
 
 /// Differences of the files from the manifest, byte for byte.
@@ -81,7 +81,7 @@ pub(crate) fn files(source: &Source, manifest: &Manifest) -> Result<Vec<Damage>,
 /// Results of the bundle.
 ///
 /// # Errors
-/// The damage that keeps the results from being read.
+/// [`Damage`] if the results cannot be read.
 pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> {
     let text = source.text(RESULTS, MOST_TEXT)?;
     taceva_results::read(&text).map_err(|error| {
@@ -229,7 +229,7 @@ fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     })
 }
 
-/// Fault of authors, organization or licence, which forms repeat.
+/// Fault of authors, organization or licence, which generated files repeat.
 pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     let authors = &manifest.authors;
     let organization = manifest.organization.as_ref();
@@ -257,7 +257,7 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     Some(Damage::new(MANIFEST, rule, problem))
 }
 
-/// Position of the first author with the ORCID of an earlier one. Forms identify authors by it.
+/// Position of the first author with the ORCID of an earlier one. Generated files identify authors by it.
 fn repeated(authors: &[Author]) -> Option<usize> {
     let mut known = BTreeSet::new();
     let mut orcids = authors.iter().map(|author| author.orcid.as_ref());
@@ -281,7 +281,7 @@ fn dataset_header(source: &Source, name: &str, known: &[&str]) -> Result<(), Dam
 /// The machine that made the bundle.
 ///
 /// # Errors
-/// The damage of an `environment.json` of another schema.
+/// [`Damage`] if `environment.json` has another schema.
 pub(crate) fn environment(source: &Source) -> Result<Environment, Damage> {
     let rule = "environment.json has its schema";
     let text = source.text(ENVIRONMENT, MOST_TEXT)?;

@@ -18,7 +18,7 @@ pub(crate) fn known(reports: &[EvaluationReport]) -> Vec<&str> {
 /// Digest that the header `text` states, with tasks if the dataset has tasks; empty if it states none.
 ///
 /// # Errors
-/// The reason why it is no TOML.
+/// The reason why it is not TOML.
 pub(crate) fn digest(text: &str) -> Result<String, String> {
     let table: toml::Table =
         toml::from_str(text).map_err(|error| shown(error.message()).to_string())?;

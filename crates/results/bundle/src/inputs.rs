@@ -1,4 +1,4 @@
-//! Files behind results, as a run, an evaluation or a score left them.
+//! Files behind results, as `run`, `evaluate` or `score` wrote them.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -157,7 +157,7 @@ fn studies(
     Ok(studies)
 }
 
-/// Rejects two tables in each other's place.
+/// Rejects swapped tables of truth and prediction.
 fn check_not_swapped(tables: &ScoredTables, report: &EvaluationReport) -> Result<(), BundleError> {
     let paths = [&tables.truth, &tables.prediction];
     // A pipe would be waited for.

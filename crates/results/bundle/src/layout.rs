@@ -37,33 +37,33 @@ pub(crate) const TEXTS: [&str; 5] = [
     "tasks.toml",
 ];
 
-/// Most files of a bundle.
+/// Maximum number of files in a bundle.
 pub(crate) const MOST_FILES: usize = 4096;
-/// Most bytes of all files, unless the caller sets another limit.
+/// Default maximum size of all files together, bytes.
 pub const MOST_BYTES: u64 = 2 << 30;
-/// Most bytes of the manifest.
+/// Maximum size of the manifest, bytes.
 pub(crate) const MOST_MANIFEST: u64 = 8 << 20;
-/// Most bytes of a text: JSON, TOML or Markdown.
+/// Maximum size of a text (JSON, TOML or Markdown), bytes.
 pub(crate) const MOST_TEXT: u64 = 24 << 20;
-/// Most bytes of all states of one study.
+/// Maximum size of all states of one study, bytes.
 pub(crate) const MOST_STATES: u64 = 64 << 20;
-/// Most bytes of a table.
+/// Maximum size of a table, bytes.
 pub(crate) const MOST_TABLE: u64 = 256 << 20;
-/// Most bytes of a model file, as its reader has it.
+/// Maximum size of a model file, bytes: the limit of its reader.
 pub(crate) const MOST_MODEL: u64 = 256 << 20;
-/// Most claims, and most scores of the results.
+/// Maximum number of claims, and of scores in the results.
 pub(crate) const MOST_CLAIMS: usize = 10_000;
-/// Most authors.
+/// Maximum number of authors.
 pub(crate) const MOST_AUTHORS: usize = 1_000;
-/// Most columns of all tables that `croissant.json` lists.
+/// Maximum number of columns, over all tables, that `croissant.json` lists.
 pub(crate) const MOST_COLUMNS: usize = 10_000;
-/// Most bytes of a name.
+/// Maximum length of a name, bytes.
 pub(crate) const MOST_NAME: usize = 255;
-/// Most folders in a name, and the file.
+/// Maximum number of parts of a name: its folders and the file.
 pub(crate) const MOST_PARTS: usize = 8;
-/// Growth that a packed bundle may have, as a multiple of its size.
+/// Maximum ratio of the unpacked to the packed size of a bundle, before [`GROWTH_BYTES`] is added.
 pub(crate) const GROWTH: u64 = 128;
-/// Further bytes that a packed bundle may have, whatever its size.
+/// Unpacked bytes that a packed bundle of any size may have in addition.
 pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
 
 /// True for a name that a bundle gives to its files.

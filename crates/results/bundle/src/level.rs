@@ -11,15 +11,15 @@ use serde::{Deserialize, Serialize};
 pub enum Level {
     /// The files are those of the manifest, byte for byte.
     Files,
-    /// Schemas, seals and generated files are right, and claims stand in the results.
+    /// Schemas, seals and generated files are valid, and the results contain the claims.
     Form,
-    /// States give the scores.
+    /// States reproduce the scores.
     Scores,
-    /// Tables give the states and the scores.
+    /// Tables reproduce the states and the scores.
     Predictions,
-    /// The model gives the predictions of the tables again, on its recording.
+    /// The model reproduces the predictions of the tables on its recording.
     Model,
-    /// A fit by the card of the model gives the model again, or scores within their intervals.
+    /// A fit by the model card reproduces the model, or gives scores within the intervals of the claims.
     Fit,
 }
 

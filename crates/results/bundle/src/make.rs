@@ -1,4 +1,4 @@
-//! Making of a bundle: written beside its place, compared with what was computed again, then renamed.
+//! Makes a bundle: writes it beside its target, compares it with numbers that are computed again, then renames it.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -30,11 +30,11 @@ use crate::writer::Writer;
 
 /// Prefix of the folder in which a packed bundle is made.
 const STAGED: &str = ".taceva-bundle-";
-/// Remedy where a bundle would not verify.
+/// Remedy for a bundle that would not pass its verification.
 const REMEDY: &str =
     "name the state and the tables of this result, or leave tables out by --without predictions";
 
-/// Bundle that was made.
+/// Result of making a bundle.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct MadeBundle {
@@ -44,7 +44,7 @@ pub struct MadeBundle {
     pub notes: Vec<String>,
 }
 
-/// Makes a bundle at `out`: one file if the name ends in `.tar.gz`, else a folder. The place is as it was before if this fails.
+/// Makes a bundle at `out`: one file if the name ends in `.tar.gz`, else a folder. On failure, `out` is unchanged.
 ///
 /// # Errors
 /// [`BundleError::Input`] if results, states and tables do not belong together; others if a file cannot be read or written.
@@ -250,7 +250,7 @@ fn sensors(inputs: &Inputs) -> String {
     names.join(", ")
 }
 
-/// Remarks for the maker: what the bundle says that redaction cannot change.
+/// Remarks for the maker on words that redaction cannot change.
 fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<String> {
     let mut notes: Vec<String> = badge_of(&inputs.reports).into_iter().collect();
     if request.redactions.contains(&Redaction::Serials) {
@@ -278,7 +278,7 @@ fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<
         if !kept.contains(&file.role.as_str()) || file.size > MOST_TEXT {
             continue;
         }
-        // A table of Parquet is no text.
+        // A table of Parquet is not text.
         let text = fs::read_to_string(written.root.join(&file.path)).unwrap_or_default();
         let (_, count) = redacted(&text, &request.redactions);
         if count > 0 {

@@ -1,4 +1,4 @@
-//! The manifest of a bundle: its files, what was computed from which, and its claims.
+//! The manifest of a bundle: its files, the files behind each study, and its claims.
 
 use std::collections::BTreeMap;
 
@@ -44,14 +44,14 @@ pub struct Manifest {
     pub is_unfinished: bool,
     /// Origin of the samples, as in the results.
     pub source: String,
-    /// Sentence on samples that nobody measured.
+    /// Statement on samples that were not measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub badge: Option<String>,
-    /// Every other file.
+    /// All files except the manifest.
     pub files: Vec<BundledFile>,
     /// Files behind each study of the results.
     pub studies: Vec<StudyFiles>,
-    /// Numbers of the results that the bundle stands for.
+    /// Numbers of the results that the bundle claims.
     pub claims: Vec<Claim>,
     /// Files that were left out.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -73,7 +73,7 @@ pub struct BundledFile {
     pub size: u64,
     /// `sha256:` and 64 hexadecimal digits.
     pub sha256: String,
-    /// Part that the file plays: `state`, `truth`, `prediction`, `samples`, `results`, …
+    /// Role of the file: `state`, `truth`, `prediction`, `samples`, `results`, …
     pub role: String,
 }
 
@@ -155,7 +155,7 @@ pub struct TableFiles {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Withheld {
-    /// Part that the file plays.
+    /// Role of the file.
     pub role: String,
     /// Reason.
     pub reason: String,
@@ -185,7 +185,7 @@ impl Manifest {
         files.filter(|file| !GENERATED.contains(&file.path.as_str()))
     }
 
-    /// Sentences that nothing was measured, and that the bundle is a draft, where this is so.
+    /// Remarks for readers: that the samples were not measured, and that the bundle is a draft. Empty if neither is true.
     pub(crate) fn remarks(&self) -> Vec<String> {
         let unfinished = self.is_unfinished.then(|| UNFINISHED.to_owned());
         self.badge.iter().cloned().chain(unfinished).collect()
@@ -275,7 +275,7 @@ fn unsealed(fault: &str) -> String {
     format!("{fault}; restore it, or make the bundle again with `taceva bundle`")
 }
 
-/// True if the whole seal is that of its content. A seal shows which key was changed, and its digest does not cover its own words.
+/// True if every word of the seal equals the seal of the content; `None` without a seal. The digest of a seal does not cover the seal itself.
 fn has_own_seal(text: &str) -> Option<bool> {
     let mut content: serde_json::Value = serde_json::from_str(text).ok()?;
     let seal = content.as_object_mut()?.remove("seal")?;
@@ -294,7 +294,7 @@ pub(crate) fn source_of(reports: &[EvaluationReport]) -> String {
     }
 }
 
-/// Sentence on samples of `reports` that nobody measured.
+/// Statement on samples of `reports` that were not measured.
 pub(crate) fn badge_of(reports: &[EvaluationReport]) -> Option<String> {
     not_measured(reports.iter().map(|report| report.subject.source.as_str()))
 }

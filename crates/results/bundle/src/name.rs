@@ -56,7 +56,7 @@ pub(crate) fn check_amount(files: usize, bytes: u64, most: u64) -> Result<(), Bu
     Ok(())
 }
 
-/// Rejects two names, of files or folders, that are equal but for case, which some file systems cannot hold.
+/// Rejects two names, of files or folders, that differ only in case, because some file systems cannot store both.
 pub(crate) fn check_case<'a>(names: impl Iterator<Item = &'a String>) -> Result<(), BundleError> {
     let mut known: BTreeMap<String, &str> = BTreeMap::new();
     for name in names {

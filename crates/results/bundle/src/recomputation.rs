@@ -29,7 +29,7 @@ pub(crate) struct TableScores {
     pub(crate) scores: Vec<Score>,
     /// True if the sums must equal those of the state, and do not.
     pub(crate) has_other_sums: bool,
-    /// Metrics that the tables cannot give.
+    /// Metrics that cannot be computed from the tables.
     pub(crate) left_out: Vec<Skip>,
 }
 
@@ -69,7 +69,7 @@ pub(crate) struct RecomputationSettings<'a> {
 }
 
 impl Recomputation {
-    /// Nothing, because the level does not ask for it.
+    /// Recomputation of nothing, for a level that needs none.
     pub(crate) fn none() -> Recomputation {
         Recomputation {
             states: Err(Stop::absent("not asked for")),
@@ -146,7 +146,7 @@ impl Stop {
 /// States in `files`, each of which is read once.
 ///
 /// # Errors
-/// The damage that keeps one from being read.
+/// [`Damage`] if a state cannot be read.
 pub(crate) fn states(source: &Source, files: &StudyFiles) -> Result<Vec<ReadState>, Damage> {
     let mut total = 0_u64;
     for name in &files.states {
@@ -257,7 +257,7 @@ fn of_model(
     })
 }
 
-/// Model in `files` fitted again on one of `datasets`, with the scores of another one by the plan of the only state.
+/// Fits the model in `files` again on one of `datasets`. If the result is another model, scores it by the plan of the only state.
 fn of_fit(
     source: &Source,
     files: &StudyFiles,

@@ -4,7 +4,7 @@ use std::str::FromStr;
 
 use taceva_core::shown;
 
-/// Word in the place of what was redacted.
+/// Word that replaces redacted text.
 const REDACTED: &str = "redacted";
 
 /// Words that are redacted in the texts of a bundle.
@@ -46,11 +46,11 @@ impl FromStr for Redaction {
     }
 }
 
-/// Keys whose value is a machine.
+/// Keys whose value is the address or name of a machine.
 const HOST_KEYS: [&str; 6] = ["address", "host", "hostname", "ip", "server", "url"];
 /// Keys whose value is a serial number.
 const SERIAL_KEYS: [&str; 4] = ["serial", "serial_number", "serial_no", "sn"];
-/// Letters that end a word outside a path.
+/// Characters that end a word outside a path.
 const ENDS: &str = " \t\r\n\"',;()[]{}=";
 
 /// The text with `what` redacted, and the number of redacted words.

@@ -17,7 +17,7 @@ pub(crate) const SAMPLES_SCHEMA: &str = "taceva.samples/1";
 pub(crate) const IDS: [&str; 4] = [Samples::KEY, "id", "sample_id", "index"];
 /// Column with the digest of each frame.
 const FRAME: &str = "frame_sha256";
-/// Columns that are no labels.
+/// Columns that are not labels.
 const BESIDE: [&str; 20] = [
     "",
     "recording",
@@ -75,7 +75,7 @@ impl StudySamples {
     /// Samples in the table at `path`, whose labels are its columns of numbers.
     ///
     /// # Errors
-    /// [`BundleError::Evaluate`] if it is no table.
+    /// [`BundleError::Evaluate`] if it is not a table.
     pub(crate) fn of_table(path: &Path, jobs: NonZeroUsize) -> Result<StudySamples, BundleError> {
         let (table, _) = read_table(path, jobs)?;
         Ok(StudySamples::of_read(&table))
@@ -125,7 +125,7 @@ impl StudySamples {
         }
     }
 
-    /// Samples that the provenance of `report` names, where no table is at hand.
+    /// Samples that the provenance of `report` names, for a study without a table.
     pub(crate) fn of_provenance(report: &EvaluationReport) -> StudySamples {
         let own = &report.provenance;
         let named = serde_json::json!([

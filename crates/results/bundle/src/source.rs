@@ -1,4 +1,4 @@
-//! Files of a bundle on disk: a folder as it lies, or a packed bundle in a temporary folder.
+//! Files of a bundle on disk: a folder, or a packed bundle that is unpacked into a temporary folder.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};

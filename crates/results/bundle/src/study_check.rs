@@ -9,17 +9,17 @@ use crate::origin;
 use crate::recomputation::{FitScores, Recomputation, Stop, TableScores};
 use crate::verification::{ClaimCheck, OtherCheck, Verdict};
 
-/// Reason of a claim that the results lack.
+/// Reason for a claim that is not in the results.
 pub(crate) const NO_SUCH_NUMBER: &str = "results.json has no such number";
 
-/// One study: its results as they stand, and as they were computed again.
+/// One study: its results in the bundle, and its results computed again.
 pub(crate) struct StudyCheck<'a> {
     pub(crate) study: usize,
     pub(crate) report: &'a EvaluationReport,
     pub(crate) again: Recomputation,
-    /// Deepest level that is wanted.
+    /// Deepest requested level.
     pub(crate) most: Level,
-    /// Greatest difference of numbers that count as within.
+    /// Greatest difference at which two numbers count as `within`.
     pub(crate) tolerance: f64,
 }
 
@@ -207,7 +207,7 @@ impl StudyCheck<'_> {
         check.ended(Verdict::Differs, reason)
     }
 
-    /// Scores that differ beyond their claims, and parts of the results that no state gives.
+    /// Differences of scores in facts that no claim states, and parts of the results that cannot be computed from a state.
     pub(crate) fn others(&self, claims: &[ClaimCheck]) -> Vec<OtherCheck> {
         let mut found = Vec::new();
         let other = |part: String, verdict, reason: &str| OtherCheck {

@@ -19,11 +19,11 @@ pub struct Verification {
     pub bundle: Option<BundleFacts>,
     /// Program that verified it.
     pub program: String,
-    /// Every level up to the one that was asked for.
+    /// Every level up to the requested level.
     pub levels: Vec<LevelCheck>,
     /// Every claim.
     pub claims: Vec<ClaimCheck>,
-    /// Scores of the results that differ beyond their claims, and parts of the results that no state gives.
+    /// Differences of scores in facts that no claim states, and parts of the results that cannot be computed from a state.
     pub others: Vec<OtherCheck>,
     /// Findings that make the bundle unusable.
     pub damage: Vec<Damage>,
@@ -31,7 +31,7 @@ pub struct Verification {
     pub summary: Summary,
     /// Remarks for readers.
     pub remarks: Vec<String>,
-    /// Level that was asked for; `None` for the deepest that the files allow.
+    /// Requested level; `None` for the deepest that the files allow.
     #[serde(skip)]
     pub(crate) asked: Option<Level>,
 }
@@ -48,7 +48,7 @@ pub struct BundleFacts {
     pub taceva: String,
     /// Origin of the samples.
     pub source: String,
-    /// Sentence on samples that nobody measured.
+    /// Statement on samples that were not measured.
     pub badge: Option<String>,
     /// Digest of the manifest.
     pub seal: String,
@@ -127,7 +127,7 @@ pub struct ClaimCheck {
     pub(crate) is_absent: bool,
 }
 
-/// Part of the results beside the claims.
+/// Part of the results that is not a claim.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct OtherCheck {
@@ -159,11 +159,11 @@ pub struct Summary {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Outcome {
-    /// Every claim is equal or within the tolerance, as deep as was asked for.
+    /// Every claim is equal or within the tolerance, to the requested level.
     Verified,
     /// A claim differs, or cannot be computed again.
     Unverified,
-    /// The bundle is damaged, or is none.
+    /// The bundle is damaged, or the path is not a bundle.
     Damaged,
 }
 
@@ -185,7 +185,7 @@ impl Verification {
 
     /// Outcome in one word.
     ///
-    /// Without a level that was asked for, a claim whose files are not in the bundle counts as verified as deep as it goes.
+    /// If no level is requested, a claim counts as verified although the bundle lacks the files for a deeper level.
     pub fn outcome(&self) -> Outcome {
         if !self.damage.is_empty() {
             return Outcome::Damaged;

@@ -25,9 +25,9 @@ pub struct VerifyRequest {
     pub path: PathBuf,
     /// Level to reach; `None` for the deepest that the files allow.
     pub level: Option<Level>,
-    /// Greatest difference of numbers that count as `within`, in the unit of each.
+    /// Greatest difference at which two numbers count as `within`, in the unit of each score.
     pub tolerance: f64,
-    /// Most bytes of all files together.
+    /// Maximum size of all files together, bytes.
     pub most: u64,
     /// Recordings on which models predict again; the deepest level is then that of the model.
     pub datasets: Vec<PathBuf>,
@@ -61,7 +61,7 @@ impl VerifyRequest {
 /// Verifies a bundle. Nothing of it is executed.
 ///
 /// # Errors
-/// [`BundleError::File`] if it cannot be read. A damaged bundle is no error: its damage is listed.
+/// [`BundleError::File`] if it cannot be read. A damaged bundle is not an error: its damage is listed.
 pub fn verify(request: &VerifyRequest) -> Result<Verification, BundleError> {
     verify_with(request, &SilentProgress)
 }
@@ -148,7 +148,7 @@ pub(crate) struct Checked {
     remarks: Vec<String>,
 }
 
-/// Compares the claims of `manifest` and all of `reports` with what the files in `source` give.
+/// Compares the claims of `manifest` and all of `reports` with numbers computed from the files in `source`.
 pub(crate) fn check(
     source: &Source,
     manifest: &Manifest,
@@ -312,7 +312,7 @@ fn facts(sealed: &SealedManifest) -> BundleFacts {
 /// Facts of the bundle at `path`, and its manifest. Its files are not read.
 ///
 /// # Errors
-/// [`BundleError::Damaged`] if it is no bundle of this version; [`BundleError::File`] if it cannot be read.
+/// [`BundleError::Damaged`] if it is not a bundle of this version; [`BundleError::File`] if it cannot be read.
 pub(crate) fn open_manifest(path: &Path) -> Result<(BundleFacts, Manifest), BundleError> {
     let source = Source::open(path, MOST_BYTES)?;
     let text = source

@@ -1,4 +1,4 @@
-//! A value as YAML, for forms that others read.
+//! Writes a value as YAML, for file formats of other programs.
 
 use serde_json::Value;
 use taceva_core::is_obeyed;
@@ -27,7 +27,7 @@ fn write(value: &Value, depth: usize, text: &mut String) {
     }
 }
 
-/// Writes `value` behind `mark`: a key or a dash.
+/// Writes `value` after `mark`, which is a key or a dash.
 fn entry_of(mark: &str, value: &Value, depth: usize, text: &mut String) {
     *text += &format!("{}{mark}", "  ".repeat(depth));
     let is_block = match value {

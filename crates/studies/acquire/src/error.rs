@@ -117,7 +117,7 @@ pub enum AcquireError {
     },
     /// The taps do not determine the latency. The tip was raised again.
     #[error(
-        "{}: {source}; nothing was written, and the tip stands above the gel at its clearance of 1 mm",
+        "{}: {source}; nothing was written, and the tip is 1 mm above the gel",
         taceva_core::shown(rig)
     )]
     Taps {
@@ -226,9 +226,6 @@ mod tests {
             said.starts_with("lab.toml: the fast taps are 1.00 times"),
             "{said}"
         );
-        assert!(
-            said.ends_with("the tip stands above the gel at its clearance of 1 mm"),
-            "{said}"
-        );
+        assert!(said.ends_with("the tip is 1 mm above the gel"), "{said}");
     }
 }

@@ -216,7 +216,7 @@ impl Cache {
         let entry = self.entry(key);
         let removed = remove(&entry);
         self.note(format!(
-            "{}: {problem}; it is {} and made again",
+            "{}: {problem}; it is {} and computed again",
             shown(&entry),
             match removed {
                 Ok(()) => "removed".to_owned(),

@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::Serialize;
 
-/// Number up to which it is 0 but for rounding errors.
+/// Largest number that counts as 0, because rounding errors can cause it.
 const ROUNDING: f64 = 1e-9;
 
 /// Reason why a number or its interval is absent.
@@ -19,13 +19,13 @@ pub enum Undefined {
     ConstantTruth,
     /// The fault does not add to the error, so no part of it can be removed.
     NoExcess,
-    /// The model reads no untouched picture, or the fault has none of its own.
+    /// The model reads no untouched picture, or none from after the fault is usable.
     NoFreshReference,
     /// The samples name no contact points or groups.
     NoClusters,
-    /// The samples are of fewer than five contact points or groups.
+    /// The samples come from fewer than five contact points or groups.
     TooFewClusters,
-    /// The error hangs on one contact point, or is zero; a share of the excess error has no interval.
+    /// The error depends on one contact point, or is zero. A share of the excess error never has an interval.
     NoInterval,
     /// No severity of the fault was reached.
     NoSeverity,

@@ -20,7 +20,7 @@ pub struct Fault {
     pub id: &'static str,
     /// Cause and appearance, in one line.
     pub title: &'static str,
-    /// Meaning and unit of the parameter; 0 is no fault.
+    /// Meaning and unit of the parameter; 0 is not a fault.
     pub parameter: &'static str,
     /// Random numbers of the fault.
     pub scope: Scope,
@@ -28,7 +28,7 @@ pub struct Fault {
     pub table: [f64; 5],
     /// Greatest parameter.
     pub most: f64,
-    /// Limit of what the numbers of the fault show.
+    /// Limitation of the numbers of the fault, for readers.
     pub note: Option<&'static str>,
     pub(crate) effect: Effect,
 }
@@ -38,7 +38,7 @@ pub struct Fault {
 pub(crate) enum Effect {
     /// Changes the numbers of the picture.
     Numbers(fn(&mut Canvas, &Realisation)),
-    /// Puts the picture before in the place of the picture.
+    /// Replaces the picture by the previous one.
     Before,
 }
 

@@ -6,7 +6,7 @@ use crate::estimate::{Estimate, Undefined};
 use crate::report::{CellScore, FaultReport, SeverityReport, Unnoticed};
 use crate::severity::NEVER;
 
-/// Degradation above which a number is wrong.
+/// Degradation from which an error counts as doubled.
 const DOUBLE: f64 = 2.0;
 
 /// Least severity whose skill is no longer shown to be above 0; [`NEVER`] if there is none. `None` if that is unknown, or no severity was tested.
@@ -47,7 +47,7 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Errors that a fault at least doubles, and of which the check of untouched pictures finds nothing.
+/// Errors that a fault at least doubles without a finding in the check of untouched pictures.
 pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
     let hidden = faults.iter().flat_map(|fault| {
         let severities = fault.severities.iter().filter(|of| of.check.is_empty());

@@ -1,4 +1,4 @@
-//! Limits of what the numbers of a stress test contain.
+//! Notes on the limitations of the numbers of a stress test.
 
 use taceva_core::counted;
 use taceva_metrics::LEAST_CLUSTERS;

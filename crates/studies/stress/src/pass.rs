@@ -78,7 +78,7 @@ pub(crate) struct Predictions {
 pub(crate) struct CellPredictions {
     /// With the untouched picture from before the fault.
     pub(crate) stale: Vec<f64>,
-    /// With one from after the fault; empty without.
+    /// With an untouched picture from after the fault; empty if there is none.
     pub(crate) fresh: Vec<f64>,
     /// Sum over all pictures of their changes, each a mean over draws.
     changes: f64,

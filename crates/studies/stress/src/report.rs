@@ -49,11 +49,11 @@ pub struct StressReport {
     /// Mean degradation over all faults.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Errors that a fault at least doubles, and of which the check of untouched pictures finds nothing. `None` without a reference.
+    /// Errors that a fault at least doubles without a finding in the check of untouched pictures. `None` without a reference.
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
-    /// Limits of what the numbers contain, as sentences.
+    /// Limitations of the numbers, as sentences.
     pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
@@ -103,7 +103,7 @@ pub struct FaultReport {
     pub title: &'static str,
     /// Meaning and unit of the parameter.
     pub parameter: &'static str,
-    /// Limit of what the numbers show.
+    /// Limitation of the numbers, for readers.
     pub note: Option<&'static str>,
     /// Severities that were tested.
     pub severities: Vec<SeverityReport>,
@@ -127,7 +127,7 @@ pub struct SeverityReport {
     pub parameter: f64,
     /// Mean change of the scored pictures, as a share of the change by contact.
     pub stimulus: Option<f64>,
-    /// True if the stimulus is below 0.05, so that the fault is hardly there.
+    /// True if the stimulus is below 0.05, so that the fault hardly changes the pictures.
     pub low_stimulus: bool,
     /// Codes of the checks of untouched pictures that find the fault, in every draw.
     pub check: Vec<&'static str>,
@@ -137,7 +137,7 @@ pub struct SeverityReport {
     pub fresh: Option<ByChannel<CellScore>>,
 }
 
-/// Error that a fault at least doubles, and of which the check of untouched pictures finds nothing.
+/// Error that a fault at least doubles without a finding in the check of untouched pictures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unnoticed {
     /// Name of the fault.

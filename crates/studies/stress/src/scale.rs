@@ -4,7 +4,7 @@ use taceva_core::{Frame, Unit};
 use taceva_dataset::Dataset;
 use taceva_evaluate::EvaluateError;
 
-/// Most pictures of contact that are compared with the untouched picture.
+/// Maximum number of pictures of contact that are compared with the untouched picture.
 pub(crate) const PICTURES: usize = 32;
 /// Share of the greatest load above which a picture shows contact to `check`.
 const PRESSED: f64 = 0.5;
@@ -14,7 +14,7 @@ const PRESSED: f64 = 0.5;
 /// # Units
 /// Changes are shares of full scale, means over all numbers of a picture.
 pub(crate) struct Scale {
-    /// The untouched picture; that of the least load without a reference.
+    /// The untouched picture; without a reference, the picture with the least load.
     pub(crate) untouched: Option<Frame>,
     /// True if the untouched picture is the reference of the recording.
     pub(crate) is_reference: bool,

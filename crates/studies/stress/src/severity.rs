@@ -11,7 +11,7 @@ use crate::stress::{Stress, draw_seeds};
 
 /// Change of the untouched picture at severities 1 to 5, as a share of the change by contact.
 pub const TARGETS: [f64; 5] = [0.03, 0.1, 0.3, 1.0, 3.0];
-/// Severity above all others: that of a fault which breaks nothing.
+/// Placeholder above all severities, for a fault that ends the skill at none of them.
 pub const NEVER: u8 = 6;
 
 /// Least parameter of a search, as a share of the greatest.
@@ -20,16 +20,16 @@ const LEAST: f64 = 1e-7;
 const ACCURACY: f64 = 1.02;
 /// Bisections of a search.
 const STEPS: usize = 28;
-/// Lines of the pictures over which the stimulus of a fault is averaged that is drawn for each picture.
+/// Number of lines over which the stimulus is averaged, for a fault that is drawn for each picture.
 const LINES: u32 = 512;
-/// Most of these pictures.
+/// Maximum number of pictures over which that stimulus is averaged.
 const DRAWN: u32 = 32;
 
 /// Quantity that sets severity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum By {
-    /// The change of the untouched picture, beside that by contact: equal for all faults and sensors.
+    /// The change of the untouched picture relative to the change by contact; the same ratio for all faults and sensors.
     #[default]
     Stimulus,
     /// The parameter of the fault, from a table.

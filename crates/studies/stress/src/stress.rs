@@ -59,7 +59,7 @@ impl Stress {
         self.parameter
     }
 
-    /// True if the fault repeats pictures, so that it needs the one before.
+    /// True if the fault repeats pictures, so that it needs the previous picture.
     pub fn repeats(&self) -> bool {
         matches!(self.fault.effect, Effect::Before)
     }
@@ -86,7 +86,7 @@ impl Stress {
         }
     }
 
-    /// True if the picture before stands in the place of the picture of `sample`.
+    /// True if the previous picture replaces the picture of `sample`.
     pub(crate) fn is_repeated(&self, sample: &str) -> bool {
         self.repeats() && self.draws(sample).unit(0) < self.parameter
     }

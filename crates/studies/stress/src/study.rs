@@ -22,7 +22,7 @@ use crate::setup::{Setup, StressRequest, compares};
 use crate::severity::{By, Levels, Reference};
 use crate::stress::{Stress, draw_seeds};
 
-/// Stimulus below which a fault is hardly there.
+/// Stimulus below which a fault hardly changes the pictures.
 const LOW: f64 = 0.05;
 /// Check of untouched pictures.
 const CHANGED_REST: &str = "TAC034";

@@ -89,7 +89,7 @@ pub fn wear(
     })
 }
 
-/// The error with the folder of the recording, if it is a wrong request that does not begin with it.
+/// The error, prefixed with the folder of the recording if it is a request error without this prefix.
 fn named(dataset: &Dataset, error: EvaluateError) -> EvaluateError {
     let folder = format!("{}: ", shown(dataset.path()));
     match error {
@@ -178,7 +178,7 @@ impl Measured {
         notes.collect()
     }
 
-    /// Change of the untouched picture from that of `first`, beside the change by contact there.
+    /// Change of the untouched picture from that of `first`, relative to the change by contact in `first`.
     fn stimulus(&self, first: &Measured) -> Option<f64> {
         let (own, before) = (self.untouched.as_ref()?, first.untouched.as_ref()?);
         let contact = first.contact.filter(|_| own.info() == before.info())?;

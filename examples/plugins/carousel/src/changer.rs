@@ -1,5 +1,5 @@
-//! A carousel of specimens that is driven by lines over TCP: `turn N` has it turn to place N, from 1, and once it stands it answers `at N` with the
-//! number that its own reader sees there, or `fault` and words. Where its connection ends it stands at once.
+//! Driver of a carousel of specimens, controlled by lines over TCP. `turn N` turns it to place N, counted from 1. At rest it answers `at N` with the
+//! number from its own reader, or `fault` and a message. The carousel stops at once if the connection ends.
 
 use std::io::{ErrorKind as IoErrorKind, Read, Write};
 use std::net::{TcpStream, ToSocketAddrs};
@@ -14,24 +14,24 @@ use taceva_plugin::Interruption;
 
 const KEY: DriverKey = DriverKey::fixed("org.example.carousel/carousel");
 const DOING: &str = "turn the carousel";
-/// How long a connection may take.
+/// Timeout of the connection.
 const CONNECTING: Duration = Duration::from_secs(2);
-/// How often it is looked whether an answer has come.
+/// Polling interval for an answer.
 const LOOKING: Duration = Duration::from_millis(2);
-/// No answer is longer, in bytes.
+/// Maximum length of an answer, bytes.
 const LINE_MAX: usize = 256;
 
-/// What opens the carousel, and says everything about it that is known before.
+/// Factory of the carousel, with its descriptor.
 pub(crate) fn factory() -> Result<Box<dyn Factory<dyn Changer>>, DescriptorError> {
-    // What it holds is known from its arguments alone.
+    // The arguments state the items in the carousel.
     let facts = Facts::Changer(ChangerFacts::default());
     let spec = DescriptorSpec::new(KEY, "carousel", DriverSource::Real, facts);
-    let host = ArgSpec::text("host").help("its address or name");
+    let host = ArgSpec::text("host").help("host name or address of the carousel");
     let port = ArgSpec::whole("port", 1, 65_535)
         .default(ArgValue::Whole(7_474))
-        .help("where it listens");
+        .help("TCP port of the carousel");
     let holds = ArgSpec::text("holds")
-        .help("what stands at its places, in their order, with a comma between")
+        .help("items in its places, in order, separated by commas")
         .changes_facts();
     let descriptor = spec.arguments([host, port, holds]).check()?;
     Ok(Box::new(CarouselFactory { descriptor }))
@@ -57,7 +57,7 @@ impl Factory<dyn Changer> for CarouselFactory {
         spec.check()
     }
 
-    /// Nothing moves.
+    /// Connects to the carousel. Opening moves nothing.
     fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Changer>, DriverError> {
         let mut carousel = Carousel {
             host: args.text("host").to_owned(),
@@ -75,7 +75,7 @@ struct Carousel {
     host: String,
     port: u16,
     holds: Vec<String>,
-    /// Absent after a call that failed: then the carousel stands.
+    /// Connection; `None` after a failed call, which closes it and so stops the carousel.
     line: Option<TcpStream>,
     interruption: Arc<Interruption>,
 }
@@ -102,7 +102,7 @@ impl Carousel {
         Ok(line)
     }
 
-    /// The answer to `turn`, waited for until `deadline`.
+    /// Sends `turn` and returns the answer.
     fn turned(&self, line: &mut TcpStream, place: usize, deadline: Deadline) -> Result<String, DriverError> {
         let failed = |kind| DriverError::new(kind, &KEY, DOING);
         let call = self.interruption.call();
@@ -133,7 +133,7 @@ impl Carousel {
         }
     }
 
-    /// The name of what stands at the place that `answer` names.
+    /// Name of the item at the place that `answer` states.
     fn named(&self, answer: &str) -> Result<String, DriverError> {
         let failed = |kind| DriverError::new(kind, &KEY, DOING);
         if let Some(words) = answer.strip_prefix("fault ") {
@@ -142,7 +142,7 @@ impl Carousel {
         let place = answer.strip_prefix("at ").and_then(|place| place.parse::<usize>().ok());
         let held = place.and_then(|place| self.holds.get(place.checked_sub(1)?));
         held.cloned().ok_or_else(|| {
-            let why = format!("what came is no place: {answer:?}");
+            let why = format!("the answer is {answer:?}, expected `at` and the number of a place");
             failed(ErrorKind::Protocol).because(why)
         })
     }
@@ -163,7 +163,7 @@ impl Changer for Carousel {
             Some(line) => line,
             None => self.connected()?,
         };
-        // Where this fails the connection ends, and with it whatever it was doing.
+        // On failure the connection is dropped, which stops the carousel.
         let answer = self.turned(&mut line, place + 1, deadline)?;
         let there = self.named(&answer)?;
         self.line = Some(line);

@@ -1,7 +1,7 @@
-//! A lamp on a DMX512 universe, behind an interface that takes framed packets on a serial port (that of ENTTEC's DMX USB Pro).
+//! Driver of a lamp on a DMX512 universe, behind an interface with framed packets on a serial port (ENTTEC's DMX USB Pro).
 //!
-//! A packet is `7E`, the label 6, the length of what follows in two bytes, low one first, a start code 0, a level for each of 512 channels, and
-//! `E7`. No byte of it is one that a terminal's line discipline changes, so the port needs no setting up: levels are 0, 85, 170 and 255.
+//! A packet consists of `7E`, the label 6, the payload length in two bytes (low byte first), the start code 0, a level for each of 512 channels, and
+//! `E7`. Levels are 0, 85, 170 and 255. The line discipline of a terminal changes none of these bytes, so the port needs no setup.
 
 use std::fs::{File, OpenOptions};
 use std::io::Write;
@@ -15,23 +15,23 @@ use taceva_core::{
 };
 
 const KEY: DriverKey = DriverKey::fixed("org.example.dmx-light/dmx-light");
-/// The scenes, that of the calibration first, and the level of the lamp in each.
+/// Light scenes with their lamp levels, the scene of the calibration first.
 const SCENES: [(&str, u8); 4] = [("dark", 0), ("low", 85), ("high", 170), ("full", 255)];
-/// Channels of a universe.
+/// Number of channels of a universe.
 const CHANNELS: usize = 512;
 
-/// What opens the lamp, and says everything about it that is known before.
+/// Factory of the lamp, with its descriptor.
 pub(crate) fn factory() -> Result<Box<dyn Factory<dyn Lighting>>, DescriptorError> {
     let facts = Facts::Lighting(LightingFacts::default().with_scenes(scenes()));
     let spec = DescriptorSpec::new(KEY, "DMX light", DriverSource::Real, facts);
     let port = ArgSpec::path("port").help("the serial port of the interface, such as /dev/ttyUSB0");
     let channel = ArgSpec::whole("channel", 1, 512)
         .default(ArgValue::Whole(1))
-        .help("of the lamp");
+        .help("DMX channel of the lamp");
     let settle = ArgSpec::whole("settle", 0, 60_000)
         .unit("ms")
         .default(ArgValue::Whole(500))
-        .help("how long the lamp takes until it is steady");
+        .help("time until the lamp is steady");
     let descriptor = spec.arguments([port, channel, settle]).check()?;
     Ok(Box::new(DmxFactory { descriptor }))
 }
@@ -49,7 +49,7 @@ impl Factory<dyn Lighting> for DmxFactory {
         &self.descriptor
     }
 
-    /// No light changes.
+    /// Opens the serial port. Opening changes no light.
     fn open(&self, args: &Args, _: &mut Rig) -> Result<Box<dyn Lighting>, DriverError> {
         let failed = |error: std::io::Error| {
             let kind = match error.kind() {
@@ -71,16 +71,16 @@ impl Factory<dyn Lighting> for DmxFactory {
 
 struct Dmx {
     port: File,
-    /// From 1.
+    /// Channel of the lamp, counted from 1.
     channel: usize,
     settle: Duration,
     scenes: Vec<String>,
-    /// A packet that is not through yet: a port that is full keeps its writer waiting, and must not keep the run.
+    /// Result of a packet that is still being written. A full port blocks its writer, and must not block the run.
     writing: Option<Receiver<std::io::Result<()>>>,
 }
 
 impl Dmx {
-    /// Waits until the packet under way is through.
+    /// Waits until the current packet is written.
     fn written(&mut self, deadline: Deadline) -> Result<(), DriverError> {
         let failed = |kind| DriverError::new(kind, &KEY, "set the light");
         let Some(writing) = &self.writing else {
@@ -88,7 +88,7 @@ impl Dmx {
         };
         let written = match writing.recv_timeout(deadline.remaining()) {
             Err(RecvTimeoutError::Timeout) => {
-                return Err(failed(ErrorKind::Timeout).because("the port takes nothing"));
+                return Err(failed(ErrorKind::Timeout).because("the port accepts no bytes"));
             }
             Err(RecvTimeoutError::Disconnected) => Ok(()),
             Ok(written) => written,
@@ -103,7 +103,7 @@ impl Lighting for Dmx {
         &self.scenes
     }
 
-    /// Returns once the lamp had time to become steady; it reports nothing, so that it is is not known.
+    /// Sets the lamp, and waits until it is probably steady. The lamp reports no state.
     fn set(&mut self, scene: &str, deadline: Deadline) -> Result<(), DriverError> {
         let failed = |kind| DriverError::new(kind, &KEY, "set the light");
         let known = SCENES.iter().find(|(known, _)| *known == scene);
@@ -112,7 +112,7 @@ impl Lighting for Dmx {
             return Err(failed(ErrorKind::InvalidArgument).because(why));
         };
         if deadline.remaining() < self.settle {
-            let why = format!("{} ms until it is steady, there is less time", self.settle.as_millis());
+            let why = format!("the lamp needs {} ms to become steady, more than the deadline allows", self.settle.as_millis());
             return Err(failed(ErrorKind::Timeout).because(why));
         }
         self.written(deadline)?;
@@ -130,7 +130,7 @@ impl Lighting for Dmx {
     }
 }
 
-/// What sets `channel`, from 1, to `level` and all others to 0.
+/// Packet that sets `channel`, counted from 1, to `level` and all other channels to 0.
 fn packet(channel: usize, level: u8) -> Vec<u8> {
     let mut levels = [0; CHANNELS];
     levels[channel - 1] = level;

@@ -1,6 +1,6 @@
-//! A six-axis transducer that writes a line for each reading to whoever connects by TCP: `number;Fx;Fy;Fz;Tx;Ty;Tz` in N and N m.
+//! Driver of a six-axis transducer that writes a line for each reading to every TCP client: `number;Fx;Fy;Fz;Tx;Ty;Tz` in N and N m.
 //!
-//! A thread reads all lines as they come, so that whoever asks late is given the newest and none that waited.
+//! A thread reads every line on arrival, so a late call gets the newest reading and never a queued one.
 
 use std::io::{BufRead, BufReader, Read};
 use std::net::{TcpStream, ToSocketAddrs};
@@ -16,14 +16,14 @@ use taceva_core::{
 use taceva_plugin::Interruption;
 
 const KEY: DriverKey = DriverKey::fixed("org.example.line-transducer/line-transducer");
-/// How long a connection may take.
+/// Timeout of the connection.
 const CONNECTING: Duration = Duration::from_secs(2);
-/// How often it is looked whether a reading has come.
+/// Polling interval for a reading.
 const LOOKING: Duration = Duration::from_millis(1);
-/// No line is longer, in bytes.
+/// Maximum length of a line, bytes.
 const LINE_MAX: u64 = 256;
 
-/// What opens the transducer, and says everything about it that is known before.
+/// Factory of the transducer, with its descriptor.
 pub(crate) fn factory() -> Result<Box<dyn Factory<dyn ForceTransducer>>, DescriptorError> {
     let facts = ForceFacts::default()
         .with_axes(Axes::SIX)
@@ -31,10 +31,10 @@ pub(crate) fn factory() -> Result<Box<dyn Factory<dyn ForceTransducer>>, Descrip
         .with_force_max(Newton(200.0))
         .with_numbered(true);
     let spec = DescriptorSpec::new(KEY, "line transducer", DriverSource::Real, Facts::Force(facts));
-    let host = ArgSpec::text("host").help("its address or name");
+    let host = ArgSpec::text("host").help("host name or address of the transducer");
     let port = ArgSpec::whole("port", 1, 65_535)
         .default(ArgValue::Whole(63_351))
-        .help("where it writes its lines");
+        .help("TCP port of the transducer");
     let descriptor = spec.arguments([host, port]).check()?;
     Ok(Box::new(LineFactory { descriptor }))
 }
@@ -78,7 +78,7 @@ impl Factory<dyn ForceTransducer> for LineFactory {
     }
 }
 
-/// The newest reading, and why there will be no other.
+/// Newest reading, and the reason why no further reading arrives.
 #[derive(Default)]
 struct Newest {
     reading: Option<Reading>,
@@ -92,7 +92,7 @@ struct Reading {
     stamp: Stamp,
 }
 
-/// Reads lines until there are none: whoever asks late is given the newest, never one that waited in a queue.
+/// Reads lines until the connection ends, and keeps only the newest reading.
 fn listen(stream: TcpStream, newest: &Mutex<Newest>) {
     let mut lines = BufReader::new(stream);
     let ended = loop {
@@ -104,7 +104,7 @@ fn listen(stream: TcpStream, newest: &Mutex<Newest>) {
         }
         let stamp = Stamp::at(taceva_plugin::now());
         let Some((number, wrench)) = parsed(line.trim_end()) else {
-            break (ErrorKind::Protocol, format!("what came is no reading: {line:?}"));
+            break (ErrorKind::Protocol, format!("the line is {line:?}, expected a number, three forces and three torques"));
         };
         let reading = Reading { number, wrench, stamp };
         newest.lock().unwrap_or_else(PoisonError::into_inner).reading = Some(reading);
@@ -132,7 +132,7 @@ fn finite(text: &str) -> Option<f64> {
 struct Transducer {
     stream: TcpStream,
     newest: Arc<Mutex<Newest>>,
-    /// The stamp and the number of the last reading.
+    /// Last reading that was returned.
     last: Option<Reading>,
     interruption: Arc<Interruption>,
 }
@@ -179,7 +179,7 @@ impl ForceTransducer for Transducer {
 
 impl Drop for Transducer {
     fn drop(&mut self) {
-        // Its thread ends with the connection.
+        // The reading thread ends with the connection.
         drop(self.stream.shutdown(std::net::Shutdown::Both));
     }
 }

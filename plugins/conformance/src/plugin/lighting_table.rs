@@ -1,4 +1,4 @@
-//! Checks of lightings.
+//! Checks of lighting devices.
 
 #![expect(
     unsafe_code,

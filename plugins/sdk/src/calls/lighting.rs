@@ -1,4 +1,4 @@
-//! Calls of the host on a lighting.
+//! Calls of the host on a lighting device.
 
 #![expect(unsafe_code, reason = "functions that a host calls")]
 

@@ -55,7 +55,7 @@ fn runs_of(named: &[PathBuf]) -> anyhow::Result<Used> {
         note(&text, folder, &mut used).with_context(|| taceva_core::shown(&stages).to_string())?;
     }
     for entry in fs::read_dir(RUNS).into_iter().flatten().flatten() {
-        // A folder that is no run has no stages.
+        // A folder that is not a run has no stages.
         if let Ok(text) = fs::read_to_string(entry.path().join(STAGES)) {
             drop(note(&text, &entry.path(), &mut used));
         }

@@ -59,7 +59,7 @@ const LABELS: [&str; 3] = ["[columns]", "[classes]", "[[matrix]]"];
 /// Beginning of the draft's comment on pictures that no row names.
 const NOT_JOINED: &str = "# No pictures were found that belong to its rows. ";
 
-/// Beginning of the draft's comment on columns that are no channels.
+/// Beginning of the draft's comment on columns that are not channels.
 const NO_CHANNELS: &str = "# No channels: ";
 
 /// Lines of `map` other than comments.

@@ -13,7 +13,7 @@ use crate::args::{ListFormat, PluginCheck};
 use crate::cmd::{Context, Usage};
 use crate::{exit, output, report, stderr};
 
-/// Time after which a running check is named.
+/// Time after which the name of a check that still runs is printed.
 const LONG: Duration = Duration::from_secs(10);
 
 pub(super) fn run(args: &PluginCheck, context: &Context) -> anyhow::Result<u8> {

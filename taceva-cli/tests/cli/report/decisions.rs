@@ -76,7 +76,7 @@ fn settings_of_no_rule_are_bad_input() {
         ),
         (
             "rule = \"guarded\"\nr = 1.0\np_conformity = 0.9",
-            "remove one of both",
+            "remove one of the two",
         ),
     ] {
         limit(&bench, rule, 1.0);

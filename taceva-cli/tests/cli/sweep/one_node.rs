@@ -98,7 +98,7 @@ fn clocks_that_differ_by_an_hour_double_no_task_and_leave_no_claim_that_nobody_e
         assert_eq!(log.matches("\nscored").count(), 1, "{log}");
     }
 
-    // A claim from an hour ahead, of a node that is gone, is no younger than any other.
+    // A claim from an hour ahead, of a node that is gone, is not younger than any other.
     let words = "sweep which.toml --out left --jobs 1 -q";
     let mut ahead = an_hour_ahead(&bench, words).spawn().expect("it starts");
     let claims = bench.path("left/claims");

@@ -1,6 +1,6 @@
-//! Facts about a lighting before it is opened.
+//! Facts about a lighting device before it is opened.
 
-/// Facts about a lighting.
+/// Facts about a lighting device.
 ///
 /// ```
 /// use taceva_core::LightingFacts;

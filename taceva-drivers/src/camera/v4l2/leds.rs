@@ -80,7 +80,7 @@ impl Leds {
             return Ok(());
         }
         let Some(wanted) = wanted else {
-            // The light stays unchanged, so a control that cannot be read is no failure.
+            // The light stays unchanged, so a control that cannot be read is not a failure.
             if let Ok(Some(_)) = camera.control(ControlId::ZOOM)
                 && let Ok(value) = camera.value(ControlId::ZOOM)
             {

@@ -22,7 +22,7 @@ use crate::{OpenError, Selector};
 ///   one.
 /// - The pedal is held while one of its bits is set. The watching code halts the robot once it is released, unplugged or not understood.
 ///   Until its first report it counts as released, so press it after opening.
-/// - A pedal reports only changes, so a pedal whose electronics fail while it is held still counts as held. **It is no safety function**;
+/// - A pedal reports only changes, so a pedal whose electronics fail while it is held still counts as held. **It is not a safety function**;
 ///   the switch of the robot's own safety circuit is.
 /// - Pedals that act as keyboards keep typing their letter into the focused window.
 ///

@@ -38,7 +38,7 @@ pub(super) enum StatesError {
     },
     #[error("{address} does not answer within {ANSWER:?}")]
     Silent { address: SocketAddr },
-    #[error("{address} has no output {outputs}, expected a controller that has it, but its software is {}: update it", named(.version))]
+    #[error("{address} has no output {outputs}: the software of its controller is {}; update it", named(.version))]
     Missing {
         address: SocketAddr,
         outputs: String,
@@ -78,7 +78,7 @@ impl States {
             Ok(Message::Controller(Some([major, minor, fix, _]))) => {
                 format!("{major}.{minor}.{fix}")
             }
-            // A server that is no controller need not answer.
+            // A server that is not a controller need not answer.
             Ok(_) | Err(StatesError::Silent { .. }) => String::new(),
             Err(error) => return Err(error),
         };

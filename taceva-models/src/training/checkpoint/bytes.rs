@@ -78,10 +78,10 @@ pub(super) fn read(bytes: &[u8]) -> Result<(Origin, Checkpoint), String> {
     if bytes.len() as u64 > FILE_MAX {
         return Err(format!("more than {FILE_MAX} bytes"));
     }
-    let container = |error| format!("not a whole safetensors file: {error}");
+    let container = |error| format!("not a complete safetensors file: {error}");
     let (_, header) = SafeTensors::read_metadata(bytes).map_err(container)?;
     let text = header.metadata().as_ref().and_then(|keys| keys.get(KEY));
-    let text = text.ok_or_else(|| format!("the metadata lack `{KEY}`"))?;
+    let text = text.ok_or_else(|| format!("no `{KEY}` in the metadata"))?;
     let Format { format } = serde_json::from_str(text).map_err(|error| error.to_string())?;
     if format != FORMAT {
         return Err(format!(

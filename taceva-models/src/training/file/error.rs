@@ -26,10 +26,10 @@ pub enum FormatError {
         length: u64,
     },
     /// The file is not a valid safetensors file.
-    #[error("not a whole safetensors file: {0}")]
+    #[error("not a complete safetensors file: {0}")]
     Container(#[from] safetensors::SafeTensorError),
     /// The safetensors file contains no model.
-    #[error("the metadata lack `{CARD}`: a safetensors file, but not a model of TacEva")]
+    #[error("no `{CARD}` in the metadata: a safetensors file, but not a model of TacEva")]
     NoCard,
     /// The card cannot be parsed.
     #[error("the card: {0}")]
@@ -65,7 +65,7 @@ pub enum FormatError {
         model: String,
     },
     /// A tensor is missing.
-    #[error("no tensor `{name}`")]
+    #[error("the tensor `{name}` is missing")]
     Missing {
         /// Name of the tensor.
         name: &'static str,
@@ -97,7 +97,7 @@ pub enum FormatError {
         name: String,
     },
     /// A tensor has another type or shape than the card requires.
-    #[error("tensor `{name}` is {found}, the card says {expected}")]
+    #[error("tensor `{name}` is {found}, the card states {expected}")]
     Tensor {
         /// Name of the tensor.
         name: &'static str,

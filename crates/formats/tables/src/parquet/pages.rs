@@ -107,7 +107,7 @@ impl Pages {
         })
     }
 
-    /// Next header, and the offset of its page, at which the cursor of the file is left.
+    /// Next header, and the offset of its page. The cursor of the file stays at this offset.
     fn header(&mut self) -> Result<Option<&(PageHeader, u64)>, TableError> {
         if self.peeked.is_some() || self.at >= self.end {
             return Ok(self.peeked.as_ref());

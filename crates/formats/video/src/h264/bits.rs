@@ -1,13 +1,13 @@
 //! Bit reader for parameter sets of H.264.
 
-/// Payload of a unit, without emulation prevention bytes.
+/// Payload of a NAL unit, without emulation prevention bytes.
 pub(super) struct Bits {
     bytes: Vec<u8>,
     at: usize,
 }
 
 impl Bits {
-    /// Reads the unit `unit` from its second byte.
+    /// Reader of the NAL unit `unit`, from its second byte. Removes emulation prevention bytes.
     pub(super) fn new(unit: &[u8]) -> Bits {
         let mut bytes = Vec::with_capacity(unit.len());
         let mut zeros = 0;

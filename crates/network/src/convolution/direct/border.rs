@@ -22,7 +22,7 @@ pub(super) struct Reach {
 }
 
 impl Reach {
-    /// Single reach of all `positions` outputs with all kernel positions.
+    /// Reach of all `positions` outputs, each with all kernel positions.
     pub(super) fn all(convolution: Convolution, positions: usize) -> Reach {
         Reach {
             positions: 0..positions,

@@ -269,7 +269,7 @@ pub(super) fn correlation(
         one += first * first;
         other += second * second;
     }
-    // Rounding residue of a constant series is no variation.
+    // Rounding residue of a constant series is not a variation.
     let varies = |squares: f64, mean: f64| squares > VARIES * count * mean * mean;
     match varies(one, mean[0]) && varies(other, mean[1]) {
         true => both / (one * other).sqrt(),

@@ -21,7 +21,7 @@ pub(super) fn stamped(
             valid_s: time(number),
             received_s: None,
         });
-        // One contact, in which a gap is no pause.
+        // One contact, in which a gap is not a pause.
         sample.point_id = Some("p".to_owned());
     }
     change(&mut recording);

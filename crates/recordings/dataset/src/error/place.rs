@@ -14,7 +14,7 @@ use crate::text::{shown, shown_path};
 /// # let path = folder.path().join("sensor.toml");
 /// std::fs::write(&path, "model = \"DIGIT\"\ncolour = 1\n")?;
 /// let Err(DatasetError::Text { place, .. }) = SensorFile::read(&path) else {
-///     unreachable!("`colour` is no key");
+///     unreachable!("`colour` is not a key");
 /// };
 /// assert_eq!((place.line, place.path), (Some(2), path));
 /// # Ok::<(), Box<dyn std::error::Error>>(())

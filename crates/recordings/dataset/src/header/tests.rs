@@ -188,7 +188,7 @@ fn an_edited_header_is_refused_by_its_key_and_one_without_a_seal_by_that() {
     );
     let body = header().body();
     let message = parse(&body).expect_err("no seal").to_string();
-    assert!(message.contains("the seal is gone"), "{message}");
+    assert!(message.contains("the seal is missing"), "{message}");
     let current = format!("\"{}\"", Version::CURRENT);
     let (_, alone) = sealed.split_once("\n[seal]").expect("sealed");
     let alone = format!("format = {current}\n[seal]{alone}");

@@ -49,7 +49,7 @@ impl TextForm {
                 .is_some_and(|sign| !sign.is_empty())
     }
 
-    /// Returns the cell with a decimal point and without digit groups; `None` if the cell is no number or needs no change.
+    /// Returns the cell with a decimal point and without digit groups; `None` if the cell is not a number or needs no change.
     ///
     /// # Errors
     /// Error message if a cell of digits and signs does not have this form.

@@ -49,7 +49,7 @@ pub(super) fn of(
     groups: &[FileGroup],
     main: &SeenTable<'_>,
 ) -> Vec<FrameLines> {
-    // LeRobot names clips by feature; other clips are no pictures of the table.
+    // LeRobot names clips by feature; other clips are not pictures of the table.
     if main.is_lerobot() {
         return Vec::new();
     }

@@ -313,7 +313,7 @@ pub(super) fn are_pairs(tables: &FileGroup, files: &FileGroup) -> bool {
         && files.parts.names == tables.parts.names
 }
 
-/// Index line with a gap, for pictures in one file that several tables share. By default each table would begin with the first picture.
+/// Index line whose value is left open, for pictures in one file that several tables share. By default each table would begin with the first picture.
 pub(super) fn counted_through(tables: &FileGroup) -> String {
     format!(
         "index = \"?\"   # {} tables share it: name the column that numbers its pictures",

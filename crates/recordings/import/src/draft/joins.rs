@@ -100,7 +100,7 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
         let is_named = column
             .name
             .starts_with(|letter: char| !letter.is_ascii_digit());
-        // `header.seq` of ROS 1 counts messages per publisher, so it is no key.
+        // `header.seq` of ROS 1 counts messages per publisher, so it is not a key.
         let is_own = column.name.ends_with("header.seq");
         is_key
             && is_named
@@ -182,14 +182,14 @@ const PRESSES_MS: f64 = 1_000.0;
 /// Fraction of the time step between rows within which a row of the same press is expected.
 const SHARE_OF_STEP: f64 = 0.1;
 
-/// First and last time of a table, s; `None` if the times are no numbers.
+/// First and last time of a table, s; `None` if the times are not numbers.
 pub(super) fn span_s(time: &SeenTime<'_>) -> Option<[f64; 2]> {
     let ends = [time.column.cells.first()?, &time.column.last];
     let ends = ends.map(|cell| in_seconds(cell, time.unit));
     ends.iter().all(|end| end.is_finite()).then_some(ends)
 }
 
-/// Time of a cell in seconds; NaN if the cell is no number.
+/// Time of a cell in seconds; NaN if the cell is not a number.
 fn in_seconds(cell: &str, unit: &str) -> f64 {
     cell.parse::<f64>().unwrap_or(f64::NAN) / second_in(unit)
 }

@@ -126,7 +126,7 @@ fn of_numbers(name: &str, numbers: &[f64]) -> Role {
     match Named::new(name).candidate(String::new()) {
         Some(Ok(candidate)) => {
             let least = match candidate.reason {
-                // A part of a wrench or a pose is no counter.
+                // A part of a wrench or a pose is not a counter.
                 Reason::Parent => usize::MAX,
                 Reason::Name | Reason::NameWithUnit => COUNTED_BY_NAME,
                 _ => COUNTED,

@@ -66,7 +66,7 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, ImportErro
                 && Path::new(&name)
                     .extension()
                     .is_some_and(|ending| ending == "zarr" || ending == "lance");
-            // A dataset made by TacEva is no part of the lab's recording.
+            // A dataset made by TacEva is not part of the lab's recording.
             if kind.is_dir() && entry.path().join("dataset.toml").is_file() {
                 continue;
             }

@@ -75,7 +75,7 @@ impl SeenTime<'_> {
 }
 
 impl<'g> SeenTable<'g> {
-    /// Reads the table in the first file of `group`; `Ok(None)` if the file is no table. The error describes an unreadable table.
+    /// Reads the table in the first file of `group`; `Ok(None)` if the file is not a table. The error describes an unreadable table.
     pub(super) fn read(
         folder: &SourceFolder,
         group: &'g FileGroup,

@@ -59,7 +59,7 @@ pub(crate) trait ColumnSource: fmt::Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Reason why an item with this name is no column: a link, or an unsupported form.
+    /// Reason why an item with this name is not a column: a link, or an unsupported form.
     fn why_absent(&self, _name: &str) -> Option<String> {
         None
     }

@@ -34,7 +34,7 @@ pub(crate) enum TarError {
         "`{name}` is a link, which is not followed: write the archive with `tar --dereference`"
     )]
     Link { name: String },
-    #[error("`{name}` has holes, which are not supported: write the archive without `--sparse`")]
+    #[error("`{name}` is a sparse file: write the archive without `--sparse`")]
     Sparse { name: String },
     #[error("`{name}` is neither a file nor a folder (type `{kind}`)")]
     Kind { name: String, kind: char },

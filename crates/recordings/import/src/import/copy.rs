@@ -75,8 +75,8 @@ impl ImportPlan {
     /// complete and durable.
     ///
     /// # Errors
-    /// Errors of [`run`](ImportPlan::run); `target` is unchanged after an error. [`ImportError::Dataset`] if `target` is no dataset, or contains files that do
-    /// not belong to a dataset.
+    /// Errors of [`run`](ImportPlan::run); `target` is unchanged after an error. [`ImportError::Dataset`] if `target` is not a dataset, or contains
+    /// files that do not belong to a dataset.
     pub fn replace(
         self,
         target: &Path,

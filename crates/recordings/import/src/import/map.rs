@@ -126,7 +126,7 @@ pub(crate) struct ClassMap {
 }
 
 impl ClassMap {
-    /// Position in the list that a cell contains; `None` if the cell is no position in the list.
+    /// Position in the list that a cell contains; `None` if the cell is not a position in the list.
     pub(crate) fn position(&self, cell: &str) -> Option<usize> {
         let position = cell.parse::<usize>().ok();
         position.filter(|position| *position < self.names.len())

@@ -105,7 +105,7 @@ impl<'a> FoundSignals<'a> {
         Ok(())
     }
 
-    /// Error for a row in which one of the signals is no number.
+    /// Error for a row in which one of the signals is not a number.
     fn none_at(&self, rows: &MappedTable<'_>, row: usize, position: usize) -> ImportError {
         let columns = self.map.columns();
         let length = self.map.spec.info.len();

@@ -134,7 +134,7 @@ pub(super) fn unnamed_images(folder: &Path, named: &BTreeSet<PathBuf>) -> Unname
             }
             let path = entry.path();
             match entry.file_type() {
-                // A dataset made by TacEva is no part of the lab's recording.
+                // A dataset made by TacEva is not part of the lab's recording.
                 Ok(kind) if kind.is_dir() && path.join("dataset.toml").is_file() => {}
                 Ok(kind) if kind.is_dir() => folders.push(path),
                 Ok(kind) if kind.is_file() && is_image(&path) && !named.contains(&path) => {

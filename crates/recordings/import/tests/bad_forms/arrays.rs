@@ -1,4 +1,4 @@
-//! Tests of archives, HDF5, object arrays and pickles, and of signals that are no numbers.
+//! Tests of archives, HDF5, object arrays and pickles, and of signals that are not numbers.
 
 use std::fs;
 use std::path::Path;

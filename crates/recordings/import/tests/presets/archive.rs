@@ -188,7 +188,11 @@ fn hostile_archives_are_refused_by_member_and_leave_nothing_behind() {
             file(b"a", 0, EntryType::Char),
             "neither a file nor a folder",
         ),
-        ("sparse", file(b"a", 0, EntryType::GNUSparse), "has holes"),
+        (
+            "sparse",
+            file(b"a", 0, EntryType::GNUSparse),
+            "is a sparse file",
+        ),
         (
             "size",
             file(b"a", 1 << 32, regular),

@@ -226,7 +226,7 @@ fn a_draft_prefers_what_was_measured_to_commands_predictions_and_deviations() {
     };
     assert!(line("Fz = ").starts_with("Fz = { from = \"fz_meas\", unit = \"?\" }"));
     assert!(line("Fx = ").starts_with("Fx = { from = \"fx\", unit = \"?\" }"));
-    // Commanded, predicted or computed quantities are no channels.
+    // Commanded, predicted or computed quantities are not channels.
     let excluded = line("# No channels: ");
     for (channel, name, word) in [
         ("Fy = ", "fy_pred", "`pred`"),

@@ -1,4 +1,4 @@
-//! Tests of arrays beside pictures that are no samples: a mean background, or the picture without contact.
+//! Tests of arrays beside pictures that are not samples: a mean background, or the picture without contact.
 
 use super::{case, lab};
 use taceva_import::MapDraft;

@@ -1,4 +1,4 @@
-//! Tests of lines before and below the header that are no rows.
+//! Tests of lines before and below the header that are not rows.
 
 use super::{FACTS, assert_near, case, draft, imported, lab, mean, planned};
 

@@ -15,7 +15,7 @@ use super::submission::{Submission, results_digest};
 use crate::layout::MOST_TEXT;
 use crate::manifest::Manifest;
 
-/// Bundle that was added.
+/// Result of adding a bundle to a catalogue.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Addition {
@@ -31,7 +31,7 @@ pub struct Addition {
     pub simulated: u64,
     /// Least level of the rows.
     pub level: String,
-    /// Sentence on samples that nobody measured.
+    /// Statement on samples that were not measured.
     pub badge: Option<String>,
 }
 

@@ -9,7 +9,7 @@ use taceva_report::catalogue::{self, NameError, Sensor};
 use super::error::CatalogueFolderError;
 use super::folder::{EntryFile, entry_path};
 
-/// Names of pages that are no sensor's.
+/// Page names that no sensor may have.
 const RESERVED: [&str; 2] = ["index", "measured"];
 /// Longest name of a sensor, in bytes. Tables cut names of 80 letters, and origin, level and bundle follow this one.
 const MOST_NAME: usize = 40;
@@ -28,7 +28,7 @@ impl EntryPlace {
     /// Entry of the sensor called `name`: an entry with that name or alias, that of a built-in sensor, or a new one.
     ///
     /// # Errors
-    /// [`CatalogueFolderError::Refused`] for a name that is alike another one, has two meanings, or makes no file name.
+    /// [`CatalogueFolderError::Refused`] for a name that resembles another one, has two meanings, or is not a valid file name.
     pub(super) fn of(
         name: &str,
         entries: &[EntryFile],

@@ -8,7 +8,7 @@ use taceva_report::catalogue::CatalogueError;
 
 use crate::error::BundleError;
 
-/// Reason why a catalogue cannot be read, or takes no bundle.
+/// Reason why a catalogue cannot be read, or refuses a bundle.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CatalogueFolderError {
@@ -28,7 +28,7 @@ pub enum CatalogueFolderError {
         /// The fault and the remedy.
         problem: String,
     },
-    /// A number of the bundle differs from what its files give, or cannot be computed again.
+    /// A number of the bundle differs from the number computed from its files, or cannot be computed.
     #[error("{}: not verified, {}", shown(path), shown(problem))]
     Unverified {
         /// Path of the bundle.

@@ -8,7 +8,7 @@ use taceva_report::catalogue::CatalogueError;
 pub struct CatalogueFinding {
     /// Path in the catalogue: `entries/gelsight.toml`.
     pub path: String,
-    /// Line at which the fault is; `None` for a fault of the whole file.
+    /// Line of the fault; `None` for a fault of the whole file.
     pub line: Option<usize>,
     /// Value found, value expected, and the remedy.
     pub problem: String,

@@ -41,7 +41,7 @@ pub struct CatalogueCheck {
 /// Checks the catalogue at `root`.
 ///
 /// # Errors
-/// [`CatalogueFolderError`] if the folder cannot be read or is no catalogue. A fault of a file is no error: it is listed.
+/// [`CatalogueFolderError`] if the folder cannot be read or is not a catalogue. A fault of a file is not an error: it is listed.
 pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderError> {
     check_catalogue_folder(root)?;
     let built_in = catalogue::all();
@@ -218,7 +218,7 @@ fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<Catalogu
     faults
 }
 
-/// Manifests that are missing, rows whose manifest does not hold their number, and rows that stand twice.
+/// Manifests that are missing, rows whose number is not in their manifest, and duplicate rows.
 fn row_faults(
     path: &str,
     text: &str,
@@ -265,7 +265,7 @@ fn row_faults(
     faults
 }
 
-/// Entries whose names or aliases are alike those of another entry or of a built-in sensor.
+/// Entries whose names or aliases equal those of another entry or of a built-in sensor, apart from case and punctuation.
 fn alike(entries: &[EntryFile], built_in: &[Sensor]) -> Vec<CatalogueFinding> {
     let mut findings = Vec::new();
     for (at, EntryFile { path, sensor, .. }) in entries.iter().enumerate() {

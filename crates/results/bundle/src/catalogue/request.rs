@@ -13,9 +13,9 @@ pub struct AddRequest {
     pub bundle: PathBuf,
     /// Folder of the catalogue, which is made if it is missing.
     pub catalogue: PathBuf,
-    /// Address from which others get the bundle.
+    /// Public address of the bundle.
     pub url: Option<String>,
-    /// Most bytes of all files of the bundle together.
+    /// Maximum size of all files of the bundle together, bytes.
     pub most: u64,
     /// Number of threads.
     pub jobs: NonZeroUsize,

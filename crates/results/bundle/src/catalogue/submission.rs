@@ -25,7 +25,7 @@ use crate::verify::{VerifyRequest, verify};
 
 /// Text of a bundle that states the protocol.
 const SCENE: &str = "scene.toml";
-/// Most bytes of authors and certificates together.
+/// Maximum size of authors and certificates together, bytes.
 const MOST_REPEATED: usize = 4096;
 /// Name of a sensor that no result states.
 const UNKNOWN: &str = "unknown";

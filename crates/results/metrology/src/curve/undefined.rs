@@ -24,7 +24,7 @@ pub enum CurveUndefined {
     #[error("all x are equal, expected at least two different values")]
     EqualX,
     /// Fewer distinct x than coefficients.
-    #[error("{have} different x, expected {least} or more")]
+    #[error("{} of x, expected {least} or more", taceva_core::counted(*have, "different value"))]
     TooFewX {
         /// Number of distinct x.
         have: usize,

@@ -92,7 +92,7 @@ fn results(budget: &Budget) -> Vec<Entry<'_>> {
         unit,
         ..Entry::default()
     };
-    // The half-width of an interval of draws is no multiple of u.
+    // The half-width of an interval of draws is not a multiple of u.
     let factor = budget.k.filter(|_| budget.method == Method::FirstOrder);
     let value = Entry {
         u: Some(budget.u),

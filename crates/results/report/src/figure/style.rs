@@ -5,7 +5,7 @@ use super::canvas::{Mark, Print};
 
 /// Size of most letters, in canvas units.
 const LETTERS: f64 = 11.0;
-/// Letter size in points if only a width is set.
+/// Font size in points if only a width is set.
 const USUAL_PT: f64 = 8.0;
 /// Points per millimetre.
 pub(super) const PT_PER_MM: f64 = 72.0 / 25.4;
@@ -42,7 +42,7 @@ impl FigureStyle {
     pub(crate) fn apply(&self, mut figure: Figure) -> Figure {
         let grown = match self.room() {
             Some(room) => (figure.canvas.width / room).clamp(1.0, MOST_GROWN),
-            // If only a letter size is set, a canvas unit is a point.
+            // If only a font size is set, a canvas unit is a point.
             None => self.letters_pt.map_or(1.0, |letters| letters / LETTERS),
         };
         for mark in &mut figure.canvas.marks {

@@ -70,7 +70,7 @@ impl Table {
         }
     }
 
-    /// Class of the cells of a column, for alignment and wrapping.
+    /// CSS class of the cells of a column, for alignment and wrapping.
     fn class(&self, column: usize) -> Option<&'static str> {
         let lengths = self.rows.iter().map(|row| &row.cells[column]);
         let lengths = lengths.map(|cell| cell.plain().chars().count());

@@ -8,8 +8,8 @@ use taceva_protocol::wrench_between;
 
 /// Age at which readings are removed, in s. Every frame arrives earlier.
 const KEPT_S: f64 = 5.0;
-/// Maximum gap between readings for interpolation, in periods. The gap may always have a minimum length in s, because pauses of threads are not losses of the
-/// device.
+/// Maximum gap between readings for interpolation, in periods. A gap of up to [`GAP_S`] is always allowed, because pauses
+/// of threads are not losses of the device.
 const PERIODS: f64 = 3.0;
 const GAP_S: f64 = 0.02;
 /// Factor on the period that allows for errors of clocks and rates.

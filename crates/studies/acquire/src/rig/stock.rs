@@ -5,7 +5,7 @@ use taceva_protocol::RigFile;
 use crate::error::AcquireError;
 use crate::presses::FileOpener;
 
-/// Names of the items in an open changer, or of the scenes of a lighting. Created by [`check_rig`](super::check_rig).
+/// Names of the items in an open changer, or of the scenes of a lighting device. Created by [`check_rig`](super::check_rig).
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
 #[non_exhaustive]
 pub struct Stock {

@@ -30,7 +30,7 @@ impl Cache {
         {
             if held.exists() && header_digest(&held) != Some(header) {
                 self.note(format!(
-                    "the recording in {} has changed; its presses are made again",
+                    "the recording in {} has changed; its presses are simulated again",
                     held.display()
                 ));
                 continue;
@@ -49,7 +49,7 @@ impl Cache {
                         return found;
                     }
                     Err(problem) => self.note(format!(
-                        "{}: {problem}; its presses are made again",
+                        "{}: {problem}; its presses are simulated again",
                         held.display()
                     )),
                 },

@@ -132,7 +132,7 @@ mod tests {
         let both = Blocks::one_after_the_other(vec![of(900, 90), of(40, 2)]);
         let names = [0, 899, 900, 939].map(|row| both.names[row].as_str());
         assert_eq!(names, ["block 1", "block 10", "block 11", "block 20"]);
-        // The first row of the second section is no neighbour of the last row of the first.
+        // The first row of the second section is not a neighbour of the last row of the first.
         assert!(both.places[900] - both.places[899] > both.gap);
     }
 }

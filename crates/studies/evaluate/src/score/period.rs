@@ -49,7 +49,7 @@ impl Period {
             false => self.number.to_degrees(),
         };
         let is_whole = (of_radians - of_radians.round()).abs() <= ROUNDED_DEG;
-        // 6.283 degrees is no period that anyone means.
+        // 6.283 degrees is not a period that anyone means.
         let is_of_radians = is_whole && of_radians <= 360.0 + ROUNDED_DEG;
         let degrees = match (unit, self.is_of_pi) {
             (Unit::Degree, is_of_pi)

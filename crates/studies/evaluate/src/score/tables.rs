@@ -131,7 +131,7 @@ pub(super) fn channels(
             || KEY_NAMES.contains(&name)
             || keys.names().any(|key| key == name)
     };
-    // Distances that `predict` writes are no predictions, unless the truth has such a column.
+    // Distances that `predict` writes are not predictions, unless the truth has such a column.
     let is_distance = |name: &str| name == DISTANCE && !truth.has(name) && prediction.has("sample");
     let is_channel =
         |name: &&String| is_declared(request, name) || !(is_beside(name) || is_distance(name));

@@ -48,7 +48,7 @@ pub enum Event {
     },
     /// The supervisor halted the robot.
     Halted(Trip),
-    /// The force was lost while the operator is asked a question. Contains the cause and the remedy.
+    /// The force was lost while a question to the operator was open. Contains the cause and the remedy.
     ForceLost(String),
     /// The tip left the gel after a halt.
     Retracted,

@@ -218,7 +218,7 @@ mod tests {
             let changed = touch(height_mm, force_n).changed_since(&earlier);
             assert_eq!(changed.is_some(), is_changed, "{height_mm} mm, {force_n} N");
         }
-        // A difference within the uncertainty of both touches is no change.
+        // A difference within the uncertainty of both touches is not a change.
         let unsure = |height_mm: f64, force_n: f64| ReferenceTouch {
             height_u_mm: 0.05,
             force_u_n: 0.006,

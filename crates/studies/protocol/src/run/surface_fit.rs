@@ -229,7 +229,7 @@ impl<'a> Centred<'a> {
     }
 }
 
-/// `depth` to the power of so many quarters, from 4 to 8.
+/// `depth` to the power of `quarters` / 4, for 4 to 8 quarters.
 fn power(depth: f64, quarters: u32) -> f64 {
     let root = depth.sqrt();
     match quarters {

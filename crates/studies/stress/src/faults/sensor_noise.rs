@@ -25,9 +25,9 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Bits that choose a level of the normal distribution.
+/// Number of bits that choose a level of the normal distribution.
 const BITS: u32 = 12;
-/// Levels that one random word chooses.
+/// Number of levels that one random word chooses.
 const LEVELS_A_WORD: usize = 5;
 
 /// Levels of the normal distribution with equal probabilities.

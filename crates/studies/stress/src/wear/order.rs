@@ -19,7 +19,7 @@ pub enum WearBy {
 }
 
 impl WearBy {
-    /// Presses or days that the growth of an error is stated for.
+    /// Number of presses or days in one step, for which the growth of an error is stated.
     pub fn step(self) -> f64 {
         match self {
             WearBy::Presses => 1000.0,
@@ -91,7 +91,7 @@ fn refused<T>(words: String) -> Result<T, EvaluateError> {
     Err(EvaluateError::Request(words))
 }
 
-/// Refuses fewer than two recordings, one beside itself or an earlier state of it, and recordings of several units.
+/// Refuses fewer than two recordings, a recording given twice or with an earlier state of itself, and recordings of several units.
 fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
     let expected = "expected two or more recordings of one unit, made at different times";
     let [first, others @ ..] = recordings else {

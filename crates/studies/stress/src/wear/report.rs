@@ -23,7 +23,7 @@ pub struct WearReport {
     pub not_measured: Option<String>,
     /// Quantity that orders the recordings.
     pub by: WearBy,
-    /// Presses or days that a slope is stated for.
+    /// Number of presses or days in one step, for which a slope is stated.
     pub step: f64,
     /// Unit of each channel.
     pub units: ByChannel<&'static str>,

@@ -286,7 +286,7 @@ impl Rows for Samples<'_> {
     }
 }
 
-/// Omissions of the plan. An omission is a skip if any stream may have its reason, otherwise a note.
+/// Metrics that the plan skips. A [`SkipReason`] gives a skip in the report; any other reason gives a note.
 fn left_out(study: &PlannedStudy) -> (Vec<Skipped>, Vec<Note>) {
     let (mut skipped, mut notes) = (Vec::new(), Vec::new());
     for skip in &study.plan.skipped {

@@ -1,4 +1,4 @@
-//! Execution of one shard of two tables. The result is a state, which is merged with the states of other shards.
+//! Scores one shard of the tables of truth and prediction. The result is a state, which is merged with the states of other shards.
 
 use taceva_evaluate::{EvaluateError, Shard, Work};
 

@@ -13,7 +13,7 @@ pub(super) fn in_table(main: &SeenTable<'_>) -> Vec<FrameLines> {
     let names: Vec<&str> = main.pictures.iter().map(|own| own.name.as_str()).collect();
     let lines = |at: usize| in_array(&main.pictures[at], None, &[]);
     let mut views = of_views(&names, lines);
-    // Cameras of LeRobot have names of their own. A depth map is no further view.
+    // Cameras of LeRobot have names of their own. A depth map is not a further view.
     if views.is_empty() && main.is_lerobot() {
         let is_depth = |at: &usize| matches!(main.pictures[*at].kind, PictureKind::Depth(_));
         let cameras = (0..names.len()).filter(|at| !is_depth(at));

@@ -231,7 +231,7 @@ impl Named {
             .split(['.', '/', ':'])
             .filter(|part| !part.trim().is_empty())
             .collect();
-        // A bare position is no name: `/ft/0`.
+        // A bare position is not a name: `/ft/0`.
         while let [.., _, last] = parts.as_slice()
             && last.bytes().all(|byte| byte.is_ascii_digit())
         {

@@ -14,7 +14,7 @@ use crate::foreign::{BeforeCut, ForeignTable, TableForm, cell_list};
 /// Map key for a table whose header consists of numbers.
 pub(super) const NUMBERED_HEADER: &str = "header = true";
 
-/// Map key with a gap and a comment, for a truncated recording.
+/// Map key whose value is left open, with a comment, for a truncated recording.
 pub(super) fn cut_key(before: BeforeCut) -> (&'static str, String) {
     let BeforeCut { messages, end } = before;
     let comment = format!(

@@ -50,7 +50,7 @@ impl MappedTable<'_> {
     /// Computes the zeros of `map`.
     ///
     /// # Errors
-    /// [`ImportError::Table`] for a block with too few zero rows, or with cells that are no numbers.
+    /// [`ImportError::Table`] for a block with too few zero rows, or with cells that are not numbers.
     pub(super) fn find_zeros(&mut self, map: &ZeroMap) -> Result<(), ImportError> {
         let column = match &map.rows {
             ZeroRows::First(_) => None,

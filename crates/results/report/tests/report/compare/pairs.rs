@@ -246,7 +246,7 @@ fn a_sample_that_makes_most_of_the_squared_error_is_named_beside_a_model_without
         triples: &[],
     });
     assert!(alone.contains("Its sample s7 makes 52 % of"), "{alone}");
-    // The difference of two angles is no error if it wraps.
+    // The difference of two angles is not an error if it wraps.
     for score in &mut weak.scores {
         score.unit = Unit::Degree;
     }

@@ -9,9 +9,9 @@ use super::moment::Moment;
 const LIVE_FRAMES: u32 = 8;
 /// Number of changed frames of the untouched gel after which a camera counts as noisy. No two frames of a noisy camera are equal.
 const NOISY_FRAMES: u32 = 4;
-/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. It must have shown such a change of the force before.
+/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. A similar change must have changed the frame before.
 const STUCK_REPEATS: u32 = 3;
-/// Part of the greatest shown change that shows again. Presses to one depth differ in force.
+/// Part of the greatest change of the force that changed the frame. A change of this part must change it again. Presses to one depth differ.
 const SHOWN_PART: f64 = 0.75;
 /// Number of repeated older frames after which a camera counts as frozen: for a noisy camera, and for any other.
 const NOISY_RETURNS: u32 = 3;
@@ -42,7 +42,7 @@ struct Distinct {
     is_left: bool,
     /// Number of equal frames that should have differed.
     repeats: u32,
-    /// True if it was seen in the air and in contact, or in two presses, over a change of the force that was shown before.
+    /// True if the frame was captured in the air and in contact, or in two presses, although a similar change of the force changed the frame before.
     is_seen_across: bool,
 }
 

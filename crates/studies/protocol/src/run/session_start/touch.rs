@@ -1,5 +1,5 @@
-//! A gentle touch at the middle of the gel: down to the first force, on to three times that force, slightly sideways, deeper for the comparison with
-//! other sessions, and out again.
+//! A gentle touch at the middle of the gel. The tip moves down to the first force, on to three times that force, and slightly sideways. Then it moves
+//! deeper, for the comparison with other sessions, and out again.
 
 use taceva_core::{Axis, Degree};
 

@@ -110,7 +110,7 @@ impl Gap<'_> {
     /// Interpolated cell of `column`; empty if the cell of either row is empty.
     ///
     /// # Errors
-    /// [`ImportError::Table`] for a cell that is no number, and for angles or rotations without a unique shortest path.
+    /// [`ImportError::Table`] for a cell that is not a number, and for angles or rotations without a unique shortest path.
     pub(super) fn cell(
         &self,
         column: &str,
