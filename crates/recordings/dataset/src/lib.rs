@@ -16,9 +16,9 @@ mod frame_retries;
 mod header;
 mod journal;
 mod jpeg;
+mod later_facts;
 #[doc(hidden)]
-pub mod later_facts;
-mod layout;
+pub mod layout;
 #[doc(hidden)]
 pub mod limits;
 mod lock;
