@@ -115,8 +115,7 @@ fn a_person_at_a_terminal_compares_a_weight_and_a_mistaken_unit_leaves_the_file_
     let mut robot = emulated.robot();
     let mut force_n = 0.0;
     emulated.press(&mut robot, [0.0, 0.0], DEPTH_MM, || {
-        // Until the gel has relaxed, as it will have when its force is read again.
-        std::thread::sleep(Duration::from_secs(4));
+        std::thread::sleep(Duration::from_millis(300));
         force_n = emulated.bench.truth().force_n[2].abs();
     });
     assert!(force_n > 0.1, "{force_n} N");
