@@ -1,6 +1,6 @@
 //! Diagnosis of the machine: usable devices, problems and remedies. Opens nothing.
 //!
-//! The diagnosis reads only permissions, because opening a serial port may reset its device. Another program may therefore still use a permitted device.
+//! The diagnosis opens no device, because opening a serial port may reset it. It reads permissions, and names the programs of the same user that have it open.
 
 mod diagnosis;
 mod machine;

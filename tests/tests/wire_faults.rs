@@ -1,6 +1,6 @@
 //! Faults on the links: the arm stops in time, and every press is recorded once. The example `wire_faults` plays each fault 100 times.
 
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use taceva_needs::{Need, required, skip};
 use taceva_tests::wire::faults::{CASES, Case, play, play_kills};
@@ -12,22 +12,23 @@ const FEW: usize = 3;
 /// One study at a time: each needs the whole machine.
 static ALONE: Mutex<()> = Mutex::new(());
 
-/// True if limits of milliseconds can be tested here.
-fn is_quiet() -> bool {
+/// Command that tests how soon the arm stands.
+const HOW: &str = "the arm must stand within milliseconds: TACEVA_REQUIRE=quiet-machine chrt -f 10 cargo test -p taceva-tests --test tests wire_faults::";
+
+/// The whole machine, if limits of milliseconds can be tested here. Otherwise prints `how` they are tested.
+pub(crate) fn alone(how: &str) -> Option<MutexGuard<'static, ()>> {
     let named = required(std::env::var_os("TACEVA_REQUIRE").as_deref());
     let is_quiet = named.is_ok_and(|named| named.contains(&Need::QuietMachine));
     if !is_quiet {
-        let how = "the arm must stand within milliseconds: TACEVA_REQUIRE=quiet-machine chrt -f 10 cargo test -p taceva-tests --test tests wire_faults::";
         skip(Need::QuietMachine, how);
     }
-    is_quiet
+    is_quiet.then(|| ALONE.lock().unwrap_or_else(PoisonError::into_inner))
 }
 
 fn played(of: impl Fn(&Case) -> bool) {
-    if !is_quiet() {
+    let Some(_alone) = alone(HOW) else {
         return;
-    }
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    };
     for case in CASES.iter().filter(|case| of(case)) {
         let result = play(case, FEW, SEED);
         assert_eq!(result.broken, Vec::<String>::new(), "{result:?}");
@@ -52,10 +53,9 @@ fn faults_of_the_camera_cost_time_and_no_press() {
 
 #[test]
 fn a_study_that_is_killed_and_gone_on_with_loses_and_doubles_no_press() {
-    if !is_quiet() {
+    let Some(_alone) = alone(HOW) else {
         return;
-    }
-    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
+    };
     let presses = play_kills(FEW, SEED);
     assert!(presses.is_ok(), "{presses:?}");
 }

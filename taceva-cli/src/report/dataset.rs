@@ -2,46 +2,44 @@
 
 use std::io::{self, Write};
 
-use taceva_core::{Traceability, counted};
+use taceva_core::{Traceability, counted, shown};
 use taceva_dataset::{Dataset, Header, RecordedSessions, Source};
 
 pub(crate) fn write(dataset: &Dataset, out: &mut dyn Write) -> io::Result<()> {
     let header = dataset.header();
+    let mut line = |name: &str, words: &str| writeln!(out, "{name:<10}{}", shown(words));
     let sensor = &header.sensor;
-    writeln!(
-        out,
-        "sensor    {}, serial number {}, gel {}",
-        sensor.model, sensor.serial, sensor.gel
+    let (model, serial, gel) = (&sensor.model, &sensor.serial, &sensor.gel);
+    line(
+        "sensor",
+        &format!("{model}, serial number {serial}, gel {gel}"),
     )?;
-    writeln!(out, "holds     {}", content(header))?;
+    line("holds", &content(header))?;
     let labels = header.channels.iter();
     let labels = labels.map(|channel| format!("{} in {}", channel.name(), channel.unit()));
-    writeln!(out, "labels    {}", listed(labels))?;
-    let presses = header.presses.iter();
-    let presses = presses.map(|(outcome, count)| format!("{count} {outcome}"));
+    line("labels", &listed(labels))?;
     if !header.presses.is_empty() {
-        writeln!(out, "presses   {}", listed(presses))?;
+        let presses = header.presses.iter();
+        let presses = presses.map(|(outcome, count)| format!("{count} {outcome}"));
+        line("presses", &listed(presses))?;
     }
-    writeln!(out, "origin    {}", origin(dataset))?;
+    line("origin", &origin(dataset))?;
     for traced in &header.traceability {
-        writeln!(out, "measured  {}", instrument(traced))?;
+        line("measured", &instrument(traced))?;
     }
     if header.traceability.is_empty() {
-        writeln!(
-            out,
-            "measured  by instruments that the dataset does not state"
-        )?;
+        line("measured", "by instruments that the dataset does not state")?;
     }
     for (name, value) in &header.settings {
-        writeln!(out, "setting   {name} = {value}")?;
+        line("setting", &format!("{name} = {value}"))?;
     }
     if let Some(sessions) = RecordedSessions::of(dataset.path()) {
-        writeln!(out, "sessions  {}", sessions.note)?;
+        line("sessions", &sessions.note)?;
     }
     for warning in &header.warnings {
-        writeln!(out, "warning   {warning}")?;
+        line("warning", warning)?;
     }
-    writeln!(out, "digest    {}", dataset.digest())
+    line("digest", &dataset.digest().to_string())
 }
 
 fn content(header: &Header) -> String {

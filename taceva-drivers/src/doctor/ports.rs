@@ -97,7 +97,10 @@ fn in_use(machine: &Machine, name: &str) -> String {
     let others =
         crate::port_user::other_users(&machine.path("proc"), &machine.path(&format!("dev/{name}")));
     #[cfg(not(unix))]
-    let others: Vec<String> = Vec::new();
+    let others: Vec<String> = {
+        let _ = (machine, name);
+        Vec::new()
+    };
     match others.is_empty() {
         true => String::new(),
         false => format!("; open in process {}", others.join(", ")),

@@ -89,6 +89,11 @@ impl Emulator {
     pub fn damage(&self, lines: u32) {
         self.printer.inside().damaged = lines;
     }
+
+    /// Restarts the count of lines, as a restart of the printer does.
+    pub fn restart(&self) {
+        self.printer.inside().last_line = 0;
+    }
 }
 
 impl Arm for Emulator {

@@ -143,6 +143,8 @@ impl Recorder {
     /// [`DatasetError::TargetExists`] if `path` already contains a recording; [`DatasetError::Busy`] if another process writes there; [`DatasetError::Io`].
     pub fn create(path: &Path, spec: &RecordingSpec) -> Result<Recorder, DatasetError> {
         let lock = empty_folder(path)?;
+        // A deleted recording of this name may have left its own.
+        LaterFacts::remove(path);
         let frames = path.join(layout::FRAMES);
         fs::create_dir_all(&frames).map_err(DatasetError::io("create", &frames))?;
         make_names_durable(parent_of(path))?;

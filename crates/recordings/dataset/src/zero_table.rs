@@ -1,7 +1,7 @@
 //! Table of the zeros of the transducer in a recording on a real rig. Each press adds a row.
 
 use std::fs::{self, OpenOptions};
-use std::io;
+use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -61,8 +61,18 @@ pub fn add_press_zero(recording: &Path, zero: &PressZero) -> io::Result<()> {
     if fs::symlink_metadata(&path).is_ok_and(|found| found.is_symlink()) {
         fs::remove_file(&path)?;
     }
-    let file = OpenOptions::new().append(true).create(true).open(&path)?;
+    let mut options = OpenOptions::new();
+    let mut file = options.read(true).append(true).create(true).open(&path)?;
     let is_empty = file.metadata()?.len() == 0;
+    let mut last = [b'\n'];
+    if !is_empty {
+        file.seek(SeekFrom::End(-1))?;
+        file.read_exact(&mut last)?;
+    }
+    if last != [b'\n'] {
+        // A row that was cut off takes no other row with it.
+        file.write_all(b"\n")?;
+    }
     let mut table = csv::WriterBuilder::new()
         .has_headers(is_empty)
         .from_writer(file);
@@ -152,6 +162,8 @@ mod tests {
                 "the zero of the transducer changed by at most 0.0030 N during a press, and by 0.3000 N between the presses; 1 press was repeated because the zero changed further"
             )
         );
+        add_press_zero(&recording, &rows[0]).expect("written");
+        assert_eq!(press_zeros(&recording).len(), 4);
     }
 
     #[cfg(unix)]

@@ -159,6 +159,8 @@ fn warnings_of_devices_stand_in_the_header_once_whichever_session_gave_them() {
         let words: Vec<String> = words.iter().map(|&word| word.to_owned()).collect();
         taceva_dataset::add_device_warnings(&path, &words).expect("written");
     };
+    // Left by another recording of this name, which was deleted.
+    warn(&["low pass 3 of the box"]);
     let mut recorder = Recorder::create(&path, &spec("D-K-1")).expect("created");
     recorder.append(&sample("1", 0.5)).expect("recorded");
     warn(&["low pass 8 of the box", "speed slider at 50 %"]);

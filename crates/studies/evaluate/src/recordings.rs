@@ -172,9 +172,9 @@ pub fn device_warnings(dataset: &Dataset) -> Vec<Note> {
     })
 }
 
-/// True if a map of an import made the recording.
+/// True if an import made the recording.
 fn is_imported(header: &Header) -> bool {
-    !header.columns.is_empty() || !header.pictures.is_empty()
+    header.sources.is_some()
 }
 
 /// Notes on recordings whose frames were reduced before storage.

@@ -76,13 +76,13 @@ impl Person {
     }
 }
 
-/// Exit code of a comparison with `mass_g`, its output, and everything on the terminal.
+/// Exit code of a comparison with `mass_g`, its output, and the person at the terminal.
 fn weighed(
     bench: &Bench,
     emulated: &Emulated,
     robot: &mut Box<dyn Robot>,
     mass_g: f64,
-) -> (i32, String, String) {
+) -> (i32, String, Person) {
     let mut person = Person::new();
     let mut child = bench
         .command(&format!("rig check lab.toml --weight {mass_g:.3}g"))
@@ -101,7 +101,7 @@ fn weighed(
     let mut out = String::new();
     let mut stdout = child.stdout.take().expect("piped");
     stdout.read_to_string(&mut out).expect("text");
-    (code.expect("it was pressed"), out, person.seen())
+    (code.expect("it was pressed"), out, person)
 }
 
 fn end_of(child: &mut Child) -> i32 {
@@ -123,14 +123,14 @@ fn a_person_at_a_terminal_compares_a_weight_and_a_mistaken_unit_leaves_the_file_
     let bench = Bench::new();
     let rig = emulated.rig();
     bench.write("lab.toml", &rig);
-    let (code, out, seen) = weighed(&bench, &emulated, &mut robot, 4.448_222 * mass_g);
-    assert_eq!(code, 1, "{out}{seen}");
+    let (code, out, person) = weighed(&bench, &emulated, &mut robot, 4.448_222 * mass_g);
+    assert_eq!(code, 1, "{out}{}", person.seen());
     assert!(out.contains("pounds-force (lbf)"), "{out}");
     let read = || fs::read_to_string(bench.path("lab.toml")).expect("there");
     assert_eq!(read(), rig);
-    let (code, out, seen) = weighed(&bench, &emulated, &mut robot, mass_g);
-    assert_eq!(code, 0, "{out}{seen}");
+    let (code, out, person) = weighed(&bench, &emulated, &mut robot, mass_g);
+    assert_eq!(code, 0, "{out}{}", person.seen());
     assert!(out.contains("force   ok: Fz changed by"), "{out}");
-    assert!(seen.contains("lab.toml: written"), "{seen}");
+    person.wait_for("lab.toml: written");
     assert!(read().contains("\nweighing = { mass_g = "), "{}", read());
 }

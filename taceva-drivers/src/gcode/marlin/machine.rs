@@ -11,7 +11,7 @@ use taceva_core::{
 
 use super::KEY;
 use super::line::{MARK, Place, numbered, read};
-use crate::gcode::limits::SerialOptions;
+use crate::gcode::limits::{MOVE, SerialOptions};
 use crate::gcode::link::{Answer, CommandError, SerialLink};
 use crate::gcode::stop::Stop;
 use crate::link::{Seen, monotonic};
@@ -81,8 +81,13 @@ impl Printer {
         printer.is_emulated = is_emulated;
         printer.facts = facts;
         let first = numbered(0, "M110 N0");
-        let is_counted = printer.link.command(&first, ANSWER, drop).is_ok();
-        printer.line = is_counted.then_some(0);
+        printer.line = match printer.link.command(&first, ANSWER, drop) {
+            Ok(()) => Some(0),
+            Err(error @ (CommandError::Fault(_) | CommandError::Broken(_))) => {
+                return Err(error.met(&KEY, CONNECT));
+            }
+            Err(_) => None,
+        };
         if stops_at_once != Some(true) {
             let why = "the printer does not report `Cap:EMERGENCY_PARSER:1`, so a stop would take effect only at the end of the motion: build its firmware with EMERGENCY_PARSER";
             return Err(DriverError::new(ErrorKind::Unsupported, &KEY, CONNECT).because(why));
@@ -109,32 +114,46 @@ impl Printer {
         }
     }
 
-    /// Sends a command with a line number and a checksum, if the firmware counts lines. A command that arrives damaged is sent again.
-    pub(super) fn order(&mut self, command: &str) -> Result<(), CommandError> {
-        let Some(last) = self.line else {
-            return self.link.command(command, ANSWER, drop);
-        };
-        let mut number = last.wrapping_add(1);
+    /// Sends a command of a motion, with a line number and a checksum if the firmware counts lines. A command that arrives damaged is sent again, unless the
+    /// printer was halted.
+    pub(super) fn order(&mut self, command: &str) -> Result<(), DriverError> {
+        let refused = |error: CommandError| error.met(&KEY, MOVE);
         for _ in 0..SENT {
+            // No motion begins after a halt.
+            if self.stop.is_halted() {
+                return Err(self.stop.halted());
+            }
+            let Some(last) = self.line else {
+                return self.link.command(command, ANSWER, drop).map_err(refused);
+            };
+            let number = last.wrapping_add(1);
             let mut wanted = None;
             self.link
                 .command(&numbered(number, command), ANSWER, |answer| {
                     if let Answer::Resend(asked) = answer {
                         wanted = Some(asked);
                     }
-                })?;
+                })
+                .map_err(refused)?;
             match wanted {
                 None => {
                     self.line = Some(number);
                     return Ok(());
                 }
-                // The printer expects the command under this number, also after its own restart.
-                Some(wanted) => number = wanted,
+                Some(asked) if asked == number => {}
+                // The line before arrived, but its answer did not.
+                Some(asked) if asked == number.wrapping_add(1) => self.line = Some(number),
+                Some(asked) => {
+                    let why = format!(
+                        "the printer expects line {asked} instead of {number}, as after a restart, which loses its position"
+                    );
+                    return Err(refused(CommandError::Fault(why)));
+                }
             }
         }
         let command = command.to_owned();
         let why = format!("it arrived damaged {SENT} times: check the cable and its length");
-        Err(CommandError::Refused { command, why })
+        Err(refused(CommandError::Refused { command, why }))
     }
 
     /// Queries the position of the tip: current at rest, planned during a motion.

@@ -62,7 +62,7 @@ impl Printer {
         let refused = |error: CommandError| error.met(&KEY, MOVE);
         // In mm and mm/min, in the printer's frame.
         for command in ["G21", "G90", &straight(&target.position, speed)] {
-            self.order(command).map_err(refused)?;
+            self.order(command)?;
         }
         self.link.send(WAIT).map_err(refused)?;
         let mut heard = monotonic();

@@ -60,6 +60,26 @@ fn a_line_that_arrives_damaged_is_sent_again_and_no_more_than_four_times() {
 }
 
 #[test]
+fn a_printer_that_restarted_is_a_fault_and_moves_nothing() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (home, _) = printer.pose(PATIENCE).expect("a pose");
+    let arrived = printer.move_to(lower(home, 2.0), speed(20.0), PATIENCE);
+    arrived.expect("it arrives");
+    setup.emulator.restart();
+    let before = setup.bench.truth();
+    let refused = printer.move_to(home, speed(20.0), PATIENCE);
+    let error = refused.expect_err("its position is lost");
+    assert_eq!(error.kind(), ErrorKind::DeviceFault, "{error}");
+    let said = error.to_string();
+    assert!(
+        said.contains("line 1 instead of 4") && said.contains("home it by hand"),
+        "{said}"
+    );
+    assert_eq!(setup.bench.truth().tip_mm, before.tip_mm);
+}
+
+#[test]
 fn a_halt_stops_the_printer_at_once_and_it_goes_on_afterwards() {
     setup().is_halted_within(Duration::from_millis(100));
 }
