@@ -48,7 +48,7 @@ pub(crate) struct Budget {
     /// The day on which the certificate must be valid [default: that of the recording, if the result states it]
     #[arg(long, value_name = "YYYY-MM-DD")]
     pub(crate) date: Option<Date>,
-    /// The values of the measurand with their unit, separated by commas, such as 0.5N; JSON holds one [default: those of the file]
+    /// The values of the measurand with their unit, separated by commas, such as 0.5N; only one with --format json [default: those of the file]
     #[arg(
         long,
         value_name = "VALUES",

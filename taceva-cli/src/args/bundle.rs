@@ -48,16 +48,16 @@ pub(crate) struct BundleMake {
     /// The key that paired their rows, if one was given to score
     #[arg(long, value_name = "NAME|order", requires = "truth")]
     pub(crate) key: Option<String>,
-    /// A recording behind the result, whose dataset.toml is added; those of a run are found; may be repeated
+    /// A recording behind the result, to add its dataset.toml; not needed for a run; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// A text to add: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml; the scene of a run is found; may be repeated
+    /// A text to add: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml; not needed for the scene of a run; may be repeated
     #[arg(long = "text", value_name = "FILE")]
     pub(crate) texts: Vec<PathBuf>,
     /// A model file behind the result, as fit writes it; implies --with model; may be repeated
     #[arg(long = "model", value_name = "FILE")]
     pub(crate) models: Vec<PathBuf>,
-    /// Add files that are left out by default; the models of a run are found
+    /// Add files that are left out by default; models of a run come from its folder
     #[arg(long, value_enum, value_name = "PART")]
     pub(crate) with: Option<WithPart>,
     /// Leave files out, and state their digests: the bundle is then verified as deep as the rest allows
@@ -110,10 +110,10 @@ pub(crate) struct BundleVerify {
     /// The level to reach; the exit code is 1 if a claim does not reach it [default: the deepest that the files allow]
     #[arg(long, value_enum, value_name = "LEVEL")]
     pub(crate) level: Option<LevelArg>,
-    /// A recording of the results, on which their model predicts again; the deepest level is then that of the model; may be repeated
+    /// A recording behind the results: the model of the bundle predicts it again, as the levels model and fit need; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
-    /// The greatest difference at which two numbers count as within, in the unit of each score
+    /// The greatest difference between a claim and its recomputed number for the verdict `within`, in the unit of each score
     #[arg(long, value_name = "NUMBER", default_value_t = 0.0, value_parser = tolerance)]
     pub(crate) tolerance: f64,
     /// The maximum size of all files together, in bytes

@@ -75,7 +75,7 @@ pub(crate) struct CatalogueSite {
 pub(crate) struct CatalogueAdd {
     /// The bundle: a folder, or a .tar.gz
     pub(crate) bundle: PathBuf,
-    /// The folder of the catalogue, which is made if it is missing
+    /// The folder of the catalogue, created if missing
     #[arg(long = "to", value_name = "DIR")]
     pub(crate) catalogue: PathBuf,
     /// The public address of the bundle

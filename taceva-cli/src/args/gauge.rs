@@ -39,7 +39,7 @@ pub(crate) struct Gauge {
     /// Pool the interaction with repeatability if its p value is above this
     #[arg(long, value_name = "P", default_value_t = 0.25)]
     pub(crate) pool: f64,
-    /// The channels to study, separated by commas, such as Fz; JSON holds one [default: all with a prediction, in the unit of the tolerance]
+    /// The channels to study, separated by commas, such as Fz; only one with --format json [default: all with a prediction, in the unit of the tolerance]
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(crate) channels: Vec<String>,
     /// Leave out parts with a missing or surplus reading, and count them, instead of refusing the table

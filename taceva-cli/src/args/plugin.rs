@@ -172,7 +172,7 @@ pub(crate) struct PluginInstall {
 }
 
 /// The library is loaded in a sandboxed process without any access, and asked for its id, its version, its drivers and its needs. Comments
-/// and `usb` stay. Without --write the manifest is printed, and the exit code is 1 if the file differs.
+/// and the key `usb` are kept. Without --write the manifest is printed, and the exit code is 1 if the file differs.
 #[derive(Debug, Args)]
 pub(crate) struct PluginManifest {
     /// The folder of plugin.toml

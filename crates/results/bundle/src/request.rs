@@ -27,13 +27,13 @@ pub struct BundleRequest {
     pub states: Vec<PathBuf>,
     /// Two tables that were scored, for results of one study.
     pub tables: Option<ScoredTables>,
-    /// Recordings whose headers are added; those of a run are found.
+    /// Recordings whose headers are added. Not needed for a run.
     pub datasets: Vec<PathBuf>,
     /// Texts that are added by their names: `scene.toml`, `rig.toml`, `map.toml`, `limits.toml`, `tasks.toml`.
     pub texts: Vec<PathBuf>,
     /// Model files of the results.
     pub models: Vec<PathBuf>,
-    /// True if model files are added; those of a run are found. Else only their digests are stated.
+    /// True if model files are added; those of a run come from its folder. Otherwise the bundle states only their digests.
     pub adds_models: bool,
     /// True if tables are left out, and only their digests are stated.
     pub withholds_predictions: bool,

@@ -19,7 +19,7 @@ pub(crate) struct StudyCheck<'a> {
     pub(crate) again: Recomputation,
     /// Deepest requested level.
     pub(crate) most: Level,
-    /// Greatest difference at which two numbers count as `within`.
+    /// Greatest difference between a claim and its recomputed number for the verdict `within`.
     pub(crate) tolerance: f64,
 }
 

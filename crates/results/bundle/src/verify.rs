@@ -25,11 +25,11 @@ pub struct VerifyRequest {
     pub path: PathBuf,
     /// Level to reach; `None` for the deepest that the files allow.
     pub level: Option<Level>,
-    /// Greatest difference at which two numbers count as `within`, in the unit of each score.
+    /// Greatest difference between a claim and its recomputed number for the verdict `within`, in the unit of each score.
     pub tolerance: f64,
     /// Maximum size of all files together, bytes.
     pub most: u64,
-    /// Recordings on which models predict again; the deepest level is then that of the model.
+    /// Recordings behind the results. The models of the bundle predict them again, as [`Level::Model`] and [`Level::Fit`] need.
     pub datasets: Vec<PathBuf>,
     /// Number of threads.
     pub jobs: NonZeroUsize,

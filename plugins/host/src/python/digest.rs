@@ -93,4 +93,21 @@ mod tests {
         let error = digest(&folder.path().join("gone")).expect_err("nothing there");
         assert_eq!(error.kind(), taceva_core::ErrorKind::NotFound);
     }
+
+    #[test]
+    fn a_package_with_too_many_files_is_rejected_with_the_limit_and_the_remedy() {
+        let folder = tempfile::tempdir().expect("a folder");
+        for number in 0..=FILES_MAX {
+            fs::write(folder.path().join(number.to_string()), "").expect("room");
+        }
+        let error = digest(folder.path()).expect_err("too many files");
+        assert_eq!(error.kind(), taceva_core::ErrorKind::OutOfRange);
+        let message = error.to_string();
+        for words in [
+            "has more than 10000 files",
+            "move data and environments out",
+        ] {
+            assert!(message.contains(words), "{message}");
+        }
+    }
 }

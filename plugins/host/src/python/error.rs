@@ -85,7 +85,10 @@ pub enum PythonError {
         source: io::Error,
     },
     /// The package exceeds a size limit.
-    #[error("{}: more than {most}", shown(folder))]
+    #[error(
+        "the package {} has more than {most}: move data and environments out of its folder",
+        shown(folder)
+    )]
     TooMuch {
         /// Folder of the package.
         folder: PathBuf,

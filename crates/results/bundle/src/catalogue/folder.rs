@@ -80,7 +80,7 @@ pub(super) fn check_catalogue_folder(root: &Path) -> Result<(), CatalogueFolderE
     Ok(())
 }
 
-/// Writes a file of a catalogue, as a whole or not at all. Its folder is made if it is missing.
+/// Writes a file of a catalogue, as a whole or not at all. Creates its folder if that is missing.
 pub(super) fn write(root: &Path, path: &str, text: &str) -> Result<(), CatalogueFolderError> {
     if let Some((folder, _)) = path.split_once('/') {
         check_no_link(root, folder)?;

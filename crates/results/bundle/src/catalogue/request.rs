@@ -11,7 +11,7 @@ use crate::layout::MOST_BYTES;
 pub struct AddRequest {
     /// The bundle: a folder, or a `.tar.gz`.
     pub bundle: PathBuf,
-    /// Folder of the catalogue, which is made if it is missing.
+    /// Folder of the catalogue, created if missing.
     pub catalogue: PathBuf,
     /// Public address of the bundle.
     pub url: Option<String>,

@@ -27,7 +27,7 @@ struct Parts {
 impl FitPlan<'_> {
     /// Tries features, the simplest first, and chooses one specification. Grids finer than the default are tried only if the default improved the loss.
     ///
-    /// Features for which no model can be fitted are reported with the reason. Returns an error only if this is the case for all features.
+    /// Reports features for which no model can be fitted, with the reason. If this is the case for all features, the last reason is the error.
     pub(super) fn choose_features(
         &mut self,
         open: OpenFeatures,

@@ -130,7 +130,7 @@ impl Pass<'_> {
         Ok(has_rows.then_some(total))
     }
 
-    /// Scores batches until the tables end; `None` if a batch cannot be scored.
+    /// Scores batches until the tables end; `None` if a batch needs the whole tables.
     fn batches(&self) -> Result<Option<Evaluator>, EvaluateError> {
         let block = |stream: &Mutex<CsvStream>| lock(stream).block();
         let mut pair = [block(&self.truth), block(&self.prediction)];
@@ -168,7 +168,7 @@ impl Pass<'_> {
         (of_truth.rows() == of_prediction.rows()).then_some(number)
     }
 
-    /// Scores a block; returns false if that is impossible.
+    /// Scores a block. Returns false if only [`Scoring`](super::Scoring) can score it, or report its error.
     fn take(&self, number: u64, tables: [&CsvTable; 2], evaluator: &mut Evaluator) -> bool {
         // The first block shows possible key columns and radians; the whole tables decide.
         if number == 0 && !self.is_plain([tables[0], tables[1]]) {
