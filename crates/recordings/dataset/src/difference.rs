@@ -17,13 +17,18 @@ pub(crate) fn plus(difference: &Frame, first: &Frame) -> Result<Frame, FrameErro
 fn mixed(
     frame: &Frame,
     first: &Frame,
-    bytes: fn(u8, u8) -> u8,
-    words: fn(u16, u16) -> u16,
+    bytes: impl Fn(u8, u8) -> u8,
+    words: impl Fn(u16, u16) -> u16,
 ) -> Result<Frame, FrameError> {
     let mixed = match frame.info().format.bytes_per_sample() {
         1 => {
-            let pairs = frame.bytes().iter().zip(first.bytes());
-            pairs.map(|(own, other)| bytes(*own, *other)).collect()
+            // A shorter first frame gives too few bytes, which are refused below.
+            let shared = frame.bytes().len().min(first.bytes().len());
+            let mut mixed = frame.bytes()[..shared].to_vec();
+            for (own, other) in mixed.iter_mut().zip(first.bytes()) {
+                *own = bytes(*own, *other);
+            }
+            mixed
         }
         _ => {
             let pairs = frame.samples().zip(first.samples());

@@ -1,5 +1,7 @@
 //! Radial functions of one layer at one depth, for every contact radius.
 
+use std::sync::{Arc, Mutex, PoisonError};
+
 use super::index::{NODES, Radial, node};
 use super::load::Load;
 use super::profile::Profile;
@@ -12,12 +14,15 @@ const ROWS: usize = 18;
 const SMALLEST_RADIUS_MM: f64 = 0.1;
 /// Step between nodes with a computed integral. A cubic interpolates between them.
 const STRIDE: usize = 4;
+/// Shared tables that are kept, of 0.4 MB each: more than twice as many as the gels of this crate need.
+const SHARED: usize = 10;
 
 /// Radial functions of a bonded incompressible layer at one depth below its surface.
 ///
 /// Construction evaluates some hundred thousand Bessel functions in a tenth of a second. Do it once per sensor.
 #[derive(Clone, Debug)]
 pub struct Tables {
+    thickness_mm: f64,
     depth_mm: f64,
     radii_mm: [f64; ROWS],
     rows: Vec<[Radial; Quantity::ALL.len()]>,
@@ -40,10 +45,31 @@ impl Tables {
             })
             .collect();
         Tables {
+            thickness_mm,
             depth_mm,
             radii_mm,
             rows,
         }
+    }
+
+    /// [`new`](Tables::new) for the cameras of this process, whose units have gels of the same few layers. The latest tables are kept.
+    pub(crate) fn shared(thickness_mm: f64, depth_mm: f64) -> Arc<Tables> {
+        static KEPT: Mutex<Vec<Arc<Tables>>> = Mutex::new(Vec::new());
+        let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = |thickness_mm: f64, depth_mm: f64| (thickness_mm.to_bits(), depth_mm.to_bits());
+        let wanted = key(thickness_mm, depth_mm);
+        let is_wanted = |tables: &&Arc<Tables>| key(tables.thickness_mm, tables.depth_mm) == wanted;
+        if let Some(tables) = kept().iter().find(is_wanted) {
+            return Arc::clone(tables);
+        }
+        // Other cameras do not wait for these tables, even if two compute the same.
+        let tables = Arc::new(Tables::new(thickness_mm, depth_mm));
+        let mut kept = kept();
+        if kept.len() == SHARED {
+            kept.remove(0);
+        }
+        kept.push(Arc::clone(&tables));
+        tables
     }
 
     /// Depth below the surface, in mm.
@@ -125,4 +151,18 @@ fn interpolate(points: &[(f64, Values)], cell: usize, at: f64) -> Values {
         }
     }
     sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cameras_over_layers_of_one_thickness_share_their_tables() {
+        let [one, other] = [Tables::shared(4.0, 0.0), Tables::shared(4.0, 0.0)];
+        assert!(Arc::ptr_eq(&one, &other));
+        let deeper = Tables::shared(4.0, 1.0);
+        assert_eq!((deeper.thickness_mm, deeper.depth_mm), (4.0, 1.0));
+        assert_eq!(one.rows, Tables::new(4.0, 0.0).rows);
+    }
 }

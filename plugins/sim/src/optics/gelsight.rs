@@ -44,7 +44,7 @@ struct Scene {
     sag: [f32; 2],
     /// Reflectance of the coating at each pixel.
     reflectance: Vec<f32>,
-    tables: Tables,
+    tables: Arc<Tables>,
     /// Untouched gel without markers.
     background: Vec<f32>,
     disc: Option<Disc>,
@@ -169,7 +169,7 @@ impl Scene {
                     1.0 + narrow(spec.coating_spread) * uneven
                 })
                 .collect(),
-            tables: Tables::new(spec.thickness_mm, 0.0),
+            tables: Tables::shared(spec.thickness_mm, 0.0),
             background: Vec::new(),
             disc: spec.markers.map(|grid| {
                 let disc = DiscSpec {

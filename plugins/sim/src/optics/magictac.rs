@@ -41,7 +41,7 @@ pub(super) struct Magictac {
 struct Scene {
     raster: Raster,
     spec: MagictacSpec,
-    tables: [Tables; 3],
+    tables: [Arc<Tables>; 3],
     layers: [Texture; 3],
     buckling: Texture,
     buckling_part: f32,
@@ -261,7 +261,7 @@ impl Scene {
             spec: spec.clone(),
             tables: spec
                 .layers_mm
-                .map(|depth| Tables::new(spec.thickness_mm, depth)),
+                .map(|depth| Tables::shared(spec.thickness_mm, depth)),
             layers: lattice::layers(spec, unit),
             buckling: lattice::buckling(unit),
             buckling_part: narrow(spec.buckling),

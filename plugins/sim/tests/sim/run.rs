@@ -1,5 +1,8 @@
 //! A whole study planned by `taceva-protocol`, run on the bench under its supervisor.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use taceva_core::{
     Deadline, DriverError, DriverKey, ErrorKind, FrameInfo, FrameMut, Nanometre, Phase,
     PressOutcome, Sample, Sensor, Stamp,
@@ -201,7 +204,7 @@ fn presses_that_a_limit_ends_come_out_of_the_gel_by_their_stations_and_are_resum
 struct Short {
     inner: Box<dyn Sensor>,
     every: u32,
-    captured: u32,
+    captured: Arc<AtomicU32>,
 }
 
 impl Sensor for Short {
@@ -216,8 +219,8 @@ impl Sensor for Short {
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
         const SENSOR: DriverKey = DriverKey::fixed("test/short");
         let stamp = self.inner.capture(into, deadline)?;
-        self.captured += 1;
-        if self.captured.is_multiple_of(self.every) {
+        let captured = self.captured.fetch_add(1, Ordering::Relaxed) + 1;
+        if captured.is_multiple_of(self.every) {
             let why = "a frame of 64×48 rgb8 in 4608 bytes, expected 9216".to_owned();
             let error = DriverError::new(ErrorKind::Protocol, &SENSOR, "capture a frame");
             return Err(error.because(why));
@@ -238,7 +241,7 @@ fn with_short(every: u32) -> (Log, Result<usize, RunError>) {
         Box::new(Short {
             inner,
             every,
-            captured: 0,
+            captured: Arc::default(),
         })
     };
     let done = trial.run_seen_by("1", &mut log, usize::MAX, instead);
@@ -263,6 +266,29 @@ fn a_frame_of_a_wrong_size_now_and_then_is_taken_again_and_counted() {
     let retried = retried.expect("a run");
     assert!(retried > 10, "{retried}");
     assert_eq!(again.records.len(), whole.records.len());
+}
+
+#[test]
+fn the_camera_draws_each_recorded_frame_once_and_none_on_the_way_to_the_gel() {
+    let trial = Trial::new(Model::GelSight, &scene(Model::GelSight));
+    let mut log = Log::default();
+    let drawn = Arc::new(AtomicU32::new(0));
+    let captured = Arc::clone(&drawn);
+    let counted = |inner| -> Box<dyn Sensor> {
+        Box::new(Short {
+            inner,
+            every: u32::MAX,
+            captured,
+        })
+    };
+    trial
+        .run_seen_by("1", &mut log, usize::MAX, counted)
+        .expect("a run");
+    let samples = log.records.iter().flat_map(|record| &record.samples);
+    let recorded = samples.filter(|sample| sample.frame.is_some()).count();
+    assert!(recorded > 20, "{recorded}");
+    let drawn = drawn.load(Ordering::Relaxed) as usize;
+    assert_eq!(drawn, recorded + log.untouched.len());
 }
 
 /// Log of an uninterrupted run of unit 1, compared with the log of an interrupted one.

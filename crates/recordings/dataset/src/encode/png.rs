@@ -3,51 +3,90 @@
 //! After filtering, a camera picture is mostly noise, without repetitions. The search for repetitions is the slow part of deflate. The search finds only
 //! accidental repetitions, which make files of the simulated cameras a fifth larger. Without the search, a uniform picture shrinks to an eighth at best.
 
-use miniz_oxide::deflate::core::{
-    CompressionStrategy, CompressorOxide, TDEFLFlush, TDEFLStatus, compress_to_output,
-    create_comp_flags_from_zip_params,
-};
+use std::borrow::Cow;
+
 use taceva_core::{Frame, PixelFormat};
 
-const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
+use super::deflate::Stream;
 
-/// Encodes `frame` as a PNG file.
-pub(super) fn file(frame: &Frame) -> Result<Vec<u8>, String> {
-    let info = frame.info();
-    let (bits, color, pixel) = match info.format {
-        PixelFormat::Gray8 => (8, 0, 1),
-        PixelFormat::Gray16 => (16, 0, 2),
-        PixelFormat::Rgb8 => (8, 2, 3),
-        PixelFormat::Rgb16 => (16, 2, 6),
-        other => return Err(format!("frames of type {} are not written", other.name())),
-    };
-    let mut header = Vec::with_capacity(13);
-    header.extend(info.width.to_be_bytes());
-    header.extend(info.height.to_be_bytes());
-    // Deflate, the five filters, not interlaced.
-    header.extend([bits, color, 0, 0, 0]);
-    let row = info.width as usize * pixel;
-    let pixels = zlib(&filtered(&samples(frame), row, pixel))?;
-    let mut file = Vec::with_capacity(pixels.len() + 64);
-    file.extend(SIGNATURE);
-    for (kind, data) in [(b"IHDR", &header), (b"IDAT", &pixels), (b"IEND", &vec![])] {
-        let length = u32::try_from(data.len()).map_err(|error| error.to_string())?;
-        file.extend(length.to_be_bytes());
-        file.extend(kind);
-        file.extend(data);
-        let mut check = crc32fast::Hasher::new();
-        check.update(kind);
-        check.update(data);
-        file.extend(check.finalize().to_be_bytes());
+const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
+/// Bytes of a chunk beside its data: length, kind and checksum.
+const CHUNK: usize = 12;
+/// Bytes of the first chunk's data: the form of the picture.
+const FORM: usize = 13;
+
+/// PNG file of a frame, whose length is known before it is written.
+#[derive(Debug)]
+pub(crate) struct PngFile {
+    form: [u8; FORM],
+    filtered: Vec<u8>,
+    stream: Stream,
+}
+
+impl PngFile {
+    pub(crate) fn plan(frame: &Frame) -> Result<PngFile, String> {
+        let info = frame.info();
+        let (bits, color, pixel) = match info.format {
+            PixelFormat::Gray8 => (8, 0, 1),
+            PixelFormat::Gray16 => (16, 0, 2),
+            PixelFormat::Rgb8 => (8, 2, 3),
+            PixelFormat::Rgb16 => (16, 2, 6),
+            other => return Err(format!("frames of type {} are not written", other.name())),
+        };
+        let mut form = [0; FORM];
+        form[..4].copy_from_slice(&info.width.to_be_bytes());
+        form[4..8].copy_from_slice(&info.height.to_be_bytes());
+        // Deflate, the five filters, not interlaced.
+        form[8..].copy_from_slice(&[bits, color, 0, 0, 0]);
+        let filtered = filtered(&samples(frame), info.width as usize * pixel, pixel);
+        let stream = Stream::plan(&filtered);
+        match u32::try_from(stream.len()) {
+            Ok(_) => Ok(PngFile {
+                form,
+                filtered,
+                stream,
+            }),
+            Err(error) => Err(error.to_string()),
+        }
     }
-    Ok(file)
+
+    /// Length in bytes.
+    pub(crate) fn len(&self) -> usize {
+        SIGNATURE.len() + CHUNK + FORM + CHUNK + self.stream.len() + CHUNK
+    }
+
+    pub(crate) fn write(&self) -> Vec<u8> {
+        let mut file = Vec::with_capacity(self.len() + size_of::<u64>());
+        file.extend(SIGNATURE);
+        chunk(&mut file, b"IHDR", |mut file| {
+            file.extend(self.form);
+            file
+        });
+        chunk(&mut file, b"IDAT", |file| {
+            self.stream.write(&self.filtered, file)
+        });
+        chunk(&mut file, b"IEND", |file| file);
+        file
+    }
+}
+
+/// Appends a chunk, whose data `write` appends.
+fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], write: impl FnOnce(Vec<u8>) -> Vec<u8>) {
+    let start = file.len();
+    file.extend([0; 4]);
+    file.extend(kind);
+    *file = write(std::mem::take(file));
+    let length = u32::try_from(file.len() - start - 8).expect("compared when it was planned");
+    file[start..start + 4].copy_from_slice(&length.to_be_bytes());
+    let check = crc32fast::hash(&file[start + 4..]);
+    file.extend(check.to_be_bytes());
 }
 
 /// Pixel values in the byte order of PNG, high byte first.
-fn samples(frame: &Frame) -> Vec<u8> {
+fn samples(frame: &Frame) -> Cow<'_, [u8]> {
     match frame.info().format.bytes_per_sample() {
-        1 => frame.bytes().to_vec(),
-        _ => frame.samples().flat_map(u16::to_be_bytes).collect(),
+        1 => Cow::Borrowed(frame.bytes()),
+        _ => Cow::Owned(frame.samples().flat_map(u16::to_be_bytes).collect()),
     }
 }
 
@@ -62,8 +101,7 @@ fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
         let mut best = (u64::MAX, 0);
         for filter in 0..FILTERS {
             apply(filter, current, above, pixel, &mut tried);
-            let sizes = tried.iter().map(|byte| byte.cast_signed().unsigned_abs());
-            let left: u64 = sizes.map(u64::from).sum();
+            let left = magnitude(&tried);
             if left < best.0 {
                 best = (left, filter);
                 std::mem::swap(&mut tried, &mut least);
@@ -76,23 +114,49 @@ fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
     filtered
 }
 
+/// Sum of the magnitudes of `bytes`, read as signed numbers.
+fn magnitude(bytes: &[u8]) -> u64 {
+    /// Magnitudes whose sum fits into 32 bits.
+    const PART: usize = 1 << 24;
+    let parts = bytes.chunks(PART).map(|part| {
+        let magnitudes = part.iter().map(|byte| (*byte).min(byte.wrapping_neg()));
+        magnitudes.map(u32::from).sum::<u32>()
+    });
+    parts.map(u64::from).sum()
+}
+
 /// Number of filters: none, left, above, the mean of both, and Paeth's choice of three, in the order of the format.
 const FILTERS: u8 = 5;
 
 /// Filters a row below `above`, for pixels of `pixel` bytes.
 fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]) {
-    for (at, into) in into.iter_mut().enumerate() {
-        let left = at.checked_sub(pixel);
-        let [left, corner] = [current, above].map(|row| left.map_or(0, |left| row[left]));
-        let up = above[at];
-        let expected = match filter {
-            0 => 0,
-            1 => left,
-            2 => up,
-            3 => left.midpoint(up),
-            _ => paeth(left, up, corner),
-        };
-        *into = current[at].wrapping_sub(expected);
+    match filter {
+        0 => into.copy_from_slice(current),
+        1 => predict(current, above, pixel, into, |left, _, _| left),
+        2 => predict(current, above, pixel, into, |_, up, _| up),
+        3 => predict(current, above, pixel, into, |left, up, _| left.midpoint(up)),
+        _ => predict(current, above, pixel, into, paeth),
+    }
+}
+
+/// Subtracts from each byte of a row what `expected` makes of its neighbours to the left, above and in the corner. Those outside are zero.
+fn predict(
+    current: &[u8],
+    above: &[u8],
+    pixel: usize,
+    into: &mut [u8],
+    expected: impl Fn(u8, u8, u8) -> u8,
+) {
+    let pixel = pixel.min(current.len());
+    let (first, rest) = into.split_at_mut(pixel);
+    for ((into, own), up) in first.iter_mut().zip(current).zip(above) {
+        *into = own.wrapping_sub(expected(0, *up, 0));
+    }
+    // Slices side by side, so that many bytes are filtered at once.
+    let own = current[pixel..].iter().zip(current);
+    let others = above[pixel..].iter().zip(above);
+    for ((into, (own, left)), (up, corner)) in rest.iter_mut().zip(own).zip(others) {
+        *into = own.wrapping_sub(expected(*left, *up, *corner));
     }
 }
 
@@ -107,26 +171,6 @@ fn paeth(left: u8, above: u8, corner: u8) -> u8 {
         above
     } else {
         corner
-    }
-}
-
-/// `bytes` as a zlib stream of Huffman codes.
-fn zlib(bytes: &[u8]) -> Result<Vec<u8>, String> {
-    /// Lowest level that compresses; the level only limits the search for repetitions.
-    const LEVEL: i32 = 1;
-    /// Largest window, in a stream with the header of zlib.
-    const WINDOW_BITS: i32 = 15;
-    let strategy = CompressionStrategy::HuffmanOnly as i32;
-    let flags = create_comp_flags_from_zip_params(LEVEL, WINDOW_BITS, strategy);
-    let mut compressor = CompressorOxide::new(flags);
-    let mut stream = Vec::with_capacity(bytes.len() / 3);
-    let (status, _) = compress_to_output(&mut compressor, bytes, TDEFLFlush::Finish, |out| {
-        stream.extend_from_slice(out);
-        true
-    });
-    match status {
-        TDEFLStatus::Done => Ok(stream),
-        _ => Err("the picture cannot be compressed".to_owned()),
     }
 }
 
@@ -154,6 +198,14 @@ mod tests {
         Frame::new(info, bytes.collect()).expect("as long as it says")
     }
 
+    /// File of `frame`, as long as it was planned.
+    fn written(frame: &Frame) -> Vec<u8> {
+        let planned = PngFile::plan(frame).expect("planned");
+        let file = planned.write();
+        assert_eq!(file.len(), planned.len());
+        file
+    }
+
     #[test]
     fn every_frame_reads_back_bit_for_bit_by_a_decoder_of_others() {
         let formats = [
@@ -165,7 +217,7 @@ mod tests {
         for (format, order) in formats {
             for [width, height] in [[1, 1], [1, 9], [9, 1], [67, 41], [200, 300]] {
                 let frame = noisy(width, height, format);
-                let file = file(&frame).expect("written");
+                let file = written(&frame);
                 let (_, read) = decode(&file, order).expect("a PNG file");
                 assert_eq!(read, frame, "{} {width} {height}", format.name());
             }
@@ -175,7 +227,7 @@ mod tests {
     #[test]
     fn noise_of_two_bits_takes_little_more_than_that() {
         let frame = noisy(160, 120, PixelFormat::Gray8);
-        let length = file(&frame).expect("written").len();
+        let length = written(&frame).len();
         // The difference of two uniform numbers of four has 2.66 bits.
         let bits = 8.0 * length as f64 / (160.0 * 120.0);
         assert!((2.0..3.1).contains(&bits), "{bits}");

@@ -7,7 +7,7 @@ use super::{Recorder, Streamed};
 use crate::decode::{ChannelOrder, decode};
 use crate::difference;
 use crate::digest::Digest;
-use crate::encode::encode_png;
+use crate::encode::PngFile;
 use crate::error::DatasetError;
 use crate::file::{make_names_durable, open_regular, write_durable};
 use crate::header::FramesInfo;
@@ -79,16 +79,21 @@ impl Recorder {
             Some((digest, first)) if !is_first && frame != first => {
                 let damaged = |error: FrameError| self.damaged(error.to_string());
                 let difference = difference::less(frame, first).map_err(damaged)?;
-                let bytes = self.png(&difference, layout::FRAMES)?;
-                let digest = difference::digest(*digest, &bytes);
-                (bytes.len() < whole.len()).then_some((bytes, digest))
+                let planned = self.png(&difference, layout::FRAMES)?;
+                // Only the shorter file is written.
+                (planned.len() < whole.len()).then(|| {
+                    let bytes = planned.write();
+                    let digest = difference::digest(*digest, &bytes);
+                    (bytes, digest)
+                })
             }
             _ => None,
         };
         let is_difference = difference.is_some();
         let (bytes, digest) = difference.unwrap_or_else(|| {
-            let digest = Digest::of(&whole);
-            (whole, digest)
+            let bytes = whole.write();
+            let digest = Digest::of(&bytes);
+            (bytes, digest)
         });
         let (path, span) = pack.append(&bytes, is_difference)?;
         if is_first {
@@ -156,14 +161,15 @@ impl Recorder {
         frame: &Frame,
     ) -> Result<Digest, DatasetError> {
         let path = self.path.join(relative);
-        let bytes = self.png(frame, relative)?;
+        let bytes = self.png(frame, relative)?.write();
         write_durable(&path, &bytes)?;
         make_names_durable(parent_of(&path))?;
         Ok(Digest::of(&bytes))
     }
 
-    fn png(&self, frame: &Frame, relative: &str) -> Result<Vec<u8>, DatasetError> {
-        encode_png(frame).map_err(|problem| DatasetError::image(&self.path.join(relative), problem))
+    fn png(&self, frame: &Frame, relative: &str) -> Result<PngFile, DatasetError> {
+        PngFile::plan(frame)
+            .map_err(|problem| DatasetError::image(&self.path.join(relative), problem))
     }
 
     /// Properties shared by all frames recorded so far.
