@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
 
-use taceva_core::{Field, FieldSet};
+use taceva_core::{Field, FieldSet, counted};
 use taceva_metrics::{Evaluator, Metric, MetricPlan};
 use taceva_results::{Samples, Skip};
 
@@ -13,45 +13,40 @@ use crate::error::EvaluateError;
 use crate::merge::{evaluation_of, report_of};
 use crate::state_file::ReadState;
 
-/// Fields that only the table of a run stores for every row.
+/// Fields that the table of a run stores too, for every row and without loss.
 const OF_RUNS: [Field; 3] = [Field::PredictedSpacing, Field::Stamp, Field::Intensity];
 
 /// Reason for a metric whose fields the table lacks.
-const LACKING: &str = "it reads frames, or times of other phases, which the table does not hold";
+const LACKING: &str =
+    "it reads frames, or rows of every phase, and states are compared with one phase";
 /// Reason for the metrics of a state that no phase gives.
 const OTHER_SUMS: &str = "no phase of the table gives the sums of their state";
+/// Greatest number of rows that are read for all states and phases together.
+const MOST_READ: usize = 1 << 30;
 
 /// Scores `samples` by the plans of `states`, one for each phase of a run. Omits metrics that read fields absent from the table. Also
-/// omits metrics of a state whose sums no phase of the table gives bit for bit.
+/// omits metrics of a state whose sums no phase of the table gives bit for bit; [`Recount::has_equal_sums`] is then false.
 ///
 /// # Errors
-/// [`EvaluateError::State`] for a file that is not a state of its plan. [`EvaluateError::Request`] without a state.
+/// [`EvaluateError::State`] for a file that is not a state of its plan, and for too many states and phases. [`EvaluateError::Request`]
+/// without a state.
 pub fn recount_phases(
     states: &[ReadState],
     samples: &Samples,
     jobs: NonZeroUsize,
 ) -> Result<Recount, EvaluateError> {
     let table = PhaseTable::of(samples);
+    table.check_amount(states)?;
     let (mut parts, mut left_out, mut has_equal_sums) = (Vec::new(), Vec::new(), true);
     for state in states {
         let plan = state.file.plan.to_plan(&state.path)?;
-        // All metrics first, then without those of times and brightness, which may read rows of other phases.
-        let (mut summed, mut again) = (Vec::new(), None);
-        for further in [&OF_RUNS[..], &OF_RUNS[..1]] {
-            let kept = plan.kept().iter().copied();
-            let metrics: Vec<&'static Metric> =
-                kept.filter(|metric| is_held(metric, further)).collect();
-            if let Some(evaluator) = table.sums(state, &plan, &metrics, jobs)? {
-                (summed, again) = (metrics, Some(evaluator));
-                break;
-            }
-        }
-        for metric in plan.kept() {
-            let is_held = is_held(metric, &OF_RUNS[..1]);
-            if !summed.iter().any(|own| own.id == metric.id) {
-                has_equal_sums &= !is_held;
-                left_out.push(skip(metric, if is_held { OTHER_SUMS } else { LACKING }));
-            }
+        let kept = plan.kept().iter().copied();
+        let (held, others): (Vec<&'static Metric>, Vec<_>) = kept.partition(|own| is_held(own));
+        left_out.extend(others.into_iter().map(|own| skip(own, LACKING)));
+        let again = table.sums(state, &plan, &held, jobs)?;
+        if again.is_none() && !held.is_empty() {
+            has_equal_sums = false;
+            left_out.extend(held.into_iter().map(|own| skip(own, OTHER_SUMS)));
         }
         parts.push(match again {
             Some(evaluator) => state.file.finish(evaluator)?,
@@ -72,10 +67,12 @@ fn skip(metric: &Metric, reason: &str) -> Skip {
     }
 }
 
-/// True if `metric` reads only fields of every table of samples, and those in `further`.
-fn is_held(metric: &Metric, further: &[Field]) -> bool {
-    let held: FieldSet = EXACT.into_iter().chain(further.iter().copied()).collect();
-    metric.needs.fields.iter().all(|field| held.contains(field))
+/// True if `metric` reads only fields of the table of a run, and rows of one phase. A metric without needs, such as `intrinsic`, reads what there
+/// is: digests of frames too, and rows of every phase.
+fn is_held(metric: &Metric) -> bool {
+    let needs = metric.needs.fields;
+    let held: FieldSet = EXACT.into_iter().chain(OF_RUNS).collect();
+    needs != FieldSet::EMPTY && needs.iter().all(|field| held.contains(field))
 }
 
 /// Table of the samples of a run, with the phases of its protocol.
@@ -95,6 +92,26 @@ impl<'a> PhaseTable<'a> {
         PhaseTable { samples, phases }
     }
 
+    /// Rejects a table with more names of phases, and more states, than a run has. Each pair reads the table.
+    fn check_amount(&self, states: &[ReadState]) -> Result<(), EvaluateError> {
+        let pairs = self.phases.len().saturating_mul(states.len());
+        let Some(first) = states.first() else {
+            return Ok(());
+        };
+        if pairs.saturating_mul(self.samples.rows()) <= MOST_READ {
+            return Ok(());
+        }
+        Err(EvaluateError::State {
+            path: first.path.clone(),
+            problem: format!(
+                "{} for {} in the column `protocol` and {}: expected at most {MOST_READ} rows for all together",
+                counted(states.len() as u64, "state"),
+                counted(self.phases.len() as u64, "phase"),
+                counted(self.samples.rows() as u64, "row")
+            ),
+        })
+    }
+
     /// Sums of `metrics` over the first phase that gives those of `state`; `None` if no phase does.
     fn sums(
         &self,
@@ -107,17 +124,30 @@ impl<'a> PhaseTable<'a> {
             return Ok(None);
         }
         let of_table = restricted(plan, metrics)?;
-        let are_predicted = metrics.iter().any(|metric| metric.reads_predictions());
+        let reading = |reads: fn(&Metric) -> bool| metrics.iter().filter(|own| reads(own)).count();
+        let counts = [
+            reading(Metric::reads_predictions),
+            reading(Metric::reads_unbounded_predictions),
+        ];
+        // A run sums metrics apart that read other rows, or predictions before clipping.
+        if counts
+            .iter()
+            .any(|count| ![0, metrics.len()].contains(count))
+        {
+            return Ok(None);
+        }
+        let [are_predicted, is_unbounded] = counts.map(|count| count > 0);
+        let rows_of = |rows: Vec<usize>| SampleRows {
+            samples: self.samples,
+            provenance: &state.file.provenance,
+            is_unbounded,
+            rows,
+        };
+        if rows_of(Vec::new()).check(plan).is_err() {
+            return Ok(None);
+        }
         for phase in &self.phases {
-            let rows = SampleRows {
-                samples: self.samples,
-                provenance: &state.file.provenance,
-                is_unbounded: (metrics.iter()).any(|metric| metric.reads_unbounded_predictions()),
-                rows: self.rows(phase, are_predicted),
-            };
-            if rows.check(plan).is_err() {
-                return Ok(None);
-            }
+            let rows = rows_of(self.rows(phase, are_predicted));
             // Rows of another phase may be none that these metrics accept.
             let Ok(mut evaluator) = accumulate(&rows, &of_table, jobs) else {
                 continue;
