@@ -36,7 +36,10 @@ pub fn recount_phases(
     jobs: NonZeroUsize,
 ) -> Result<Recount, EvaluateError> {
     let table = PhaseTable::of(samples);
-    table.check_amount(states)?;
+    if let (Some(problem), Some(first)) = (table.excess(states.len()), states.first()) {
+        let path = first.path.clone();
+        return Err(EvaluateError::State { path, problem });
+    }
     let (mut parts, mut left_out, mut has_equal_sums) = (Vec::new(), Vec::new(), true);
     for state in states {
         let plan = state.file.plan.to_plan(&state.path)?;
@@ -92,23 +95,17 @@ impl<'a> PhaseTable<'a> {
         PhaseTable { samples, phases }
     }
 
-    /// Rejects a table with more names of phases, and more states, than a run has. Each pair reads the table.
-    fn check_amount(&self, states: &[ReadState]) -> Result<(), EvaluateError> {
-        let pairs = self.phases.len().saturating_mul(states.len());
-        let Some(first) = states.first() else {
-            return Ok(());
-        };
-        if pairs.saturating_mul(self.samples.rows()) <= MOST_READ {
-            return Ok(());
-        }
-        Err(EvaluateError::State {
-            path: first.path.clone(),
-            problem: format!(
-                "{} for {} in the column `protocol` and {}: expected at most {MOST_READ} rows for all together",
-                counted(states.len() as u64, "state"),
-                counted(self.phases.len() as u64, "phase"),
-                counted(self.samples.rows() as u64, "row")
-            ),
+    /// Fault of a table with more names of phases than a run with so many states has. Each pair reads the table.
+    fn excess(&self, states: usize) -> Option<String> {
+        let (phases, rows) = (self.phases.len(), self.samples.rows());
+        let read = phases.saturating_mul(states).saturating_mul(rows);
+        (read > MOST_READ).then(|| {
+            format!(
+                "{} in the column `protocol` of {} for {}: expected a product of at most {MOST_READ}",
+                counted(phases as u64, "phase"),
+                counted(rows as u64, "sample"),
+                counted(states as u64, "state")
+            )
         })
     }
 
@@ -173,5 +170,36 @@ impl<'a> PhaseTable<'a> {
             });
         }
         rows
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_table_with_a_phase_for_each_of_many_rows_is_refused_by_their_number() {
+        let rows: String = (0..40_000).map(|row| format!("{row},p{row}\n")).collect();
+        let samples = Samples::read(&format!("sample,protocol\n{rows}")).expect("a table");
+        let table = PhaseTable::of(&samples);
+        let problem = table.excess(1).expect("too many");
+        assert!(
+            problem.starts_with("40000 phases in the column"),
+            "{problem}"
+        );
+        let samples = Samples::read("sample,protocol\na,calibration idle\n").expect("a table");
+        let table = PhaseTable::of(&samples);
+        assert_eq!((table.phases.len(), table.excess(9)), (2, None));
+    }
+
+    #[test]
+    fn metrics_of_frames_and_of_every_phase_are_not_held() {
+        let held = |id: &str| is_held(taceva_metrics::catalogue::find(id).expect("a metric"));
+        assert!(
+            ["mae", "drift", "hysteresis", "r_light", "sr"]
+                .into_iter()
+                .all(held)
+        );
+        assert!(!held("intrinsic"));
     }
 }
