@@ -22,7 +22,7 @@ const LACKING: &str =
 /// Reason for the metrics of a state that no phase gives.
 const OTHER_SUMS: &str = "no phase of the table gives the sums of their state";
 /// Greatest number of rows that are read for all states and phases together.
-const MOST_READ: usize = 1 << 30;
+const MOST_READ: usize = 1 << 28;
 
 /// Scores `samples` by the plans of `states`, one for each phase of a run. Omits metrics that read fields absent from the table. Also
 /// omits metrics of a state whose sums no phase of the table gives bit for bit; [`Recount::has_equal_sums`] is then false.
