@@ -109,7 +109,7 @@ fn claims(found: &Verification) -> Table {
         table.push(first.into_iter().chain(ticks).chain(last));
     }
     table.note(
-        "✓ the level gives the number; ✗ it gives another one; – not compared at this level.",
+        "✓ the level gives the number; ✗ it gives another one; – it was not compared, or gives no answer.",
     );
     table
 }
@@ -118,6 +118,8 @@ fn claims(found: &Verification) -> Table {
 fn tick(claim: &ClaimCheck, level: Level) -> &'static str {
     match claim.verdict {
         Verdict::Differs if claim.level == level => "✗",
+        // The results may hold the number, or another one: the first difference ends at the scores.
+        Verdict::Differs if claim.level == Level::Scores && level == Level::Form => "–",
         _ if claim.level >= level => "✓",
         _ => "–",
     }

@@ -13,7 +13,7 @@ use crate::support::Bench;
 use serde_json::Value;
 
 /// One sensor, every part of the protocol, a few presses each.
-const SMALL: &str = r#"scene_version = 1
+pub(crate) const SMALL: &str = r#"scene_version = 1
 name = "small"
 seed = 7
 robot = { driver = "sim/robot" }

@@ -220,8 +220,8 @@ fn of_tables(
     let recount = recount.map_err(Stop::failed)?;
     Ok(TableScores {
         scores: as_read(&recount.report)?.scores,
-        // A table of samples lacks what metrics of the truth alone read.
-        has_other_sums: files.tables.is_some() && !recount.has_equal_sums,
+        // The samples of an evaluation lack what metrics of the truth alone read.
+        has_other_sums: (files.tables.is_some() || is_run) && !recount.has_equal_sums,
         left_out: recount.left_out,
     })
 }

@@ -64,17 +64,19 @@ impl PublishedShare {
         ratio(u128::from(self.hits), u128::from(self.samples))
     }
 
-    /// Standard deviation over the sets, from the published half-width.
+    /// Standard deviation over the sets, from the published half-width. As in NumPy, the mean square is over as many sets as there are.
     #[must_use]
     pub fn sd_over_sets(&self) -> f64 {
         self.half_width / PublishedShare::half_width_of(1.0, self.samples)
     }
 
-    /// Half-width of the 95 % interval over sets: t SD / √sets, with Student's t of one degree of freedom less than sets.
+    /// Half-width of the 95 % interval over sets: t SD / √(sets − 1), with Student's t of sets − 1 degrees of freedom.
+    ///
+    /// The root is of sets − 1, because SD divides by the number of sets.
     #[must_use]
     pub fn half_width_by_sets(&self) -> f64 {
-        let sets = f64::from(self.sets);
-        student_t::quantile(0.975, sets - 1.0) * self.sd_over_sets() / sets.sqrt()
+        let freedom = f64::from(self.sets - 1);
+        student_t::quantile(0.975, freedom) * self.sd_over_sets() / freedom.sqrt()
     }
 
     /// Half-width over sets / published half-width.

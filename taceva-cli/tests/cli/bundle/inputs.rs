@@ -70,6 +70,28 @@ fn a_run_is_verified_by_its_samples_phase_by_phase() {
 }
 
 #[test]
+fn every_claim_of_a_run_but_those_that_read_all_phases_reaches_the_predictions() {
+    let bench = Bench::new();
+    bench.write("small.toml", crate::run::SMALL);
+    bench.ok("run small.toml --out run -q");
+    bench.ok("bundle run --draft --out b -q");
+    let found = verified(&bench, "b", 0);
+    let claims = found["claims"].as_array().expect("claims");
+    for metric in ["mae", "drift", "hysteresis", "intrinsic", "r_light", "sr"] {
+        let mut names = claims.iter().map(|claim| &claim["metric"]);
+        assert!(names.any(|name| name == metric), "{metric}");
+    }
+    for claim in claims {
+        assert_eq!(claim["verdict"], "equal", "{claim}");
+        let level = match claim["metric"].as_str() {
+            Some("intrinsic") => "scores",
+            _ => "predictions",
+        };
+        assert_eq!(claim["level"], level, "{claim}");
+    }
+}
+
+#[test]
 fn an_edited_prediction_of_a_run_leaves_its_claims_below_the_level_that_they_state() {
     let bench = run();
     bench.ok("bundle run --draft --out b -q");
@@ -102,6 +124,16 @@ fn an_edited_prediction_of_a_run_leaves_its_claims_below_the_level_that_they_sta
         let reason = claim["reason"].as_str().expect("a reason");
         assert!(reason.contains("states the level predictions"), "{reason}");
     }
+    // A lower level in the manifest hides nothing.
+    relist(&bench, "b", |manifest| {
+        of_another_version(manifest);
+        for claim in manifest["claims"].as_array_mut().expect("claims") {
+            claim["level"] = "scores".into();
+        }
+    });
+    let found = verified(&bench, "b", 1);
+    let mut others = found["others"].as_array().expect("others").iter();
+    assert!(others.any(|other| other["part"] == "state" && other["verdict"] == "differs"));
 }
 
 #[test]
@@ -150,17 +182,18 @@ fn a_page_has_a_tick_for_every_level_that_a_claim_reached() {
     ] {
         assert!(page.contains(words), "{words}");
     }
-    assert!(
-        !page.contains("<td>✗") && !page.contains("of <b>"),
-        "{page}"
-    );
+    // The note alone has one.
+    assert_eq!(page.matches('✗').count(), 1, "{page}");
+    assert!(!page.contains("of <b>"), "{page}");
     relist(&bench, "b", |manifest| {
         manifest["claims"][0]["value"] = 123.5.into()
     });
     let ran = bench.run("bundle verify b --html w.html");
     assert_eq!(ran.code, 1, "{}", ran.err);
     let page = read("w.html");
-    assert!(page.contains("✗") && page.contains("123.5"), "{page}");
+    // The first ✗ of the page is that of the claim, and the last one explains it.
+    assert_eq!(page.matches('✗').count(), 2, "{page}");
+    assert!(page.contains("123.5"), "{page}");
     bench.refused("bundle verify b --html w.html", 3, "--force replaces it");
 }
 

@@ -172,16 +172,22 @@ fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
 
 #[test]
 fn the_origin_of_a_number_is_that_of_its_study_in_the_manifest() {
-    let bench = catalogue();
-    forge(&bench, "foo", |manifest| {
-        manifest["source"] = "several".into()
-    });
-    assert!(findings(&bench).is_empty());
-    edit(&bench.path("c/entries/foo.toml"), |text| {
-        let text = text.replace("[[measured]]", "[[simulated]]");
-        text.replace("source = \"recorded\"", "source = \"simulated\"")
-    });
-    has(&findings(&bench), &["`source` of ", "expected recorded"]);
+    let of_studies: fn(&mut Value) = |manifest| manifest["source"] = "several".into();
+    // A manifest of an earlier version.
+    let as_a_whole: fn(&mut Value) = |manifest| {
+        let study = manifest["studies"][0].as_object_mut().expect("a study");
+        study.remove("source").expect("stated");
+    };
+    for change in [of_studies, as_a_whole] {
+        let bench = catalogue();
+        forge(&bench, "foo", change);
+        assert!(findings(&bench).is_empty());
+        edit(&bench.path("c/entries/foo.toml"), |text| {
+            let text = text.replace("[[measured]]", "[[simulated]]");
+            text.replace("source = \"recorded\"", "source = \"simulated\"")
+        });
+        has(&findings(&bench), &["`source` of ", "expected recorded"]);
+    }
 }
 
 #[test]

@@ -28,6 +28,12 @@ pub(super) fn fault(row: &Measured, manifest: &Manifest) -> Option<String> {
     let depth = claim.level.to_string();
     let of_study = manifest.studies.get(row.study);
     let source = of_study.map_or("", |files| files.source.as_str());
+    // The first bundles of this schema state the origin as a whole alone, which is `several` for studies of different ones.
+    let source = match (source, manifest.source.as_str()) {
+        ("", "several") => row.source.as_str(),
+        ("", whole) => whole,
+        (own, _) => own,
+    };
     let deepest = DEPTHS.iter().position(|word| *word == depth);
     let differing = [
         (

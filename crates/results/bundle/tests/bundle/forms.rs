@@ -150,6 +150,17 @@ fn a_study_with_another_origin_in_the_manifest_is_damage() {
 }
 
 #[test]
+fn a_manifest_that_states_the_origin_as_a_whole_alone_is_whole() {
+    let bench = Bench::new();
+    let mut manifest = bench.json("bundle.json");
+    let study = manifest["studies"][0].as_object_mut().expect("a study");
+    study.remove("source").expect("stated");
+    bench.relist(manifest);
+    let found = bench.verified(Level::Form);
+    assert_eq!(found.outcome(), Outcome::Verified, "{:?}", found.damage);
+}
+
+#[test]
 fn simulated_samples_and_drafts_are_named_in_every_form_with_claims() {
     let bench = Bench::of(|request| {
         for (path, space) in [(&request.result, " "), (&request.states[0], "")] {
