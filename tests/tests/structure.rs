@@ -9,8 +9,8 @@ use taceva_tests::structure::{
 /// Most lines of product code, and of all `.rs` files. Readers of SQLite, bags, Arrow and protobuf, and angles, take 6,000 and 11,000 of
 /// them, gauge studies, budgets, curves and their distributions 9,000 and 13,000, agreement and tolerance intervals of predictions 750 and
 /// 1,400, certificates 1,300 and 2,700, `taceva budget`, decision rules, settings of boxes and remedies 3,350 and 7,800,
-/// bundles with models, forms and catalogues 7,800 and 13,500, faults and wear 2,950 and 5,400, monitors 1,150 and 2,400, unkinder emulators 1,700.
-const MOST_LINES: (usize, usize) = (239_550, 459_400);
+/// bundles with models, forms and catalogues 7,800 and 13,500, faults and wear 2,950 and 5,400, unkinder emulators 1,700.
+const MOST_LINES: (usize, usize) = (238_400, 457_000);
 
 /// Most lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;
