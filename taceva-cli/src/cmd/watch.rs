@@ -213,3 +213,36 @@ impl Progress for Until<'_> {
         self.progress.is_cancelled() || self.watcher.watched().is_over()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{FrameInfo, Newton, PixelFormat};
+
+    use super::*;
+
+    #[test]
+    fn pictures_just_after_a_contact_and_between_the_limits_are_not_watched() {
+        let info = FrameInfo {
+            width: 2,
+            height: 2,
+            format: PixelFormat::Gray8,
+        };
+        let frame = Frame::new(info, vec![9; 4]).expect("whole");
+        let watcher = Watcher(Mutex::new(Watched {
+            monitor: Monitor::new(frame.clone(), 0.1).expect("a monitor"),
+            has_force: true,
+            normal_n: None,
+            recovering: RECOVERY,
+            left: None,
+            failure: None,
+        }));
+        for force in [0.0, 2.0, 0.0, 0.07] {
+            watcher.force(&Wrench {
+                force: [Newton(0.0), Newton(0.0), Newton(force)],
+                ..Wrench::default()
+            });
+            (0..12).for_each(|_| watcher.frame(&frame));
+        }
+        assert_eq!(watcher.watched().monitor.pictures(), [4, 12]);
+    }
+}
