@@ -7,7 +7,7 @@ use taceva_core::{Channel, Channels, Column, Field};
 use taceva_dataset::Dataset;
 use taceva_evaluate::{Columns, EvaluateError, Target, accumulate};
 use taceva_metrics::{
-    ClusteredBy, Interval, MetricPlan, PLANES, Score, UndefinedReason, Value, catalogue, plane_axes,
+    Interval, MetricPlan, PLANES, Score, UndefinedReason, Value, catalogue, plane_axes,
 };
 use taceva_models::Model;
 
@@ -124,23 +124,14 @@ impl<'a> Scorer<'a> {
         let truth = self.truth.iter().map(of_places);
         let truth: Vec<Column> = truth.collect();
         let rows: Vec<usize> = places.iter().map(|place| self.rows[*place]).collect();
-        // Several draws of a sample are not independent: the sample is then the cluster.
-        let is_sample = draws > 1 && self.plan.clustered_by() == ClusteredBy::Sample;
-        let (plan, groups) = match is_sample {
-            true => (
-                self.plan.clone().by_group(),
-                Some(self.dataset.table().samples()),
-            ),
-            false => (self.plan.clone(), self.groups),
-        };
         let source = Columns {
             truth: &truth,
             prediction: &columns,
             dataset: self.dataset,
             rows: &rows,
-            groups,
+            groups: self.groups,
         };
-        let evaluation = accumulate(&source, &plan, self.jobs)?.finish()?;
+        let evaluation = accumulate(&source, &self.plan, self.jobs)?.finish()?;
         let of_metric = |id: &str| -> ByChannel<Estimate> {
             let scores = evaluation.scores().filter(|(metric, ..)| metric.id == id);
             let scores = scores.map(|(_, name, score)| (name.to_owned(), estimate(score)));
