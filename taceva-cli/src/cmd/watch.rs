@@ -115,7 +115,10 @@ fn summarise(monitor: &Monitor, context: &Context) {
     let [untouched, touched] = monitor.pictures();
     let changes = match monitor.found().len() {
         0 => "no change".to_owned(),
-        count => counted(count, "change"),
+        count => format!(
+            "{}; after a new untouched picture, watch with --calibration and --fresh",
+            counted(count, "change")
+        ),
     };
     context.say(format_args!(
         "{} and {touched} of contact: {changes}",
