@@ -8,10 +8,12 @@ use super::{LiveArgs, ViewArgs};
 
 const WATCH_HELP: &str = "\
 Untouched pictures are those with a force below 0.05 N by --force or by the rig file, and pictures of contact those above 0.1 N. Without a
-transducer every picture counts as untouched: touch nothing. In a recording the labels Fz or Pz show the contact.
+transducer every picture counts as untouched: touch nothing. The first 10 untouched pictures after a contact are not watched. In a recording the
+labels Fz or Pz show the contact.
 
 The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. They are taken from --calibration if it has as many, otherwise
-from the beginning of what is watched. Then a change is found within 30 untouched pictures. Each kind of change is printed once, with what to do.
+from the beginning of what is watched, as with --fresh. Then a change is found within 30 untouched pictures. Each kind of change is printed once, with
+what to do. Drift is a change: switch the sensor on half an hour before.
 
 The exit code is 1 if a change was found, otherwise 0.";
 
@@ -31,6 +33,9 @@ pub(crate) struct Watch {
     /// The recording of the calibration: its reference picture and its change by contact [default: the watched recording]
     #[arg(long, value_name = "DATASET", required_unless_present = "recording")]
     pub(crate) calibration: Option<PathBuf>,
+    /// Set the limits from the first pictures that are watched, not from the calibration: after a new untouched picture
+    #[arg(long, requires = "calibration")]
+    pub(crate) fresh: bool,
     /// Number of pictures of the sensor [default: until Ctrl-C]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) frames: Option<u64>,

@@ -18,6 +18,8 @@ use crate::{exit, output};
 /// Force below which the gel is untouched, and above which it is touched, N. Pictures between them are not watched.
 const UNTOUCHED_N: f64 = 0.05;
 const TOUCHED_N: f64 = 0.1;
+/// Untouched pictures after a contact that are not watched: pictures arrive later than forces, and the gel recovers.
+const RECOVERY: u32 = 10;
 
 pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
     let model = context.models()?.open(&args.model)?;
@@ -35,7 +37,8 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
         .with_model(model, &calibration)
         .with_context(applied)?;
     let work = context.work(None);
-    if args.calibration.is_some() && !monitor.learn_from(&calibration, work)? {
+    let is_known = args.calibration.is_some() && !args.fresh;
+    if is_known && !monitor.learn_from(&calibration, work)? {
         context.say(format_args!(
             "{}: too few untouched pictures, so the first {} that are watched set the limits",
             shown(path),
@@ -48,7 +51,7 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
             let mut written = Ok(());
             watch(recording, &mut monitor, work, &mut |sample, alarm| {
                 if written.is_ok() {
-                    written = line(&format!("{}: {alarm}", shown(&sample)));
+                    written = line(&format!("{}: {alarm}", shown(sample)));
                 }
             })?;
             written?;
@@ -75,6 +78,7 @@ fn watch_sensor(args: &Watch, monitor: Monitor, context: &Context) -> anyhow::Re
         monitor,
         has_force,
         normal_n: None,
+        recovering: RECOVERY,
         left: args.frames,
         failure: None,
     }));
@@ -111,7 +115,10 @@ fn summarise(monitor: &Monitor, context: &Context) {
     let [untouched, touched] = monitor.pictures();
     let changes = match monitor.found().len() {
         0 => "no change".to_owned(),
-        count => counted(count, "change"),
+        count => format!(
+            "{}; after a new untouched picture, watch with --calibration and --fresh",
+            counted(count, "change")
+        ),
     };
     context.say(format_args!(
         "{} and {touched} of contact: {changes}",
@@ -132,6 +139,8 @@ struct Watched {
     has_force: bool,
     /// Normal force of the newest reading.
     normal_n: Option<f64>,
+    /// Number of untouched pictures that are still not watched.
+    recovering: u32,
     /// Number of pictures until the end.
     left: Option<u64>,
     failure: Option<anyhow::Error>,
@@ -151,11 +160,21 @@ impl Watched {
     fn take(&mut self, frame: &Frame) -> anyhow::Result<()> {
         let alarms: Vec<Alarm> = match (self.has_force, self.normal_n) {
             (false, _) => self.monitor.untouched(frame)?,
-            (true, Some(normal_n)) if normal_n.abs() < UNTOUCHED_N => {
-                self.monitor.untouched(frame)?
+            (true, Some(normal_n)) if normal_n.abs() < UNTOUCHED_N => match self.recovering {
+                0 => self.monitor.untouched(frame)?,
+                _ => {
+                    self.recovering -= 1;
+                    Vec::new()
+                }
+            },
+            (true, Some(normal_n)) => {
+                self.recovering = RECOVERY;
+                match normal_n.abs() > TOUCHED_N {
+                    true => self.monitor.touched(frame)?,
+                    false => Vec::new(),
+                }
             }
-            (true, Some(normal_n)) if normal_n.abs() > TOUCHED_N => self.monitor.touched(frame)?,
-            _ => Vec::new(),
+            (true, None) => Vec::new(),
         };
         alarms.iter().try_for_each(|alarm| line(&alarm.to_string()))
     }
@@ -195,5 +214,38 @@ struct Until<'a> {
 impl Progress for Until<'_> {
     fn is_cancelled(&self) -> bool {
         self.progress.is_cancelled() || self.watcher.watched().is_over()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use taceva_core::{FrameInfo, Newton, PixelFormat};
+
+    use super::*;
+
+    #[test]
+    fn pictures_just_after_a_contact_and_between_the_limits_are_not_watched() {
+        let info = FrameInfo {
+            width: 2,
+            height: 2,
+            format: PixelFormat::Gray8,
+        };
+        let frame = Frame::new(info, vec![9; 4]).expect("whole");
+        let watcher = Watcher(Mutex::new(Watched {
+            monitor: Monitor::new(frame.clone(), 0.1).expect("a monitor"),
+            has_force: true,
+            normal_n: None,
+            recovering: RECOVERY,
+            left: None,
+            failure: None,
+        }));
+        for force in [0.0, 2.0, 0.0, 0.07] {
+            watcher.force(&Wrench {
+                force: [Newton(0.0), Newton(0.0), Newton(force)],
+                ..Wrench::default()
+            });
+            (0..12).for_each(|_| watcher.frame(&frame));
+        }
+        assert_eq!(watcher.watched().monitor.pictures(), [4, 12]);
     }
 }

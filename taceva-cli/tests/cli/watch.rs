@@ -106,6 +106,22 @@ fn a_recording_with_less_light_has_one_line_with_its_remedy_and_exit_code_1() {
 }
 
 #[test]
+fn after_a_new_untouched_picture_the_limits_are_those_of_the_present_light() {
+    let bench = bench();
+    record(&bench, "darker", 92.0, 300, 6000);
+    let words = "watch m.taceva --recording darker --calibration monday";
+    let stale = bench.run(words);
+    assert!(stale.out.contains("brighter or darker"), "{}", stale.out);
+    let fresh = bench.run(&format!("{words} --fresh"));
+    assert!(!fresh.out.contains("untouched"), "{}", fresh.out);
+    assert!(
+        fresh.err.contains("least changes that are found"),
+        "{}",
+        fresh.err
+    );
+}
+
+#[test]
 fn a_sensor_is_watched_without_a_force_until_its_last_picture() {
     let bench = bench();
     for (folder, light, code) in [("same", 100.0, 0), ("darker", 92.0, 1)] {

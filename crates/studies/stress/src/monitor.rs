@@ -25,8 +25,10 @@ use crate::scale::Scale;
 const SETTLED: u32 = 50;
 /// Untouched pictures until changes are found.
 const TO_LEARN: usize = SETTLED as usize + LEARNT;
-/// Least stimulus that counts as a change of pattern or detail. Noise hides most of a change in detail.
-const LEAST: f64 = 0.05;
+/// Least stimulus that counts as a change of pattern.
+const PATTERN: f64 = 0.1;
+/// Least stimulus that counts as a change of detail. Noise hides most of such a change.
+const DETAIL: f64 = 0.05;
 /// Stimulus of the baseline above which it differs from the reference. Flicker of a single reference picture is below it.
 const REFERENCE: f64 = 1.0;
 /// Repeated pictures among the newest that show a change.
@@ -128,8 +130,8 @@ impl Monitor {
             settled: 0,
             baseline: None,
             level: Level::default(),
-            pattern: Limited::new(LEAST),
-            detail: Limited::new(LEAST),
+            pattern: Limited::new(PATTERN),
+            detail: Limited::new(DETAIL),
             before: None,
             has_repeats: false,
             repeats: Newest::default(),
@@ -205,7 +207,7 @@ impl Monitor {
     /// Expected number of false alarms in `pictures` untouched pictures, an upper bound.
     ///
     /// The bound supposes untouched pictures without drift, whose order has no effect. The part of the brightness supposes normal flicker.
-    /// The others hold for every distribution.
+    /// The others hold for every distribution. Flicker whose successive pictures are alike raises more alarms (docs/faults.md).
     ///
     /// ```
     /// assert!(taceva_stress::Monitor::false_alarms(300_000) < 0.001);

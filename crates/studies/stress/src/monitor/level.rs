@@ -1,15 +1,19 @@
 //! Brightness of untouched pictures, as a mean over the newest ones, because a single picture flickers.
+//!
+//! Real flicker is not independent: lamps beat with the exposure. The means of successive pictures while the limit is set show how far it moves them.
 
 use std::collections::VecDeque;
 
 use taceva_metrics::distributions::student_t;
 
-use super::limit::{LEARNT, WINDOW};
+use super::limit::{LEARNT, RUNS, WINDOW};
 
 /// Standard errors of the difference of two means that show a change.
 const ERRORS: f64 = 6.5;
 /// Least change that counts.
 const LEAST: f64 = 0.1;
+/// Limits that a single picture counts at most, so that a few accidental pictures are no change.
+const MOST: f64 = 5.0;
 
 /// Brightness of each untouched picture, with the mean and the spread of the first [`LEARNT`] ones.
 #[derive(Clone, Debug, Default)]
@@ -32,7 +36,7 @@ impl Level {
         self.usual.map(|of| of.limit)
     }
 
-    /// Takes the brightness of the next picture. Returns the change of the mean of the newest pictures, if it is beyond the limit.
+    /// Takes the brightness of the next picture. If the mean of the newest pictures is beyond the limit, returns the usual change of those beyond it.
     pub(super) fn push(&mut self, brightness: f64) -> Option<f64> {
         if self.newest.len() == WINDOW {
             self.newest.pop_front();
@@ -45,9 +49,17 @@ impl Level {
             }
             return None;
         };
-        let sum: f64 = self.newest.iter().sum();
-        let change = (sum / self.newest.len() as f64 - mean).abs();
-        (change > limit).then_some(change)
+        let changes = self.newest.iter().map(|of| of - mean);
+        let most = MOST * limit;
+        let bounded = changes.clone().map(|change| change.clamp(-most, most));
+        let change = bounded.sum::<f64>() / self.newest.len() as f64;
+        if change.abs() <= limit {
+            return None;
+        }
+        let beyond = changes.map(|of| of * change.signum());
+        let mut beyond: Vec<f64> = beyond.filter(|of| *of > limit).collect();
+        beyond.sort_unstable_by(f64::total_cmp);
+        beyond.get(beyond.len() / 2).copied()
     }
 
     fn usual_of_learnt(&self) -> Usual {
@@ -56,9 +68,12 @@ impl Level {
         let squares = self.learnt.iter().map(|of| (of - mean).powi(2));
         let variance = squares.sum::<f64>() / (count - 1.0);
         let error = (variance * (1.0 / WINDOW as f64 + 1.0 / count)).sqrt();
+        let runs = self.learnt.windows(WINDOW);
+        let runs = runs.map(|run| (run.iter().sum::<f64>() / WINDOW as f64 - mean).abs());
+        let farthest = runs.fold(0.0, f64::max);
         Usual {
             mean,
-            limit: LEAST.max(ERRORS * error),
+            limit: LEAST.max(ERRORS * error).max(RUNS * farthest),
         }
     }
 }
@@ -89,5 +104,40 @@ mod tests {
         let changes = (0..WINDOW).map(|_| level.push(0.3));
         let found: Vec<f64> = changes.flatten().collect();
         assert!(found.len() > 2, "{found:?}");
+        assert!(found.iter().all(|of| (of - 0.3).abs() < 1e-9), "{found:?}");
+    }
+
+    /// A level that has learnt from steady brightness.
+    fn steady() -> Level {
+        let mut level = Level::default();
+        for _ in 0..LEARNT {
+            assert_eq!(level.push(0.0), None);
+        }
+        level
+    }
+
+    #[test]
+    fn the_strength_of_a_sudden_change_is_that_of_the_change() {
+        let mut level = steady();
+        let mut changes = (0..WINDOW).filter_map(|_| level.push(-3.0));
+        assert_eq!(changes.next(), Some(3.0));
+    }
+
+    #[test]
+    fn four_accidental_pictures_among_thirty_are_no_change() {
+        let mut level = steady();
+        for number in 0..300 {
+            let is_accident = number % WINDOW < 4;
+            assert_eq!(level.push(if is_accident { 40.0 } else { 0.0 }), None);
+        }
+    }
+
+    #[test]
+    fn slow_flicker_that_was_there_while_the_limit_was_set_is_no_change() {
+        let mut level = Level::default();
+        for number in 0..5000 {
+            let brightness = 0.2 * (f64::from(number) * std::f64::consts::TAU / 200.0).sin();
+            assert_eq!(level.push(brightness), None, "{number}");
+        }
     }
 }

@@ -11,6 +11,9 @@ pub(super) const WINDOW: usize = 30;
 /// Least number of them beyond the limit that shows a change.
 const BEYOND: usize = 19;
 
+/// Multiples of the farthest run of [`WINDOW`] pictures that set the limit. They count if successive pictures are alike, as with slow flicker.
+pub(super) const RUNS: f64 = 3.0;
+
 /// A number of each untouched picture, with its limit.
 #[derive(Clone, Debug)]
 pub(super) struct Limited {
@@ -71,9 +74,17 @@ impl Limited {
         let mut sorted = self.learnt.clone();
         sorted.sort_unstable_by(f64::total_cmp);
         let median = sorted[LEARNT / 2];
+        // The number that enough pictures of a run exceed or reach.
+        let runs = self.learnt.windows(WINDOW).map(|run| {
+            let mut run = run.to_vec();
+            run.sort_unstable_by(f64::total_cmp);
+            run[WINDOW - BEYOND] - median
+        });
+        let farthest = runs.fold(0.0, f64::max);
+        let excess = self.least.max(RUNS * farthest);
         Limit {
             median,
-            limit: sorted[LEARNT - RANK].max(median + self.least),
+            limit: sorted[LEARNT - RANK].max(median + excess),
         }
     }
 }
@@ -113,6 +124,7 @@ mod tests {
         let mut limited = Limited::new(0.05);
         for number in 0_u16..200 {
             assert_eq!(limited.missing(), 200 - usize::from(number));
+            let number = number * 7 % 200;
             assert_eq!(limited.push(f64::from(number) / 2000.0), None);
         }
         let smallest = limited.smallest().expect("a limit");
@@ -127,5 +139,14 @@ mod tests {
             assert!(limited.push(0.09).is_some());
         }
         assert_eq!(limited.push(0.09), None);
+    }
+
+    #[test]
+    fn slow_flicker_that_was_there_while_the_limit_was_set_is_no_change() {
+        let mut limited = Limited::new(0.05);
+        for number in 0..5000 {
+            let flicker = 0.2 * (f64::from(number) * std::f64::consts::TAU / 200.0).sin();
+            assert_eq!(limited.push(flicker), None, "{number}");
+        }
     }
 }

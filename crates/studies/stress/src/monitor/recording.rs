@@ -6,12 +6,15 @@ use taceva_evaluate::{EvaluateError, Work};
 
 use super::change::Alarm;
 use super::limit::WINDOW;
-use super::{Monitor, TO_LEARN, framed};
+use super::{Monitor, SETTLED, TO_LEARN, framed};
 use crate::scale::{Touch, touches};
 
+/// Successive pictures of a run that is learnt. Pictures far apart would hide that successive ones are alike.
+const RUN: usize = SETTLED as usize;
+
 impl Monitor {
-    /// Learns from untouched pictures of `dataset`, the recording of the calibration, evenly spaced. Returns false if it has too few of them; the monitor
-    /// then learns from the pictures that it watches.
+    /// Learns from untouched pictures of `dataset`, the recording of the calibration: evenly spaced runs of 50 successive ones. Returns false if it has too
+    /// few of them; the monitor then learns from the pictures that it watches.
     ///
     /// # Errors
     /// Errors of reading.
@@ -25,7 +28,11 @@ impl Monitor {
         if untouched.len() < TO_LEARN {
             return Ok(false);
         }
-        let chosen = (0..TO_LEARN).map(|place| untouched[place * untouched.len() / TO_LEARN]);
+        let last = TO_LEARN / RUN - 1;
+        let chosen = (0..TO_LEARN).map(|place| {
+            let first = place / RUN * (untouched.len() - RUN) / last;
+            untouched[first + place % RUN]
+        });
         let chosen: Vec<usize> = chosen.collect();
         let pass = Pass::new(&chosen, work.jobs, work.progress);
         dataset.map_frames(

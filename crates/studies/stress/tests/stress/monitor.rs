@@ -41,6 +41,11 @@ fn passes(monitor: &mut Monitor, frame: &Frame) -> Vec<Alarm> {
 
 /// Presses, then untouched pictures of this light.
 fn record_rest(path: &Path, light: f64, count: u64, first: u64) -> Dataset {
+    record_rests(path, count, |number| rest(light, first + number))
+}
+
+/// Presses, then `count` untouched pictures.
+fn record_rests(path: &Path, count: u64, untouched: impl Fn(u64) -> Frame) -> Dataset {
     let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
     let channels = Channels::new([Channel::PX, Channel::FZ]).expect("two");
@@ -58,7 +63,7 @@ fn record_rest(path: &Path, light: f64, count: u64, first: u64) -> Dataset {
     for number in 0..count {
         let sample = Sample::new(format!("rest-{number}"))
             .with_point_id("rest".to_owned())
-            .with_frame(rest(light, first + number))
+            .with_frame(untouched(number))
             .with_truth(Readings::from_values([0.0, 0.0]));
         recorder.append(&sample).expect("recorded");
     }
@@ -186,6 +191,19 @@ fn a_recording_is_watched_with_what_the_calibration_shows() {
         panic!("{alarm}")
     })
     .expect("watched");
+}
+
+#[test]
+fn repeats_in_the_calibration_are_no_change() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let calibration = record_rests(&path("read twice"), 600, |number| rest(0.3, number / 2));
+    let mut monitor = Monitor::of(&calibration).expect("a monitor");
+    assert!(monitor.learn_from(&calibration, WORK).expect("read"));
+    for number in 0..30 {
+        let found = passes(&mut monitor, &rest(0.3, 5000 + number / 2));
+        assert!(found.is_empty(), "{number}: {found:?}");
+    }
 }
 
 #[test]
