@@ -3,8 +3,8 @@
 
     python3 benches/imports.py PROGRAM OTHER_PROGRAM FOLDER MAP [ROUNDS]
 
-Each round imports the folder by both programs into a new folder, the first of them in turn. Nothing but the standard library is needed. The programs
-must write datasets of one digest.
+Each round imports the folder by both programs into a new folder, the first of them in turn. Nothing but the standard library is needed. The exit
+code is 1 if their datasets have different digests.
 """
 
 import os
@@ -31,7 +31,9 @@ def imported(program, folder, map_file):
         ran = subprocess.run(command, check=True, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
         took = time.monotonic() - wall, processor_s() - processor
     digest = re.search(r"sha256:[0-9a-f]{64}", ran.stdout)
-    return took, digest and digest[0]
+    if digest is None:
+        sys.exit(f"{program} import printed no digest:\n{ran.stdout}")
+    return took, digest[0]
 
 
 def main():
@@ -48,7 +50,7 @@ def main():
             ratios[name].append(one / other)
     cells = [f"{name} {statistics.median(of):.2f} ({min(of):.2f} to {max(of):.2f})" for name, of in ratios.items()]
     print(f"load {os.getloadavg()[0]:.1f}, {rounds} rounds: median (range) of the ratio: {', '.join(cells)}")
-    print("the digests are equal" if len(digests) == 1 else f"the digests differ: {sorted(map(str, digests))}")
+    print("the digests are equal" if len(digests) == 1 else f"the digests differ: {sorted(digests)}")
     return int(len(digests) != 1)
 
 

@@ -79,6 +79,19 @@ def test_indices_of_other_rows_or_that_repeat_are_refused_with_the_remedy() -> N
         taceva.score(truth.assign(sample=range(ROWS)), twice)
 
 
+def test_keys_that_differ_in_blanks_or_case_are_refused_with_both() -> None:
+    truth, prediction = frames()
+    rest = [f"b{row}" for row in range(1, ROWS)]
+    for one, other in (("press 1", "press1"), ("Press_1", "press_1"), ("P 1", "p1"), (" p1", "p1")):
+        said = f"{one!r}, which row 0 of truth has, although {other!r} differs only in blanks or case"
+        with pytest.raises(ValueError, match=said):
+            taceva.score(truth.assign(sample=[one, *rest]), prediction.assign(sample=[other, *rest]))
+        with pytest.raises(ValueError, match=said):
+            taceva.score(truth.set_axis([one, *rest]), prediction.set_axis([other, *rest]))
+    with pytest.raises(ValueError, match="'a', which row 0 of truth has; correct"):
+        taceva.score(truth.assign(sample=["a", *rest]), prediction.assign(sample=["c", *rest]))
+
+
 def test_two_keys_that_pair_rows_differently_are_refused() -> None:
     truth, prediction = frames()
     names = [f"s{row}" for row in range(ROWS)]

@@ -355,12 +355,22 @@ def aligned(own: Any, other: Any, what: str, remedy: str) -> npt.NDArray[np.intp
         if seen.setdefault(_hashable(name), at) != at:
             raise ValueError(f"{what} {name!r} occurs twice in truth, in rows {seen[_hashable(name)]} and {at}; {remedy}")
         if _hashable(name) not in places:
-            raise ValueError(f"no row of prediction has {what} {name!r}, which row {at} of truth has; {remedy}")
+            raise ValueError(f"no row of prediction has {what} {name!r}, which row {at} of truth has{_nearly(name, found)}; {remedy}")
         order.append(places[_hashable(name)])
     more = [name for name in found if _hashable(name) not in seen]
     if more:
         raise ValueError(f"no row of truth has {what} {more[0]!r}, which prediction has; {remedy}")
     return np.asarray(order, dtype=np.intp)
+
+
+def _nearly(name: Any, others: Sequence[Any]) -> str:
+    """Return a remark on the first other name that differs only in blanks or case, or an empty text."""
+
+    def bare(text: str) -> str:
+        return "".join(text.split()).lower()
+
+    found = [other for other in others if isinstance(name, str) and isinstance(other, str) and bare(other) == bare(name)]
+    return f", although {found[0]!r} differs only in blanks or case: write both alike" if found else ""
 
 
 def _hashable(name: Any) -> Any:

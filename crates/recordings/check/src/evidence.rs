@@ -8,7 +8,7 @@ use crate::signal_facts::SignalFacts;
 use crate::tiles::Tiles;
 use taceva_dataset::RecordedSessions;
 
-/// Depth from which a sample is in contact, mm.
+/// Depth from which a sample is in contact, mm. Negative depths are above the gel.
 const CONTACT_MM: f64 = 0.01;
 
 /// Data of a recording that checks read.
@@ -47,14 +47,14 @@ impl Evidence<'_> {
             .find_map(|name| channels.position(name))
     }
 
-    /// For each row, false if its label of depth shows contact. Depths that are never near 0 show nothing, since they may be positions.
+    /// For each row, false if its label of depth shows contact. If every row has a positive depth, they may be positions and show nothing.
     pub(crate) fn without_depth(&self) -> Vec<bool> {
         let rows = self.table.rows();
         let Some(depth) = self.table.channels().position("Pz") else {
             return vec![true; rows];
         };
         let depths = self.table.truth(depth);
-        let is_shallow = |row: usize| depths.get(row).is_none_or(|depth| depth.abs() < CONTACT_MM);
+        let is_shallow = |row: usize| depths.get(row).is_none_or(|depth| depth < CONTACT_MM);
         let shallow: Vec<bool> = (0..rows).map(is_shallow).collect();
         match shallow.contains(&true) {
             true => shallow,

@@ -49,15 +49,18 @@ impl RestChange {
 
 /// Median, the lower of two; 0 for no numbers.
 pub(crate) fn lower_median(numbers: impl Iterator<Item = f64>) -> f64 {
-    let mut sorted: Vec<f64> = numbers.collect();
-    sorted.sort_by(f64::total_cmp);
-    let middle = sorted.len().saturating_sub(1) / 2;
-    sorted.get(middle).copied().unwrap_or(0.0)
+    in_order(numbers, |count| count.saturating_sub(1) / 2)
 }
 
-/// Median; 0 for no numbers.
+/// Median, the upper of two; 0 for no numbers.
 fn median(numbers: impl Iterator<Item = f64>) -> f64 {
+    in_order(numbers, |count| count / 2)
+}
+
+/// Number at a position in ascending order, computed from the count; 0 for no numbers.
+fn in_order(numbers: impl Iterator<Item = f64>, position: fn(usize) -> usize) -> f64 {
     let mut sorted: Vec<f64> = numbers.collect();
     sorted.sort_by(f64::total_cmp);
-    sorted.get(sorted.len() / 2).copied().unwrap_or(0.0)
+    let number = sorted.get(position(sorted.len()));
+    number.copied().unwrap_or(0.0)
 }

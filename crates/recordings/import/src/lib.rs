@@ -14,6 +14,7 @@ mod open_places;
 mod preset;
 mod source_folder;
 mod source_sums;
+mod taxel_codes;
 mod unit_suffix;
 
 pub use advice::advice;

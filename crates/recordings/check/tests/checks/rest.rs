@@ -120,6 +120,38 @@ fn contacts_whose_force_is_too_small_to_measure_are_no_untouched_pictures() {
 }
 
 #[test]
+fn pictures_above_the_gel_and_those_of_unknown_depths_are_untouched() {
+    let dimmed = |depth: fn(u32) -> Option<f64>| {
+        let mut recording = Recording::sound();
+        recording.channels[0] = taceva_core::Channel::PZ;
+        recording.reference = Some(picture(0, 0.0, &|_, _, light| light));
+        for (number, sample) in (0_u32..).zip(&mut recording.samples) {
+            let force = f64::from(number % 4) * 0.5;
+            let frame = picture(number, force, &|_, _, light| 0.85 * light);
+            sample.frame = Some(frame);
+            readings(sample, |channel, value| match channel {
+                0 if number.is_multiple_of(4) => depth(number),
+                0 => Some(0.5 * force),
+                2 => Some(force),
+                _ => Some(value),
+            });
+        }
+        let report = recording.check("");
+        message(&report, "TAC034").to_owned()
+    };
+    // Up to 9 mm above the gel; no depth; positions along an axis, which are never 0.
+    let depths: [fn(u32) -> Option<f64>; 3] = [
+        |number| Some(-0.25 * f64::from(number % 40)),
+        |_| None,
+        |number| Some(20.0 - 0.25 * f64::from(number % 40)),
+    ];
+    for depth in depths {
+        let said = dimmed(depth);
+        assert!(said.starts_with("50 pictures without contact"), "{said}");
+    }
+}
+
+#[test]
 fn light_that_wanders_from_picture_to_picture_is_no_change_and_a_greater_one_is() {
     let wandering = |change: f64| {
         let mut recording = Recording::sound();

@@ -126,6 +126,7 @@ pub(super) fn resolve(
     sources.read_times()?;
     sources.warn_of_grouped_digits();
     sources.warn_of_cuts(folder);
+    sources.warn_of_codes();
     let repeated = sources.joined.iter().filter_map(Joined::repeated_stamps);
     let repeated: Vec<ImportWarning> = repeated.collect();
     sources.warnings.extend(repeated);

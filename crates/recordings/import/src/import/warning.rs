@@ -119,6 +119,13 @@ pub enum ImportWarning {
         /// Name of a picture.
         name: String,
     },
+    /// A taxel often has a number far from all its others, and the map lists no placeholders.
+    TaxelCode {
+        /// First column with the number, as the map names it.
+        column: String,
+        /// The number.
+        code: String,
+    },
 }
 
 impl ImportWarning {
@@ -138,6 +145,7 @@ impl ImportWarning {
             ImportWarning::JoinFew { .. } => "join-few",
             ImportWarning::TimeOrder { .. } => "time-order",
             ImportWarning::DropUnmatched { .. } => "drop-unmatched",
+            ImportWarning::TaxelCode { .. } => "taxel-code",
         }
     }
 }
@@ -249,6 +257,12 @@ impl fmt::Display for ImportWarning {
                 "`{}` in `frames_named` of [drop] left out no row: another rule left it out already, or its name is another; write it as \
                  the table has it, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
                 taceva_core::shown(name)
+            ),
+            ImportWarning::TaxelCode { column, code } => write!(
+                f,
+                "`{}` is often {code}, far from all its other numbers: if this means \"nothing measured\", leave such rows out by \
+                 `placeholders = [{code}]` in [signals]",
+                taceva_core::shown(column)
             ),
         }
     }

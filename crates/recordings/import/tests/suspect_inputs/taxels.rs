@@ -1,6 +1,6 @@
 //! Tests of placeholder codes of taxels.
 
-use super::{FACTS, case, draft, lab, line, map_of, summary};
+use super::{FACTS, case, codes, draft, lab, line, map_of, summary};
 
 #[test]
 fn a_code_of_a_taxel_for_nothing_measured_leaves_its_rows_out_and_is_drafted() {
@@ -50,4 +50,42 @@ fn codes_in_one_cell_in_json_and_in_an_array_beside_the_table_leave_rows_out() {
     std::fs::write(array.path().join("tax.npy"), bytes).expect("written");
     let found = summary(array.path(), &map("t.csv", "{ file = \"tax.npy\" }"));
     assert_eq!((found.rows_kept, found.dropped.len()), (2, 1));
+}
+
+#[test]
+fn a_code_of_taxels_that_the_map_does_not_list_is_warned_of_once() {
+    let folder = case("taxel-code-for-nothing");
+    let map = map_of("taxel-code-for-nothing");
+    let found = summary(&folder, &map);
+    let said: Vec<String> = found.warnings.iter().map(ToString::to_string).collect();
+    let said: Vec<&String> = said
+        .iter()
+        .filter(|said| said.starts_with("taxel-code: "))
+        .collect();
+    let [said] = said[..] else {
+        panic!("{:?}", found.warnings);
+    };
+    assert!(
+        said.contains("`c5` is often -1,") && said.contains("`placeholders = [-1]` in [signals]"),
+        "{said}"
+    );
+    let coded = map.replace("unit = \"count\"", "unit = \"count\"\nplaceholders = [-1]");
+    assert!(!codes(&summary(&folder, &coded)).contains(&"taxel-code"));
+    // Two taxels in a cell; both have the code. Noise around 0 is none.
+    let of_cells = |code: i32| {
+        let row = |row: i32| match row % 6 {
+            0 => format!("\"[{code}, {code}]\"\n"),
+            _ => format!("\"[{}, {}]\"\n", row % 2, row % 2),
+        };
+        let cells = lab(&[(
+            "t.csv",
+            &format!("tax\n{}", (0..60).map(row).collect::<String>()),
+        )]);
+        let map = format!(
+            "map_version = 2\ntable = \"t.csv\"\n[signals]\nfrom = \"tax\"\nunit = \"count\"\nplaces = [2, 1]\nchannels = [\"p\"]\n[time]\nclock = \"unknown\"\n{FACTS}"
+        );
+        codes(&summary(cells.path(), &map))
+    };
+    assert_eq!(of_cells(65_535), ["taxel-code"]);
+    assert_eq!(of_cells(-1), [""; 0]);
 }

@@ -147,6 +147,52 @@ fn a_sensor_without_a_number_for_a_need_that_ranks_has_no_place() {
 }
 
 #[test]
+fn the_depth_is_chosen_by_the_excess_of_the_variation_between_places() {
+    use taceva_core::Unit;
+    use taceva_results::{Score, Value, Variant};
+
+    let measured = |name: &str, spatial: f64, excess: Option<f64>| {
+        let score = |metric: &str, value: f64| Score {
+            definition: format!("{metric}/2"),
+            ..Score::of_number(metric, "Pz", value, Unit::Millimetre)
+        };
+        let variant = |value: f64| Variant {
+            name: "excess".to_owned(),
+            value: Value::Number(value),
+            unit: Unit::Millimetre,
+            interval: None,
+        };
+        let spatial = Score {
+            variants: excess.into_iter().map(variant).collect(),
+            ..score("r_spatial", spatial)
+        };
+        crate::Study {
+            sensor: name.to_owned(),
+            scores: vec![score("mae", 0.1), score("repeatability", 0.1), spatial],
+            ..crate::Study::default()
+        }
+    };
+    let needs = Need::parse("depth").expect("needs");
+    let first = |studies: [crate::Study; 2]| {
+        let choice = choose_results(&studies, &needs);
+        let ranked = choice.ranked.iter();
+        let names: Vec<&str> = ranked.map(|one| one.name.as_str()).collect();
+        assert_eq!(names.len(), 2, "{choice:?}");
+        let spatial = choice.ranked[0].steps.last().and_then(|step| step.value);
+        (names[0].to_owned(), spatial)
+    };
+    // A sensor with few samples for each bin varies more by chance.
+    let few = measured("few samples", 0.2, Some(0.03));
+    let many = measured("many samples", 0.1, Some(0.06));
+    assert_eq!(first([many, few]), ("few samples".to_owned(), Some(0.03)));
+    let older = [
+        measured("few samples", 0.2, None),
+        measured("many samples", 0.1, None),
+    ];
+    assert_eq!(first(older), ("many samples".to_owned(), Some(0.1)));
+}
+
+#[test]
 fn no_study_of_sensors_is_ever_chosen_or_set_aside() {
     let choice = choose(&catalogue::all(), &Need::parse("fast").expect("a need"));
     let listed = format!("{choice:?}");

@@ -65,7 +65,7 @@ pub(crate) fn record(path: &Path, rows: impl IntoIterator<Item = Row>) -> Datase
 }
 
 /// Force and taxels that are independent random walks at 50 Hz.
-fn walks() -> Vec<Row> {
+pub(crate) fn walks() -> Vec<Row> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data/division/tax.csv");
     let table = CsvTable::read(&path).expect("there");
     let number = |row: usize, column: usize| {
@@ -121,7 +121,7 @@ pub(crate) fn evaluated(dataset: &Dataset, model: &str, split: Option<&str>) -> 
     evaluate(dataset, &request(model, split), WORK).expect("evaluated")
 }
 
-fn r2(evaluated: &Evaluated) -> f64 {
+pub(crate) fn r2(evaluated: &Evaluated) -> f64 {
     let score = evaluated.report.score("r2", "Fz").expect("scored");
     score.value.number().expect("defined")
 }

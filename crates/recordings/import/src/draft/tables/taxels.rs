@@ -5,6 +5,7 @@ mod axes;
 use super::{SeenColumn, SeenTable};
 use crate::csv_table::number;
 use crate::draft::roles::{Role, words};
+use crate::taxel_codes::{TaxelCode, codes};
 use crate::unit_suffix::UnitSuffix;
 
 /// Minimum number of values per row that are taken for taxels.
@@ -253,53 +254,27 @@ fn of_columns(columns: &[&SeenColumn], from: String) -> Taxels {
     }
 }
 
-/// Frequent outliers of a column, which are probably codes for "not measured".
+/// Frequent outliers of the columns, which are probably codes for "not measured".
 fn placeholders(columns: &[&SeenColumn]) -> Vec<(f64, String)> {
     let mut found: Vec<(f64, String)> = Vec::new();
     for column in columns {
-        let numbers = column.cells.iter();
-        let mut numbers: Vec<f64> = numbers
-            .filter_map(|cell| number::number(cell).ok().flatten())
-            .collect();
-        numbers.sort_unstable_by(f64::total_cmp);
+        let cells = column.cells.iter();
+        let numbers = cells.filter_map(|cell| number::number(cell).ok().flatten());
+        let numbers: Vec<f64> = numbers.collect();
         let rows = numbers.len();
-        let ends = [numbers.first().copied(), numbers.last().copied()];
-        for (code, is_least) in ends.into_iter().zip([true, false]) {
-            let Some(code) = code else {
-                continue;
-            };
-            let count = numbers
-                .iter()
-                .filter(|number| number.total_cmp(&code).is_eq())
-                .count();
-            let others: Vec<f64> = numbers
-                .iter()
-                .copied()
-                .filter(|number| number.total_cmp(&code).is_ne())
-                .collect();
-            let (Some(least), Some(greatest)) = (others.first(), others.last()) else {
-                continue;
-            };
-            let nearest = if is_least { *least } else { *greatest };
-            let is_code = match is_least {
-                true => code < 0.0 && nearest >= 0.0,
-                false => [
-                    255.0, 1_023.0, 4_095.0, 32_767.0, 65_535.0, 99_999.0, 9_999.0,
-                ]
-                .contains(&code),
-            };
-            let gap = (code - nearest).abs();
-            let is_far = gap > 0.25 * (greatest - least) || (is_least && gap >= 2.0);
-            let is_frequent = count >= 3 && count * 50 >= rows;
-            let is_known = found
-                .iter()
-                .any(|(known, _)| known.total_cmp(&code).is_eq());
-            if is_code && is_far && is_frequent && !is_known {
+        for code in codes(numbers) {
+            let TaxelCode {
+                value,
+                count,
+                nearest,
+            } = code;
+            let mut known = found.iter();
+            if !known.any(|(known, _)| known.total_cmp(&value).is_eq()) {
                 let reason = format!(
-                    "{:?} is {code} in {count} of {rows} rows, and the next number is {nearest}",
+                    "{:?} is {value} in {count} of {rows} rows, and the next number is {nearest}",
                     column.name
                 );
-                found.push((code, reason));
+                found.push((value, reason));
             }
         }
     }

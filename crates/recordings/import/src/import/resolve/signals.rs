@@ -1,10 +1,17 @@
 //! Taxel values in the columns of a table.
 
+use std::collections::BTreeMap;
+
 use super::Sources;
 use crate::csv_table::number;
 use crate::error::{ImportError, table_error};
 use crate::import::map::SignalsMap;
+use crate::import::warning::ImportWarning;
+use crate::taxel_codes::codes;
 use taceva_core::single;
+
+/// Maximum number of rows, at equal distances, in which codes are searched.
+const SAMPLED: usize = 1000;
 
 /// Values of every row, grouped by taxel, in the stored unit. A cell without a number becomes NaN, which is an error if the row is kept.
 pub(super) fn numbers(
@@ -65,6 +72,46 @@ pub(in crate::import) struct ColumnSignals {
 }
 
 impl Sources<'_> {
+    /// Warns of numbers that probably mean "nothing measured", if the map lists no placeholders. A cell that cannot be read is an error later.
+    pub(super) fn warn_of_codes(&mut self) {
+        let map = self.map;
+        let unlisted = map.signals.as_ref();
+        let Some(signals) = unlisted.filter(|signals| signals.placeholders.is_empty()) else {
+            return;
+        };
+        let rows = self.main.rows();
+        let mut found: BTreeMap<String, &String> = BTreeMap::new();
+        for name in signals.columns() {
+            let mut taxels: Vec<Vec<f64>> = Vec::new();
+            for row in (0..rows).step_by(rows.div_ceil(SAMPLED).max(1)) {
+                let mut joined = self.joined.iter();
+                if joined.any(|joined| !joined.is_matched(row)) {
+                    continue;
+                }
+                let Ok(cell) = self.cell(row, name) else {
+                    return;
+                };
+                let parts: Vec<&str> = match signals.columns() {
+                    [_] => packed(&cell).collect(),
+                    _ => vec![cell.trim()],
+                };
+                taxels.resize_with(taxels.len().max(parts.len()), Vec::new);
+                for (taxel, part) in taxels.iter_mut().zip(parts) {
+                    taxel.extend(number::number(part).ok().flatten());
+                }
+            }
+            for code in taxels.into_iter().flat_map(codes) {
+                found.entry(code.value.to_string()).or_insert(name);
+            }
+        }
+        let warnings = found.into_iter();
+        self.warnings
+            .extend(warnings.map(|(code, column)| ImportWarning::TaxelCode {
+                column: column.clone(),
+                code,
+            }));
+    }
+
     fn wrong_signals(&self, row: usize, name: &str, problem: &str) -> ImportError {
         table_error!(self.main.place(row, name), "[signals]: {problem}")
     }
