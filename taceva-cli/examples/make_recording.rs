@@ -8,7 +8,7 @@
 //! Optional arguments after the folder are the number of contact points and the seed. `make_recording -- demo 5000` draws 20,000 pictures, and
 //! `make_recording -- tuesday 40 2` draws other presses than `make_recording -- monday 40 1`.
 //!
-//! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset says
+//! Nothing here was measured. The labels follow closed forms (below), the pictures are drawn from the labels, and the dataset states
 //! `source = "synthetic"`, which every report repeats.
 
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Bytes and times for people.
+//! Numbers of bytes and durations as text.
 
 use std::time::Duration;
 

@@ -14,9 +14,10 @@
 //! Each device takes one call at a time. The exceptions are [`Halt`], [`RobotWatch`], [`EnablingSwitch`] and [`Interrupt`]: any thread
 //! may call these during any other call.
 //!
-//! mm, degrees, N and N·mm in the sensor's frame. Values must be finite. An infinite value or NaN from the caller is
-//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument). From the device such a value is [`DeviceFault`](crate::ErrorKind::DeviceFault).
-//! [`check_pose`] and [`check_wrench`] check both.
+//! # Values
+//! Values are in mm, degrees, N and N·mm, in the sensor's frame, and must be finite. An infinite value or NaN is an error: from the caller
+//! [`InvalidArgument`](crate::ErrorKind::InvalidArgument), from the device [`DeviceFault`](crate::ErrorKind::DeviceFault).
+//! [`check_pose`] and [`check_wrench`] check poses and wrenches.
 
 mod bench;
 mod changer;

@@ -1,6 +1,7 @@
 //! Diagnosis of the machine: usable devices, problems and remedies. Opens nothing.
 //!
-//! The diagnosis opens no device, because opening a serial port may reset it. It reads permissions, and names the programs of the same user that have it open.
+//! The diagnosis opens no device, because opening a serial port may reset it. It reads permissions, and names the programs of the
+//! same user that have a device open.
 
 mod diagnosis;
 mod machine;

@@ -1,4 +1,4 @@
-//! Limits of files and requests. Larger ones are rejected before memory is allocated.
+//! Limits of files and requests. Files and requests above a limit are rejected before memory is allocated.
 
 /// Maximum number of bytes that one call of `read` returns.
 pub(crate) const READ_BYTES: u64 = 1 << 30;

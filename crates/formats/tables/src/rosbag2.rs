@@ -1,4 +1,4 @@
-//! ROS 2 recordings in SQLite databases (`.db3`): a table of topics and one of messages.
+//! ROS 2 recordings in SQLite databases (`.db3`): a table of topics and a table of messages.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Facts of an unfinished recording that its journal lacks: the day of the last session, and warnings of devices.
 //!
-//! They are known only after the journal was begun, so they lie in a file beside the recording until it is closed.
+//! These facts become known only after the journal was begun. A file beside the recording stores them until the recording is closed.
 
 use std::fs;
 use std::io;

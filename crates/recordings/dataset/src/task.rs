@@ -1,4 +1,4 @@
-//! Tasks of a recording: labels that are no measured quantities, such as slip, an object or a pose, and their definitions.
+//! Tasks of a recording: labels other than measured quantities, such as slip, an object or a pose, and their definitions.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Claims and other numbers of one study, compared with what was computed again.
+//! Claims and other numbers of one study, compared with the recomputed numbers.
 
 use taceva_evaluate::PredictionCheck;
 use taceva_results::{EvaluationReport, Score};

@@ -1,4 +1,4 @@
-//! Files that the manifest generates: compared with what is there, and never read back.
+//! Files generated from the manifest. They are compared with the files of the bundle, and no value is read from them.
 
 use crate::columns::TableColumns;
 use crate::layout::{CARD, CITATION, CRATE, CROISSANT, EVAL_RESULTS, LICENCE};

@@ -1,4 +1,4 @@
-//! Times of ten million rows: curves of a ranking beside sorting its scores once, and rows of a confusion in a second.
+//! Measures ten million rows: time of the curves of a ranking and of one sort of its scores, and time of a confusion matrix.
 
 #![expect(clippy::print_stdout, reason = "an example shows its result")]
 

@@ -1,4 +1,4 @@
-//! Confusions of classes by cluster, and their scores.
+//! Confusion matrices of classes by cluster, and their scores.
 
 mod margins;
 mod table;

@@ -1,4 +1,4 @@
-//! Names of the classes of a task, and the positive one.
+//! Names of the classes of a task, and the positive class.
 
 use std::collections::BTreeMap;
 

@@ -1,4 +1,4 @@
-//! Published shares whose interval came from the spread over sets, and honest intervals beside.
+//! Published shares with an interval from the spread over test sets, and the correct interval of each share.
 
 use taceva_metrics::Interval;
 use taceva_metrics::distributions::student_t;

@@ -1,4 +1,4 @@
-//! Exact totals of clusters, and scores from the totals without one of them.
+//! Exact totals of clusters, and scores from the totals without one cluster.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

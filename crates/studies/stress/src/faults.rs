@@ -1,4 +1,4 @@
-//! The list of faults, and the choice of some.
+//! List of the faults, and selection of faults for a test.
 
 mod cable_noise;
 mod camera_shift;

@@ -1,4 +1,4 @@
-//! Check of the access of a user who owns nothing.
+//! Checks that every user of the machine can read a path.
 
 use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};

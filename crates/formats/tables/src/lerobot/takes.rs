@@ -1,4 +1,4 @@
-//! Checks the rows of each episode against its description. Of two takes with the same episode number, both would get the pictures of the first.
+//! Checks the rows of each episode against its description. Otherwise two takes with one episode number would both get the pictures of the first take.
 
 use std::collections::BTreeMap;
 

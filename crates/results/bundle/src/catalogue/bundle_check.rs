@@ -1,4 +1,4 @@
-//! Bundles at hand whose numbers stand in a catalogue, verified again.
+//! Verifies bundles again whose numbers are in a catalogue.
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};

@@ -1,4 +1,4 @@
-//! Entry of a sensor: the file that its rows go into, by its name in the results.
+//! Entry of a sensor: the file for its rows, found by the name of the sensor in the results.
 
 use std::path::Path;
 

@@ -1,4 +1,4 @@
-//! Bundle that is handed in: verified as deep as its files allow, with the row of each number.
+//! Submitted bundle, verified as deeply as its files allow, with a row for each number.
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -1,4 +1,4 @@
-//! Scores of a confusion by its margins.
+//! Scores of a confusion matrix from its row and column sums.
 
 use taceva_metrics::Dyadic;
 

@@ -1,4 +1,4 @@
-//! Scores of a confusion with their names, definitions, intervals and constants.
+//! Scores of a confusion matrix with their names, definitions, intervals and constants.
 
 use taceva_metrics::Range;
 

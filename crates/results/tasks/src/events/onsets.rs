@@ -1,4 +1,4 @@
-//! Onsets, and pairs of true and predicted ones.
+//! Onsets, and pairs of true and predicted onsets.
 
 /// Microseconds in a second. Distances are compared in whole microseconds, so that decimals match at the tolerance.
 const MICROSECONDS: f64 = 1e6;

@@ -1,4 +1,4 @@
-//! Distance of probabilities from the shares of what came true.
+//! Calibration error: distance of predicted probabilities from observed shares.
 
 use taceva_metrics::{Dyadic, ExactSum};
 

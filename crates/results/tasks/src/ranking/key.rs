@@ -1,4 +1,4 @@
-//! Scores in their order.
+//! Scores as integers with the same order.
 
 /// Steps of the grid in a unit.
 const STEPS: f64 = 65_536.0;

@@ -3,8 +3,8 @@
 //! After the first contact, the gel is expected at a similar height elsewhere. With guard threads, one motion replaces the steps that end well above this
 //! height, and the guard halts it at a collision. This saves the rest after each step. The remaining steps have the same heights as in a search without guard.
 //!
-//! The readings near the contact are kept, because depths may count from a surface that is fitted to them. Without guard threads they lie a
-//! segment apart. With them the strides are longer, so the tip repeats the last steps segment by segment if a metric reads depths.
+//! The readings near the contact are kept, because depths may count from a surface that is fitted to them. Without guard threads, readings
+//! are one segment apart. With guard threads, motions are longer, so the tip repeats the last steps segment by segment if a metric reads depths.
 
 use taceva_core::Millimetre;
 

@@ -1,4 +1,4 @@
-//! Growth of an error over the life of a gel, and the place at which a limit is met.
+//! Growth of an error over the life of a gel, and the presses or date at which a limit is met.
 
 use taceva_metrics::distributions::student_t;
 use taceva_metrics::elementary::logarithm;

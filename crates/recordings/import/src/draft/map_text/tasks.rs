@@ -1,4 +1,4 @@
-//! Suggestions of tasks in a draft, for columns whose names say slip.
+//! Suggestions of tasks in a draft, for columns whose names contain the word `slip`.
 
 use crate::draft::roles::words;
 

@@ -1,4 +1,4 @@
-//! Tasks in a map: labels that are no measured quantities, and their definitions.
+//! Tasks in a map: labels other than measured quantities, and their definitions.
 
 mod names;
 
