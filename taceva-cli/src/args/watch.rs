@@ -10,13 +10,13 @@ const WATCH_HELP: &str = "\
 Untouched pictures are those with a force below 0.05 N by --force or by the rig file, and pictures of contact those above 0.1 N. Without a
 transducer every picture counts as untouched: touch nothing. In a recording the labels Fz or Pz show the contact.
 
-The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. They are taken from --calibration if it has as many, otherwise
-from the beginning of what is watched. Then a change is found within 30 untouched pictures. Each kind of change is printed once, with what to do.
+The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. All 250 are taken from --calibration if it has as many,
+otherwise from the first watched pictures. Then a change is found within 30 untouched pictures. Each kind of change is printed once, with what to do.
 
 The exit code is 1 if a change was found, otherwise 0.";
 
 /// Watch a sensor in use. Untouched pictures are compared with those of the calibration, and pictures of contact with the training pictures of the
-/// model. Each change is printed in one line, with its strength beside the change by contact and its remedy.
+/// model. Each change is printed in one line, with its strength relative to the change by contact, and its remedy.
 #[derive(Debug, Args)]
 #[command(after_help = WATCH_HELP, group = ArgGroup::new("watched").required(true).multiple(true).args(["sensor", "rig", "recording"]))]
 pub(crate) struct Watch {

@@ -109,7 +109,7 @@ fn claims(found: &Verification) -> Table {
         table.push(first.into_iter().chain(ticks).chain(last));
     }
     table.note(
-        "✓ the level gives the number; ✗ it gives another one; – not compared at this level.",
+        "✓ the level gives the number; ✗ it gives another number; – not compared at this level.",
     );
     table
 }

@@ -278,7 +278,7 @@ fn a_plugin_in_python_cannot_run_without_an_interpreter() {
 fn the_help_says_where_a_trusted_plugin_runs() {
     let help = Bench::new().ok("plugin list --help");
     let words: Vec<&str> = help.split_whitespace().collect();
-    let said = "without confinement, a library in this process and Python in its own process";
+    let said = "without confinement: a library runs in this process, Python in its own process";
     assert!(words.join(" ").contains(said), "{help}");
 }
 

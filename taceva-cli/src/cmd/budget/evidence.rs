@@ -162,7 +162,7 @@ pub(super) fn report_of(path: &Path) -> anyhow::Result<Found> {
             without_samples: missing.pop(),
         }),
         (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one; the folder `reports` of a run has a result for each sensor",
+            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
             shown(path),
             others + usize::from(found.is_some())
         ))),
