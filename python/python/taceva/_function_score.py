@@ -85,7 +85,7 @@ def score_function(
     if isinstance(channels, str):
         raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
     if len(set(wanted)) < len(wanted):
-        raise ValueError(f"channels {', '.join(wanted)}: one is named twice")
+        raise ValueError(f"channels {', '.join(wanted)}: a channel is named twice")
     tables = [_table(both.truth, "truth", len(wanted)), _table(both.prediction, "prediction", len(wanted))]
     rows = len(tables[0])
     if len(tables[1]) != rows:

@@ -218,7 +218,7 @@ class TactileMetrics:
     def compute(self, *, name: str | None = None) -> Result:
         """Return the scores of all samples so far; more samples may follow. Without samples, the scores are undefined.
 
-        ``name`` is that of the sensor or the model, for tables.
+        ``name`` is the name of the sensor or the model, for tables.
         """
         return Result(self._scored(name, []))
 
