@@ -45,8 +45,8 @@ def score_function(
 ) -> dict[str, Score]:
     """Return the value of ``function`` for truth and prediction by channel, with an interval by contact point.
 
-    The 95 % interval is BCa. The function is called again for ``draws`` samples of whole points, drawn with replacement, and once without each
-    point, or each two-hundredth of them. The same ``seed`` gives the same interval. Fewer than six points give no interval.
+    The 95 % interval is BCa. The function is called again for ``draws`` samples of whole points, drawn with replacement. It is also called once
+    without each point, or without each two-hundredth of the points. The same ``seed`` gives the same interval. Fewer than six points give no interval.
 
     Parameters
     ----------

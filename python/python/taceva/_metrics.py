@@ -111,7 +111,7 @@ class TactileMetrics:
         allow_invalid: bool = False,
         **fields: Any,
     ) -> None:
-        """Add samples. Adds none if one is rejected or Ctrl-C interrupts.
+        """Add samples. Adds no sample if one sample is rejected or Ctrl-C interrupts.
 
         Parameters
         ----------

@@ -73,7 +73,7 @@ class GaugeStudy(Metrology):
 
 
 class CalibrationCurve(Metrology):
-    """Result of `curve`: coefficients, bands, and the other figures that were asked for."""
+    """Result of `curve`: coefficients, bands, and the other requested figures."""
 
     def __repr__(self) -> str:
         found = self.to_dict()

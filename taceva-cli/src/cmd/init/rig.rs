@@ -36,7 +36,7 @@ pub(super) fn write(
     let shear = interview.number(shear_question, Some(&as_normal), [0.01, 1000.0])?;
     let speed = interview.number("greatest speed, in mm/s", Some("20"), [0.1, 500.0])?;
     let text = format!(
-        "# The devices of one rig. taceva is no safety function: emergency stop and guards must work without it (docs/rig.md).
+        "# The devices of one rig. taceva is not a safety function: emergency stop and guards must work without it (docs/rig.md).
 rig_version = 1
 
 [robot]

@@ -312,7 +312,8 @@ impl RigCheck {
         match moved {
             Ok(_) => {
                 self.problems.push(RigProblem::NotHalted);
-                self.halt_left_out = Some("the robot did not stop, so there is no time".to_owned());
+                self.halt_left_out =
+                    Some("the robot did not stop, so no stopping time was measured".to_owned());
                 return Ok(());
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}
