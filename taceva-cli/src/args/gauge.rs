@@ -6,10 +6,11 @@ use clap::{Args, ValueEnum};
 
 use super::Output;
 
-/// A part is a contact condition, an operator is the factor that differs between its measurements (unit, gel, day, person, laboratory), and a trial is a repeat.
-/// Every operator measures every part equally often, or with `--nested` its own parts. The table is CSV or Parquet: `--samples-out` of
-/// `evaluate` writes one, and tables of several units are joined below one header. A column `source` with words such as recorded or simulated, or the
-/// result `<name>.json` beside `<name>.samples.csv`, states the origin of the samples. Fewer than five operators give wide intervals.
+/// A part is a contact condition, and a trial is a repeat. An operator is the factor that differs between the measurements of a part: unit, gel,
+/// day, person or laboratory. Every operator measures every part equally often, or with `--nested` its own parts. The table is CSV or Parquet:
+/// `--samples-out` of `evaluate` writes one, and tables of several units are joined below one header. A column `source` with words such as
+/// recorded or simulated, or the result `<name>.json` beside `<name>.samples.csv`, states the origin of the samples. Fewer than five operators
+/// give wide intervals.
 #[derive(Debug, Args)]
 pub(crate) struct Gauge {
     /// The table of readings

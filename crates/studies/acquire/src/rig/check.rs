@@ -74,8 +74,8 @@ pub struct HaltTrip {
 
 /// Measures the devices of `rig`. Halts the robot once during an upward motion, if `operator` allows it or the rig is emulated.
 ///
-/// Tests every device. A failed device is reported as a problem. Nothing moves if the robot, the force transducer or the enabling switch failed, or if the tip
-/// is not above the gel according to the file.
+/// Tests every device. A failed device is reported as a problem. Nothing moves if robot, force transducer or enabling switch failed, or if the
+/// tip is not above the gel according to the file.
 ///
 /// # Errors
 /// [`AcquireError::Scene`] with the line of an invalid rig file, before a device is opened.
