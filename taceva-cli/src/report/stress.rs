@@ -100,7 +100,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             false => names.join(", "),
         };
         notes.push(format!(
-            "Faults, severities and channels with an error at least doubled, unnoticed by the check of untouched pictures (TAC034): {names}."
+            "Errors at least doubled without a finding of the check of untouched pictures (TAC034), by fault, severity and channel: {names}."
         ));
     }
     notes.extend(missed_targets(report));
@@ -185,7 +185,7 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     });
     for of in &fault.unreached {
         line.push_str(&format!(
-            "; severity {} is not possible: {} of a contact at the parameter {}, expected {}",
+            "; severity {} is not possible: the stimulus is at most {} (at the parameter {}), expected {}",
             of.severity,
             short(of.most),
             short(of.parameter),
