@@ -185,7 +185,7 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     });
     for of in &fault.unreached {
         line.push_str(&format!(
-            "; severity {} is not possible: the stimulus is at most {} (at the parameter {}), expected {}",
+            "; severity {} is not possible: the stimulus is {} at the nearest parameter, {}, expected {}",
             of.severity,
             short(of.most),
             short(of.parameter),
