@@ -241,7 +241,7 @@ impl Sums {
     }
 
     /// Scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order. `name` names
-    /// the scored sensor or model, and `notes` are further ones.
+    /// the scored sensor or model, and `notes` are further notes.
     fn compute(
         &self,
         py: Python<'_>,

@@ -228,7 +228,7 @@ fn without_samples(names: &[String], studies: &[Study]) -> Option<String> {
     (!absent.is_empty()).then(|| {
         format!(
             "no samples are kept with {}: compared by the intervals of both, not sample by sample; `score` and `evaluate` keep up to \
-             {MOST_SAMPLES} samples, sums and files none: `save_samples` writes them beside a saved result",
+             {MOST_SAMPLES} samples; sums keep none, and files need the table that `save_samples` writes beside them",
             absent.join(", ")
         )
     })

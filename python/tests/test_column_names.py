@@ -155,7 +155,7 @@ def test_a_key_of_the_caller_pairs_rows_and_is_no_channel() -> None:
     assert mae(metrics.compute()) == pytest.approx(ERROR)
     by_order = taceva.score(truth.assign(sample=range(ROWS)), prediction.assign(sample=range(ROWS)[::-1]), key="order")
     assert mae(by_order) == pytest.approx(ERROR) and any("by order, as requested" in note for note in by_order.notes)
-    with pytest.raises(ValueError, match="key='trial': truth has no such column: expected a column of both, or 'order'"):
+    with pytest.raises(ValueError, match="key='trial': truth has no such column: expected a column of both tables, or 'order'"):
         taceva.score(touched, mixed, key="trial")
     with pytest.raises(ValueError, match="key='touch' names a column, but truth and prediction are arrays without names"):
         taceva.score(truth.to_numpy(), prediction.to_numpy(), channels=["Px", "Fz"], key="touch")

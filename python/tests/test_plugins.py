@@ -467,7 +467,7 @@ def test_complex_predictions_of_a_plugin_are_refused_as_those_of_any_model(tmp_p
     code = made / "__init__.py"
     code.write_text(code.read_text().replace("return np.einsum(", "return 1j + np.einsum("))
     done = program.check("org.example.my-plane", made, "--only", "estimator/fits")
-    assert "what the model predicted: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
+    assert "prediction of the model: expected numbers, found an array of complex128" in "\n".join(done["failed"]), done
 
 
 @pytest.mark.parametrize(

@@ -181,7 +181,7 @@ pub(crate) enum Command {
     Gauge(Gauge),
     /// Fit a calibration curve: bands, the reference value of a reading, limits of detection
     Curve(Curve),
-    /// Combine uncertainties to that of a reading: sources, measured or stated, and effects that none of them covers
+    /// Combine measured and stated uncertainties into the uncertainty of a reading, and list effects without a source
     Budget(Budget),
     /// Published numbers of sensors, each with its source, and numbers of bundles in a folder
     Catalogue(CatalogueArgs),
@@ -195,7 +195,7 @@ pub(crate) enum Command {
     Capture(Capture),
     /// Look at a sensor in a browser: live frames, force, focus and saturation; nothing is recorded
     Preview(Preview),
-    /// Plan, acquire, fit, evaluate and report a scene; without one, four sensors on the simulated bench
+    /// Plan, acquire, fit, evaluate and report a scene; without a scene, four sensors on the simulated bench
     Run(Run),
     /// Print the planned, kept and skipped steps of `run`, with reasons; opens no device
     Plan(PlanArgs),

@@ -31,7 +31,7 @@ def real(array: Any, name: str) -> npt.NDArray[Any]:
         For rows of unequal length, more rows than `MOST_ROWS`, a mask, and a tensor without memory.
     """
     if np.ma.isMaskedArray(array) and np.ma.getmaskarray(array).any():
-        raise ValueError(f"{name}: a masked array; expected one without a mask, with only the rows to score")
+        raise ValueError(f"{name}: a masked array; expected an array without a mask, with only the rows to score")
     found = np.asarray(_in_memory(array, name))
     is_number = found.dtype.kind in "iub" or (found.dtype.kind == "f" and found.dtype.itemsize <= 8)
     if not is_number:
@@ -56,7 +56,7 @@ def native(array: npt.NDArray[Any], name: str, *, allow_invalid: bool = False) -
 
 
 def with_units(channels: Sequence[str], units: Mapping[str, str]) -> list[tuple[str, str]]:
-    """Return each channel with its unit: the given one, that of the six, or ``1``."""
+    """Return each channel with its unit: the given unit, else mm or N for one of the six channels, else ``1``."""
     unknown = sorted(set(units) - set(channels))
     if unknown:
         raise ValueError(f"units: no channel {', '.join(unknown)}, expected channels among {', '.join(channels)}")
@@ -168,7 +168,7 @@ def _in_memory(array: Any, name: str) -> Any:
     if not (hasattr(array, "detach") and hasattr(array, "cpu")):
         return array
     if getattr(array, "is_meta", False):
-        raise ValueError(f"{name}: a tensor on the device meta, which holds no numbers; expected one with memory")
+        raise ValueError(f"{name}: a tensor on the device meta, which holds no numbers; expected a tensor with memory")
     tensor = array.detach().cpu()
     # numpy does not know bfloat16.
     return tensor.float() if str(tensor.dtype) == "torch.bfloat16" else tensor

@@ -30,7 +30,7 @@ _LEAST_KEYS = 5
 _SIX = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
 
 #: Remedy for an index without meaning.
-_REMEDY = "pass .to_numpy() where the order of rows is what counts, or reset_index(drop=True)"
+_REMEDY = "to pair rows by order, pass .to_numpy() or reset_index(drop=True)"
 
 
 @dataclass
@@ -134,7 +134,7 @@ def _of_xarray(table: Any, name: str) -> NamedColumns | None:
     if hasattr(table, "data_vars"):
         dims = list(dict.fromkeys(dim for column in table.data_vars.values() for dim in column.dims))
         if len(dims) != 1:
-            raise ValueError(f"{name}: a Dataset of the dimensions {dims}, expected one: that of the rows")
+            raise ValueError(f"{name}: a Dataset of the dimensions {dims}, expected one dimension, that of the rows")
         columns = {str(key): np.asarray(column.values) for key, column in table.data_vars.items()}
         return _with_rows(table, dims[0], columns)
     if table.ndim == 1:
@@ -307,7 +307,7 @@ def _order(
         for columns, name in ((truth, "truth"), (prediction, "prediction")):
             if columns is None or given not in columns.columns:
                 known = "none" if columns is None else ", ".join(columns.columns)
-                raise ValueError(f"key={given!r}: {name} has no such column: expected a column of both, or 'order'; its columns are {known}")
+                raise ValueError(f"key={given!r}: {name} has no such column: expected a column of both tables, or 'order'; its columns are {known}")
     if truth is None or prediction is None:
         return None, None
     for key in KEYS if given is None else (given,):
@@ -340,7 +340,7 @@ def aligned(own: Any, other: Any, what: str, remedy: str) -> npt.NDArray[np.intp
     Raises
     ------
     ValueError
-        For a repeated name, or a name that only one of them has.
+        For a repeated name, or a name that only ``own`` or only ``other`` has.
     """
     wanted, found = list(np.asarray(own).tolist()), list(np.asarray(other).tolist())
     if wanted == found and len(set(map(_hashable, found))) == len(found):
@@ -374,7 +374,7 @@ def _nearly(name: Any, others: Sequence[Any]) -> str:
 
 
 def _hashable(name: Any) -> Any:
-    """Return a whole number in decimal form as an integer, because pandas converts one into the other."""
+    """Return a whole number in decimal form as an integer, because pandas converts between both forms."""
     return int(name) if isinstance(name, float) and name.is_integer() else name
 
 

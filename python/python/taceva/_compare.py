@@ -63,7 +63,7 @@ def compare(
         Of the same metrics, such as of two models on one recording. The MAE of results of the same samples is compared in pairs, and other scores
         by their intervals. `score`, `score_tables` and `evaluate` keep up to 200,000 samples; `TactileMetrics` keeps none, and a note states so.
     metrics
-        Metrics to compare, by name, such as ``["mae", "r2"]``; by default every metric that both results have and of which one direction is better.
+        Metrics to compare, by name, such as ``["mae", "r2"]``; by default every metric of both results with a better direction.
     margins
         The largest difference that still counts as equal, in the unit of the metric: ``{"mae.Fz": 0.05}``, or ``{"mae": 0.05}`` for every channel.
     seed

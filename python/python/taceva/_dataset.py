@@ -46,7 +46,7 @@ class Samples(NamedTuple):
 
 
 class Dataset:
-    """A recording: labels of every sample, and frames or signals. `open` opens one, `from_arrays` writes one.
+    """A recording: labels of every sample, and frames or signals. `open` opens a recording, `from_arrays` writes one.
 
     ``dataset[3]``, ``dataset[-1]``, ``dataset[10:20]`` and ``dataset[mask]`` are `Samples`. ``frames``, ``features`` and the other methods
     accept the same kinds of rows.

@@ -105,7 +105,7 @@ def evaluate(
     if not learns and not callable(model):
         raise TypeError(
             f"model: {_name_of(model)} has no fit and predict and cannot be called; "
-            "expected a name, a file, or an object that learns or predicts"
+            "expected a name, a file, an object with fit and predict, or a callable"
         )
     if split is not None and re.match(r"(cv:|loo\b|leave-one)", split):
         raise ValueError(
@@ -113,11 +113,11 @@ def evaluate(
             f"each of dataset.folds({split!r}), and give all predictions to `score`, as docs/python.md shows"
         )
     if not bounded and not learns:
-        raise ValueError("bounded=False: a model used as given has no bounds")
+        raise ValueError("bounded=False: a model that is used without fitting has no bounds")
     if batch < 1:
         raise ValueError(f"batch {batch}: expected at least 1")
     if words and not learns:
-        raise ValueError(f"settings {', '.join(words)}: a model used as given has none")
+        raise ValueError(f"settings {', '.join(words)}: a model that is used without fitting has no settings")
     reads_frames = recording.frame_shape is not None
     given = _taceva.Given(recording._inner, list(channels), learns, split, seed, part, reads_frames, not bounded)
     # The model uses the channel order of the caller, the recording its own.

@@ -45,8 +45,8 @@ def score_function(
 ) -> dict[str, Score]:
     """Return the value of ``function`` for truth and prediction by channel, with an interval by contact point.
 
-    The 95 % interval is BCa. The function is called again for ``draws`` samples of whole points, drawn with replacement, and once without each
-    point, or each two-hundredth of them. The same ``seed`` gives the same interval. Fewer than six points give no interval.
+    The 95 % interval is BCa. The function is called again for ``draws`` samples of whole points, drawn with replacement. It is also called once
+    without each point, or without each two-hundredth of the points. The same ``seed`` gives the same interval. Fewer than six points give no interval.
 
     Parameters
     ----------
@@ -85,7 +85,7 @@ def score_function(
     if isinstance(channels, str):
         raise TypeError(f"channels: expected a list of names, found the text {channels!r}")
     if len(set(wanted)) < len(wanted):
-        raise ValueError(f"channels {', '.join(wanted)}: one is named twice")
+        raise ValueError(f"channels {', '.join(wanted)}: a channel is named twice")
     tables = [_table(both.truth, "truth", len(wanted)), _table(both.prediction, "prediction", len(wanted))]
     rows = len(tables[0])
     if len(tables[1]) != rows:

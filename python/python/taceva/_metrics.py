@@ -111,7 +111,7 @@ class TactileMetrics:
         allow_invalid: bool = False,
         **fields: Any,
     ) -> None:
-        """Add samples. Adds none if one is rejected or Ctrl-C interrupts.
+        """Add samples. Adds no sample if one sample is rejected or Ctrl-C interrupts.
 
         Parameters
         ----------
@@ -218,7 +218,7 @@ class TactileMetrics:
     def compute(self, *, name: str | None = None) -> Result:
         """Return the scores of all samples so far; more samples may follow. Without samples, the scores are undefined.
 
-        ``name`` is that of the sensor or the model, for tables.
+        ``name`` is the name of the sensor or the model, for tables.
         """
         return Result(self._scored(name, []))
 

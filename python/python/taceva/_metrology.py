@@ -73,7 +73,7 @@ class GaugeStudy(Metrology):
 
 
 class CalibrationCurve(Metrology):
-    """Result of `curve`: coefficients, bands, and the other figures that were asked for."""
+    """Result of `curve`: coefficients, bands, and the other requested figures."""
 
     def __repr__(self) -> str:
         found = self.to_dict()
@@ -121,7 +121,7 @@ def gauge(
     truth
         Reference values of an array of readings: errors are studied.
     channel
-        Channel to study: ``"Fz"`` of a table with several, or the name of an array. Its unit is that of the six channels.
+        Channel to study: ``"Fz"`` of a table with several, or the name of an array. Px, Py and Pz are in mm; Fx, Fy and Fz are in N.
     nested
         True if each operator measures its own parts.
     method
@@ -268,7 +268,7 @@ def budget(
     seed: int = 1,
     most: str | None = None,
 ) -> Budget:
-    """Combine uncertainties to that of a reading, as ``taceva budget`` does.
+    """Combine uncertainties into the uncertainty of a reading, as ``taceva budget`` does.
 
     Parameters
     ----------
@@ -279,7 +279,7 @@ def budget(
     gauge
         A study whose components the sources of a mapping name: ``"from": "gauge.json#operator"``.
     certificate
-        Certificate of the reference, in place of that of the result: a path, or a mapping such as ``{"force": {"certificate": {…}}}``.
+        Certificate of the reference, instead of the certificate in the result: a path, or a mapping such as ``{"force": {"certificate": {…}}}``.
     date
         Day of the recording, on which the certificate must be valid.
     at
@@ -443,7 +443,7 @@ def _cells(column: Any, name: str) -> list[str]:
         found = real(found, name)
         rows = np.flatnonzero(np.isinf(found))
         if len(rows):
-            raise ValueError(f"{name} row {rows[0]}: {found[rows[0]]}, expected a finite number, or NaN for a missing one")
+            raise ValueError(f"{name} row {rows[0]}: {found[rows[0]]}, expected a finite number, or NaN for a missing number")
         return ["" if number != number else repr(number) for number in found.tolist()]
     if found.dtype.kind in "mM":
         # A list of nanoseconds has a number for NaT.
@@ -480,7 +480,7 @@ def _options(**given: Any) -> list[str]:
 
 
 def _made(kind: Callable[[Mapping[str, Any]], _Made], words: list[str], own: Mapping[str, str], key: str) -> _Made:
-    """Return the result of a command. ``own`` has names for files that the user has never seen, ``key`` what differs between several results."""
+    """Return the result of a command. ``own`` has names for files that the user never sees, ``key`` the field in which results differ."""
     try:
         found = _taceva.metrology(["taceva", *words])
     except ValueError as error:
@@ -502,7 +502,7 @@ def _made(kind: Callable[[Mapping[str, Any]], _Made], words: list[str], own: Map
 
 
 def _resolved(sources: Mapping[str, Any], *, has_gauge: bool) -> dict[str, Any]:
-    """Return the sources with their version, and with whole paths of gauge studies."""
+    """Return the sources with their version, and with absolute paths of gauge studies."""
 
     def whole(source: Any) -> Any:
         named = source.get("from") if isinstance(source, Mapping) else None

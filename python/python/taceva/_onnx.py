@@ -98,7 +98,7 @@ class OnnxModel:
         return np.concatenate(found)
 
     def _rows(self, predicted: Any, rows: int) -> npt.NDArray[Any]:
-        seen = numbers(predicted, f"what {self.name} predicted", allow_invalid=True)
+        seen = numbers(predicted, f"prediction of {self.name}", allow_invalid=True)
         if seen.ndim == 0 or len(seen) != rows:
             raise ValueError(f"{self.name} predicted an array of the shape {list(seen.shape)} for {counted(rows, 'frame')}, expected [{rows}, channels]")
         return seen
@@ -115,7 +115,7 @@ class OnnxModel:
         ]
         if not fit:
             raise ValueError(
-                f"{self._path}: the input {self._input.name} has the shape {self._shape}, expected one that fits "
+                f"{self._path}: the input {self._input.name} has the shape {self._shape}, expected a shape that fits "
                 f"frames of {height}×{width} pixels of {counted(samples, 'sample')}"
             )
         return fit[0]
@@ -137,9 +137,9 @@ def onnx(path: str | os.PathLike[str], *, providers: list[str] | None = None, or
     Parameters
     ----------
     providers
-        Providers of onnxruntime, such as ``["CUDAExecutionProvider"]``; all available ones if ``None``.
+        Providers of onnxruntime, such as ``["CUDAExecutionProvider"]``; all available providers if ``None``.
     order
-        ``nchw`` or ``nhwc``; ``None`` chooses the one that matches the frames, ``nchw`` if both do.
+        ``nchw`` or ``nhwc``; ``None`` chooses the order that matches the frames, ``nchw`` if both match.
 
     Raises
     ------

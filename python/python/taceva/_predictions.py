@@ -23,7 +23,8 @@ def prediction_rows(predictions: Any, name: str, rows: int, channels: list[str])
         For a wrong shape, or other columns.
     """
     width = len(channels)
-    found = numbers(predicted(predictions, channels, f"what {name} predicted"), f"what {name} predicted", allow_invalid=True)
+    named = f"prediction of {name}"
+    found = numbers(predicted(predictions, channels, named), named, allow_invalid=True)
     if found.ndim == 1 and width == 1:
         found = found[:, np.newaxis]
     if found.shape != (rows, width):

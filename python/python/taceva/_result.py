@@ -221,7 +221,7 @@ class Result(Mapping[tuple[str, str], Score]):
         """
         samples = self._table_of_samples()
         if samples is None:
-            raise ValueError("no samples are kept: `score` and `evaluate` keep up to 200000, sums and loaded files without their table none")
+            raise ValueError("no samples are kept: `score` and `evaluate` keep up to 200000; sums, and loaded files without their table, keep none")
         with Path(path).open("x", encoding="utf-8", newline="\n") as file:
             file.write(samples)
 

@@ -32,7 +32,7 @@ def opened(states: bytes) -> bytes:
     """
     head, _, content = bytes(states).partition(b"\n")
     if not head.startswith(_HEAD):
-        raise ValueError("no states of metrics: expected the bytes that states() of this version of taceva returned")
+        raise ValueError("not states of metrics: expected the bytes that states() of this version of taceva returned")
     if sealed(content) != states:
         raise ValueError("the states were changed after states() returned them: the digest differs; send the bytes unchanged")
     return content

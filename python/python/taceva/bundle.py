@@ -71,11 +71,11 @@ def verify(
         The path of a folder or of a ``.tar.gz``.
     level
         The level to reach: ``"files"``, ``"form"``, ``"scores"``, ``"predictions"``, ``"model"`` or ``"fit"``.
-        Without it, the deepest that the files allow.
+        By default the deepest level that the files allow.
     datasets
         The recordings of the results, on which their models predict again.
     tolerance
-        The greatest difference of numbers that count as within, in the unit of each.
+        The greatest difference between a claim and its recomputed number for the verdict ``within``, in the unit of each score.
 
     Returns
     -------

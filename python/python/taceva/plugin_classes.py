@@ -92,8 +92,8 @@ class Force(_Streaming):
 class Robot(Device):
     """Robot that moves the tip.
 
-    Its class declares at least ``source``; better also ``workspace={"least_mm": [x, y, z], "greatest_mm": [x, y, z]}`` and
-    ``limits={"speed_max_mm_s": 50.0}``, which are checked before each call. Poses are in mm and degrees in the frame of the sensor, z into the gel.
+    Its class declares at least ``source``. Also declare ``workspace={"least_mm": [x, y, z], "greatest_mm": [x, y, z]}`` and
+    ``limits={"speed_max_mm_s": 50.0}``: they are checked before each call. Poses are in mm and degrees in the frame of the sensor, z into the gel.
 
     With ``guarded_motion=True`` it has a method ``move_guarded(target, speed, force, deadline)`` that stops by itself at ``force`` (N). It
     returns ``(pose, time)`` of that stop, or only the time if it reached the target. A robot that stops within 0.2 s after its program stops
@@ -185,7 +185,7 @@ class Estimator(_Provided):
         raise NotImplementedError(f"{type(self).__name__} has no predict(features)")
 
     def save(self) -> bytes:
-        """Return the model as bytes, equal for equal models. Do not use pickle: loading one can run any code."""
+        """Return the model as bytes, equal for equal models. Do not use pickle: loading a pickle can run any code."""
         raise NotImplementedError(f"{type(self).__name__} has no save()")
 
     @classmethod

@@ -140,7 +140,7 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
 
 /// Shortens `text` to `room` bytes: keeps beginning and end, and states the number of omitted bytes between them.
 fn shortened(text: &str, room: usize) -> String {
-    /// Greatest size of the text between them, in bytes.
+    /// Greatest size of the text that states the omitted bytes, in bytes.
     const BETWEEN: usize = 48;
     if text.len() <= room || room < 2 * BETWEEN {
         return text.to_owned();

@@ -101,7 +101,7 @@ impl Object {
         }
     }
 
-    /// True if it has a method called `name`.
+    /// True if the object has a method called `name`.
     pub(super) fn has(&self, name: &str) -> bool {
         Python::attach(|py| self.object.bind(py).hasattr(name).unwrap_or(false))
     }

@@ -12,7 +12,7 @@ use crate::errors::value_error;
 
 create_exception!(taceva, Interrupted, PyException, "The call was cancelled.");
 
-/// Longer than any call, in s.
+/// Time longer than any call, s.
 const LONG_S: f64 = 1e9;
 
 /// Signal that ends a wait early.

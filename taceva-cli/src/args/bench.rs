@@ -18,12 +18,12 @@ pub(crate) struct Bench {
 pub(crate) enum BenchSubject {
     /// Summation kernels: nanoseconds for each pair of values against correct digits
     Kernels(BenchKernels),
-    /// Models: time to fit, to predict and for one prediction against the error
+    /// Models: times of the fit, of all predictions and of one prediction, against the error
     Models(BenchModels),
 }
 
-/// Naive, two-pass, pairwise, Kahan, Neumaier and Welford sums and those of TacEva on every instruction set. Inputs show their differences;
-/// the time to read the columns is the lower limit. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
+/// Compares naive, two-pass, pairwise, Kahan, Neumaier and Welford sums with the sums of TacEva on every instruction set. The inputs are chosen
+/// to show differences. The time to read the columns is the lower limit. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
 #[derive(Debug, Args)]
 pub(crate) struct BenchKernels {
     /// Rows of each of the six channels
@@ -45,14 +45,14 @@ pub(crate) struct BenchKernels {
 /// the reason, and the others continue.
 #[derive(Debug, Args)]
 pub(crate) struct BenchModels {
-    /// The dataset [default: one of the simulated bench, 400 points of four presses]
+    /// The dataset [default: a recording of the simulated bench, 400 contact points with four presses each]
     #[arg(value_name = "DATASET")]
     pub(crate) dataset: Option<PathBuf>,
     /// A model, its settings after a colon: ridge, knn:size=16x16, cnn:epochs=20,batch=16; may be repeated
     /// [default: all but resnet10, resnet18, resnet34, cnn-ensemble, smartcore/lasso, smartcore/gradient-boosting and auto, which take long]
     #[arg(long = "model", value_name = "NAME[:KEY=VALUE,…]")]
     pub(crate) models: Vec<String>,
-    /// Number of times each model is fitted, in turns; the shortest processor time is reported
+    /// Number of fits of each model; the models take turns, and the shortest processor time is reported
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) rounds: NonZeroUsize,
     /// Fewer simulated presses, and short trainings unless --model is given

@@ -39,16 +39,17 @@ pub(crate) struct Budget {
     /// The sources: `[[source]]` with a name and an uncertainty, or with `from` and a measured figure
     #[arg(value_name = "BUDGET.toml", required_unless_present = "template")]
     pub(crate) sources: Option<PathBuf>,
-    /// The result of one sensor whose figures sources name, with its samples beside it: JSON of evaluate or score, or a report of a run
+    /// The result of one sensor, which `from` of the sources reads: JSON of evaluate or score, or a report of a run, with its samples beside it
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Option<PathBuf>,
-    /// The certificate of the reference, in place of that of the result: a table `[force.certificate]` or `[robot.certificate]`, as in a rig file
+    /// A file with the certificate of the reference, instead of the certificate in the result: a table `[force.certificate]` or
+    /// `[robot.certificate]`, as in a rig file
     #[arg(long, value_name = "CERTIFICATE.toml")]
     pub(crate) certificate: Option<PathBuf>,
-    /// The day on which the certificate must be valid [default: that of the recording, if the result states it]
+    /// The day on which the certificate must be valid [default: the day of the recording, if the result states it]
     #[arg(long, value_name = "YYYY-MM-DD")]
     pub(crate) date: Option<Date>,
-    /// The values of the measurand with their unit, separated by commas, such as 0.5N; only one with --format json [default: those of the file]
+    /// The values of the measurand with their unit, separated by commas, such as 0.5N; only one value with --format json [default: `at` of the file]
     #[arg(
         long,
         value_name = "VALUES",
@@ -56,7 +57,7 @@ pub(crate) struct Budget {
         allow_hyphen_values = true
     )]
     pub(crate) at: Vec<String>,
-    /// The greatest number of Monte Carlo draws; they end once two digits are stable. 0: none
+    /// The greatest number of Monte Carlo draws; drawing ends once two digits of the result are stable. 0: no draws
     #[arg(long = "mc", value_name = "N", default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(..=MOST_DRAWS))]
     pub(crate) draws: u64,
     /// The seed of the draws
@@ -68,7 +69,7 @@ pub(crate) struct Budget {
     /// Write a file of sources with every figure that this result measures; other effects are listed as comments
     #[arg(long, value_name = "RESULT", conflicts_with_all = ["sources", "results", "at", "draws", "seed", "most", "html", "format"])]
     pub(crate) template: Option<PathBuf>,
-    /// The channel of the template [default: Fz, or the first predicted one]
+    /// The channel of the template [default: Fz, or the first predicted channel]
     #[arg(long, value_name = "CHANNEL", requires = "template")]
     pub(crate) channel: Option<String>,
     #[command(flatten)]

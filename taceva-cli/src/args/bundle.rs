@@ -7,9 +7,9 @@ use taceva_bundle::{Author, Level, MOST_BYTES, Organization, Redaction};
 
 use super::{ListFormat, Output, PageArgs};
 
-/// A bundle holds results, the states behind them, the tables behind these, and texts for readers; `taceva bundle verify` computes the numbers
-/// again. States come from `--state-out`, tables are those of `score`, or the samples beside a result (`--samples-out NAME.samples.csv`), which
-/// are found by their digest. A seal is a digest and no signature: it shows damage and careless edits, not fraud.
+/// A bundle holds results, the states and tables from which they were computed, and texts for readers; `taceva bundle verify` computes the
+/// numbers again. States come from `--state-out`. Tables are the inputs of `score`, or the samples beside a result (`--samples-out
+/// NAME.samples.csv`), which are found by their digest. A seal is a digest and no signature: it shows damage and careless edits, not fraud.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Bundle {
@@ -24,7 +24,7 @@ pub(crate) struct Bundle {
 pub(crate) enum BundleSubject {
     /// Compute the numbers of a bundle again, as deep as its files allow; the exit code is 1 if a claim differs and 3 if the bundle is damaged
     Verify(BundleVerify),
-    /// Print claims and definitions of two bundles that differ, and whether both are of the same samples; neither bundle is verified
+    /// Print the claims and definitions that differ between two bundles, and whether both have the same samples; verifies neither bundle
     Diff(BundleDiff),
 }
 
@@ -45,7 +45,7 @@ pub(crate) struct BundleMake {
     /// The table of predictions that was scored
     #[arg(long = "pred", value_name = "TABLE", requires = "truth")]
     pub(crate) prediction: Option<PathBuf>,
-    /// The key that paired their rows, if one was given to score
+    /// The `--key` with which `taceva score` paired the rows of both tables
     #[arg(long, value_name = "NAME|order", requires = "truth")]
     pub(crate) key: Option<String>,
     /// A recording behind the result, to add its dataset.toml; not needed for a run; may be repeated
@@ -110,7 +110,7 @@ pub(crate) struct BundleVerify {
     /// The level to reach; the exit code is 1 if a claim does not reach it [default: the deepest that the files allow]
     #[arg(long, value_enum, value_name = "LEVEL")]
     pub(crate) level: Option<LevelArg>,
-    /// A recording behind the results: the model of the bundle predicts it again, as the levels model and fit need; may be repeated
+    /// A recording behind the results, which the levels model and fit need: the model of the bundle predicts it again; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     /// The greatest difference between a claim and its recomputed number for the verdict `within`, in the unit of each score
@@ -148,7 +148,7 @@ pub(crate) enum LevelArg {
     Predictions,
     /// The model reproduces the predictions on the recording that --dataset names
     Model,
-    /// A fit by the model card reproduces the model, or gives scores within the intervals of the claims; takes as long as the first fit
+    /// A fit with the settings of the model card reproduces the model, or gives scores within the intervals of the claims; takes as long as the first fit
     Fit,
 }
 

@@ -48,7 +48,7 @@ pub(crate) struct CachePrune {
     /// Remove entries that were unused for longer: 12h, 30d, 8w
     #[arg(long, value_name = "AGE", value_parser = age)]
     pub(crate) older_than: Option<Duration>,
-    /// Remove the longest unused entries until no more than this is left: 2GiB, 500MB, 0
+    /// Remove the longest unused entries until the cache holds at most this size: 2GiB, 500MB, 0
     #[arg(long, value_name = "SIZE", value_parser = size)]
     pub(crate) keep: Option<u64>,
     /// Only these kinds, separated by commas [default: all]

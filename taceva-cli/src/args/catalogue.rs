@@ -44,7 +44,7 @@ pub(crate) struct CatalogueList {
 pub(crate) struct CatalogueShow {
     /// The name of the sensor
     pub(crate) name: String,
-    /// The folder of a catalogue, whose numbers follow the published ones; each states its level
+    /// The folder of a catalogue, whose numbers follow the published ones; each number states the level of its verification
     #[arg(long, value_name = "DIR")]
     pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
@@ -67,10 +67,10 @@ pub(crate) struct CatalogueSite {
     pub(crate) force: bool,
 }
 
-/// The catalogue is a folder with `entries/`, one file for each sensor, and `bundles/`, the manifests. Numbers of recorded samples go into
-/// `[[measured]]`, of simulated or synthetic ones into `[[simulated]]`, and of samples without a stated origin into `[[unknown]]`. Published
-/// numbers stay as they are. A draft and a bundle whose results are there already are refused. The exit code is 1 for a bundle that is not
-/// verified, and 3 for one that is damaged or refused.
+/// The catalogue is a folder with `entries/`, one file for each sensor, and `bundles/`, the manifests. Numbers go into `[[measured]]` if their
+/// samples are recorded, into `[[simulated]]` if these are simulated or synthetic, else into `[[unknown]]`. Published numbers stay as they are.
+/// A draft is refused, and so is a bundle whose results the catalogue already has. The exit code is 1 for a bundle that is not verified, and 3
+/// for a damaged or refused bundle.
 #[derive(Debug, Args)]
 pub(crate) struct CatalogueAdd {
     /// The bundle: a folder, or a .tar.gz
@@ -91,14 +91,14 @@ pub(crate) struct CatalogueCheckArgs {
     /// The folder of the catalogue
     #[arg(value_name = "DIR")]
     pub(crate) catalogue: PathBuf,
-    /// A bundle at hand to verify again, whose manifest must be in the catalogue; may be repeated
+    /// A local bundle to verify again; its manifest must be in the catalogue; may be repeated
     #[arg(long = "bundle", value_name = "BUNDLE")]
     pub(crate) bundles: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }
 
-/// A form holds numbers of bundles alone. Write it again after `taceva catalogue add`.
+/// The files hold only numbers of bundles, not published numbers. Write them again after `taceva catalogue add`.
 #[derive(Debug, Args)]
 pub(crate) struct CatalogueExport {
     /// The folder of the catalogue

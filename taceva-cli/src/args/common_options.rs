@@ -42,7 +42,7 @@ pub(crate) struct SettingArgs {
     /// networks in a program built for GPUs; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Channels to predict, separated by commas; main tables have a row for each, instead of planes [default: all]
+    /// Channels to predict, separated by commas; main tables then have a row for each channel, instead of rows for planes [default: all]
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(crate) channels: Vec<String>,
 }
@@ -57,12 +57,12 @@ pub(crate) struct ViewArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SplitArgs {
-    /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Write shares
-    /// of training, validation and test behind a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all
-    /// trains on every sample, for a final model. cv:K and loo predict each sample once; random, by-point, by-block or by-column:NAME may
-    /// follow. For several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model for each
-    /// [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random;
-    /// `evaluate` of 5 to 999 groups: cv:5 of these]
+    /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Write shares of
+    /// training, validation and test behind a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all trains on
+    /// every sample, for a final model. cv:K and loo predict each sample once; random, by-point, by-block or by-column:NAME may follow. For
+    /// several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model without each recording in turn
+    /// [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random; `evaluate`
+    /// of 5 to 999 groups: cv:5 of these]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]

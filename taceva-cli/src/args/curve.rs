@@ -7,16 +7,17 @@ use clap::Args;
 use super::Output;
 
 /// The table is CSV or Parquet: `--samples-out` of `evaluate` writes one. A polynomial is fitted by least squares to readings y over reference values x.
-/// Rows of one contact point are not independent: from five points on, bands also follow from fits without each point, and the wider one is given.
+/// Rows of one contact point are not independent. With five or more points, bands are also computed from fits that leave out one point
+/// each; the wider band is given.
 #[derive(Debug, Args)]
 pub(crate) struct Curve {
     /// The table of readings
     #[arg(value_name = "TABLE")]
     pub(crate) table: PathBuf,
-    /// The column of reference values, such as Fz; truth.Fz names the same
+    /// The column of reference values, such as Fz; truth.Fz names the same column
     #[arg(long, value_name = "COLUMN")]
     pub(crate) x: String,
-    /// The column of readings, such as `Fz_predicted`; prediction.Fz names the same
+    /// The column of readings, such as `Fz_predicted`; prediction.Fz names the same column
     #[arg(long, value_name = "COLUMN")]
     pub(crate) y: String,
     /// The order of the polynomial, 1 to 3
@@ -42,10 +43,10 @@ pub(crate) struct Curve {
     /// Also give the critical and the detectable reference value
     #[arg(long)]
     pub(crate) detect: bool,
-    /// Also give relative errors like those of ISO 7500-1, from a fifth of the greatest reference value on; they give no class
+    /// Also give relative errors like those of ISO 7500-1, from a fifth of the greatest reference value on; no class is assigned
     #[arg(long)]
     pub(crate) iso7500: bool,
-    /// Also give relative errors like those of ISO 376, of series X1, X2, X3, X4', X5 and X6' that the cells of this column name; they give no class
+    /// Also give relative errors like those of ISO 376, of series X1, X2, X3, X4', X5 and X6' that the cells of this column name; no class is assigned
     #[arg(long, value_name = "COLUMN")]
     pub(crate) iso376: Option<String>,
     /// The number of new readings that are averaged

@@ -37,7 +37,7 @@ pub(crate) struct Import {
     /// Append the rows to this dataset, imported earlier with a map of the same sensor; earlier rows keep their part of every split
     #[arg(long, value_name = "DATASET", conflicts_with_all = ["out", "draft", "force"])]
     pub(crate) extend: Option<PathBuf>,
-    /// Append rows whose labels have another calibration certificate than those of the dataset, which then names both
+    /// Append rows whose labels have another calibration certificate than the labels of the dataset; the dataset then names both certificates
     #[arg(long, requires = "extend")]
     pub(crate) new_certificate: bool,
     #[command(flatten)]
@@ -63,7 +63,7 @@ pub(crate) struct Import {
 pub(crate) struct Export {
     /// The dataset
     pub(crate) dataset: PathBuf,
-    /// The folder to write: a new one, created completely or not at all
+    /// The new folder to write, created completely or not at all
     #[arg(long, value_name = "FOLDER")]
     pub(crate) out: PathBuf,
     /// The format
@@ -71,7 +71,7 @@ pub(crate) struct Export {
     pub(crate) format: Form,
 }
 
-/// One fact a line: content, origin and days, the instruments that measured the labels with their certificates, settings and latencies of the devices,
+/// Prints one fact per line: content, origin and days, the instruments that measured the labels with their certificates, settings and latencies of the devices,
 /// sessions, warnings. No frame is decoded.
 #[derive(Debug, Args)]
 pub(crate) struct Show {
@@ -120,7 +120,7 @@ pub(crate) struct Reseal {
 /// more. The exit code is 1 if a finding is an error.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
-    /// The dataset to check; several recordings are checked one by one, and then whether they can be joined
+    /// The dataset to check; several recordings are checked one by one, and then for conflicts between them
     #[arg(required = true, value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     /// Compare this folder, or a tar of it, with the files that the dataset was imported from, and run no other check

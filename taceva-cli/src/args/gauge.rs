@@ -6,10 +6,11 @@ use clap::{Args, ValueEnum};
 
 use super::Output;
 
-/// A part is a contact condition, an operator is the factor that differs between its measurements (unit, gel, day, person, laboratory), and a trial is a repeat.
-/// Every operator measures every part equally often, or with `--nested` its own parts. The table is CSV or Parquet: `--samples-out` of
-/// `evaluate` writes one, and tables of several units are joined below one header. A column `source` with words such as recorded or simulated, or the
-/// result `<name>.json` beside `<name>.samples.csv`, states the origin of the samples. Fewer than five operators give wide intervals.
+/// A part is a contact condition, and a trial is a repeat. An operator is the factor that differs between the measurements of a part: unit, gel,
+/// day, person or laboratory. Every operator measures every part equally often, or with `--nested` its own parts. The table is CSV or Parquet:
+/// `--samples-out` of `evaluate` writes one, and tables of several units are joined below one header. A column `source` with words such as
+/// recorded or simulated, or the result `<name>.json` beside `<name>.samples.csv`, states the origin of the samples. Fewer than five operators
+/// give wide intervals.
 #[derive(Debug, Args)]
 pub(crate) struct Gauge {
     /// The table of readings
@@ -33,13 +34,14 @@ pub(crate) struct Gauge {
     /// The readings [default: error where the table holds the truth, else prediction]
     #[arg(long, value_enum)]
     pub(crate) response: Option<GaugeResponse>,
-    /// The width of the tolerance with its unit, such as 0.1N: adds the share of six deviations in it
+    /// The width of the tolerance with its unit, such as 0.1N: adds the ratio of six standard deviations to it
     #[arg(long, value_name = "WIDTH")]
     pub(crate) tolerance: Option<String>,
     /// Pool the interaction with repeatability if its p value is above this
     #[arg(long, value_name = "P", default_value_t = 0.25)]
     pub(crate) pool: f64,
-    /// The channels to study, separated by commas, such as Fz; only one with --format json [default: all with a prediction, in the unit of the tolerance]
+    /// The channels to study, separated by commas, such as Fz; only one channel with --format json [default: all with a prediction, in the unit
+    /// of the tolerance]
     #[arg(long, value_name = "CHANNELS", value_delimiter = ',')]
     pub(crate) channels: Vec<String>,
     /// Leave out parts with a missing or surplus reading, and count them, instead of refusing the table
@@ -62,7 +64,7 @@ pub(crate) enum GaugeMethod {
 /// Readings of a channel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(crate) enum GaugeResponse {
-    /// The predictions, or the column of the channel itself where there are none
+    /// The predictions, or the column of the channel itself if the table has no predictions
     Prediction,
     /// Prediction minus truth
     Error,

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Subcommand};
 
 /// Each question is answered by one line; Enter takes the default in brackets. Answers may also come from a file or a pipe. Every file is
-/// checked as by the command that reads it, and the next commands are printed.
+/// checked by the rules of the command that reads it, and the next commands are printed.
 #[derive(Debug, Args)]
 pub(crate) struct Init {
     #[command(subcommand)]
@@ -37,7 +37,7 @@ pub(crate) struct InitTarget {
     /// The file to write [default: map.toml, scene.toml or rig.toml in the working folder]
     #[arg(long = "out", value_name = "FILE")]
     pub(crate) path: Option<PathBuf>,
-    /// Ask nothing and take every default; a map keeps places without one open
+    /// Ask nothing and take every default; a map keeps places without a default open
     #[arg(long, short)]
     pub(crate) yes: bool,
     /// Replace a file that exists already

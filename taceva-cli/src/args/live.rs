@@ -36,7 +36,7 @@ capture: it skips frames that arrive too fast, and counts them. A model that nee
   taceva capture more --rig hand.toml --model presses.taceva    forces measured and predicted, side by side on a page
 
 Ctrl-C ends the capture; the dataset is complete. The progress line, the header and `taceva check` (TAC015) count lost frames.
-A frame is lost if the queue of 8 is full, or if the program does not read it in time, which its number shows.
+A frame is lost if the queue of 8 frames is full, or if the program does not read it in time: frame numbers then have a gap.
 
 The exit code is 0 after --for or --frames, or at Ctrl-C without either; 4 if a device failed; 5 at Ctrl-C before --for or --frames. The
 dataset is complete in each case. After a full disk or a power cut `taceva capture OUT --close` closes the interrupted recording.";
@@ -88,9 +88,9 @@ const PREVIEW_HELP: &str = "Prints the address of a page on this machine. The pa
 pixels, and a sharpness that is greatest in focus. Nothing is recorded. Ctrl-C or the button of the page ends the preview.
 
 With --model a fitted model predicts the newest picture, up to 60 a second. The page shows its newtons and millimetres over that picture, marked as
-predictions, and marks pictures unlike the training pictures. It skips and counts older pictures if the model is too slow.
-At the end the command prints the frames seen, shown and skipped, and the share unlike the training pictures. It also prints the delay after the
-stamp within which 95 % were sent to the page.
+predictions, and marks pictures unlike the training pictures. The preview skips and counts older pictures if the model is too slow.
+At the end the command prints the frames seen, shown and skipped, and the share unlike the training pictures. It also prints the delay
+from the stamp to the page that 95 % of the pictures did not exceed.
 
   taceva preview --sensor camera/mjpeg:url=http://192.168.1.20:8080/?action=stream
   taceva preview --rig hand.toml

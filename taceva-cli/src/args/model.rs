@@ -12,7 +12,7 @@ use super::{
 };
 
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
-/// stopped. The same command resumes from it, writes the same bytes as an uninterrupted one, and removes it.
+/// stopped. The same command resumes from the checkpoint, writes the same bytes as an uninterrupted training, and removes the checkpoint.
 #[derive(Debug, Args)]
 pub(crate) struct Fit {
     /// The dataset to train on; several recordings of one kind of sensor are joined
@@ -96,7 +96,7 @@ pub(crate) struct Predict {
     /// pictures
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) out: PathBuf,
-    /// Write unclamped predictions, beyond the bounds of the model; robustness is computed from these
+    /// Write predictions without clamping them to the bounds of the model; robustness is computed from these
     #[arg(long)]
     pub(crate) unbounded: bool,
     /// Also write the standard deviation of each prediction, for a model that estimates it: gaussian-process
@@ -121,7 +121,7 @@ pub(crate) struct Score {
     /// The predictions: a table with the same channels
     #[arg(long, value_name = "PRED.csv")]
     pub(crate) pred: PathBuf,
-    /// Units of channels besides the six, as NAME=UNIT, separated by commas [default: 1]
+    /// Units of channels other than Px, Py, Pz, Fx, Fy and Fz, as NAME=UNIT, separated by commas [default: 1]
     #[arg(long, value_name = "NAME=UNIT", value_delimiter = ',')]
     pub(crate) units: Vec<String>,
     /// Periods of angles in the unit of the column, as NAME=360 or NAME=2pi, separated by commas: values that differ by a period are equal
@@ -133,8 +133,8 @@ pub(crate) struct Score {
     /// Count NaN and infinite cells as n_invalid instead of rejecting the file
     #[arg(long)]
     pub(crate) allow_invalid: bool,
-    /// Score only shard K of N: consecutive rows, of tables of any length; `taceva merge` merges the states of --state-out to the scores of
-    /// all rows
+    /// Score only shard K of N, a range of consecutive rows; tables may have any length; `taceva merge` merges the states of --state-out to the
+    /// scores of all rows
     #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
     pub(crate) shard: Option<Shard>,
     #[command(flatten)]

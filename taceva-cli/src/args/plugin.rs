@@ -17,7 +17,7 @@ pub(crate) struct PluginArgs {
     /// Ask this Python interpreter for the plugins in its environment, and run Python plugins with it; may be repeated
     #[arg(long = "python", global = true, value_name = "FILE")]
     pub(crate) interpreters: Vec<PathBuf>,
-    /// Run this plugin without confinement, a library in this process and Python in its own process; may be repeated
+    /// Run this plugin without confinement: a library runs in this process, Python in its own process; may be repeated
     #[arg(long = "trust", global = true, value_name = "ID")]
     pub(crate) trusted: Vec<PluginId>,
 }
@@ -43,7 +43,7 @@ pub(crate) enum Plugin {
     Install(PluginInstall),
     /// Remove an installed plugin
     Uninstall(PluginUninstall),
-    /// Allow a plugin to access needs that its manifest declares: a camera, a port, a machine, a file
+    /// Grant a plugin access that its manifest requests: to a camera, a port, a machine, a file
     Allow(PluginAllow),
     /// Revoke access of a plugin
     Deny(PluginDeny),
@@ -132,9 +132,9 @@ pub(crate) struct PluginHeaders {
     pub(crate) out: Option<PathBuf>,
 }
 
-/// Each check runs in a sandboxed process with the access that `taceva plugin allow` grants; with `--trust ID`, in one that is not
-/// confined. A real device is opened at most three times for each check, and checks of a missing device are skipped. A common cause of
-/// several failures is reported once. The exit code is 1 if a check fails.
+/// Each check runs in a sandboxed process with the access that `taceva plugin allow` grants; with `--trust ID`, the process is not confined. A
+/// real device is opened at most three times for each check, and checks of a missing device are skipped. A common cause of several failures is
+/// reported once. The exit code is 1 if a check fails.
 #[derive(Debug, Args)]
 pub(crate) struct PluginCheck {
     /// The id of the plugin
@@ -212,7 +212,7 @@ pub(crate) struct PluginPack {
 /// device:/dev/spidev0.0      another character device
 /// tcp:10.0.0.5:502           connections to one machine and port; `tcp:10.0.0.*:502` to all of a network
 /// udp:10.0.0.5:49152         messages to and from a machine
-/// listen:5025                a TCP port on which it waits for connections
+/// listen:5025                a TCP port on which the plugin waits for connections
 /// read:/run/scale            a file, or every file in a folder, read-only
 #[derive(Debug, Args)]
 #[command(verbatim_doc_comment)]

@@ -6,16 +6,16 @@ use clap::{ArgGroup, Args, ValueEnum};
 
 use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 
-/// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of runs
-/// (or their results.json), or names of the catalogue. If two of them predict the same samples, mean absolute errors are compared sample by
-/// sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a run. Other
-/// scores are compared by the intervals of both, with Holm's adjustment.
+/// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of
+/// runs (or their results.json), or names of the catalogue. If two results predict the same samples, their mean absolute errors are compared
+/// sample by sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a
+/// run. Other scores are compared by the intervals of both, with Holm's adjustment.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
-    /// The folder of a catalogue, whose sensors can be named too; numbers of its bundles state their level
+    /// The folder of a catalogue, whose sensors can be named too; numbers of its bundles state the level of their verification
     #[arg(long, value_name = "DIR")]
     pub(crate) catalogue: Option<PathBuf>,
     /// Metrics, separated by commas: ids, or the groups accuracy and all [default: all with a direction]
@@ -29,7 +29,7 @@ pub(crate) struct Compare {
     pub(crate) margins: Vec<String>,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Print every score and every pair with both p values and its interval, not only the main ones. Markdown, CSV and JSON have every pair in any case
+    /// Print every score and every pair with both p values and its interval, not only the main scores and pairs. Markdown, CSV and JSON have every pair in any case
     #[arg(long)]
     pub(crate) all: bool,
     #[command(flatten)]
@@ -76,8 +76,8 @@ pub(crate) enum Like {
     Taceva,
 }
 
-/// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft ones
-/// rank. A sensor whose number is unknown stays open.
+/// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft
+/// needs rank the others. A sensor whose number is unknown stays open.
 #[derive(Debug, Args)]
 #[command(after_help = needs_help(), group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
@@ -90,7 +90,8 @@ pub(crate) struct Choose {
     /// Choose among these results instead of the catalogue; may be repeated
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
-    /// The folder of a catalogue, whose measured numbers are included; each states its level, and numbers of different samples are not ranked
+    /// The folder of a catalogue, whose measured numbers are included; each states the level of its verification, and numbers of different
+    /// samples are not ranked
     #[arg(long, value_name = "DIR", conflicts_with = "results")]
     pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]
@@ -163,7 +164,7 @@ pub(crate) struct Accept {
     /// Print the acceptance limit for this consumer's risk, such as 0.005: the share of units that are accepted and do not meet the limit
     #[arg(long, value_name = "SHARE", requires = "process")]
     pub(crate) target_risk: Option<f64>,
-    /// Count a conditional pass as met: within the limit, not accepted by its rule
+    /// Count a conditional pass as met: the value is within the limit, but its rule does not accept it
     #[arg(long, value_name = "VERDICT")]
     pub(crate) conditional: Option<Conditional>,
     /// The date of the data sheet [default: today, in UTC]

@@ -79,11 +79,11 @@ fn mass_g(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a mass in mg, g or kg, such as 100g, up to 100kg".to_owned())
 }
 
-/// This program moves nothing: you jog the robot by its own pendant or program, and this one reads its position.
+/// taceva does not move the robot. Jog it with its own pendant or program, to three places; taceva reads its position:
 ///
-/// 1. until the tip just touches the middle of the untouched gel,
+/// 1. the tip just touches the middle of the untouched gel,
 /// 2. a little up and 5 to 10 mm along x of the sensor,
-/// 3. from the middle 5 to 10 mm along y of the sensor, so that z points into the gel.
+/// 3. from the middle, 5 to 10 mm along y of the sensor, so that z points into the gel.
 ///
 /// A step that ends more than 0.5 mm off an axis of the robot's base is rejected, and so is a turned tool. The file must contain both keys,
 /// with any values: origin_mm = [0.0, 0.0, 0.0] and axes = ["x", "y", "z"]. Everything else in it stays.

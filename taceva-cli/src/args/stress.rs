@@ -8,8 +8,8 @@ use taceva_stress::FAULTS;
 use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
 /// Faults are applied to the pictures of the recording, and the model predicts them without being fitted again. Severities 1 to 5 change the
-/// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. If the model reads an untouched picture, a fault
-/// that is alike in all pictures is also scored with an untouched picture from after it. A fitted model is scored on samples that it has not seen.
+/// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. If the model reads an untouched picture, a fault that is alike in
+/// all pictures has a second score: with an untouched picture that has the fault. A fitted model is scored on samples that it has not seen.
 #[derive(Debug, Args)]
 #[command(after_help = faults_help())]
 pub(crate) struct Stress {
@@ -21,7 +21,7 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 and all each name the whole list
+    /// Faults, separated by commas; gel-12 and all both mean the whole list
     #[arg(
         long,
         value_name = "FAULTS",
@@ -37,7 +37,7 @@ pub(crate) struct Stress {
     pub(crate) by: StressBy,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Draws of the places of dead pixels, scratches, tears and dust, so that one draw does not decide; each is predicted
+    /// Random draws of the places of dead pixels, scratches, tears and dust; every draw is predicted, so that no single draw decides
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     pub(crate) draws: u32,
     /// The part of the recording [default: test, or all if the model was fitted on another recording]

@@ -15,8 +15,8 @@ pub(crate) struct SceneArgs {
     /// The seed of all random numbers, instead of the scene's
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
-    /// The rig file with the robot, the force transducer and the sensor to measure with, instead of those that the scene names; an operator
-    /// holds its enabling switch, if it names one, while the robot moves; see docs/rig.md
+    /// The rig file with the robot, the force transducer and the sensor to measure with, instead of those that the scene names; if the file
+    /// names an enabling switch, an operator holds it while the robot moves; see docs/rig.md
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
 }
@@ -33,8 +33,8 @@ pub(crate) struct Run {
     /// A setting of the model or of its features, such as epochs=30 or size=32x32, in addition to those of the scene; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
-    /// Seeds of the model, such as 1-5 or 1,2,7, to estimate the spread of scores over trainings. Presses and split stay the same; reports
-    /// are those of the first seed, with means and intervals over all of them
+    /// Seeds of the model, such as 1-5 or 1,2,7, to estimate the spread of scores over trainings. Presses and split stay the same; reports are
+    /// those of the first seed, with means and intervals over all seeds
     #[arg(long, value_name = "SEEDS", value_parser = Seeds::read)]
     pub(crate) seeds: Option<Seeds>,
     /// Visit every place in the air, 10 mm above the height of travel, with the guard of a run: nothing is pressed or recorded. Recommended

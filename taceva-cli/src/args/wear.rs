@@ -8,7 +8,7 @@ use super::{Output, ViewArgs};
 
 /// Recordings of one unit are ordered by the presses on their gel, or by date. The model predicts each of them without being fitted again. For each
 /// gel the table has the error of each recording, and the change of its untouched picture. Notes state the growth of each error and where a limit is
-/// met. They name the first recording whose error is shown to differ from that of the first.
+/// met. They name the earliest recording whose error is shown to differ from the error of the first recording.
 ///
 /// The presses are `presses_since_gel` in [sensor] of a map or of dataset.toml; `taceva reseal` accepts the edit.
 #[derive(Debug, Args)]

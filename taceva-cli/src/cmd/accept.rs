@@ -91,7 +91,7 @@ fn units_of(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
             let first = units.iter().zip(&files).find(|(other, _)| is_same(other));
             if let Some((_, first)) = first.filter(|_| is_known) {
                 return Err(Usage::error(format!(
-                    "--process {}: serial {} of {} also occurs in {}; expected one result of each unit: name only one of them",
+                    "--process {}: serial {} of {} also occurs in {}; expected one result of each unit: name only one of these files",
                     shown(path),
                     shown(&unit.serial),
                     shown(&unit.sensor),
@@ -121,7 +121,7 @@ fn study_of(result: &Path) -> anyhow::Result<Study> {
     match (studies.pop(), studies.len()) {
         (Some(study), 0) => Ok(study),
         (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one; the folder `reports` of a run has a result for each sensor",
+            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
             shown(&result),
             others + usize::from(found.is_some())
         ))),

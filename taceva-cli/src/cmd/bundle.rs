@@ -28,7 +28,7 @@ fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
     };
     if !args.draft && (args.authors.is_empty() || args.licence.is_none()) {
         return Err(Usage::error(
-            "a bundle states who made it and how it may be used: add --author \"NAME <ORCID>\" and --licence SPDX, or make a draft by --draft",
+            "a bundle states who made it and how it may be used: add --author \"NAME <ORCID>\" and --licence SPDX, or make a draft with --draft",
         ));
     }
     output::check_free(out, args.force)?;

@@ -177,11 +177,11 @@ pub(super) fn open(args: &LiveArgs, context: &Context) -> anyhow::Result<(LiveSp
     Ok((spec, live))
 }
 
-/// Line for the start of a recording, which states how to end it: `press; Ctrl-C ends it, or 20 frames`.
+/// Line for the start of a recording, which states how to end it: `press; Ctrl-C ends the capture, or 20 frames`.
 fn call_to_press(args: &Capture) -> String {
     let frames = args.frames.map(|frames| counted(frames, "frame"));
     let ends = frames.into_iter().chain(args.lasts.map(spoken));
-    ends.fold("press; Ctrl-C ends it".to_owned(), |line, end| {
+    ends.fold("press; Ctrl-C ends the capture".to_owned(), |line, end| {
         format!("{line}, or {end}")
     })
 }
@@ -233,7 +233,7 @@ fn summarise(
 ) {
     let path = shown(path).to_string();
     let lost = match state.stream.lost() {
-        0 => "none was lost".to_owned(),
+        0 => "no frame was lost".to_owned(),
         lost => format!(
             "{lost} {} lost ({} dropped, {} damaged)",
             by_count(lost, "was", "were"),

@@ -86,8 +86,8 @@ fn compared(recordings: &[Dataset], folder: &Path, context: &Context) -> anyhow:
                     shown(folder),
                     by_count(
                         count,
-                        "differs from the imported one",
-                        "differ from the imported ones"
+                        "differs from the imported file",
+                        "differ from the imported files"
                     )
                 ),
             }

@@ -199,7 +199,7 @@ fn inverted(args: &Curve, y: &Axis) -> anyhow::Result<Vec<f64>> {
         let reading = Quantity::read("--invert", word)?;
         if let Some(unit) = y.unit.filter(|unit| *unit != reading.unit) {
             return Err(Usage::error(format!(
-                "--invert {}: the readings are in {}, expected one in this unit",
+                "--invert {}: the readings are in {}, expected a reading in this unit",
                 shown(&reading.written),
                 unit.symbol()
             )));

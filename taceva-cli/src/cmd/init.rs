@@ -33,7 +33,7 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
             let kinds = ["recording", "scene", "rig"];
             interview.say("recording: a folder of pictures and labels; scene: simulated sensors, no data needed; rig: your robot, transducer and camera");
             match interview
-                .choose("which one do you have", &kinds, Some("recording"))?
+                .choose("what do you begin with", &kinds, Some("recording"))?
                 .as_str()
             {
                 "scene" => scene::write(&none, interview, context),

@@ -116,7 +116,7 @@ fn in_words<'c>(
 
 fn summary(model: &LiveModel, counts: &PredictionCounts, sent: &Latencies) -> Vec<String> {
     let mut lines = vec![format!(
-        "predictions by {}: {} seen, {} shown, {} dropped for newer ones",
+        "predictions by {}: {} seen, {} shown, {} dropped for newer frames",
         by(model),
         counted(counts.seen, "frame"),
         counts.predicted,

@@ -37,7 +37,10 @@ pub(in crate::cmd) fn terminal(page: Option<Live>) -> Option<AtTerminal> {
 fn keys(question: &Question) -> String {
     match question {
         Question::Enable { robot, .. } => {
-            format!("type {} to let it move; q or Esc: stop", shown(robot))
+            format!(
+                "type {} to let the robot move; q or Esc: stop",
+                shown(robot)
+            )
         }
         Question::Resume(_) | Question::GoOn => "Enter: continue; q or Esc: stop".to_owned(),
         _ => "Enter: done, hands out of reach; s: skip; q or Esc: stop".to_owned(),

@@ -31,7 +31,7 @@ pub(crate) fn run(args: &Preview, context: &Context) -> anyhow::Result<u8> {
         .stage(&format!("{}; nothing is recorded", live.frame_info()));
     // Printed even with `--quiet`, because the page cannot be found without it.
     stderr::say(format_args!("page: {}", page.url()));
-    context.say(format_args!("Ctrl-C ends it"));
+    context.say(format_args!("Ctrl-C ends the preview"));
     let shown = model
         .as_ref()
         .map(|model| LivePredictions::new(model, page.live(), context));

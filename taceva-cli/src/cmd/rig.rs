@@ -23,7 +23,7 @@ pub(crate) fn run(args: &RigCommand, context: &Context) -> anyhow::Result<u8> {
     }
 }
 
-/// Fails if the rig file at `path` cannot be replaced, before the work whose result it would take.
+/// Fails if the rig file at `path` cannot be replaced, before the work whose result would replace it.
 fn check_replaceable(path: &Path) -> anyhow::Result<()> {
     let staged = taceva_files::Staged::beside(path).map(drop);
     staged.with_context(|| {

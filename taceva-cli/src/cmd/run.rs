@@ -59,7 +59,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let folder = RunFolder::open(&path, &planned, existing)?;
     match (args.resume, &args.folder) {
         (true, None) => context.say(format_args!(
-            "run in {}, the last run of this scene; --out FOLDER resumes another",
+            "run in {}, the last run of this scene; --out FOLDER resumes another run",
             shown(&path)
         )),
         _ => context.say(format_args!("run in {}", shown(&path))),

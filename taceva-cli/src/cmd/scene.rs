@@ -104,7 +104,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             context.say(format_args!("rig: {change}"));
         }
         context.say(format_args!(
-            "rig: taceva is no safety function; the emergency stop and the guards of the site must work without it (docs/rig.md)"
+            "rig: taceva is not a safety function; the emergency stop and the guards of the site must work without it (docs/rig.md)"
         ));
     }
 }
@@ -160,7 +160,7 @@ pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
         None => reasons.into_iter().max_by_key(|(_, metrics)| *metrics),
         written => written,
     };
-    let reason = most.map_or_else(|| "none is requested".to_owned(), |(reason, _)| reason);
+    let reason = most.map_or_else(|| "no metric is requested".to_owned(), |(reason, _)| reason);
     Err(Usage::error(format!(
         "{}: no metric is kept, so nothing would be measured: {reason}",
         shown(&planned.text.name)

@@ -40,7 +40,7 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
     let is_known = args.calibration.is_some() && !args.fresh;
     if is_known && !monitor.learn_from(&calibration, work)? {
         context.say(format_args!(
-            "{}: too few untouched pictures, so the first {} that are watched set the limits",
+            "{}: too few untouched pictures, so the first {} watched pictures set the limits",
             shown(path),
             monitor.missing()
         ));
@@ -98,8 +98,8 @@ fn watch_sensor(args: &Watch, monitor: Monitor, context: &Context) -> anyhow::Re
     }
     if monitor.missing() > 0 {
         anyhow::bail!(
-            "nothing was watched: {} more untouched pictures are needed to set the limits; take more by --frames, or name by --calibration a recording \
-             with 250 untouched pictures",
+            "nothing was watched: {} more untouched pictures are needed to set the limits; set a larger --frames, or name a recording \
+             with 250 untouched pictures after --calibration",
             monitor.missing()
         );
     }
@@ -126,7 +126,7 @@ fn summarise(monitor: &Monitor, context: &Context) {
     ));
     if let Some([level, pattern, detail]) = monitor.smallest() {
         context.say(format_args!(
-            "least changes that are found, beside the change by contact: brightness {level:.2}, large parts {pattern:.2}, detail {detail:.2}"
+            "smallest changes that are found, relative to the change by contact: brightness {level:.2}, large parts {pattern:.2}, detail {detail:.2}"
         ));
     }
 }

@@ -53,7 +53,9 @@ fn limits(words: &[String]) -> anyhow::Result<ByChannel<Amount>> {
         let Quantity { value, unit, .. } = Quantity::read("--limit", amount)?;
         let before = limits.insert(channel.to_owned(), Amount { value, unit });
         if before.is_some() {
-            return Err(refused("a second limit of this channel, expected one"));
+            return Err(refused(
+                "a second limit of this channel, expected one for each channel",
+            ));
         }
     }
     Ok(limits)

@@ -103,7 +103,7 @@ pub(crate) fn verification(
     if !found.claims.is_empty() {
         writeln!(
             out,
-            "{}: {} equal, {} within, {} different, {} not recomputable; {}",
+            "{}: {} equal, {} within the tolerance, {} different, {} not recomputable; {}",
             counted(found.claims.len() as u64, "claim"),
             sum.equal,
             sum.within,
@@ -154,7 +154,7 @@ pub(crate) fn comparison(
         true => writeln!(out, "samples  the same")?,
         false => writeln!(
             out,
-            "samples  not known to be the same: their digests differ, so their numbers are no test of one against the other"
+            "samples  not known to be the same: their digests differ, so one bundle cannot confirm the numbers of the other"
         )?,
     }
     for own in &found.definitions {

@@ -114,7 +114,7 @@ fn text(devices: &Devices, out: &mut dyn Write) -> io::Result<()> {
     }
     let drivers = counted(devices.drivers.len() + devices.switches.len(), "driver");
     let found = counted(devices.found.len(), "device");
-    writeln!(out, "{drivers}, {found} that they see")
+    writeln!(out, "{drivers}, {found} present")
 }
 
 /// Writes one driver: key, facts about its device, and arguments.

@@ -61,7 +61,7 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
         let all = counted(taps + dropped.len(), "tap");
         writeln!(
             out,
-            "late: {late} of {all}, so the latency may be longer than the others show; at most a fifth may be late"
+            "late: {late} of {all}, so the latency may be longer than the other taps show; at most a fifth may be late"
         )?;
     }
     for (device, latency) in [("force", force), ("sensor", sensor)] {

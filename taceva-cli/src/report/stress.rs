@@ -63,7 +63,7 @@ fn caption(report: &StressReport) -> String {
         false => "",
     };
     format!(
-        "Mean absolute errors with faults, divided by those without{intervals}: faults {}, severity by {by}, seed {}{}, {} samples of the part {}",
+        "Mean absolute errors with faults, divided by the errors without faults{intervals}: faults {}, severity by {by}, seed {}{}, {} samples of the part {}",
         report.list.name,
         report.seed,
         match report.draws {
@@ -100,7 +100,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             false => names.join(", "),
         };
         notes.push(format!(
-            "Faults, severities and channels with an error at least doubled, unnoticed by the check of untouched pictures (TAC034): {names}."
+            "Errors at least doubled without a finding of the check of untouched pictures (TAC034), by fault, severity and channel: {names}."
         ));
     }
     notes.extend(missed_targets(report));
@@ -143,7 +143,7 @@ fn missed_targets(report: &StressReport) -> Option<String> {
     let cells: Vec<String> = cells.collect();
     (!cells.is_empty()).then(|| {
         format!(
-            "Stimulus of the scored pictures beyond half or twice its target (fault, severity, stimulus): {}.",
+            "Stimulus of the scored pictures below half or above twice its target (fault, severity, stimulus): {}.",
             cells.join(", ")
         )
     })
@@ -176,14 +176,16 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     }
     line.push_str(&spread(fault, channels));
     line.push_str(&match common_reason(fault) {
-        Some(reason) => format!("; recovers unknown: {reason}"),
+        Some(reason) => {
+            format!("; the error that a new untouched picture removes is unknown: {reason}")
+        }
         None => {
-            format!("; a new untouched picture removes of the excess error: {recovers}")
+            format!("; share of the excess error that a new untouched picture removes: {recovers}")
         }
     });
     for of in &fault.unreached {
         line.push_str(&format!(
-            "; severity {} is not possible: {} of a contact at the parameter {}, expected {}",
+            "; severity {} is not possible: the stimulus is {} at the nearest parameter, {}, expected {}",
             of.severity,
             short(of.most),
             short(of.parameter),

@@ -150,7 +150,7 @@ fn footer(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "standing   {standing}")?;
     }
     for remedy in remedies(report) {
-        writeln!(out, "narrow it  {remedy}")?;
+        writeln!(out, "remedy     {remedy}")?;
     }
     for picture in pictures(&report.scores) {
         writeln!(out, "in JSON    {picture}")?;

@@ -39,7 +39,7 @@ pub(crate) fn page(found: &Verification) -> String {
         sections.push(section("claims", "Claims", claims(found)));
     }
     if !found.others.is_empty() {
-        let mut table = Table::new("Beside the claims", ["study", "part", "verdict", "reason"]);
+        let mut table = Table::new("Further checks", ["study", "part", "verdict", "reason"]);
         for other in &found.others {
             table.push([
                 other.study.to_string(),
@@ -48,7 +48,7 @@ pub(crate) fn page(found: &Verification) -> String {
                 plain(&other.reason),
             ]);
         }
-        sections.push(section("others", "Beside the claims", table));
+        sections.push(section("others", "Further checks", table));
     }
     let remarks = found.remarks.iter();
     let remarks = remarks.map(|remark| PagePart::Words(plain(remark)));
@@ -109,7 +109,7 @@ fn claims(found: &Verification) -> Table {
         table.push(first.into_iter().chain(ticks).chain(last));
     }
     table.note(
-        "✓ the level gives the number; ✗ it gives another one; – it was not compared, or gives no answer.",
+        "✓ the level gives the number; ✗ it gives another number; – it was not compared, or gives no answer.",
     );
     table
 }

@@ -94,13 +94,13 @@ fn growth(report: &WearReport, gel: &GelWear, name: &str, of: &ChannelWear) -> S
             ),
             _ => {
                 let reason = limit.reason.map(|of| of.to_string()).unwrap_or_default();
-                format!("; no place is stated at which the limit {amount} is met: {reason}")
+                format!("; unknown when the limit {amount} is met: {reason}")
             }
         });
     }
     let different = match &of.first_different {
-        Some(recording) => format!("the first that differs is {recording}"),
-        None => "no recording is shown to differ from the first".to_owned(),
+        Some(recording) => format!("the first recording with another error is {recording}"),
+        None => "no recording is shown to have another error than the first".to_owned(),
     };
     format!("Gel {}, {name}: {words}; {different}.", gel.gel)
 }

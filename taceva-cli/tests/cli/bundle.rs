@@ -133,7 +133,7 @@ fn the_same_inputs_give_the_same_bytes_and_an_existing_bundle_stays() {
 fn a_bundle_without_author_or_licence_is_refused_unless_it_is_a_draft() {
     let bench = bench();
     let words = "bundle result.json --state result.state --out b";
-    bench.refused(words, 2, "or make a draft by --draft");
+    bench.refused(words, 2, "or make a draft with --draft");
     bench.refused(&format!("{words} --author Ada"), 2, "--licence SPDX");
     bench.refused(
         &format!("{words} --organization Lab"),

@@ -55,7 +55,7 @@ fn plugins_are_listed_with_what_they_provide_and_how_they_would_run() {
     let trusted = bench.json("plugin list --plugin-dir plugins --trust org.example.b");
     assert_eq!(trusted["plugins"][1]["delivery"], "in-process");
     let out = bench.ok("plugin list --plugin-dir plugins");
-    assert!(out.contains("needs usb (none of it allowed)"), "{out}");
+    assert!(out.contains("needs usb (no need is allowed)"), "{out}");
     let columns: Vec<&str> = out
         .lines()
         .next()
@@ -278,7 +278,7 @@ fn a_plugin_in_python_cannot_run_without_an_interpreter() {
 fn the_help_says_where_a_trusted_plugin_runs() {
     let help = Bench::new().ok("plugin list --help");
     let words: Vec<&str> = help.split_whitespace().collect();
-    let said = "without confinement, a library in this process and Python in its own process";
+    let said = "without confinement: a library runs in this process, Python in its own process";
     assert!(words.join(" ").contains(said), "{help}");
 }
 

@@ -47,7 +47,7 @@ fn the_table_has_a_row_for_each_severity_and_states_where_skill_ends() {
         );
         // The drawn recording has no untouched picture.
         assert!(
-            said.contains("recovers unknown: no untouched picture"),
+            said.contains("removes is unknown: no untouched picture"),
             "{said}"
         );
         assert!(said.contains("Nothing here was measured"), "{said}");

@@ -87,7 +87,7 @@ fn a_recording_with_less_light_has_one_line_with_its_remedy_and_exit_code_1() {
         same.err
     );
     assert!(
-        same.err.contains("least changes that are found"),
+        same.err.contains("smallest changes that are found"),
         "{}",
         same.err
     );

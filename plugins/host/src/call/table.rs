@@ -2,7 +2,7 @@
 
 #![expect(
     unsafe_code,
-    reason = "tables are read where a library says that they lie"
+    reason = "tables are read at addresses that a library states"
 )]
 
 use std::ffi::c_void;

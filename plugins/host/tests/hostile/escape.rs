@@ -1,4 +1,4 @@
-//! Ways out of the sandbox. They are open to a program, and closed to a plugin of any user.
+//! Attempts to leave the sandbox. They succeed in a program, and fail in a plugin of any user.
 
 use std::net::{TcpListener, UdpSocket};
 use std::os::unix::process::CommandExt;

@@ -16,7 +16,7 @@ use super::bench_recording::Pressed;
 use crate::args::{BenchModels, SplitArgs};
 use crate::{exit, output};
 
-/// Models that run only if `--model` names them, because they take minutes to hours or are no separate model.
+/// Models that run only if `--model` names them, because they take minutes to hours or are not separate models.
 const NAMED_ONLY: [&str; 7] = [
     "cnn-ensemble",
     "resnet10",

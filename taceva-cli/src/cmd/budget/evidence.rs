@@ -162,7 +162,7 @@ pub(super) fn report_of(path: &Path) -> anyhow::Result<Found> {
             without_samples: missing.pop(),
         }),
         (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one; the folder `reports` of a run has a result for each sensor",
+            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
             shown(path),
             others + usize::from(found.is_some())
         ))),
@@ -275,7 +275,7 @@ fn number(score: &Score) -> Result<f64, String> {
     score.value.number().ok_or_else(reason)
 }
 
-/// Adds the number of samples and the reservation of the score to the figure.
+/// Adds to the figure the number of samples, and the reason why verdicts exclude the score, if any.
 fn noted(mut figure: Figure, score: &Score) -> Figure {
     figure.n = Some(score.n);
     figure.note = score.standing.reason().map(str::to_owned);

@@ -109,7 +109,7 @@ impl Study {
         Ok(Figure::new(found.sd, Freedom::Finite(self.freedom(name))))
     }
 
-    /// Degrees of freedom: by the mean square for repeatability, by Satterthwaite for operators. Sums have those of the operators.
+    /// Degrees of freedom: by the mean square for repeatability, by Satterthwaite for operators. Sums of components have the degrees of freedom of the operators.
     fn freedom(&self, name: &str) -> f64 {
         let of_operators = f64::from(self.operators.saturating_sub(1).max(1));
         let row = |names: &[&str]| {

@@ -61,7 +61,7 @@ fn checked(
     }
 }
 
-/// Default channels in the unit of the tolerance: those with a prediction, otherwise those of the six in the table.
+/// Default channels in the unit of the tolerance: those with a prediction, otherwise those of the six channels that are in the table.
 fn usual(table: &CsvTable, tolerance: Option<&Quantity>) -> anyhow::Result<Vec<String>> {
     let names = || table.names().iter().map(String::as_str);
     let is_of_six = |name: &&str| quantity::unit_of_six(name).is_some();

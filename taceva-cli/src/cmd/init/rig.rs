@@ -17,7 +17,7 @@ pub(super) fn write(
     let listed = devices(&context.drivers(None)?);
     let robot = device(&listed, DriverKind::Robot, "robot", interview)?;
     let carries = interview.choose(
-        "the robot carries the",
+        "what does the robot carry",
         &["indenter", "sensor"],
         Some("indenter"),
     )?;
@@ -28,7 +28,7 @@ pub(super) fn write(
         "camera of the sensor",
         interview,
     )?;
-    interview.say("limits protect the gel: the robot halts when it exceeds one");
+    interview.say("limits protect the gel: the robot halts when a limit is exceeded");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
     let shear_question = "greatest shear force, in N";
@@ -36,7 +36,7 @@ pub(super) fn write(
     let shear = interview.number(shear_question, Some(&as_normal), [0.01, 1000.0])?;
     let speed = interview.number("greatest speed, in mm/s", Some("20"), [0.1, 500.0])?;
     let text = format!(
-        "# The devices of one place. taceva is no safety function: emergency stop and guards must work without it (docs/rig.md).
+        "# The devices of one rig. taceva is not a safety function: emergency stop and guards must work without it (docs/rig.md).
 rig_version = 1
 
 [robot]

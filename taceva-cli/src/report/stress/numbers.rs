@@ -192,7 +192,7 @@ impl<'a> Rows<'a> {
         self.push_row(place, channel, quantity, of, unit, &reason);
     }
 
-    /// A number without an interval, or none, with words on it.
+    /// Adds a row for a number without an interval, or for a missing number, with a remark.
     fn push_words(
         &mut self,
         place: &Place<'_>,

@@ -130,8 +130,12 @@ fn a_sensor_alone_is_recorded_as_its_files_came() {
 fn a_capture_says_what_ends_it() {
     let bench = Bench::new();
     for (name, end, said) in [
-        ("frames", "--frames 5", "press; Ctrl-C ends it, or 5 frames"),
-        ("time", "--for 1s", "press; Ctrl-C ends it, or 1 s"),
+        (
+            "frames",
+            "--frames 5",
+            "press; Ctrl-C ends the capture, or 5 frames",
+        ),
+        ("time", "--for 1s", "press; Ctrl-C ends the capture, or 1 s"),
     ] {
         let ran = bench.run(&format!(
             "capture {name} --sensor sim/gelsight:seed=3 {end}"

@@ -131,7 +131,7 @@ impl Transducer {
         }
         if status.has_error() {
             let why = format!(
-                "the box reports {status}, expected status 0x00000000: its manual explains each bit; a restart clears most of them"
+                "the box reports {status}, expected status 0x00000000: its manual explains each bit; a restart of the box clears most bits"
             );
             return Err(failed(ErrorKind::DeviceFault, READ, why));
         }

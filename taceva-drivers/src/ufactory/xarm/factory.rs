@@ -22,7 +22,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 /// - A move is one straight line with all six numbers of the pose. It ends once the controller is ready, its queue is empty and the
 ///   reported pose is within 0.05 mm of the target.
 /// - Speeds and accelerations outside the limits of the controller's complete report are refused, because it would change them without an
-///   error. Without that report the limits are unknown, which is warned of.
+///   error. Without that report the limits are unknown, and the driver gives a warning.
 /// - An expiring motion uses velocities that last 0.2 s (register 82, since firmware 1.10.0), renewed 20 times per second. Its last 0.1 s
 ///   is a line. The mode of the controller changes for it and back, which stops the arm for a moment.
 /// - A halt uses a separate connection, which is tested twice per second; without it no move begins. The controller confirms the halt.

@@ -21,11 +21,12 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 /// - A move is a program with one `movel`. It ends once no program runs and the reported pose is within 0.05 mm of the target.
 /// - An expiring move is a program with one `speedl` that lasts 0.2 s and then brakes, renewed every 50 ms. The last 0.1 s of the path is a
 ///   `movel`. A short move, or one with rotation of the tool, is a single `movel`.
-/// - A halt sends a program with one `stopl` over a separate connection, which replaces the running program; the controller confirms none.
+/// - A halt sends a program with one `stopl` over a separate connection, which replaces the running program; the controller does not confirm
+///   that a program arrived.
 ///   Without that connection no move begins.
 /// - Emergency, protective and safeguard stops end a move with `DeviceFault`.
-/// - A speed slider of the pendant below 100 % is warned of, since every motion is then slower.
-/// - A controller without one of the seven outputs that the driver reads is refused by the name of the output and its own version.
+/// - A speed slider of the pendant below 100 % gives a warning, since every motion is then slower.
+/// - A controller without one of the seven outputs that the driver reads is refused; the error names the output and the version of the controller.
 /// - During a move, the states that the arm sends are watched; they report these stops too.
 ///
 /// # Verification

@@ -103,7 +103,7 @@ fn kinds() -> String {
     joined(|output| output.kind)
 }
 
-/// Words of all requested outputs, with commas.
+/// Results of `word` for all requested outputs, with commas.
 fn joined(word: fn(&Output) -> &'static str) -> String {
     let words: Vec<&str> = ASKED.iter().map(word).collect();
     words.join(",")

@@ -125,7 +125,7 @@ impl Transducer {
 
     fn frozen(&self) -> DriverError {
         let why = format!(
-            "force has not changed for {PATIENCE:?}, although it always did or the gel is pressed: signal frozen. Check the transducer, its cable and its amplifier; for a device with coarse steps state them as `resolution_n` in its selector"
+            "force has not changed for {PATIENCE:?}, although most earlier readings differed or the gel is pressed: signal frozen. Check the transducer, its cable and its amplifier; for a device with coarse steps state them as `resolution_n` in its selector"
         );
         self.failed(ErrorKind::DeviceFault, why)
     }

@@ -74,8 +74,8 @@ pub struct HaltTrip {
 
 /// Measures the devices of `rig`. Halts the robot once during an upward motion, if `operator` allows it or the rig is emulated.
 ///
-/// Tests every device. A failed device is reported as a problem. Nothing moves if the robot, the force transducer or the enabling switch failed, or if the tip
-/// is not above the gel according to the file.
+/// Tests every device. A failed device is reported as a problem. Nothing moves if robot, force transducer or enabling switch failed, or if the
+/// tip is not above the gel according to the file.
 ///
 /// # Errors
 /// [`AcquireError::Scene`] with the line of an invalid rig file, before a device is opened.
@@ -312,7 +312,8 @@ impl RigCheck {
         match moved {
             Ok(_) => {
                 self.problems.push(RigProblem::NotHalted);
-                self.halt_left_out = Some("the robot did not stop, so there is no time".to_owned());
+                self.halt_left_out =
+                    Some("the robot did not stop, so no stopping time was measured".to_owned());
                 return Ok(());
             }
             Err(error) if error.kind() == ErrorKind::Interrupted => {}

@@ -18,7 +18,7 @@ pub struct Stock {
 /// Result of opening a changer or lighting.
 pub(super) struct TriedStock {
     pub(super) key: &'static str,
-    /// Names of the items; `None` if the rig file names no such device. The error is that of opening it.
+    /// Names of the items; `None` if the rig file names no such device. The error is the failure to open the device.
     pub(super) holds: Result<Option<Vec<String>>, AcquireError>,
 }
 

@@ -90,7 +90,7 @@ fn a_model_of_hand_presses_predicts_what_the_transducer_measures_on_a_page_and_b
         "predicted, not measured, by ridge sha256:",
         "predictions by ridge sha256:",
         "frames seen",
-        "dropped for newer ones",
+        "dropped for newer frames",
         "of their stamps",
         "were unlike the training pictures",
         "more/predictions.csv: predictions by ridge sha256:",
@@ -178,7 +178,11 @@ fn every_frame_of_a_simulated_sensor_is_predicted_and_what_is_unlike_the_trainin
         "capture seen --sensor {sensor} --frames 12 --model noise.taceva"
     ));
     assert_eq!(ran.code, 0, "{}", ran.err);
-    assert!(ran.err.contains("0 dropped for newer ones"), "{}", ran.err);
+    assert!(
+        ran.err.contains("0 dropped for newer frames"),
+        "{}",
+        ran.err
+    );
     let dataset = Dataset::open(&bench.path("seen")).expect("whole");
     let header = dataset.header();
     assert_eq!(header.predictions.as_ref().expect("some").rows, 12);
@@ -300,7 +304,11 @@ fn of_a_camera_slower_than_the_model_no_frame_is_dropped() {
     let words = format!("capture slow --sensor {sensor} --frames 10 --model model.taceva");
     let ran = bench.run(&words);
     assert_eq!(ran.code, 0, "{}", ran.err);
-    assert!(ran.err.contains("0 dropped for newer ones"), "{}", ran.err);
+    assert!(
+        ran.err.contains("0 dropped for newer frames"),
+        "{}",
+        ran.err
+    );
     let dataset = Dataset::open(&bench.path("slow")).expect("whole");
     let predictions = dataset.header().predictions.as_ref().expect("some");
     assert_eq!(predictions.rows, 10);
