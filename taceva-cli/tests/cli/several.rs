@@ -185,7 +185,7 @@ fn recordings_that_are_the_same_or_differ_in_what_they_are_of_are_refused_with_t
     bench.refused(
         &evaluate("monday small"),
         3,
-        "monday and small cannot be joined into one recording: `frames` is 24×24 gray8 in the first and 16×16 gray8 in the second",
+        "monday and small cannot be joined into one recording: `frames` is 24×24 gray8 in the first recording and 16×16 gray8 in the second",
     );
     for (key, from, to) in [
         ("sensor.model", "model = \"drawn\"", "model = \"other\""),

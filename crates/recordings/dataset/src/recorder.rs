@@ -220,7 +220,7 @@ impl Recorder {
             None => {
                 let today = spec.facts.recorded_on;
                 later_facts::resume_on(today, &mut recorder.facts, path)
-                    .map_err(DatasetError::io("keep the day of", path))?;
+                    .map_err(DatasetError::io("store the day of", path))?;
                 Ok(recorder)
             }
         }

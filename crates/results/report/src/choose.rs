@@ -225,7 +225,10 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             };
             match bound.property {
                 Property::Opaque => {
-                    format!("`{}` needs {CLOSED}, and this one does not", need.words)
+                    format!(
+                        "`{}` needs {CLOSED}, and the gel of this sensor does not",
+                        need.words
+                    )
                 }
                 property => format!(
                     "`{}` needs {bound}, and its {property} is {}{unsure}",

@@ -217,7 +217,7 @@ fn the_same_results_and_the_same_row_twice_are_found() {
         let first = rows.split("[[measured]]").next().expect("a row");
         format!("{text}\n[[measured]]{first}")
     });
-    has(&findings(&bench), &["entries/foo.toml", "stands twice"]);
+    has(&findings(&bench), &["entries/foo.toml", "is listed twice"]);
 }
 
 #[test]
@@ -227,10 +227,10 @@ fn names_alike_are_refused_and_found() {
         bundle(&bench, name, model, error);
     }
     bundle(&bench, "three", "GelSightMini", 0.03);
-    bench.refused("catalogue add three --to c", 3, "is alike `GelSight`");
+    bench.refused("catalogue add three --to c", 3, "resembles `GelSight`");
     assert!(!bench.path("c").exists(), "a refusal leaves no folder");
     bench.ok("catalogue add one --to c");
-    bench.refused("catalogue add two --to c", 3, "is alike `Foo Mini`");
+    bench.refused("catalogue add two --to c", 3, "resembles `Foo Mini`");
     // An entry of another name, as by hand.
     let entry = text(&bench, "entries/foo-mini.toml");
     let (head, _) = entry.split_once("[[measured]]").expect("rows");
@@ -240,7 +240,7 @@ fn names_alike_are_refused_and_found() {
     );
     has(
         &findings(&bench),
-        &["entries/foomini.toml", "is alike one of `Foo Mini`"],
+        &["entries/foomini.toml", "resembles a name of `Foo Mini`"],
     );
     fs::remove_file(bench.path("c/entries/foomini.toml")).expect("there");
     edit(&bench.path("c/entries/foo-mini.toml"), |text| {

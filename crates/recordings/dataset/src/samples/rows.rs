@@ -76,7 +76,7 @@ impl Columns {
         if task.kind != TaskKind::Pose {
             return match self.count(name, row)? {
                 Some(class) if class as usize >= task.names.len() => Err(format!(
-                    "column `{name}`, row {row}: class {class}, but the task has {} names, from 0",
+                    "column `{name}`, row {row}: class {class}, but the task has {} names, counted from 0",
                     task.names.len()
                 )),
                 class => Ok(class.map(TaskLabel::Class)),

@@ -219,8 +219,8 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::JoinLag { join, rows, equal } => write!(
                 f,
-                "`{}` has a row at the time of {equal} of {}, to a microsecond, without `lag_ms`, so both have stamps of one clock: write \
-                 `lag_ms = 0`, unless the pictures are delayed that long",
+                "without `lag_ms`, `{}` has a row at the time of {equal} of {}, to a microsecond, so both have stamps of one clock: write `lag_ms = \
+                 0`, unless the pictures are late by this lag",
                 taceva_core::shown(join),
                 taceva_core::counted(*rows, "row")
             ),
@@ -246,8 +246,8 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::DropUnmatched { name } => write!(
                 f,
-                "`{}` in `frames_named` of [drop] left out no row: another rule left it out already, or its name is another; write it as \
-                 the table has it, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
+                "`{}` in `frames_named` of [drop] left out no row: another rule left the row out already, or the table has another name; write the \
+                 name as in the table, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
                 taceva_core::shown(name)
             ),
         }

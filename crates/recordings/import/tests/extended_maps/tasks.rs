@@ -246,7 +246,7 @@ fn times_without_a_column_and_kinds_that_are_not_read_are_refused() {
     assert!(message.contains("[time] has no `column`"), "{message}");
     let message = refused_with("\"class\"", "\"depth\"");
     assert!(
-        message.contains("`depth` is not read yet: expected class, event"),
+        message.contains("`depth` is not supported yet: expected class, event"),
         "{message}"
     );
     let message = refused_with("\"class\"", "\"clas\"");

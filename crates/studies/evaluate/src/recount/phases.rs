@@ -19,7 +19,7 @@ const OF_RUNS: [Field; 3] = [Field::PredictedSpacing, Field::Stamp, Field::Inten
 /// Reason for a metric whose fields the table lacks.
 const LACKING: &str = "it reads frames, or times of other phases, which the table does not hold";
 /// Reason for the metrics of a state that no phase gives.
-const OTHER_SUMS: &str = "no phase of the table gives the sums of their state";
+const OTHER_SUMS: &str = "no phase of the table gives the sums of the state";
 
 /// Scores `samples` by the plans of `states`, one for each phase of a run. Omits metrics that read fields absent from the table. Also
 /// omits metrics of a state whose sums no phase of the table gives bit for bit.

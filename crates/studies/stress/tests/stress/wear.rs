@@ -236,11 +236,11 @@ fn samples_of_the_fit_are_left_out_and_wrong_limits_are_refused() {
         ),
         (
             with("Fz", 0.1, Unit::Millimetre),
-            "mae.Fz has a limit in mm, expected one in N",
+            "mae.Fz has a limit in mm, expected a limit in N",
         ),
         (
             with("Fz", 0.0, Unit::Newton),
-            "mae.Fz has the limit 0 N, expected one above 0",
+            "mae.Fz has the limit 0 N, expected a limit above 0",
         ),
     ] {
         let said = refused(&both, &model, &request);
