@@ -159,7 +159,7 @@ mod tests {
         assert_eq!(
             read_back(&bytes, &other),
             Err(
-                "column `task.slip`, row 0: class 1, but the task has 1 names, counted from 0"
+                "column `task.slip`, row 0: class 1, but the task has 1 class, counted from 0"
                     .to_owned()
             )
         );

@@ -257,7 +257,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             }
             None if property == Property::Bought => {
                 let words = &need.words;
-                return Some(format!("`{words}` needs a seller, and none is known"));
+                return Some(format!("`{words}` needs a seller, and no seller is known"));
             }
             None => match property.other(sensor) {
                 Some(other) => format!("is not known; known: {other}"),

@@ -192,7 +192,7 @@ impl fmt::Display for ImportWarning {
                 end,
             } => write!(
                 f,
-                "{} was cut or not closed: its {} before byte {end} {} read, and later ones are lost",
+                "{} was cut or not closed: its {} before byte {end} {} read, and later messages are lost",
                 taceva_core::shown(file),
                 taceva_core::counted(*messages, "complete message"),
                 taceva_core::by_count(*messages, "is", "are")
@@ -212,7 +212,7 @@ impl fmt::Display for ImportWarning {
             } => write!(
                 f,
                 "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: the join bridges pauses of the table; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out, or `pick = \"before\"` if a row \
-                 holds until the next",
+                 is valid until the next row",
                 taceva_core::counted(*rows, "row"),
                 taceva_core::by_count(*rows, "takes", "take"),
                 taceva_core::shown(join)

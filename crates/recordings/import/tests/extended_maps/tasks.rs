@@ -208,7 +208,7 @@ fn names_twice_and_a_positive_that_is_no_name_are_refused_with_the_line() {
     assert!(message.contains("`event` has two names"), "{message}");
     let message = refused_with("\"felt\", \"denim\", \"wool\"", "\"felt\"");
     assert!(
-        message.contains("`names` has 1 of the 2 to 4096 classes"),
+        message.contains("`names` has 1 class, expected 2 to 4096"),
         "{message}"
     );
     let message = refused_with("\"felt\", \"denim\"", "\"1\", \"denim\"");

@@ -286,7 +286,7 @@ impl Check<'_> {
         let columns = match written.from {
             WrittenFrom::Pose(columns) if !is_class => columns,
             _ => {
-                let problem = "a pose has `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`, and no `names` and \
+                let problem = "a pose has `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`, and neither `names` nor \
                     `positive`";
                 return Err(self.at(offset, problem));
             }

@@ -28,8 +28,8 @@ pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<Strin
     let mut seen = BTreeSet::new();
     if !(2..=NAMES).contains(&names.len()) {
         return Some(format!(
-            "`names` has {} of the 2 to {NAMES} classes: name every class that a model can predict",
-            names.len()
+            "`names` has {}, expected 2 to {NAMES}: name every class that a model can predict",
+            taceva_core::counted(names.len(), "class")
         ));
     }
     if let Some(twice) = names.iter().find(|name| !seen.insert(name.as_str())) {
