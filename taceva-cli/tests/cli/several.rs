@@ -232,7 +232,7 @@ fn a_model_of_several_is_scored_on_their_test_part_on_others_whole_and_on_some_o
         bench.refused(
             &format!("evaluate {some} --with both.model"),
             2,
-            "the model was fitted on this and others, 2 recordings together",
+            "the model was fitted on this recording and others, 2 recordings together",
         );
     }
     bench.ok("predict monday tuesday --with both.model --out pred.csv --truth-out truth.csv -q");

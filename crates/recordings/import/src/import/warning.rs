@@ -148,7 +148,7 @@ impl fmt::Display for ImportWarning {
         match self {
             ImportWarning::ColumnTwice { column, channels } => write!(
                 f,
-                "`{}` is read as {}: correct `from` of all but one, or delete the others",
+                "`{}` is read as {}: correct `from` of all but one channel, or delete the other channels",
                 taceva_core::shown(column),
                 channels.join(" and ")
             ),

@@ -258,7 +258,7 @@ fn one_of_several_recordings_of_the_fit_is_refused_and_named_once() {
     let model = fitted(&both, "ridge", &["size=8x8"]);
     let one = Dataset::open(&folder.path().join("one")).expect("opens");
     let said = refused(&[one, new("later", 20, 3)], &model, &WearRequest::default());
-    let expected = "one: the model was fitted on this and others";
+    let expected = "one: the model was fitted on this recording and others";
     assert!(said.contains(expected), "{said}");
     assert_eq!(said.matches("one: ").count(), 1, "{said}");
 }
