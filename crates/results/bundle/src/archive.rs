@@ -21,7 +21,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// Rule of entries.
 const ENTRIES: &str = "a packed bundle holds regular files alone";
 /// Rule of the packed file.
-const WHOLE: &str = "a packed bundle is one whole .tar.gz";
+const WHOLE: &str = "a packed bundle is one complete .tar.gz";
 
 /// Packs the files `names`, ascending, of the folder `root` into a new file at `path`. Equal files give equal bytes.
 ///

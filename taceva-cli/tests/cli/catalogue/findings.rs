@@ -64,7 +64,7 @@ fn a_catalogue_without_a_fault_gets_its_index() {
     assert_eq!(index["entries"][0]["name"], "Foo");
     assert_eq!(index["bundles"][0]["licence"], "CC-BY-4.0");
     bench.write("empty/notes", "none");
-    bench.refused("catalogue check empty", 3, "no catalogue: expected");
+    bench.refused("catalogue check empty", 3, "not a catalogue: expected");
 }
 
 #[test]

@@ -65,7 +65,7 @@ impl Population {
         let mut squares = Vec::new();
         for unit in units {
             let place = measured.place(unit.value());
-            let expected = "a value on the scale of the others";
+            let expected = "a value on the scale of the other units";
             check(
                 "the value of a unit",
                 unit.value(),

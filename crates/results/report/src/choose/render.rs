@@ -199,7 +199,7 @@ impl Choice {
             }
             [best] if !self.apart.is_empty() => {
                 format!(
-                    "{} alone is ranked; others rest on other samples",
+                    "{} alone is ranked; others were measured on other samples",
                     best.name
                 )
             }
