@@ -34,7 +34,7 @@ use crate::suggestion::nearest;
 /// use taceva_core::{Registry, Sensor};
 /// let sensors = Registry::<dyn Sensor>::empty();
 /// let error = sensors.get("sim/digit").map(|_| ()).unwrap_err();
-/// assert_eq!(error.to_string(), "`sim/digit`: unknown sensor driver, and none is known");
+/// assert_eq!(error.to_string(), "`sim/digit`: unknown sensor driver, and no sensor driver is known");
 /// ```
 pub struct Registry<D: ?Sized> {
     factories: BTreeMap<DriverKey, Box<dyn Factory<D>>>,
@@ -199,7 +199,7 @@ mod tests {
         let error = registry.get("sim/lamp").map(|_| ()).expect_err("empty");
         assert_eq!(
             error.to_string(),
-            "`sim/lamp`: unknown lighting driver, and none is known"
+            "`sim/lamp`: unknown lighting driver, and no lighting driver is known"
         );
         registry
             .add(Lamp::boxed("sim/lamp", "a lamp"))

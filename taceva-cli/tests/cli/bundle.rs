@@ -121,7 +121,7 @@ fn the_same_inputs_give_the_same_bytes_and_an_existing_bundle_stays() {
     bench.refused(
         &format!("{BUNDLE} mine --force"),
         3,
-        "no bundle, which is not replaced",
+        "not a bundle, which is not replaced",
     );
     bench.write("mine/bundle.json", "{}");
     let words = format!("{BUNDLE} mine --force");
@@ -202,13 +202,13 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
     let found = verified(&bench, "text.tar.gz", 3);
     let problem = found["damage"][0]["problem"].as_str().expect("words");
     assert!(
-        problem.contains("no bundle: expected a folder or a .tar.gz"),
+        problem.contains("not a bundle: expected a folder or a .tar.gz"),
         "{problem}"
     );
     assert_eq!(found["damage"][0]["path"], "text.tar.gz");
     let ran = bench.run("bundle verify result.json");
     assert_eq!(ran.code, 3, "{}", ran.out);
-    assert!(ran.out.contains("result.json: no bundle: "), "{}", ran.out);
+    assert!(ran.out.contains("json: not a bundle: "), "{}", ran.out);
     bench.refused("bundle verify nowhere", 3, "nowhere");
 }
 

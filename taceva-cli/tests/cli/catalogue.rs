@@ -177,7 +177,7 @@ fn simulated_and_synthetic_numbers_never_stand_among_measured_ones() {
     let checked = || bench.run("catalogue check c --format csv");
     let ran = checked();
     assert_eq!(ran.code, 1, "{}", ran.out);
-    assert!(ran.out.contains("others belong into"), "{}", ran.out);
+    assert!(ran.out.contains("other origins belong in"), "{}", ran.out);
     edit(&path, |text| {
         let text = text.replace("source = \"simulated\"", "source = \"recorded\"");
         text.replace("source = \"synthetic\"", "source = \"recorded\"")
@@ -357,7 +357,7 @@ fn numbers_of_other_samples_or_definitions_stand_side_by_side_without_a_rank() {
     edit(&path, |text| text.replace(&own, &other));
     let differing = answered();
     assert!(
-        differing.contains("they are of other samples"),
+        differing.contains("they are of different samples"),
         "{differing}"
     );
 }

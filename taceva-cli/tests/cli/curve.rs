@@ -222,8 +222,7 @@ fn series_of_a_proving_instrument_have_relative_errors_and_no_class() {
     crate::schema::check("curve", &curve);
     let repeat = figure(&curve, "proving_b_prime");
     near(&repeat["value"], &(2.0 / 1.01).into(), 1e-9);
-    let place =
-        "none: b' = 2.0 %, class 2 ends at 0.20 %; known figures within class 1 x 20, not ISO 376";
+    let place = "none: b' = 2.0 %, class 2 ends at 0.20 %; known figures within class 1 x 20, not a class of ISO 376";
     assert_eq!(repeat["remark"], format!("like ISO 376: {place}"));
     assert_eq!(repeat["at"], 1.0);
     let reversed = figure(&curve, "proving_v");

@@ -185,7 +185,7 @@ fn the_same_rows_and_rows_of_something_else_are_refused_and_change_nothing() {
     bench.refused(
         "import first --map map.toml --extend data",
         3,
-        "as do 42 different pictures in all: a recording is not added twice",
+        "42 different pictures are already in the dataset, and no recording is added twice",
     );
     let map = fs::read_to_string(bench.path("map.toml")).expect("a map");
     for (key, from, to) in [

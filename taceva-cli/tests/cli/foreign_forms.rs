@@ -60,7 +60,11 @@ fn a_draft_is_refused_by_the_line_of_its_first_open_unit_and_imports_once_they_a
 fn a_folder_without_any_table_or_picture_has_no_draft() {
     let bench = Bench::new();
     bench.write("lab/notes.txt", "pressed on Monday");
-    bench.refused("import --draft lab", 3, "no table and no picture is in it");
+    bench.refused(
+        "import --draft lab",
+        3,
+        "it contains no table and no picture",
+    );
     bench.write("lab/run.bag", "#ROSBAG V2.0");
     bench.refused("import --draft lab", 3, "cut short");
 }

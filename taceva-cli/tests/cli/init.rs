@@ -95,7 +95,7 @@ fn a_channel_is_left_out_by_none_and_a_named_column_keeps_the_reason_against_it(
     let ran = bench.answered("init recording lab --out map.toml", "fz_cmd\nN\n\nmy gel\n");
     assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
     let map = read(&bench, "map.toml");
-    let named = "Fz = { from = \"fz_cmd\", unit = \"N\" }   # named by you, though by `cmd` commanded, not measured\n";
+    let named = "Fz = { from = \"fz_cmd\", unit = \"N\" }   # named by you, though `cmd` means commanded, not measured\n";
     assert!(map.contains(named), "{map}");
     assert!(map.contains("\n# Left out: Fx = "), "{map}");
     let against = "the draft does not treat \"fz_cmd\" as a channel";

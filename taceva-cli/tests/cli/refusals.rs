@@ -134,7 +134,7 @@ fn tables_of_different_length_or_ids_are_refused() {
     bench.refused(
         "score --truth truth.csv --pred other.csv",
         3,
-        "other.csv: no row with id `b`, although truth.csv has one",
+        "other.csv: no row with id `b`, although truth.csv has such a row",
     );
     bench.write("twice.csv", "id,Fz\na,1\na,2\n");
     bench.refused(

@@ -185,7 +185,7 @@ fn recordings_that_are_the_same_or_differ_in_what_they_are_of_are_refused_with_t
     bench.refused(
         &evaluate("monday small"),
         3,
-        "monday and small cannot be joined into one recording: `frames` is 24×24 gray8 in the first and 16×16 gray8 in the second",
+        "monday and small cannot be joined into one recording: `frames` is 24×24 gray8 in the first recording and 16×16 gray8 in the second",
     );
     for (key, from, to) in [
         ("sensor.model", "model = \"drawn\"", "model = \"other\""),
@@ -232,7 +232,7 @@ fn a_model_of_several_is_scored_on_their_test_part_on_others_whole_and_on_some_o
         bench.refused(
             &format!("evaluate {some} --with both.model"),
             2,
-            "the model was fitted on this and others, 2 recordings together",
+            "the model was fitted on this recording and others, 2 recordings together",
         );
     }
     bench.ok("predict monday tuesday --with both.model --out pred.csv --truth-out truth.csv -q");

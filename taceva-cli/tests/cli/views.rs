@@ -30,8 +30,8 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     let bench = gripper();
     let said = bench.ok("import lab --map map.toml --out gripper");
     for line in [
-        "frames   60 of them of the view left, colours gray",
-        "frames   60 of them of the view right, colours gray",
+        "frames   60 of the view left, colours gray",
+        "frames   60 of the view right, colours gray",
     ] {
         assert!(said.contains(line), "{said}");
     }
@@ -68,7 +68,7 @@ fn a_gripper_is_imported_checked_fitted_and_predicted_by_one_view_or_both() {
     assert_eq!(both["provenance"]["view"], "left+right");
     let notes = both["provenance"]["notes"].to_string();
     assert!(
-        notes.contains("the model sees those of left+right, side by side"),
+        notes.contains("the model sees the pictures of left+right, side by side"),
         "{notes}"
     );
     // A page shows the pictures that the model saw.

@@ -123,7 +123,7 @@ fn one_recording_no_day_wrong_limits_and_models_are_refused_by_name() {
     bench.refused(
         &format!("{WEAR} --limit mae.Fz=1mm"),
         2,
-        "mae.Fz has a limit in mm, expected one in N",
+        "mae.Fz has a limit in mm, expected a limit in N",
     );
     bench.refused(
         "wear new old --model ridge",

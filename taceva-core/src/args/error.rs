@@ -70,7 +70,7 @@ impl fmt::Display for ArgError {
                 write!(f, "`{}`: unknown argument, ", shown(key))?;
                 match nearest {
                     Some(nearest) => write!(f, "did you mean `{nearest}`?"),
-                    None if known.is_empty() => f.write_str("the driver takes none"),
+                    None if known.is_empty() => f.write_str("the driver takes no arguments"),
                     None => write!(f, "expected one of `{}`", known.join("`, `")),
                 }
             }

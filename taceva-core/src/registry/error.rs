@@ -63,7 +63,7 @@ impl fmt::Display for RegistryError {
                 write!(f, "`{}`: unknown {kind} driver, ", shown(key))?;
                 match (nearest, known.as_slice()) {
                     (Some(nearest), _) => write!(f, "did you mean `{nearest}`?"),
-                    (None, []) => f.write_str("and none is known"),
+                    (None, []) => write!(f, "and no {kind} driver is known"),
                     (None, known) => {
                         let known: Vec<&str> = known.iter().map(DriverKey::as_str).collect();
                         write!(f, "expected one of `{}`", known.join("`, `"))

@@ -19,8 +19,7 @@ pub(crate) static MAE: Metric = Metric {
     range: Range::Positive,
     definition: "mae/1",
     reference: "TacEva, equation (1)",
-    documentation: "Mean magnitude of the error, in the unit of the channel. Of Pxy and Fxy it is the mean of both axes, which is no \
-                    distance: see mae_euclid.",
+    documentation: "Mean magnitude of the error, in the unit of the channel. For Pxy and Fxy it is the mean of both axes, not a distance: see mae_euclid.",
     needs: PAIR_NEEDS,
     formula: Formula(&PairFormula {
         streams: Streams::of(&[Stream::Absolute]),

@@ -40,10 +40,10 @@ pub(crate) static DETECTION_LIMIT: Metric = Metric {
                     0.02 N to 0.2 N of true Fz. It is δ (s / b) √(1 + (1 + x̄² / v) / g). A line of slope b fits predictions to true \
                     forces of mean x̄ and variance v; s is the standard deviation of predictions about it. Presses of one place count as \
                     alike: n presses, nᵢ of them at place i, are worth g = n² / Σ nᵢ² independent ones. s is estimated with g − 2 degrees \
-                    of freedom, so δ is the factor of the noncentral t distribution, not 3.29. It stands on the forces from \
-                    `least_force` to `greatest_force`: it is never below the former, and undefined above the latter, for less than ten \
-                    places, or if predictions do not rise with the force. `critical` is the force that none exceeds in 5 % of cases. The \
-                    interval leaves out one place at a time, above 64 places one of 32 groups of them; there is none if a limit reaches \
+                    of freedom, so δ is the factor of the noncentral t distribution, not 3.29. It applies to forces from `least_force` to \
+                    `greatest_force`: it is never below the former, and undefined above the latter, for fewer than ten places, or if predictions do \
+                    not rise with the force. `critical` is the force that zero exceeds in 5 % of cases. The \
+                    interval leaves out one place at a time, above 64 places one of 32 groups of places; the interval is missing if a limit reaches \
                     down to the lightest press. Untouched pictures do not enter: see noise_equivalent_force.",
     needs: Needs::new(
         FieldSet::EMPTY

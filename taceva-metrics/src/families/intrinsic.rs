@@ -31,7 +31,7 @@ pub(crate) static INTRINSIC: Metric = Metric {
     documentation: "`frame_rate`: one over the median interval between successive times; samples at one time are one frame. If that \
                     interval exceeds 1 s, these are single pictures, and rate, jitter and gaps are undefined. `jitter`: standard \
                     deviation (over n − 1) of the intervals without gaps. `dropped`: share of intervals that are a gap, longer than 1.5 \
-                    medians. `duplicated`: share of frames that equal the one before, bit for bit. `field_of_view`: area of the convex \
+                    medians. `duplicated`: share of frames that equal the previous frame, bit for bit. `field_of_view`: area of the convex \
                     hull of the true places with |true Fz| ≥ 0.02 N, or with true Pz > 0 if no force is measured. `resolution`: pixels \
                     of a picture, as declared. They describe the recording: the field of view omits a rim that was never pressed, and \
                     pauses count as gaps.",

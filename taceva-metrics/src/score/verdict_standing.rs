@@ -96,7 +96,7 @@ impl Standing {
             Standing::LowStimulus => Some("stimulus hardly changed"),
             Standing::NotAboveNoiseFloor => Some("not above chance"),
             Standing::NotAboveConstant => Some("not above a constant answer"),
-            Standing::NoInterval => Some("no interval to show more than predicting the mean"),
+            Standing::NoInterval => Some("no interval to compare with predicting the mean"),
             Standing::NoSkill => Some("not better than predicting the mean"),
         }
     }
@@ -124,11 +124,10 @@ impl Standing {
                 "not above chance: with this number of samples, the differences between places may be chance",
             ),
             Standing::NotAboveConstant => Some(
-                "not above a constant answer: its interval is not above the share that always predicting the mean of the training \
-                    labels reaches",
+                "not above a constant answer: its interval is not above the share reached by always predicting the mean of the training labels",
             ),
             Standing::NoInterval => Some(
-                "no interval to show more than predicting the mean: too few contact points were scored, or nothing varied between them",
+                "no interval to compare with predicting the mean: too few contact points were scored, or nothing varied between them",
             ),
             Standing::NoSkill => {
                 Some("not better than predicting the mean: its skill is not shown to be above zero")

@@ -53,7 +53,7 @@ impl Pca {
             ));
         }
         if training.samples() == 0 {
-            return Err(invalid("principal components of no sample"));
+            return Err(invalid("principal components without a sample"));
         }
         let design = Design::new(training, FeatureScale::None);
         let spectrum = Spectrum::new(&design, progress)?;

@@ -67,7 +67,7 @@ impl Default for FeatureSpec {
 pub(super) const INPUT: SettingInfo = SettingInfo {
     key: "input",
     accepts: "frame or signals",
-    default: "the input of the recording; required if it has both",
+    default: "the input of the recording; required if the recording has both",
     about: "the input of the model: the frames of a camera, or the signals of taxels",
 };
 pub(super) const KINDS: SettingInfo = SettingInfo {

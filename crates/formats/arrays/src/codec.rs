@@ -30,7 +30,7 @@ pub(crate) fn gzip(packed: &[u8], most: usize) -> Result<Vec<u8>, Problem> {
         )
     };
     let [0x1f, 0x8b, 8, flags, _, _, _, _, _, _, rest @ ..] = packed else {
-        return Err(Problem::damaged(0, "no gzip", "its header"));
+        return Err(Problem::damaged(0, "not gzip data", "a gzip header"));
     };
     let mut rest = rest;
     if flags & 4 != 0 {

@@ -116,7 +116,11 @@ impl std::fmt::Display for Ended {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Ended::By(status) => write!(f, "ended with {status}"),
-            Ended::Silent => write!(f, "was silent for {} s and was killed", SILENCE.as_secs()),
+            Ended::Silent => write!(
+                f,
+                "sent no output for {} s and was killed",
+                SILENCE.as_secs()
+            ),
             Ended::Unknown(error) => write!(f, "cannot be waited for: {error}"),
         }
     }

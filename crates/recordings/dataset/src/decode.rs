@@ -163,7 +163,8 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let (width, height) = decoder.read_header_info().map_err(text)?.size();
     if width.max(height) > limits::IMAGE_SIDE {
         return Err(format!(
-            "an image of {width}×{height}, larger than is accepted"
+            "an image of {width}×{height}, expected sides of at most {} pixels",
+            limits::IMAGE_SIDE
         ));
     }
     let mut reader = decoder.read_info().map_err(text)?;
@@ -280,7 +281,10 @@ fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String>
         format,
     };
     if info.width.max(info.height) > limits::IMAGE_SIDE {
-        return Err(format!("an image of {info}, larger than is accepted"));
+        return Err(format!(
+            "an image of {info}, expected sides of at most {} pixels",
+            limits::IMAGE_SIDE
+        ));
     }
     let pixels = decoder.decode().map_err(text)?;
     Ok((info, pixels))

@@ -164,7 +164,7 @@ impl Recorder {
         let lock = unclosed_folder(path)?;
         let nothing = || DatasetError::NoDataset {
             path: path.to_owned(),
-            problem: "nothing was recorded there".to_owned(),
+            problem: "it has no recording to resume".to_owned(),
         };
         if !journal_path.exists() {
             return Err(nothing());
@@ -220,7 +220,7 @@ impl Recorder {
             None => {
                 let today = spec.facts.recorded_on;
                 later_facts::resume_on(today, &mut recorder.facts, path)
-                    .map_err(DatasetError::io("keep the day of", path))?;
+                    .map_err(DatasetError::io("store the day of", path))?;
                 Ok(recorder)
             }
         }

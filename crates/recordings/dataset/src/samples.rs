@@ -158,7 +158,10 @@ mod tests {
         let other = Table::new(table.channels().clone(), Vec::new()).with_tasks([few]);
         assert_eq!(
             read_back(&bytes, &other),
-            Err("column `task.slip`, row 0: class 1, but the task has 1 names, from 0".to_owned())
+            Err(
+                "column `task.slip`, row 0: class 1, but the task has 1 class, counted from 0"
+                    .to_owned()
+            )
         );
     }
 

@@ -93,14 +93,14 @@ impl Table {
     /// Panics if the row does not have one value for each channel, one text for each attribute, one picture for each view and one label
     /// of the right kind for each task.
     pub fn push(&mut self, row: Row) {
-        assert_eq!(row.truth.len(), self.truth.len(), "a value a channel");
+        assert_eq!(row.truth.len(), self.truth.len(), "one value per channel");
         assert_eq!(
             row.attributes.len(),
             self.attributes.len(),
-            "a text an attribute"
+            "one text per attribute"
         );
-        assert_eq!(row.views.len(), self.views.len(), "a picture a view");
-        assert_eq!(row.tasks.len(), self.tasks.len(), "a label a task");
+        assert_eq!(row.views.len(), self.views.len(), "one picture per view");
+        assert_eq!(row.tasks.len(), self.tasks.len(), "one label per task");
         self.sample.push(row.sample);
         self.point_id.push(row.point_id);
         self.unit_id.push(row.unit_id);
@@ -138,7 +138,7 @@ impl Table {
     /// # Panics
     /// Panics if the number of texts differs from the number of rows.
     pub fn push_attribute(&mut self, name: String, texts: Vec<Option<String>>) {
-        assert_eq!(texts.len(), self.rows(), "a text a row");
+        assert_eq!(texts.len(), self.rows(), "one text per row");
         self.attribute_names.push(name);
         self.attributes.push(texts);
     }

@@ -129,7 +129,7 @@ fn what_differs_is_named_with_both_recordings() {
         "{error}"
     );
     assert!(
-        error.contains("`channels` is Fz [N] in the first and Pz [mm] in the second"),
+        error.contains("`channels` is Fz [N] in the first recording and Pz [mm] in the second"),
         "{error}"
     );
 }
@@ -144,7 +144,7 @@ fn recordings_that_share_a_sample_are_refused() {
     assert!(
         error
             .to_string()
-            .contains("sample `12` of the first is sample `12` of the second"),
+            .contains("sample `12` of the first recording and sample `12` of the second have the same frame and labels"),
         "{error}"
     );
 }
@@ -166,7 +166,7 @@ fn recordings_that_share_pictures_under_other_labels_are_two_imports_of_one_and_
         .expect_err("the same pictures")
         .to_string();
     assert!(
-        error.contains("sample `12` of the first is sample `12` of the second, the same picture with other labels"),
+        error.contains("sample `12` of the first recording and sample `12` of the second have the same picture with other labels"),
         "{error}"
     );
     // One or two dark pictures may be equal by chance.

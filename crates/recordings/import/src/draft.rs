@@ -131,7 +131,7 @@ impl MapDraft {
                                 format!("nothing here can be read as a table: {note}")
                             }
                             (None, Some(bare)) => notes::bare_clips(bare),
-                            (None, None) => "no table and no picture is in it".to_owned(),
+                            (None, None) => "it contains no table and no picture".to_owned(),
                         },
                     ));
                 }

@@ -101,7 +101,7 @@ fn pictures_of_foxglove_in_protobuf_are_joined_with_forces_in_json() {
     assert_eq!(numbers[0], expected, "{summary}");
     let expected: Vec<f64> = (0..24).map(f64::from).collect();
     assert_eq!(numbers[1], expected, "{summary}");
-    assert!(summary.contains("frames   24 of them"), "{summary}");
+    assert!(summary.contains("frames   24, colours"), "{summary}");
 }
 
 #[test]

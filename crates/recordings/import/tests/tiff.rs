@@ -100,7 +100,10 @@ fn every_packing_comes_back_number_for_number_in_the_bytes_it_came_in() {
 fn what_is_not_read_is_refused_by_its_name() {
     for (name, expected) in [
         ("refused-float", "Gray(32)"),
-        ("refused-signed", "expected unsigned ones of 8 or 16 bits"),
+        (
+            "refused-signed",
+            "expected unsigned numbers of 8 or 16 bits",
+        ),
         ("refused-32", "Gray(32)"),
         ("refused-planes", "planes of colours"),
         ("refused-pages", "several pictures"),

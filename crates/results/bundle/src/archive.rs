@@ -21,7 +21,7 @@ const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// Rule of entries.
 const ENTRIES: &str = "a packed bundle holds regular files alone";
 /// Rule of the packed file.
-const WHOLE: &str = "a packed bundle is one whole .tar.gz";
+const WHOLE: &str = "a packed bundle is one complete .tar.gz";
 
 /// Packs the files `names`, ascending, of the folder `root` into a new file at `path`. Equal files give equal bytes.
 ///
@@ -56,7 +56,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
     // A pipe would be waited for if it was opened.
     let about = fs::metadata(path).map_err(BundleError::file(path))?;
     if !about.is_file() {
-        let problem = "no regular file, expected a folder or a .tar.gz";
+        let problem = "not a regular file, expected a folder or a .tar.gz";
         return Err(damaged(".", problem));
     }
     let file = File::open(path).map_err(BundleError::file(path))?;
@@ -64,7 +64,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
     let start = file.fill_buf().map_err(BundleError::file(path))?;
     if !start.starts_with(&GZIP) {
         let rule = "a bundle is a folder or a .tar.gz";
-        let problem = "no bundle: expected a folder or a .tar.gz that `taceva bundle` wrote";
+        let problem = "not a bundle: expected a folder or a .tar.gz that `taceva bundle` wrote";
         let damage = Damage::new(&path.to_string_lossy(), rule, problem);
         return Err(BundleError::Damaged(damage));
     }
@@ -89,7 +89,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
             ),
         ),
         Fault::Read(error) => {
-            let problem = format!("no whole .tar.gz: {error}");
+            let problem = format!("not a complete .tar.gz: {error}");
             BundleError::Damaged(Damage::new(".", WHOLE, problem))
         }
         Fault::Write(error) => {
@@ -154,7 +154,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
                 EntryType::XHeader | EntryType::XGlobalHeader | EntryType::GNULongName => {
                     "a name or attributes too long for a header"
                 }
-                _ => "no regular file",
+                _ => "a special file",
             };
             return Err(damaged(own, &format!("{what}, expected a regular file")).into());
         }
@@ -174,7 +174,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
         let created = OpenOptions::new().write(true).create_new(true).open(&path);
         let mut file = match created {
             Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                return Err(damaged(own, "it comes twice, expected once").into());
+                return Err(damaged(own, "it occurs twice, expected once").into());
             }
             created => created.map_err(BundleError::file(&path))?,
         };
@@ -188,7 +188,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
     if has_more(archive.into_inner())? {
         return Err(damaged(
             ".",
-            "bytes after the end of the archive, expected zeros alone",
+            "bytes after the end of the archive, expected only zeros",
         )
         .into());
     }

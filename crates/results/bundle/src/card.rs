@@ -14,8 +14,8 @@ pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it sh
      results were all changed alike cannot be distinguished from an honest one without the model or the truth from elsewhere.";
 
 /// Sentences on the columns of the claims.
-const COLUMNS: &str = "`bias` is the mean of truth − prediction. Computed again from: the deepest files that gave the number again when the bundle was made. \
-     `scores` are the states, `predictions` the tables of truth and prediction, and `form` none.";
+const COLUMNS: &str = "`bias` is the mean of truth − prediction. The last column names the files from which `taceva bundle` computed the number \
+                       again: `scores` are the states, `predictions` the tables of truth and prediction, and `form` means no file.";
 
 /// Text of `README.md`.
 pub(crate) fn card(manifest: &Manifest) -> String {

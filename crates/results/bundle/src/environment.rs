@@ -10,7 +10,7 @@ use taceva_results::EvaluationReport;
 pub(crate) const ENVIRONMENT_SCHEMA: &str = "taceva.environment/1";
 
 /// Machine that `environment.json` describes.
-const MACHINE: &str = "the one on which `taceva bundle` computed the claims again; results do not state the machine that measured or scored";
+const MACHINE: &str = "the machine on which `taceva bundle` computed the claims again; results do not state the machine that measured or scored";
 
 /// Content of `environment.json`. It names neither the host nor its user.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -73,7 +73,7 @@ pub(crate) fn files(source: &Source, manifest: &Manifest) -> Result<Vec<Damage>,
         .filter(|name| !listed.contains(name.as_str()));
     for name in extra.take(MOST_DAMAGE) {
         let problem = "bundle.json does not list it; remove it, or make the bundle again";
-        damage.push(Damage::new(name, "nothing is added", problem));
+        damage.push(Damage::new(name, "no file is added", problem));
     }
     Ok(damage)
 }
@@ -163,7 +163,7 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     for (files, report) in manifest.studies.iter().zip(reports) {
         // A state that counts twice halves intervals, and one file behind many studies is read as often.
         if let Some(name) = files.names().find(|name| !behind.insert(name.as_str())) {
-            let rule = "a file is behind one study, once";
+            let rule = "a file belongs to one study, once";
             damage.push(Damage::new(name, rule, "it is named twice in `studies`"));
             continue;
         }
@@ -197,7 +197,7 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
         damage.push(Damage::new(
             MANIFEST,
             rule,
-            "a claim names a study that is not there",
+            "a claim names a study that is missing",
         ));
     }
     damage

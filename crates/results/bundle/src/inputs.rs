@@ -110,7 +110,7 @@ fn studies(
     let are_given = !request.states.is_empty() || request.tables.is_some();
     if are_given && reports.len() != 1 {
         let problem = format!(
-            "it has {} studies, and states and tables are given for one: name the result of one study",
+            "it has {} studies, and states and tables are given for one study: name the result of one study",
             reports.len()
         );
         return Err(BundleError::input(path, problem));
@@ -206,7 +206,7 @@ fn models(
             models.entry(digest).or_insert_with(|| model.clone());
         } else if is_given {
             let problem = format!(
-                "its digest is {digest}, and the results name {}; give the file that `taceva evaluate --with` read, or evaluate with this one",
+                "its digest is {digest}, and the results name {}; give the file that `taceva evaluate --with` read, or evaluate with this file",
                 match wanted.is_empty() {
                     true => "no model file".to_owned(),
                     false => wanted.join(", "),

@@ -81,7 +81,7 @@ fn check_replaceable(out: &Path) -> Result<(), BundleError> {
         Err(BundleError::input(out, problem))
     };
     if !out.join(MANIFEST).is_file() {
-        return refused("a folder that is no bundle");
+        return refused("a folder that is not a bundle");
     }
     let Ok(source) = Source::open(out, u64::MAX) else {
         return refused("a folder with links, or with names that no bundle writes");

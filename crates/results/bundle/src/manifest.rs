@@ -206,7 +206,7 @@ impl Manifest {
         let damaged = |rule, problem: String| Damage::new(MANIFEST, rule, problem);
         let rule = "the manifest has the schema of this version";
         let head: Head = serde_json::from_str(text)
-            .map_err(|error| damaged(rule, format!("no manifest of a bundle: {error}")))?;
+            .map_err(|error| damaged(rule, format!("not a manifest of a bundle: {error}")))?;
         if head.schema != BUNDLE_SCHEMA {
             let problem = format!(
                 "schema `{}`, written by TacEva {}: expected `{BUNDLE_SCHEMA}`, which TacEva {} reads; make the bundle again with this version",

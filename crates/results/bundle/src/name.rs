@@ -28,7 +28,8 @@ pub(crate) fn fault(name: &str) -> Option<String> {
     let parts: Vec<&str> = name.split('/').collect();
     if parts.iter().any(|part| ["", ".", ".."].contains(part)) {
         return Some(
-            "a path that leads out of the bundle, expected one below it, without `..`".to_owned(),
+            "a path that leads out of the bundle, expected a path inside the bundle, without `..`"
+                .to_owned(),
         );
     }
     // Windows drops such a dot, so two names would be one.

@@ -72,10 +72,10 @@ impl Recomputation {
     /// Recomputation of nothing, for a level that needs none.
     pub(crate) fn none() -> Recomputation {
         Recomputation {
-            states: Err(Stop::absent("not asked for")),
-            tables: Err(Stop::absent("not asked for")),
-            model: Err(Stop::absent("not asked for")),
-            fit: Err(Stop::absent("not asked for")),
+            states: Err(Stop::absent("not requested")),
+            tables: Err(Stop::absent("not requested")),
+            model: Err(Stop::absent("not requested")),
+            fit: Err(Stop::absent("not requested")),
         }
     }
 
@@ -103,7 +103,7 @@ impl Recomputation {
         Recomputation {
             states: of_states(states).map_err(named),
             tables: match settings.reads_tables {
-                false => Err(Stop::absent("not asked for")),
+                false => Err(Stop::absent("not requested")),
                 true => match unscored {
                     Some(reason) => Err(Stop::absent(reason)),
                     None => {
@@ -112,13 +112,13 @@ impl Recomputation {
                 },
             },
             model: match settings.datasets {
-                None => Err(Stop::absent("not asked for")),
+                None => Err(Stop::absent("not requested")),
                 Some(datasets) => {
                     of_model(source, files, report, datasets, settings).map_err(named)
                 }
             },
             fit: match settings.datasets.filter(|_| settings.fits) {
-                None => Err(Stop::absent("not asked for")),
+                None => Err(Stop::absent("not requested")),
                 Some(datasets) => {
                     of_fit(source, files, report, states, datasets, settings.work).map_err(named)
                 }

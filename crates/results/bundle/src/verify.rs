@@ -273,7 +273,7 @@ fn unchecked(manifest: &Manifest) -> Vec<String> {
     let own = env!("CARGO_PKG_VERSION");
     if manifest.taceva != own {
         remarks.push(format!(
-            "The generated files were not compared: TacEva {} is said to have written them, and this is {own}.",
+            "The generated files were not compared: the manifest states that TacEva {} wrote them, and this is {own}.",
             manifest.taceva
         ));
     }

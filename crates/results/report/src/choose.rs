@@ -225,7 +225,10 @@ fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             };
             match bound.property {
                 Property::Opaque => {
-                    format!("`{}` needs {CLOSED}, and this one does not", need.words)
+                    format!(
+                        "`{}` needs {CLOSED}, and the gel of this sensor does not",
+                        need.words
+                    )
                 }
                 property => format!(
                     "`{}` needs {bound}, and its {property} is {}{unsure}",
@@ -254,7 +257,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
             }
             None if property == Property::Bought => {
                 let words = &need.words;
-                return Some(format!("`{words}` needs a seller, and none is known"));
+                return Some(format!("`{words}` needs a seller, and no seller is known"));
             }
             None => match property.other(sensor) {
                 Some(other) => format!("is not known; known: {other}"),

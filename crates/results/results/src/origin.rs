@@ -19,7 +19,7 @@ pub fn not_measured<'a>(sources: impl IntoIterator<Item = &'a str>) -> Option<St
         .filter(|source| sources.contains(source))
         .collect();
     if drawn.is_empty() {
-        let words = "Not everything here may have been measured: the samples have several origins.";
+        let words = "Perhaps not everything here was measured: the samples have several origins.";
         return sources.contains("several").then(|| words.to_owned());
     }
     let kinds = drawn.join(" and ");
@@ -63,9 +63,7 @@ mod tests {
             ),
             (
                 vec!["several", "recorded"],
-                Some(
-                    "Not everything here may have been measured: the samples have several origins.",
-                ),
+                Some("Perhaps not everything here was measured: the samples have several origins."),
             ),
         ] {
             assert_eq!(not_measured(sources).as_deref(), said);

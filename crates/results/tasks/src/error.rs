@@ -50,7 +50,7 @@ pub enum TaskError {
         have: usize,
     },
     /// One name twice.
-    #[error("names: \"{}\" stands twice, expected each name once", shown(.name))]
+    #[error("names: \"{}\" occurs twice, expected each name once", shown(.name))]
     SameName {
         /// The name.
         name: String,

@@ -70,7 +70,7 @@ impl fmt::Display for Undefined {
             Undefined::NoPositive => "no positive sample",
             Undefined::NoPrediction => "no sample is predicted as the class",
             Undefined::NoNegative => "no negative sample",
-            Undefined::NotProbabilities => "the scores are no probabilities",
+            Undefined::NotProbabilities => "the scores are not probabilities",
             Undefined::InfiniteLoss => "a class of probability 0 is true",
             Undefined::TooManyPlaces => "as many places as classes, or more",
             Undefined::NoThresholds => "the task has no thresholds",

@@ -121,8 +121,8 @@ pub fn model_extractor(
     let extractor = model.extractor(sight.info(), sight.reference());
     extractor.map_err(|error| match error {
         FeatureError::Kind { expected, found } => EvaluateError::Unsuited(format!(
-            "{} has frames of {found}, and the model was fitted on frames of {expected}; import pictures of that size and format, or \
-             fit a model on these",
+            "{} has frames of {found}, and the model was fitted on frames of {expected}; import pictures of the size and format of the model, or fit \
+             a model on these pictures",
             shown(&dataset.path())
         )),
         error => error.into(),

@@ -94,7 +94,8 @@ pub(crate) fn compiled_model(path: &Path) -> Result<Model, EvaluateError> {
             source: FormatError::NoPlugin { id, key },
             ..
         } => EvaluateError::Request(format!(
-            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for a file of others",
+            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for an untrusted model file; if you trust it, evaluate the \
+             recording with it by `taceva evaluate --with`",
             shown(&key),
             shown(&id)
         )),

@@ -268,8 +268,8 @@ pub(crate) fn is_fitted_on(model: &Model, dataset: &Dataset) -> Result<bool, Eva
     match seen {
         None => Ok(false),
         Some(seen) => Err(EvaluateError::Request(format!(
-            "{}: the model was fitted on this and others, {} recordings together; score it on all of these in the order of the fit, or on \
-             other recordings",
+            "{}: the model was fitted on this recording and others, {} recordings together; score it on all these recordings in the \
+             order of the fit, or on other recordings",
             shown(seen.path()),
             fitted_on.len()
         ))),

@@ -108,7 +108,9 @@ fn covered(plan: &MetricPlan) -> (Vec<&'static Metric>, Vec<Skip>) {
         let mut fields = metric.needs.fields.iter();
         let lacking = fields.find(|field| !exact.contains(*field));
         let reason = match (reads_no_prediction(metric), lacking) {
-            (true, _) => "it reads every row of the recording, and the table holds the scored ones",
+            (true, _) => {
+                "it reads every row of the recording, but the table holds only the scored rows"
+            }
             (false, Some(_)) => {
                 "it reads frames, times or brightness, which the table does not hold"
             }
@@ -144,7 +146,7 @@ impl SampleRows<'_> {
             channels.find(|channel| self.samples.channel(channel.name()).is_none())
         {
             return Err(format!(
-                "the table of samples has no channel `{}`, which the state sums",
+                "the table of samples has no channel `{}`, which the state contains",
                 shown(channel.name())
             ));
         }
@@ -152,7 +154,7 @@ impl SampleRows<'_> {
             let line = row + 2;
             if plan.clustered_by() != ClusteredBy::Point && self.cluster(plan, row).is_none() {
                 return Err(format!(
-                    "the table of samples, line {line}: no name of the cluster, by which the state sums"
+                    "the table of samples, line {line}: no name of the cluster, which the state needs"
                 ));
             }
             let phase = self.samples.word(Field::Phase.name(), row);
@@ -162,7 +164,7 @@ impl SampleRows<'_> {
                 .or(kind.filter(|name| GratingKind::from_name(name).is_none()));
             if let Some(word) = unknown {
                 return Err(format!(
-                    "the table of samples, line {line}: unknown word `{}`",
+                    "the table of samples, line {line}: unknown phase or kind of grating `{}`",
                     shown(word)
                 ));
             }

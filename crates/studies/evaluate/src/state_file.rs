@@ -197,7 +197,7 @@ struct Head {
 fn read_capped(path: &Path) -> io::Result<String> {
     let file = File::open(path)?;
     if !file.metadata()?.is_file() {
-        return Err(io::Error::other("no regular file"));
+        return Err(io::Error::other("not a regular file"));
     }
     let mut text = String::new();
     file.take(LARGEST + 1).read_to_string(&mut text)?;

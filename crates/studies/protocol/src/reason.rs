@@ -137,7 +137,9 @@ impl fmt::Display for Cause {
             Cause::NoSensor => "a sensor: the scene has none",
             Cause::NoRobot => "a robot: the scene has none",
             Cause::NoForce => "a force transducer: the scene has none",
-            Cause::NoAxis => "a force transducer that measures it: this one does not",
+            Cause::NoAxis => {
+                "a force transducer that measures it: the transducer of the scene does not"
+            }
             Cause::NoModel => "a model: none chosen",
             Cause::NoEstimator => {
                 "a model that can be fitted: a model file predicts its own labels only"

@@ -26,7 +26,7 @@ impl Unseen {
             return refused("several recordings: expected one, because each has its own untouched picture; test them one by one".to_owned());
         }
         if model.reads_features() && !model.reads_frames() {
-            return refused("the model reads signals, expected one that reads pictures: fit one by `taceva fit --set input=frame`".to_owned());
+            return refused("the model reads signals, expected a model that reads pictures: fit such a model by `taceva fit --set input=frame`".to_owned());
         }
         dataset.require_view()?;
         if dataset.header().frames.is_none() {

@@ -77,7 +77,7 @@ impl Setup {
         });
         let skipped = orderless.into_iter().map(|fault| SkippedFault {
             fault: fault.id,
-            reason: "there is no picture before the only one",
+            reason: "the only scored picture has no previous picture",
         });
         Ok(Setup {
             skipped: skipped.collect(),
@@ -124,7 +124,7 @@ pub fn stress_plan(
     plan.step(
         "decode",
         format!(
-            "{} of the part `{}`, each once for all faults; before, {} at most for the change by contact",
+            "{} of the part `{}`, each once for all faults; before that, at most {} for the change by contact",
             counted(scored, "frame"),
             setup.samples.target.part.name(),
             counted(PICTURES.min(scored) + 1, "frame")
@@ -146,7 +146,7 @@ pub fn stress_plan(
     plan.step(
         "predict",
         format!(
-            "{} without a fault, in {} and beside {} from after the fault",
+            "{} without a fault and in {}, and with {} from after the fault as reference",
             counted(scored, "sample"),
             counted(cells, "cell"),
             counted(fresh, "untouched picture")

@@ -105,7 +105,7 @@ fn levels(
     let (Some(untouched), Some(contact)) = (&scale.untouched, scale.contact) else {
         return Err(EvaluateError::Request(
             "severity by stimulus: expected an untouched picture or labels of Fz or Pz, and pictures of contact that differ from the untouched \
-             one; use --by parameter"
+             picture; use --by parameter"
                 .to_owned(),
         ));
     };

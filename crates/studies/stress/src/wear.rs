@@ -119,9 +119,11 @@ fn check_limits(model: &Model, limits: &ByChannel<Amount>) -> Result<(), Evaluat
                 Vec::from_iter(units.keys().copied()).join("`, `")
             ),
             Some(unit) if *unit != limit.unit => {
-                format!("has a limit in {}, expected one in {unit}", limit.unit)
+                format!("has a limit in {}, expected a limit in {unit}", limit.unit)
             }
-            Some(_) if limit.value <= 0.0 => format!("has the limit {limit}, expected one above 0"),
+            Some(_) if limit.value <= 0.0 => {
+                format!("has the limit {limit}, expected a limit above 0")
+            }
             Some(_) => continue,
         };
         let name = shown(name);

@@ -106,9 +106,9 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         ]);
     }
     table.note(format!(
-        "Tests of mean absolute errors on test parts, paired by sample and summed by group of the split, or contact point, over the \
-         seeds with results on both sides: by sign flips for one seed and where no seed changes the difference, else by Student's t \
-         with the variance between seeds. All {count} tests of the sweep form one family of Holm's procedure, at a level of 5 %."
+        "Tests compare mean absolute errors on test parts, over the seeds with results on both sides. Errors are paired by sample, and \
+         summed by group of the split or by contact point. A test is by sign flips for one seed, and if no seed changes the difference; \
+         otherwise by Student's t with the variance between seeds. All {count} tests of the sweep form one family of Holm's procedure, at a level of 5 %."
     ));
     if let Some(words) = out_of_reach {
         table.note(words);

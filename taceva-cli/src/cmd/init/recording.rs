@@ -331,15 +331,15 @@ mod tests {
     #[test]
     fn an_answer_replaces_the_comment_of_the_draft_and_a_column_that_is_no_channel_keeps_the_reason()
      {
-        let excluded = "seq (counts up by one), set (by `set` commanded, not measured)";
+        let excluded = "seq (counts up by one), set (`set` means commanded, not measured)";
         let why = reason_against(excluded, "set");
-        assert_eq!(why, Some("by `set` commanded, not measured"));
+        assert_eq!(why, Some("`set` means commanded, not measured"));
         assert_eq!(reason_against(excluded, "et"), None);
         let line =
             "Fz = { from = \"set\", unit = \"?\" }   # \"a\", \"b\" match equally by a guess";
         assert_eq!(
             named(line, why),
-            "Fz = { from = \"set\", unit = \"?\" }   # named by you, though by `set` commanded, not measured"
+            "Fz = { from = \"set\", unit = \"?\" }   # named by you, though `set` means commanded, not measured"
         );
         assert_eq!(
             named(line, None),

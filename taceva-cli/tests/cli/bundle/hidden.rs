@@ -257,5 +257,5 @@ fn a_pipe_is_no_bundle_and_is_not_waited_for() {
     assert_eq!(bench.shell("mkfifo pipe.tar.gz").code, 0);
     let found = verified(&bench, "pipe.tar.gz", 3);
     let problem = found["damage"][0]["problem"].as_str().expect("words");
-    assert!(problem.contains("no regular file"), "{problem}");
+    assert!(problem.contains("not a regular file"), "{problem}");
 }

@@ -64,7 +64,7 @@ fn a_catalogue_without_a_fault_gets_its_index() {
     assert_eq!(index["entries"][0]["name"], "Foo");
     assert_eq!(index["bundles"][0]["licence"], "CC-BY-4.0");
     bench.write("empty/notes", "none");
-    bench.refused("catalogue check empty", 3, "no catalogue: expected");
+    bench.refused("catalogue check empty", 3, "not a catalogue: expected");
 }
 
 #[test]
@@ -223,7 +223,7 @@ fn the_same_results_and_the_same_row_twice_are_found() {
         let first = rows.split("[[measured]]").next().expect("a row");
         format!("{text}\n[[measured]]{first}")
     });
-    has(&findings(&bench), &["entries/foo.toml", "stands twice"]);
+    has(&findings(&bench), &["entries/foo.toml", "is listed twice"]);
 }
 
 #[test]
@@ -233,10 +233,10 @@ fn names_alike_are_refused_and_found() {
         bundle(&bench, name, model, error);
     }
     bundle(&bench, "three", "GelSightMini", 0.03);
-    bench.refused("catalogue add three --to c", 3, "is alike `GelSight`");
+    bench.refused("catalogue add three --to c", 3, "resembles `GelSight`");
     assert!(!bench.path("c").exists(), "a refusal leaves no folder");
     bench.ok("catalogue add one --to c");
-    bench.refused("catalogue add two --to c", 3, "is alike `Foo Mini`");
+    bench.refused("catalogue add two --to c", 3, "resembles `Foo Mini`");
     // An entry of another name, as by hand.
     let entry = text(&bench, "entries/foo-mini.toml");
     let (head, _) = entry.split_once("[[measured]]").expect("rows");
@@ -246,7 +246,7 @@ fn names_alike_are_refused_and_found() {
     );
     has(
         &findings(&bench),
-        &["entries/foomini.toml", "is alike one of `Foo Mini`"],
+        &["entries/foomini.toml", "resembles a name of `Foo Mini`"],
     );
     fs::remove_file(bench.path("c/entries/foomini.toml")).expect("there");
     edit(&bench.path("c/entries/foo-mini.toml"), |text| {

@@ -137,7 +137,7 @@ fn published_numbers_are_compared_and_chosen_from() {
     assert_eq!(answer["scores"], serde_json::json!([0.0164, 0.0361]));
     assert_eq!(
         answer["answer"],
-        "no answer: no interval: published without one"
+        "no answer: no interval: its source states no interval"
     );
     bench.write(
         "needs.toml",

@@ -30,8 +30,8 @@ pub(crate) static R_SPATIAL: Metric = Metric {
     range: Range::Positive,
     definition: "r_spatial/2",
     reference: "TacEva, equation (7)",
-    documentation: "Variation of the mean absolute error between places: the mean of two standard deviations (over n), one of the \
-                    means of a hundred bins of distance from the axis, one of those of a hundred bins of depth. Bins without samples do \
+    documentation: "Variation of the mean absolute error between places: the mean of two standard deviations (over n): of the means of a hundred bins \
+                    of distance from the axis, and of the means of a hundred bins of depth. Bins without samples do \
                     not count. Bins with few samples differ by chance; `noise_floor` is \
                     the size of that difference. `excess` is the remainder, where samples of one contact point are dependent, and \
                     verdicts use it. A score takes part in them only if its excess is shown to exceed 0. `n_min_5` omits bins with fewer \

@@ -42,7 +42,7 @@ impl Predictors {
         }
         if width > FEATURES_MAX {
             return Err(invalid(format!(
-                "{width} features, the elastic net accepts at most {FEATURES_MAX} of {samples} samples: set a smaller `size` or `pca`"
+                "{width} features, the elastic net accepts at most {FEATURES_MAX} for {samples} samples: set a smaller `size` or `pca`"
             )));
         }
         Predictors::of_products(design, progress)

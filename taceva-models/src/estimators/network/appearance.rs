@@ -66,13 +66,14 @@ const APPEARANCE: SettingInfo = SettingInfo {
     key: "appearance",
     accepts: "markers, light or auto",
     default: "the defaults of local_mean, contrast, jitter and noise",
-    about: "which part of a picture is the signal; it sets the defaults of those four: markers that move (a local mean of 6 and a jitter \
+    about: "which part of a picture is the signal; it sets the defaults of local_mean, contrast, jitter and noise: markers that move (a local mean of \
+            6 and a jitter \
             of 3 per 128 columns), or light and place (0, false, 0 and 0); auto is light for pictures in colour",
 };
 const JITTER: SettingInfo = SettingInfo {
     key: "jitter",
     accepts: "a number of pixels from 0 to 100",
-    default: "3, 0 of signals",
+    default: "3; 0 for signals",
     about: "greatest shift of training pictures",
 };
 const NOISE: SettingInfo = SettingInfo {
@@ -84,13 +85,13 @@ const NOISE: SettingInfo = SettingInfo {
 const LOCAL_MEAN: SettingInfo = SettingInfo {
     key: "local_mean",
     accepts: "a number of pixels from 0 to 100",
-    default: "6, 0 of signals",
+    default: "6; 0 for signals",
     about: "the standard deviation of the Gaussian whose mean is subtracted around each pixel; 0 subtracts nothing",
 };
 const CONTRAST: SettingInfo = SettingInfo {
     key: "contrast",
     accepts: "true or false",
-    default: "true, false of signals",
+    default: "true; false for signals",
     about: "whether each picture is divided by its standard deviation",
 };
 

@@ -49,7 +49,7 @@ const RATE: SettingInfo = SettingInfo {
     key: "rate",
     accepts: "a number above 0 and at most 10",
     default: "0.003 for cnn, 0.001 for residual networks",
-    about: "the highest learning rate of its one cycle",
+    about: "the highest learning rate of the one-cycle schedule",
 };
 const DECAY: SettingInfo = SettingInfo {
     key: "weight_decay",

@@ -90,7 +90,7 @@ pub(crate) fn matrix(source: &dyn ByteSource, place: Place) -> Result<Matrix, Pr
         return Err(Problem::damaged(
             name.data_at,
             "a name that exceeds its matrix",
-            "it within",
+            "a name within its matrix",
         ));
     }
     Ok(Matrix {

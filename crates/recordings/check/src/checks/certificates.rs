@@ -9,8 +9,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC028",
     name: "certificates",
-    looks_for: "instruments without a calibration certificate, with one that had expired or was issued after the recording, or with one for \
-        another serial number",
+    looks_for: "instruments whose calibration certificate is missing, expired, issued after the recording, or for another serial number",
     hint: "state the certificate of each instrument in the rig file or in the map, such as [force.certificate], and record or import again",
     reads: None,
     find,

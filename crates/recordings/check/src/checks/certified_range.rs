@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC029",
     name: "certified-range",
     looks_for: "labels outside the range of the certificate of their instrument",
-    hint: "no uncertainty is known there: leave these samples out of claims, or have the instrument calibrated over the whole range",
+    hint: "the uncertainty of these labels is unknown: leave these samples out of claims, or have the instrument calibrated over the whole range",
     reads: None,
     find,
 };

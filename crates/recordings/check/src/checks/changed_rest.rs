@@ -10,8 +10,8 @@ use crate::tiles::Tiles;
 pub(super) static CHECK: Check = Check {
     code: "TAC034",
     name: "changed-rest",
-    looks_for: "untouched pictures that differ from the reference by more than they differ from one another: by a third of the change by \
-        contact on average, or by all of it in one tile (1/8 of the width)",
+    looks_for: "pictures without contact that differ from the reference more than from one another: on average by a third of the mean change by \
+                contact, or in one tile (1/8 of the width) by the largest change by contact",
     hint: "record a new untouched reference picture: that corrects most changes of light, exposure, dust and position; otherwise check \
         the lens, the lamps and the coating",
     reads: Some(Field::Frame),

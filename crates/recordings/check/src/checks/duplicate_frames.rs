@@ -28,7 +28,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     }
     let total = evidence.table.frames().iter().flatten().count();
     let message = format!(
-        "{} of {total} frames repeat an earlier one, byte for byte",
+        "{} of {total} frames repeat an earlier frame, byte for byte",
         again.len()
     );
     vec![evidence.found(Severity::Warning, message, &again)]

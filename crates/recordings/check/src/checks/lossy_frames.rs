@@ -9,8 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC026",
     name: "lossy-frames",
     looks_for: "frames in JPEG or from lossy clips, whose pixels differ by a few levels between decoders",
-    hint: "use a model with the decoder whose pixels it was fitted on; scores of other programs on the same files differ as their pixels \
-        do (docs/your-recording.md)",
+    hint: "fit and evaluate a model with the same decoder; programs with other decoders give other scores on the same files (docs/your-recording.md)",
     reads: None,
     find,
 };

@@ -9,7 +9,7 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC006",
     name: "pressed-reference",
-    looks_for: "a reference frame that resembles deep presses more than light ones",
+    looks_for: "a reference frame that resembles deep presses more than light presses",
     hint: "record the reference while nothing touches the gel; differences from a pressed reference hide the press",
     reads: Some(Field::Frame),
     find,

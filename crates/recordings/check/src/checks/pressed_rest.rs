@@ -10,7 +10,7 @@ use crate::signal_facts::SignalFacts;
 pub(super) static CHECK: Check = Check {
     code: "TAC018",
     name: "pressed-rest",
-    looks_for: "rows of `rest` with a load above a tenth of the greatest, or with a mean that resembles deep presses more than light ones",
+    looks_for: "rows of `rest` with a load above a tenth of the greatest, or with a mean that resembles deep presses more than light presses",
     hint: "name rows in `rest` of [signals] in which nothing touches the sensor; differences from pressed rows hide the press",
     reads: Some(Field::Signals),
     find,

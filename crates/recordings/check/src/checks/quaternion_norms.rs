@@ -8,7 +8,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC032",
     name: "quaternion-norms",
     looks_for: "poses of a task whose quaternion has a norm other than 1 ± 0.000001",
-    hint: "write quaternions in full precision and in the order x, y, z, w, then import again; a quaternion of another norm is no rotation",
+    hint: "write quaternions in full precision and in the order x, y, z, w, then import again; a quaternion of another norm is not a rotation",
     reads: None,
     find,
 };
@@ -24,7 +24,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         let wrong: Vec<usize> = rows.clone().filter(is_wrong).collect();
         let first = norm(*wrong.first()?)?;
         let message = format!(
-            "task `{}`: {} of {} poses have a quaternion that is no rotation, the first with norm {first}",
+            "task `{}`: {} of {} poses have a quaternion that is not a rotation, the first with norm {first}",
             own.task().name,
             wrong.len(),
             rows.clone().filter(|row| norm(*row).is_some()).count()

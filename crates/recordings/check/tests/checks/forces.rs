@@ -123,7 +123,7 @@ fn a_slow_force_that_begins_anew_above_one_byte_is_named_with_its_row() {
     let unsigned = in_counts(|row| 3 * row % 256, false);
     assert_eq!(
         message(&unsigned, "TAC045"),
-        "Fz has at most 256 values, 0.100 N apart, and jumps by more than 200 of them between 1 pair of neighbouring samples, first in row \
+        "Fz has at most 256 values, 0.100 N apart, and jumps by more than 200 steps of this size between 1 pair of neighbouring samples, first in row \
          87: forces beyond one byte may be stored without their upper byte"
     );
     let signed = in_counts(|row| (3 * row + 128) % 256 - 128, false);

@@ -225,7 +225,7 @@ fn a_quaternion_of_another_norm_is_an_error_with_its_sample() {
     };
     assert_eq!(
         finding.message,
-        "task `moved`: 1 of 3 poses have a quaternion that is no rotation, the first with norm 0.9"
+        "task `moved`: 1 of 3 poses have a quaternion that is not a rotation, the first with norm 0.9"
     );
     assert_eq!(
         (finding.samples[0].as_str(), finding.severity),

@@ -82,7 +82,7 @@ fn a_finding_in_one_view_names_it_and_one_in_both_names_both() {
     let one = checked(&left, &repeated(right.clone(), 3, 9), &["TAC002"]);
     assert_eq!(
         findings(&one, "TAC002"),
-        ["view `right`: 1 of 24 frames repeat an earlier one, byte for byte"]
+        ["view `right`: 1 of 24 frames repeat an earlier frame, byte for byte"]
     );
     let both = checked(
         &repeated(left.clone(), 3, 9),
@@ -91,7 +91,7 @@ fn a_finding_in_one_view_names_it_and_one_in_both_names_both() {
     );
     assert_eq!(
         findings(&both, "TAC002"),
-        ["views `left`, `right`: 1 of 24 frames repeat an earlier one, byte for byte"]
+        ["views `left`, `right`: 1 of 24 frames repeat an earlier frame, byte for byte"]
     );
     let other = checked(&repeated(left, 1, 2), &repeated(right, 3, 9), &["TAC002"]);
     assert_eq!(findings(&other, "TAC002").len(), 2);

@@ -142,7 +142,7 @@ impl Dataset {
         frames.find(is_first).ok_or_else(|| {
             DatasetError::damaged(
                 &self.path().join(&entry.path),
-                "no row names its first frame, from which the differences of others are taken",
+                "no row names the first frame of this pack, from which its other frames are stored as differences",
             )
         })
     }

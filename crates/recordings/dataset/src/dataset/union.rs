@@ -192,14 +192,14 @@ fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
                 .or_insert((at, row));
             let same = |place: (usize, usize), problem: &str| {
                 let problem = format!(
-                    "sample `{}` of the first is sample `{}` of the second, {problem}: a model could learn one and be tested on the other",
+                    "sample `{}` of the first recording and sample `{}` of the second have {problem}: a model could learn one and be tested on the other",
                     shown(&recordings[place.0].table.samples()[place.1]),
                     shown(&table.samples()[row])
                 );
                 unlike(&recordings[place.0], recording, problem)
             };
             if place.0 != at {
-                return Err(same(place, "frame and labels"));
+                return Err(same(place, "the same frame and labels"));
             }
             let place = *pictures.entry(frame.digest).or_insert((at, row));
             if place.0 != at {
@@ -208,7 +208,7 @@ fn check_no_overlap(recordings: &[Dataset]) -> Result<(), DatasetError> {
                 if shared.len() == SAME_PICTURES {
                     return Err(same(
                         place,
-                        "the same picture with other labels, as are other samples, as in two imports of one recording",
+                        "the same picture with other labels, and the recordings share more pictures, as two imports of one recording do",
                     ));
                 }
             }
@@ -228,7 +228,7 @@ fn check_alike(one: &Dataset, other: &Dataset) -> Result<(), DatasetError> {
             one,
             other,
             format!(
-                "`{key}` is {own} in the first and {found} in the second; evaluate them separately"
+                "`{key}` is {own} in the first recording and {found} in the second; evaluate them separately"
             ),
         )),
     }

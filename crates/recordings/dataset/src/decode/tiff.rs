@@ -56,7 +56,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         DecodingResult::U16(numbers) => numbers.into_iter().flat_map(u16::to_le_bytes).collect(),
         _ => {
             return Err(
-                "TIFF with signed or floating-point numbers is not supported: expected unsigned ones of 8 or 16 bits".to_owned(),
+                "TIFF with signed or floating-point numbers is not supported: expected unsigned numbers of 8 or 16 bits".to_owned(),
             );
         }
     };

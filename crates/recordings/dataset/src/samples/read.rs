@@ -87,7 +87,7 @@ fn read_values<T: DataType, V>(
                 _ => {
                     let value = values.next().and_then(&convert);
                     Some(value.ok_or_else(|| {
-                        ParquetError::General("a value is missing or no text".to_owned())
+                        ParquetError::General("a value is missing or not a text".to_owned())
                     })?)
                 }
             };

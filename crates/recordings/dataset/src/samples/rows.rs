@@ -76,8 +76,8 @@ impl Columns {
         if task.kind != TaskKind::Pose {
             return match self.count(name, row)? {
                 Some(class) if class as usize >= task.names.len() => Err(format!(
-                    "column `{name}`, row {row}: class {class}, but the task has {} names, from 0",
-                    task.names.len()
+                    "column `{name}`, row {row}: class {class}, but the task has {}, counted from 0",
+                    taceva_core::counted(task.names.len(), "class")
                 )),
                 class => Ok(class.map(TaskLabel::Class)),
             };

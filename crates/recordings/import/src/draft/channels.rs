@@ -107,7 +107,7 @@ pub(super) fn lines(offered: &[Offered<'_>]) -> String {
                 };
                 let _ = writeln!(
                     text,
-                    "{channel} = {{ from = \"?\", {facts} }}   # {} match equally by {}: name the measured one",
+                    "{channel} = {{ from = \"?\", {facts} }}   # {} match equally by {}: name the measured column",
                     names.join(", "),
                     first.candidate.reason
                 );

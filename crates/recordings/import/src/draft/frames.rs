@@ -164,7 +164,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
     let first = column.cells.iter().find(|cell| !cell.is_empty())?;
     let begin: Vec<&str> = first.split('/').take(above).collect();
     let comment = format!(
-        "# A guess: paths in {:?} begin with {:?}, {above} folders above this one; only their ends name the pictures.",
+        "# A guess: paths in {:?} begin with {:?}, {above} folders above this folder; only their ends name the pictures.",
         column.name,
         begin.join("/")
     );
@@ -181,7 +181,7 @@ fn by_end_of_path(folder: &SourceFolder, main: &SeenTable<'_>) -> Option<FrameLi
             lines: vec![
                 comment,
                 format!(
-                    "column = \"?\"   # {:?}, if you make the draft of the folder in which its paths begin",
+                    "column = \"?\"   # {:?}, if you draft the map of the folder to which its paths are relative",
                     column.name
                 ),
             ],

@@ -110,7 +110,7 @@ fn by_key(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     })?;
     Some(vec![
         format!("on = {{ {:?} = {:?} }}", key.name, key.name),
-        "unmatched = \"drop\"   # rows without one are left out and counted".to_owned(),
+        "unmatched = \"drop\"   # rows without a match are left out and counted".to_owned(),
     ])
 }
 
@@ -165,7 +165,7 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     ];
     if rates.is_some_and(|(own, other)| is_slower(own, other) && is_of_presses(other)) {
         lines.push(format!(
-            "# or, if its rows are a slow stream and no presses: {LINEAR} and tolerance_ms = {:.3}",
+            "# or, if its rows are a slow stream instead of presses: {LINEAR} and tolerance_ms = {:.3}",
             2.0 * spacing_ms
         ));
     }

@@ -41,7 +41,9 @@ pub(super) fn known_layout(preset: &str) -> String {
 /// Comment on an array that is beside pictures but has no rows for them.
 pub(super) fn array_beside_pictures(table: &SeenTable<'_>) -> String {
     let reason = match table.group.ending.as_str() {
-        "txt" => "its numbers have no names, and its rows are not as many",
+        "txt" => {
+            "its numbers have no names, and it has another number of rows than there are pictures"
+        }
         _ => "if it is the picture without contact, save it as PNG and name it as `reference`",
     };
     format!(

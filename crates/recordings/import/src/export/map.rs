@@ -98,7 +98,7 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
         line(format_args!("reference = {}", quoted(reference)));
         if let Some(ReducedFrames { from, by, .. }) = pictures.reduced() {
             line(format_args!(
-                "# Reduced before they were recorded: {by}, of {from}."
+                "# The frames were reduced before recording: {by}, from {from}."
             ));
         }
     }

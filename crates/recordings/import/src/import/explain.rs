@@ -101,7 +101,7 @@ impl ImportSummary {
         let view: String = view.map(|view| format!(" of the view {view}")).collect();
         writeln!(
             f,
-            "frames   {} of them{view}, colours {}",
+            "frames   {}{view}, colours {}",
             self.rows_kept,
             frames.channel_order.name()
         )?;

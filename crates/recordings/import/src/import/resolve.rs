@@ -330,7 +330,7 @@ impl Sources<'_> {
                 self.main.path(),
                 "`path.{part}`: the pattern of [path] names {}",
                 match names.is_empty() {
-                    true => "nothing: there is none".to_owned(),
+                    true => "nothing, because the map has no [path]".to_owned(),
                     false => names.join(", "),
                 }
             )),

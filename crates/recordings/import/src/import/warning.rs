@@ -156,7 +156,7 @@ impl fmt::Display for ImportWarning {
         match self {
             ImportWarning::ColumnTwice { column, channels } => write!(
                 f,
-                "`{}` is read as {}: correct `from` of all but one, or delete the others",
+                "`{}` is read as {}: correct `from` of all but one channel, or delete the other channels",
                 taceva_core::shown(column),
                 channels.join(" and ")
             ),
@@ -200,7 +200,7 @@ impl fmt::Display for ImportWarning {
                 end,
             } => write!(
                 f,
-                "{} was cut or not closed: its {} before byte {end} {} read, and later ones are lost",
+                "{} was cut or not closed: its {} before byte {end} {} read, and later messages are lost",
                 taceva_core::shown(file),
                 taceva_core::counted(*messages, "complete message"),
                 taceva_core::by_count(*messages, "is", "are")
@@ -220,15 +220,15 @@ impl fmt::Display for ImportWarning {
             } => write!(
                 f,
                 "{} {} labels of `{}` from up to {farthest_ms} ms away, although its rows are usually {usual_ms} ms apart: the join bridges pauses of the table; write `tolerance_ms = {tolerance_ms}` with `unmatched = \"drop\"` to leave these rows out, or `pick = \"before\"` if a row \
-                 holds until the next",
+                 is valid until the next row",
                 taceva_core::counted(*rows, "row"),
                 taceva_core::by_count(*rows, "takes", "take"),
                 taceva_core::shown(join)
             ),
             ImportWarning::JoinLag { join, rows, equal } => write!(
                 f,
-                "`{}` has a row at the time of {equal} of {}, to a microsecond, without `lag_ms`, so both have stamps of one clock: write \
-                 `lag_ms = 0`, unless the pictures are delayed that long",
+                "without `lag_ms`, `{}` has a row at the time of {equal} of {}, to a microsecond, so both have stamps of one clock: write `lag_ms = \
+                 0`, unless the pictures are late by this lag",
                 taceva_core::shown(join),
                 taceva_core::counted(*rows, "row")
             ),
@@ -254,8 +254,8 @@ impl fmt::Display for ImportWarning {
             ),
             ImportWarning::DropUnmatched { name } => write!(
                 f,
-                "`{}` in `frames_named` of [drop] left out no row: another rule left it out already, or its name is another; write it as \
-                 the table has it, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
+                "`{}` in `frames_named` of [drop] left out no row: another rule left the row out already, or the table has another name; write the \
+                 name as in the table, or `clip.mp4#12` (from 0) for a picture in a clip or an array",
                 taceva_core::shown(name)
             ),
             ImportWarning::TaxelCode { column, code } => write!(

@@ -134,7 +134,7 @@ fn rows_under_another_certificate_are_refused_with_the_option_that_adds_them() {
 
 #[test]
 fn rows_under_a_changed_certificate_of_the_same_number_are_refused_with_both_values() {
-    let end = "in certificates of the same number `D-K-1`; add these rows with `--new-certificate`";
+    let end = "although both certificates have the number `D-K-1`; add these rows with `--new-certificate`";
     for (before, after, words) in [
         (
             "\"3.0 mN\"",

@@ -208,7 +208,7 @@ fn names_twice_and_a_positive_that_is_no_name_are_refused_with_the_line() {
     assert!(message.contains("`event` has two names"), "{message}");
     let message = refused_with("\"felt\", \"denim\", \"wool\"", "\"felt\"");
     assert!(
-        message.contains("`names` has 1 of the 2 to 4096 classes"),
+        message.contains("`names` has 1 class, expected 2 to 4096"),
         "{message}"
     );
     let message = refused_with("\"felt\", \"denim\"", "\"1\", \"denim\"");
@@ -246,7 +246,7 @@ fn times_without_a_column_and_kinds_that_are_not_read_are_refused() {
     assert!(message.contains("[time] has no `column`"), "{message}");
     let message = refused_with("\"class\"", "\"depth\"");
     assert!(
-        message.contains("`depth` is not read yet: expected class, event"),
+        message.contains("`depth` is not supported yet: expected class, event"),
         "{message}"
     );
     let message = refused_with("\"class\"", "\"clas\"");

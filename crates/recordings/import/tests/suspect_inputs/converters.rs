@@ -68,5 +68,5 @@ fn clips_without_a_table_lead_to_the_table_that_is_missing() {
         );
     }
     let message = refused_draft(&[("notes.txt", "x")]);
-    assert_names(&message, &["no table and no picture is in it"]);
+    assert_names(&message, &["it contains no table and no picture"]);
 }

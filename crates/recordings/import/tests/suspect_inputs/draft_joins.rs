@@ -81,7 +81,7 @@ fn a_join_of_single_presses_takes_no_row_of_another_press_and_offers_that_of_a_s
     );
     // Only the lab knows that such rows are a slow stream.
     assert!(
-        text.contains("# or, if its rows are a slow stream and no presses: pick = \"linear\" and tolerance_ms = 4000.000"),
+        text.contains("# or, if its rows are a slow stream instead of presses: pick = \"linear\" and tolerance_ms = 4000.000"),
         "{text}"
     );
 }

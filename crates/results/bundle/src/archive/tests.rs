@@ -115,7 +115,7 @@ fn files_and_bytes_behind_the_end_of_an_archive_are_refused() {
     let zeros = zeros.finish().expect("into memory");
     for (number, (behind, words)) in [
         (other, Some("bytes after the end of the archive")),
-        (b"trailing".to_vec(), Some("no whole .tar.gz")),
+        (b"trailing".to_vec(), Some("not a complete .tar.gz")),
         (zeros, None),
     ]
     .into_iter()
@@ -153,7 +153,7 @@ fn an_archive_that_is_cut_off_breaks_the_rule_of_the_packed_file() {
 
 #[test]
 fn names_that_come_twice_or_differ_in_case_alone_are_refused() {
-    refused(&[plain("a", b"1"), plain("a", b"2")], "it comes twice");
+    refused(&[plain("a", b"1"), plain("a", b"2")], "it occurs twice");
     refused(
         &[plain("a.json", b"1"), plain("A.json", b"2")],
         "but for case",

@@ -66,7 +66,7 @@ pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
     // Two additions at once would each lose the rows of the other.
     let turn = Staged::alone(&place).map_err(CatalogueFolderError::file(&place))?;
     let Some(_turn) = turn else {
-        let problem = "another process adds a bundle; run the command again after it";
+        let problem = "another process adds a bundle; run the command again when it has ended";
         return Err(CatalogueFolderError::refused(root, problem));
     };
     let texts = changed(root, &submission, request)?;
@@ -123,7 +123,7 @@ fn check_new(
             serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?;
         if file.path != own && results_digest(&known) == results {
             let problem = format!(
-                "its results are in the catalogue already, by {}; expected results of its own",
+                "its results are in the catalogue already, from {}; expected results that no other bundle has",
                 file.path
             );
             return Err(CatalogueFolderError::refused(&request.bundle, problem));

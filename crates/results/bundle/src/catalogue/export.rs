@@ -76,7 +76,7 @@ pub fn catalogue_form(
     sensors.retain(Sensor::has_bundles);
     if sensors.is_empty() {
         let problem =
-            "no number of a bundle; `taceva catalogue add BUNDLE --to DIR` adds those of a bundle";
+            "it has no number of a bundle; `taceva catalogue add BUNDLE --to DIR` adds numbers";
         return Err(CatalogueFolderError::refused(root, problem));
     }
     if form == CatalogueForm::Hub {

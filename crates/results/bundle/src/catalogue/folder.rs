@@ -73,7 +73,7 @@ pub(super) fn check_catalogue_folder(root: &Path) -> Result<(), CatalogueFolderE
     fs::metadata(root).map_err(CatalogueFolderError::file(root))?;
     if !root.join(ENTRIES).is_dir() && !root.join(BUNDLES).is_dir() {
         let problem = format!(
-            "no catalogue: expected a folder with {ENTRIES}/ and {BUNDLES}/; `taceva catalogue add BUNDLE --to DIR` makes one"
+            "not a catalogue: expected a folder with {ENTRIES}/ and {BUNDLES}/; `taceva catalogue add BUNDLE --to DIR` makes one"
         );
         return Err(CatalogueFolderError::refused(root, problem));
     }

@@ -235,7 +235,7 @@ fn row_faults(
             let is_new = known.insert((&row.bundle, row.study, row.words()));
             let fault = match manifests.get(&manifest) {
                 _ if !is_new => Some(format!(
-                    "{} of the bundle {} stands twice: expected once",
+                    "{} of the bundle {} is listed twice: expected once",
                     row.words(),
                     row.short_bundle()
                 )),
@@ -254,7 +254,7 @@ fn row_faults(
     }
     faults.extend(orphans.into_iter().map(|(manifest, (line, count))| {
         let problem = format!(
-            "{manifest} is missing or damaged, and {} of this entry from here on rest on it: restore it, or remove its rows and add the bundle again",
+            "{manifest} is missing or damaged, and {} of this entry from here on depend on it: restore it, or remove its rows and add the bundle again",
             counted(count, "number")
         );
         CatalogueFinding {
@@ -277,7 +277,7 @@ fn alike(entries: &[EntryFile], built_in: &[Sensor]) -> Vec<CatalogueFinding> {
         for other in before.chain(of_program) {
             if let Some(name) = names.iter().find(|name| other.is_called_like(name)) {
                 let problem = format!(
-                    "the name `{name}` is alike one of `{}`: expected one entry for one sensor, with its other names as `aliases`",
+                    "the name `{name}` resembles a name of `{}`: expected one entry for one sensor, with its other names as `aliases`",
                     other.name
                 );
                 findings.push(CatalogueFinding::new(path, problem));

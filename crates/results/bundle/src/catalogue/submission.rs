@@ -64,7 +64,7 @@ impl Submission {
         let is_verified = found.bundle.as_ref().is_some_and(|own| own.seal == digest)
             && results_digest(&manifest) == Some(source.digest(RESULTS)?.as_str());
         if !is_verified {
-            let problem = "it was changed while it was read; expected a bundle that stays";
+            let problem = "it was changed while it was read; run the command again when no program writes to the bundle";
             return Err(refused(problem.to_owned()));
         }
         if let Some(problem) = unfinished(&manifest) {
@@ -130,7 +130,8 @@ impl Submission {
             }
             if Origin::of_source(&subject.source).is_none() {
                 return Err(refused(format!(
-                    "the samples of study {} have the origin `{}`: expected recorded, simulated, synthetic or unknown; evaluate samples of different origins apart",
+                    "the samples of study {} have the origin `{}`: expected recorded, simulated, synthetic or unknown; evaluate samples of different \
+                     origins separately",
                     claim.study, subject.source
                 )));
             }
@@ -166,7 +167,7 @@ impl Submission {
             rows.or_default().push(row);
         }
         match self.sensors.is_empty() {
-            true => Err(refused("no number in it: expected one or more".to_owned())),
+            true => Err(refused("it has no number: expected one or more".to_owned())),
             false => Ok(()),
         }
     }

@@ -97,7 +97,7 @@ fn each_form_holds_value_interval_unit_and_number_of_samples_of_every_claim() {
     }
     assert!(with_interval > 3, "{with_interval} of {}", claims.len());
     let card = card.join("\n");
-    for words in ["mean of truth − prediction", "Computed again from: "] {
+    for words in ["mean of truth − prediction", "computed the number again: "] {
         assert!(card.contains(words), "{card}");
     }
 }

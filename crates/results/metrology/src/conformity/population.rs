@@ -52,7 +52,7 @@ impl Population {
         let known = |of: &Measurement| {
             let standard = of.standard_uncertainty().unwrap_or(f64::NAN);
             let scaled = measured.at(of.value()).on_scale(standard);
-            let expected = "a number, by an interval of each unit";
+            let expected = "a number, from an interval of each unit";
             check(
                 "the standard uncertainty of a unit",
                 scaled,
@@ -65,7 +65,7 @@ impl Population {
         let mut squares = Vec::new();
         for unit in units {
             let place = measured.place(unit.value());
-            let expected = "a value on the scale of the others";
+            let expected = "a value on the scale of the other units";
             check(
                 "the value of a unit",
                 unit.value(),

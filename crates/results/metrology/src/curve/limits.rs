@@ -87,9 +87,12 @@ impl fmt::Display for Standing {
                 let known = if *is_complete { "" } else { "known figures " };
                 match multiple {
                     Some(multiple) => {
-                        write!(f, "; {known}within class 1 x {multiple}, not {standard}")
+                        write!(
+                            f,
+                            "; {known}within class 1 x {multiple}, not a class of {standard}"
+                        )
                     }
-                    None => write!(f, "; beyond class 1 x 200, not {standard}"),
+                    None => write!(f, "; beyond class 1 x 200, not a class of {standard}"),
                 }
             }
             Standing::Unknown { missing } => {

@@ -138,10 +138,10 @@ impl Origin {
     /// Origins of samples that the table accepts, for messages.
     const fn expected(self) -> &'static str {
         match self {
-            Origin::Measured => "recorded; others belong into [[simulated]] or [[unknown]]",
-            Origin::Unknown => "unknown; others belong into [[measured]] or [[simulated]]",
+            Origin::Measured => "recorded; other origins belong in [[simulated]] or [[unknown]]",
+            Origin::Unknown => "unknown; other origins belong in [[measured]] or [[simulated]]",
             Origin::Simulated => {
-                "simulated or synthetic; others belong into [[measured]] or [[unknown]]"
+                "simulated or synthetic; other origins belong in [[measured]] or [[unknown]]"
             }
         }
     }

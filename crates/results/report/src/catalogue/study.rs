@@ -69,7 +69,7 @@ impl Sensor {
     /// Converts published numbers to results for tables and comparisons. The results have the source `published` and no intervals.
     pub fn as_study(&self) -> Study {
         let score = |metric: &str, channel: &str, value: f64, unit: Unit| Score {
-            interval: Some(Interval::Absent("published without one".to_owned())),
+            interval: Some(Interval::Absent("its source states no interval".to_owned())),
             definition: PUBLISHED.to_owned(),
             ..Score::of_number(metric, channel, value, unit)
         };

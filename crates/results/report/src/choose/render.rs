@@ -125,13 +125,13 @@ impl Choice {
             let others = match others {
                 0 => String::new(),
                 _ => format!(
-                    ", {others} {} one of another definition only",
+                    ", {others} {} a number of another definition only",
                     by_count(others, "has", "have")
                 ),
             };
             let none = match self.unknown.is_empty() {
                 true => String::new(),
-                false => format!("; none is known for: {}", first(&self.unknown)),
+                false => format!("; no number is known for: {}", first(&self.unknown)),
             };
             table.note(format!(
                 "{known} of {} {} a requested number{others}{none}.",
@@ -199,7 +199,7 @@ impl Choice {
             }
             [best] if !self.apart.is_empty() => {
                 format!(
-                    "{} alone is ranked; others rest on other samples",
+                    "{} alone is ranked; others were measured on other samples",
                     best.name
                 )
             }

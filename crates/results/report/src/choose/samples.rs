@@ -20,7 +20,7 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
             apart.push(Dropped {
                 name: sensor.name.clone(),
                 reason: format!(
-                    "its numbers are of the samples {}, and others rest on other samples or definitions",
+                    "its numbers are of the samples {}, and other sensors have numbers of other samples or definitions",
                     short(samples)
                 ),
             });

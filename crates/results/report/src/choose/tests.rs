@@ -277,7 +277,10 @@ fn a_number_of_another_definition_is_shown_and_neither_meets_a_bound_nor_is_call
         text.contains("Minsight: no MAE of Fz; known: force_error F 0.07 N"),
         "{text}"
     );
-    assert!(text.contains("one of another definition only"), "{text}");
+    assert!(
+        text.contains("a number of another definition only"),
+        "{text}"
+    );
     let json: serde_json::Value = serde_json::from_str(&choice.json()).expect("json");
     let names = json["other_definitions"].as_array().expect("a list");
     assert!(names.iter().any(|of| of["name"] == "Minsight"), "{json}");

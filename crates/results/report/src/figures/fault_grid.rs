@@ -57,7 +57,7 @@ pub fn fault_grid(grid: &FaultGrid) -> Figure {
     }
     let channels: Vec<String> = grid.panels.iter().map(|of| of.channel.clone()).collect();
     let caption = format!(
-        "{} Numbers: error with the fault, divided by the error without it. A bar stands before the first severity without skill; – was not tested.",
+        "{} Numbers: error with the fault, divided by the error without it. A bar marks the first severity without skill; – means not tested.",
         grid.caption
     );
     Figure {

@@ -155,11 +155,11 @@ impl ScoreTable {
         let mut sentences = Vec::new();
         if self.valued().any(|cell| cell.is_best) {
             sentences.push(
-                "Bold: better than every other one at a level of 5 % after Holm's adjustment."
+                "Bold: better than every other sensor at a level of 5 % after Holm's adjustment."
                     .to_owned(),
             );
         } else if self.names.len() > 1 {
-            sentences.push("None is shown to be better than every other one at a level of 5 % after Holm's adjustment.".to_owned());
+            sentences.push("None is shown to be better than every other sensor at a level of 5 % after Holm's adjustment.".to_owned());
         }
         sentences.extend(self.legend(BARRED));
         if self.rows.iter().any(|row| row.metric == "repeatability") {

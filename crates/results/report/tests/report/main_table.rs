@@ -97,7 +97,7 @@ fn four_sensors_stand_in_columns_with_the_best_in_bold() {
             "\\multicolumn{5}{@{}l}{MAE $\\downarrow$} \\\\",
             "\\textbf{0.036}",
             "$n$ & 20 & 20--21 & 20--22 & 20--23 \\\\",
-            "Bold: better than every other one at a level of 5 \\% after Holm's adjustment.",
+            "Bold: better than every other sensor at a level of 5 \\% after Holm's adjustment.",
         ],
     );
 }

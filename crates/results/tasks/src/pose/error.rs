@@ -56,7 +56,7 @@ pub enum PoseError {
         text: String,
     },
     /// Thresholds that do not ascend.
-    #[error("threshold `{text}` after a greater or equal one, expected ascending thresholds")]
+    #[error("threshold `{text}` after a greater or equal threshold, expected ascending thresholds")]
     Order {
         /// Text of the threshold that is not greater than the one before.
         text: String,

@@ -60,7 +60,7 @@ fn numbers_that_sum_to_0_7_have_no_losses_and_the_reason() {
     for score in slip.scores() {
         let reason = score.estimate.value.expect_err("no probabilities");
         assert_eq!(reason, Undefined::NotProbabilities, "{}", score.metric);
-        assert_eq!(reason.to_string(), "the scores are no probabilities");
+        assert_eq!(reason.to_string(), "the scores are not probabilities");
     }
     // They still rank.
     assert_eq!(slip.ranking().map(|ranking| ranking.n()), Some(2));

@@ -56,11 +56,11 @@ fn the_same_name_twice_is_refused() {
     let text = refusal(Classes::new(["slip", "no_slip", "slip"], None));
     assert_eq!(
         text,
-        "names: \"slip\" stands twice, expected each name once"
+        "names: \"slip\" occurs twice, expected each name once"
     );
     assert_eq!(
         refusal(TopK::new(["a", "a"])),
-        "names: \"a\" stands twice, expected each name once"
+        "names: \"a\" occurs twice, expected each name once"
     );
     assert_eq!(
         refusal(TopK::new(["a"])),

@@ -173,7 +173,7 @@ fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
 
 fn without_cluster(task: &Task) -> EvaluateError {
     EvaluateError::Request(format!(
-        "task `{}`: a sample has no value in `{}`, which tells its cluster: fill the column in, or state another `cluster` in the map",
+        "task `{}`: a sample has no value in the cluster column `{}`: fill the column in, or state another `cluster` in the map",
         shown(&task.name),
         shown(&task.cluster)
     ))

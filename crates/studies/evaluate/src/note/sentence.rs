@@ -65,7 +65,7 @@ impl fmt::Display for Note {
                 of: all,
             } => write!(
                 f,
-                "{}each sample has several pictures ({}); the model sees those of {}{}",
+                "{}each sample has several pictures ({}); the model sees the pictures of {}{}",
                 of(recording),
                 shown(all),
                 shown(view),
@@ -229,7 +229,7 @@ impl fmt::Display for Note {
             ),
             Note::FramesFrozen(count) => write!(
                 f,
-                "the camera froze: {} equalled the one before although the force changed, {} aborted and repeated",
+                "the camera froze: {} repeated the previous frame although the force changed, {} aborted and repeated",
                 counted(*count, "frame"),
                 by_count(*count, "and its press was", "and their presses were")
             ),
@@ -253,8 +253,8 @@ fn clusters(
     if recordings < least {
         return write!(
             f,
-            "scored on {} of {}; intervals by contact point do not show how scores vary between \
-             recordings; that takes {least} recordings with scored samples",
+            "scored on {} of {}; intervals by contact point do not show how scores vary between recordings; intervals by recording need {least} \
+             recordings with scored samples",
             counted(points, "contact point"),
             counted(recordings, "recording")
         );

@@ -31,12 +31,12 @@ impl fmt::Display for Within {
         };
         write!(
             f,
-            "{} of {} groups of `{}` share their `{}` with others, so a model may have learnt it from these; to leave out all of it: \
-             --split '{spec}'",
+            "{} of {} groups of `{}` share their `{within}` with others, so training and test samples may have the same `{within}`; \
+             to keep each `{within}` in one part: --split '{spec}'",
             self.shared,
             self.of,
             shown(&self.column),
-            shown(&self.within)
+            within = shown(&self.within)
         )
     }
 }

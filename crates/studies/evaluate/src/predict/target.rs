@@ -72,7 +72,7 @@ impl Target {
             (None, DataPart::All) => dataset.all_rows(),
             (None, part) => {
                 return Err(EvaluateError::Request(format!(
-                    "part `{}`: the model was fitted on another dataset, so this one has only the part `all`",
+                    "part `{}`: the model was fitted on another dataset, so this dataset has only the part `all`",
                     part.name()
                 )));
             }

@@ -308,7 +308,7 @@ pub(super) fn is_lacking<'a>(
         )
     });
     format!(
-        "no row with {} `{}`, although {} has one{nearly}",
+        "no row with {} `{}`, although {} has such a row{nearly}",
         in_words(name),
         shown(key),
         shown(has)

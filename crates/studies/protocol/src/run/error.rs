@@ -59,7 +59,7 @@ pub enum StopCause {
     },
     /// A frame is bit-equal to the previous one although the force changed.
     #[error(
-        "frames equal earlier ones bit for bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
+        "frames equal earlier frames bit for bit although the force changed: the camera is frozen; restart it, check it with `taceva preview`, and continue with `--resume`"
     )]
     FrozenFrame,
     /// A motion would leave the workspace. It was not started.

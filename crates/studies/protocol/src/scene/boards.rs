@@ -69,7 +69,7 @@ pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGra
         return Err(RefusedGratings {
             at: kinds.at(),
             problem: SceneProblem::Contradiction(
-                "`kinds` is empty or names one twice, expected \"line\", \"dot\" or both"
+                "`kinds` is empty or names a kind twice, expected \"line\", \"dot\" or both"
                     .to_owned(),
             ),
         });

@@ -91,7 +91,7 @@ impl fmt::Display for Alarm {
                 format!("untouched pictures have changed in large parts, {stimulus}")
             }
             Change::Detail => format!("untouched pictures have changed in detail, {stimulus}"),
-            Change::Repeats => format!("{share} untouched pictures repeat the one before"),
+            Change::Repeats => format!("{share} untouched pictures repeat the previous picture"),
             Change::Contact => {
                 format!("{share} pictures of contact are outside the training pictures")
             }

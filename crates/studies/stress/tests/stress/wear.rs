@@ -236,11 +236,11 @@ fn samples_of_the_fit_are_left_out_and_wrong_limits_are_refused() {
         ),
         (
             with("Fz", 0.1, Unit::Millimetre),
-            "mae.Fz has a limit in mm, expected one in N",
+            "mae.Fz has a limit in mm, expected a limit in N",
         ),
         (
             with("Fz", 0.0, Unit::Newton),
-            "mae.Fz has the limit 0 N, expected one above 0",
+            "mae.Fz has the limit 0 N, expected a limit above 0",
         ),
     ] {
         let said = refused(&both, &model, &request);
@@ -258,7 +258,7 @@ fn one_of_several_recordings_of_the_fit_is_refused_and_named_once() {
     let model = fitted(&both, "ridge", &["size=8x8"]);
     let one = Dataset::open(&folder.path().join("one")).expect("opens");
     let said = refused(&[one, new("later", 20, 3)], &model, &WearRequest::default());
-    let expected = "one: the model was fitted on this and others";
+    let expected = "one: the model was fitted on this recording and others";
     assert!(said.contains(expected), "{said}");
     assert_eq!(said.matches("one: ").count(), 1, "{said}");
 }

@@ -18,7 +18,7 @@ pub(super) fn shared_tasks(recordings: &[Dataset]) -> Result<Vec<Task>, DatasetE
                 Some((_, other)) if other.definition() == task.definition() => {}
                 Some((one, other)) => {
                     let problem = format!(
-                        "the task `{}` in the first and `{}` in the second differ; evaluate them separately",
+                        "the task `{}` in the first recording and `{}` in the second differ; evaluate them separately",
                         other.definition(),
                         task.definition()
                     );

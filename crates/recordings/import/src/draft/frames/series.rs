@@ -307,7 +307,8 @@ pub(super) fn of(
 }
 
 /// Line with a gap, for several series that are not views of one sample, such as colour and depth.
-const SEVERAL: &str = "pattern = \"?\"   # several series fit the rows: name that of the sensor";
+const SEVERAL: &str =
+    "pattern = \"?\"   # several series fit the rows: name the series of the sensor";
 
 /// Comment for a table without pictures, on the pictures of the folder that belong to no row.
 pub(super) fn none_found(groups: &[FileGroup], main: &SeenTable<'_>) -> String {

@@ -17,7 +17,7 @@ impl fmt::Display for Exclusion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Exclusion::Counting => f.write_str("counts up by one"),
-            Exclusion::Word { word, said } => write!(f, "by `{word}` {said}"),
+            Exclusion::Word { word, said } => write!(f, "`{word}` means {said}"),
             Exclusion::Unit(unit) => write!(f, "another quantity by its unit `{unit}`"),
         }
     }

@@ -61,7 +61,7 @@ fn changed(own: &[Option<&Certificate>], new: &Certificate, key: &str) -> Option
     let difference = first_difference(&before?, &after?, key)?;
     let number = shown(&new.number);
     Some(format!(
-        "{difference} in the map, in certificates of the same number `{number}`"
+        "{difference} in the map, although both certificates have the number `{number}`"
     ))
 }
 

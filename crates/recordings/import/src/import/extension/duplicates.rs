@@ -112,8 +112,8 @@ fn refuse_same_pictures(
         return Ok(());
     }
     Err(refused(format!(
-        "{} has the picture of row {before} of the dataset, sample `{}`, with other labels or another time, as do {} different pictures \
-         in all: a recording is not added twice",
+        "{} has the picture of row {before} of the dataset, sample `{}`, with other labels or another time; {} different pictures are already in the \
+         dataset, and no recording is added twice",
         origin(table, *row, old),
         shown(&table.samples()[*before]),
         again.len()

@@ -166,9 +166,9 @@ impl Check<'_> {
         }
         let known = TaskKind::ALL.map(TaskKind::name);
         let problem = match nearest(word, known) {
-            _ if LATER.contains(&word) => "is not read yet".to_owned(),
-            Some(guess) => format!("is no kind of task, did you mean `{guess}`"),
-            None => "is no kind of task".to_owned(),
+            _ if LATER.contains(&word) => "is not supported yet".to_owned(),
+            Some(guess) => format!("is not a kind of task, did you mean `{guess}`"),
+            None => "is not a kind of task".to_owned(),
         };
         let problem = format!("`{}` {problem}: expected {}", shown(word), known.join(", "));
         Err(self.at(written.span().start, &problem))
@@ -192,7 +192,7 @@ impl Check<'_> {
         }
         let problem = match written {
             None => format!(
-                "[task.{name}] needs `cluster`, what samples that resemble each other share, such as the trajectory, clip or object: state \
+                "[task.{name}] needs `cluster`, the id or attribute that similar samples share, such as the trajectory, clip or object: state \
                  `cluster`, one of {}",
                 listed(known)
             ),
@@ -202,7 +202,7 @@ impl Check<'_> {
                     format!(", did you mean `{}`", shown(guess))
                 });
                 format!(
-                    "`{}` is no id or attribute of this map{guess}: `cluster` is one of {}",
+                    "`{}` is not an id or attribute of this map{guess}: `cluster` is one of {}",
                     shown(cluster),
                     listed(known)
                 )
@@ -286,7 +286,7 @@ impl Check<'_> {
         let columns = match written.from {
             WrittenFrom::Pose(columns) if !is_class => columns,
             _ => {
-                let problem = "a pose has `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`, and no `names` and \
+                let problem = "a pose has `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`, and neither `names` nor \
                     `positive`";
                 return Err(self.at(offset, problem));
             }

@@ -44,7 +44,7 @@ pub(super) fn check_tables(
             (Some(table), [first, ..]) if !tables.iter().any(|path| relative(path) == *table) => {
                 return Err(table_error!(
                     first,
-                    "row {number} in `rows` of [drop] is of `{}`, which is not a table of the map: write its path relative to the folder, \
+                    "row {number} in `rows` of [drop] names `{}`, which is not a table of the map: write its path relative to the folder, \
                      such as `{}`",
                     shown(table),
                     shown(&relative(first))

@@ -46,7 +46,7 @@ impl Sources<'_> {
         Err(table_error!(
             Place::file(self.main.path()).in_column(&class.from),
             "[classes] {key}: `names` has \"{}\", which is also the position of \"{}\", so a cell `{position}` is ambiguous. If cells \
-                 are positions, use names that are no positions, such as \"class {}\"; if cells are names, use `[attributes]`, which \
+                 are positions, use names that are not positions, such as \"class {}\"; if cells are names, use `[attributes]`, which \
                  needs no `names`",
             shown(name),
             shown(other),

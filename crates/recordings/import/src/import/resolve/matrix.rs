@@ -67,7 +67,13 @@ fn of_file(
     let table = CsvTable::read_headerless(&path)?;
     let number = |row, column| {
         let number = table.number(row, column)?;
-        number.ok_or_else(|| table.refuse(row, column, "empty, expected a number of the matrix"))
+        number.ok_or_else(|| {
+            table.refuse(
+                row,
+                column,
+                "empty, expected a number in every cell of the matrix",
+            )
+        })
     };
     let columns = table.names().len();
     let rows: Result<Vec<Vec<f64>>, ImportError> = (0..table.rows())

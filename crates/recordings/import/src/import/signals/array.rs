@@ -195,7 +195,7 @@ impl ArraySignals {
         let numbers = read.values.to_f64();
         numbers.ok_or_else(|| {
             wrong(format!(
-                "`{}` holds no numbers, or some that 64 bits of floating point cannot represent",
+                "`{}` holds no numbers, or numbers that 64 bits of floating point cannot represent",
                 taceva_dataset::internal::shown(&self.name)
             ))
         })

@@ -229,7 +229,10 @@ fn units_that_show_no_process_are_refused() {
     let mut unknown = measured.clone();
     unknown[0] = Measurement::without_uncertainty(0.07).expect("finite");
     let unknown = refusal(&unknown);
-    assert!(unknown.contains("by an interval of each unit"), "{unknown}");
+    assert!(
+        unknown.contains("from an interval of each unit"),
+        "{unknown}"
+    );
     let mut negative = measured.clone();
     negative[0] = Measurement::new(-0.07, 0.01, 30.0).expect("finite");
     let negative = refusal(&negative);

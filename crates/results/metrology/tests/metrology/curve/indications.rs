@@ -125,7 +125,7 @@ fn a_level_beyond_class_3_says_the_figure_the_end_and_a_multiple() {
         .to_string();
     assert_eq!(
         said,
-        "none: q = 7.1 %, class 3 ends at 3.00 %; known figures within class 1 x 10, not ISO 7500-1"
+        "none: q = 7.1 %, class 3 ends at 3.00 %; known figures within class 1 x 10, not a class of ISO 7500-1"
     );
     let mut good = level(&[100.1, 100.2, 100.1]);
     (good.down, good.zeros, good.resolution) =

@@ -84,7 +84,7 @@ fn a_sensor_far_beyond_says_the_figure_the_end_and_a_multiple() {
         assert_eq!(
             found.standing(0).to_string(),
             format!(
-                "none: b' = {percent} %, class 2 ends at 0.20 %; known figures within class 1 x {multiple}, not ISO 376"
+                "none: b' = {percent} %, class 2 ends at 0.20 %; known figures within class 1 x {multiple}, not a class of ISO 376"
             )
         );
     }
@@ -101,7 +101,7 @@ fn a_figure_beyond_200_times_class_1_has_no_multiple() {
     let said = series.figures().expect("figures").standing(1).to_string();
     assert_eq!(
         said,
-        "none: b = 75.0 %, class 2 ends at 0.40 %; beyond class 1 x 200, not ISO 376"
+        "none: b = 75.0 %, class 2 ends at 0.40 %; beyond class 1 x 200, not a class of ISO 376"
     );
 }
 

@@ -101,7 +101,8 @@ impl Gather<'_> {
             }
             Some((rig, _)) => {
                 let problem = format!(
-                    "the robot `{key}` does not reach ({x}, {y}, {z}) in its base frame, which is ({}, {}, {}) in the sensor's: correct `origin_mm`, `axes` or the workspace of the driver; or in the scene {shorter}",
+                    "the robot `{key}` does not reach ({x}, {y}, {z}) in its base frame, which is ({}, {}, {}) in the frame of the sensor: correct \
+                     `origin_mm`, `axes` or the workspace of the driver; or in the scene {shorter}",
                     tip.x, tip.y, tip.z
                 );
                 let robot = self.study.robot.as_ref();
@@ -134,7 +135,7 @@ fn within(
                 format!("{x} by {y}")
             };
             Err(format!(
-                "the footprint extends {} from its centre, but {owner} allows at most {}: state a smaller one",
+                "the footprint extends {} from its centre, but {owner} allows at most {}: state a smaller footprint",
                 by(extent),
                 by(limit)
             ))

@@ -141,7 +141,11 @@ fn a_one_axis_transducer_narrows_accuracy_to_what_it_measures() {
         .iter()
         .find(|skip| skip.subject == lost)
         .expect("said");
-    assert!(skip.reason.to_string().contains("this one does not"));
+    assert!(
+        skip.reason
+            .to_string()
+            .contains("the transducer of the scene does not")
+    );
 }
 
 #[test]

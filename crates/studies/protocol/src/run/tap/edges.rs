@@ -54,7 +54,8 @@ pub enum TapError {
     },
     /// A device does not show the tap clearly. Its signal in the air varies by at least half of its change.
     #[error(
-        "tap {tap}: the {device} signal does not show it clearly: in the air it varies by {in_air:.2} of its change, expected below {EDGE}; check its mounting, its light or its noise"
+        "tap {tap}: the {device} signal does not show the tap clearly: in the air the signal varies by {in_air:.2} of its change, expected below \
+         {EDGE}; check its mounting, its light or its noise"
     )]
     Unclear {
         /// Number of the tap, counted from 1.

@@ -92,7 +92,7 @@ fn a_footprint_beyond_that_of_the_sensor_is_refused_with_line_and_limit() {
     let error = plan(&scene, |_| SourceInfo::Rig(Box::new(rig()))).expect_err("too wide");
     assert_eq!(
         error.to_string(),
-        "s.toml, line 5: the footprint extends 9 mm by 10 mm from its centre, but the sensor allows at most 8 mm by 10 mm: state a smaller one"
+        "s.toml, line 5: the footprint extends 9 mm by 10 mm from its centre, but the sensor allows at most 8 mm by 10 mm: state a smaller footprint"
     );
 }
 

@@ -218,7 +218,9 @@ fn gratings_that_are_not_in_the_catalogue_are_refused() {
     }
     assert!(with("[protocol.gratings]\nstep_mm = 0.03").contains("the step between boards"));
     assert!(with("[protocol.gratings]\nkinds = []").contains("`kinds` is empty"));
-    assert!(with("[protocol.gratings]\nkinds = [\"line\", \"line\"]").contains("names one twice"));
+    assert!(
+        with("[protocol.gratings]\nkinds = [\"line\", \"line\"]").contains("names a kind twice")
+    );
     assert!(
         with("[protocol.gratings]\nfrom_mm = 1.0\nto_mm = 0.5")
             .contains("expected `from_mm` at most")

@@ -28,8 +28,8 @@ pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<Strin
     let mut seen = BTreeSet::new();
     if !(2..=NAMES).contains(&names.len()) {
         return Some(format!(
-            "`names` has {} of the 2 to {NAMES} classes: name every class that a model can predict",
-            names.len()
+            "`names` has {}, expected 2 to {NAMES}: name every class that a model can predict",
+            taceva_core::counted(names.len(), "class")
         ));
     }
     if let Some(twice) = names.iter().find(|name| !seen.insert(name.as_str())) {
@@ -53,7 +53,7 @@ pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<Strin
     let (name, position) = class.ambiguous()?;
     let other = names.get(position).map_or("", String::as_str);
     Some(format!(
-        "the name `{0}` is also the position of `{1}`, so a cell `{0}` is ambiguous: use names that are no positions, such as `class {0}`",
+        "the name `{0}` is also the position of `{1}`, so a cell `{0}` is ambiguous: use names that are not positions, such as `class {0}`",
         shown(name),
         shown(other)
     ))
@@ -72,7 +72,7 @@ pub(super) fn problem_of_limits(limits: &[String]) -> Option<String> {
             Some(number) => before = number,
             None => {
                 return Some(format!(
-                    "`thresholds` has `{}`, expected decimals in ascending order above 0, such as [\"0.1\", \"0.5\", \"1\"], to a millionth",
+                    "`thresholds` has `{}`, expected decimals in ascending order above 0, such as [\"0.1\", \"0.5\", \"1\"], with at most six decimal places",
                     shown(limit)
                 ));
             }

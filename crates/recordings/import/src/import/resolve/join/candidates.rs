@@ -112,7 +112,7 @@ impl Candidates {
                     let end = end.ok_or_else(|| {
                         table_error!(
                             table.place(*row, column),
-                            "`{}`: expected a whole number no smaller than the one before it, as join `{}` counts through",
+                            "`{}`: expected a whole number, at least that of the row before, because join `{}` has `until`",
                             shown(&cell),
                             map.name
                         )

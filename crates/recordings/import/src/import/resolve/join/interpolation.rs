@@ -194,7 +194,7 @@ impl Gap<'_> {
         if apart > OPPOSITE_DEG {
             return Err(table_error!(
                 self.table.place(self.rows[1], &columns[0]),
-                "this rotation is {apart:.1} degrees from the one before, so its interpolation is ambiguous: write `pick = \
+                "this rotation is {apart:.1} degrees from the previous rotation, so its interpolation is ambiguous: write `pick = \
                      \"nearest\"` in the join"
             ));
         }
