@@ -20,7 +20,7 @@ const OF_RUNS: [Field; 3] = [Field::PredictedSpacing, Field::Stamp, Field::Inten
 const LACKING: &str =
     "it reads frames, or rows of every phase, and states are compared with one phase";
 /// Reason for the metrics of a state that no phase gives.
-const OTHER_SUMS: &str = "no phase of the table gives the sums of their state";
+const OTHER_SUMS: &str = "no phase of the table gives the sums of the state";
 /// Greatest number of rows that are read for all states and phases together.
 const MOST_READ: usize = 1 << 28;
 
