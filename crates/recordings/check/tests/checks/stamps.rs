@@ -287,12 +287,10 @@ fn times_that_begin_anew_with_every_episode_go_back_nowhere_and_those_of_a_clock
         regular(50 * episode + row) - back
     };
     let within = |_: u32, row: u32| regular(if row < 25 { row } else { row - 20 });
-    let clocks: [(&dyn Fn(u32, u32) -> f64, &str); 2] = [
-        (&set_back, "1 sample is older"),
-        (&within, "4 samples are older"),
-    ];
-    for (time, expected) in clocks {
-        let report = episodes(time);
+    for (report, expected) in [
+        (episodes(set_back), "1 sample is older"),
+        (episodes(within), "4 samples are older"),
+    ] {
         let older = report
             .findings
             .iter()

@@ -141,10 +141,7 @@ fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
     let named = split
         .split(' ')
         .map(|word| word.split('=').next().unwrap_or(word));
-    if named
-        .clone()
-        .any(|word| keeps.contains(&word) || word == format!("{by}").as_str())
-    {
+    if named.clone().any(|word| keeps.contains(&word)) {
         return Ok(());
     }
     Err(EvaluateError::Request(format!(
