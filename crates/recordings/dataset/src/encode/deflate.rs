@@ -336,17 +336,40 @@ mod tests {
     }
 
     #[test]
+    fn blocks_that_a_code_just_shortens_equal_too() {
+        for length in 48..300 {
+            let noise = bytes(length, |even| even.to_le_bytes()[0] >> 2);
+            assert_same(&noise, "noise of six bits");
+        }
+    }
+
+    #[test]
     fn words_that_would_be_longer_than_the_format_allows_equal_too() {
-        // Counts that grow as Fibonacci's numbers make the deepest tree.
+        // Counts that grow as Fibonacci's numbers make the deepest tree. The first of them is the end of the block.
         let mut deep = Vec::new();
-        let (mut one, mut next) = (1, 1);
-        for byte in 0..21 {
+        let (mut one, mut next) = (1, 2);
+        for byte in 0..20 {
             deep.extend(std::iter::repeat_n(byte, one));
             (one, next) = (next, one + next);
         }
         assert_same(&deep, "Fibonacci");
         let wide: Vec<u8> = deep.iter().map(|byte| byte * 12).collect();
         assert_same(&wide, "Fibonacci, with gaps");
+    }
+
+    #[test]
+    fn lengths_whose_words_would_be_longer_than_the_format_allows_equal_too() {
+        // Numbers of bytes that occur once, twice, four times and so on. The lengths of their words would have words of 8 bits, and 7 are allowed.
+        let numbers = [5, 1, 0, 111, 10, 27, 2, 0, 16, 4];
+        let powers: Vec<usize> = (0..10)
+            .zip(numbers)
+            .flat_map(|(power, number)| std::iter::repeat_n(1_usize << power, number))
+            .collect();
+        // Equal lengths stand apart, as a run of them has a symbol of its own.
+        let apart: Vec<u8> = (0..176_u8)
+            .flat_map(|byte| std::iter::repeat_n(byte, powers[usize::from(byte) * 43 % 176]))
+            .collect();
+        assert_same(&apart, "lengths in words of 8 bits");
     }
 
     #[test]

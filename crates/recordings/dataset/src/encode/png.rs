@@ -8,6 +8,7 @@ use std::borrow::Cow;
 use taceva_core::{Frame, PixelFormat};
 
 use super::deflate::Stream;
+use crate::limits;
 
 const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
 /// Bytes of a chunk beside its data: length, kind and checksum.
@@ -24,8 +25,26 @@ pub(crate) struct PngFile {
 }
 
 impl PngFile {
+    /// Plans the file of `frame`.
+    ///
+    /// # Errors
+    /// Error message if [`decode`](crate::decode::decode) would refuse the file.
     pub(crate) fn plan(frame: &Frame) -> Result<PngFile, String> {
         let info = frame.info();
+        let is_read = |side: u32| (1..=limits::IMAGE_SIDE).contains(&side);
+        if !is_read(info.width) || !is_read(info.height) {
+            return Err(format!(
+                "a frame of {info}, expected sides of 1 to {} pixels",
+                limits::IMAGE_SIDE
+            ));
+        }
+        let bytes = frame.bytes().len() as u64;
+        if bytes > limits::DECODED_BYTES {
+            return Err(format!(
+                "a frame of {info} in {bytes} bytes, expected at most {}",
+                limits::DECODED_BYTES
+            ));
+        }
         let (bits, color, pixel) = match info.format {
             PixelFormat::Gray8 => (8, 0, 1),
             PixelFormat::Gray16 => (16, 0, 2),
@@ -40,14 +59,19 @@ impl PngFile {
         form[8..].copy_from_slice(&[bits, color, 0, 0, 0]);
         let filtered = filtered(&samples(frame), info.width as usize * pixel, pixel);
         let stream = Stream::plan(&filtered);
-        match u32::try_from(stream.len()) {
-            Ok(_) => Ok(PngFile {
-                form,
-                filtered,
-                stream,
-            }),
-            Err(error) => Err(error.to_string()),
+        let file = PngFile {
+            form,
+            filtered,
+            stream,
+        };
+        let bytes = file.len() as u64;
+        if bytes > limits::IMAGE_BYTES {
+            return Err(format!(
+                "a frame of {info} in a file of {bytes} bytes, expected at most {}",
+                limits::IMAGE_BYTES
+            ));
         }
+        Ok(file)
     }
 
     /// Length in bytes.
@@ -76,7 +100,7 @@ fn chunk(file: &mut Vec<u8>, kind: &[u8; 4], write: impl FnOnce(Vec<u8>) -> Vec<
     file.extend([0; 4]);
     file.extend(kind);
     *file = write(std::mem::take(file));
-    let length = u32::try_from(file.len() - start - 8).expect("compared when it was planned");
+    let length = u32::try_from(file.len() - start - 8).expect("a file has at most 256 MiB");
     file[start..start + 4].copy_from_slice(&length.to_be_bytes());
     let check = crc32fast::hash(&file[start + 4..]);
     file.extend(check.to_be_bytes());
@@ -176,26 +200,33 @@ fn paeth(left: u8, above: u8, corner: u8) -> u8 {
 
 #[cfg(test)]
 mod tests {
+    use proptest::prelude::*;
     use taceva_core::FrameInfo;
 
     use super::*;
     use crate::decode::{ChannelOrder, decode};
 
-    /// Smooth light with noise from a linear congruential generator.
+    /// Frame whose bytes are made from their place and a byte from a linear congruential generator.
+    fn made(info: FrameInfo, make: impl Fn(usize, u8) -> u8) -> Frame {
+        let mut state = 7_u32;
+        let length = info.byte_len().expect("small");
+        let bytes = (0..length).map(|at| {
+            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            make(at, state.to_be_bytes()[0])
+        });
+        Frame::new(info, bytes.collect()).expect("as long as it says")
+    }
+
+    /// Smooth light with noise of two bits.
     fn noisy(width: u32, height: u32, format: PixelFormat) -> Frame {
         let info = FrameInfo {
             width,
             height,
             format,
         };
-        let mut state = 7_u32;
-        let length = info.byte_len().expect("small");
-        let bytes = (0..length).map(|at| {
-            state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
-            let noise = (state >> 30).to_le_bytes()[0];
-            (at / 97).to_le_bytes()[0].wrapping_add(noise)
-        });
-        Frame::new(info, bytes.collect()).expect("as long as it says")
+        made(info, |at, noise| {
+            (at / 97).to_le_bytes()[0].wrapping_add(noise >> 6)
+        })
     }
 
     /// File of `frame`, as long as it was planned.
@@ -206,15 +237,54 @@ mod tests {
         file
     }
 
+    const FORMATS: [(PixelFormat, ChannelOrder); 4] = [
+        (PixelFormat::Gray8, ChannelOrder::Gray),
+        (PixelFormat::Gray16, ChannelOrder::Gray),
+        (PixelFormat::Rgb8, ChannelOrder::Rgb),
+        (PixelFormat::Rgb16, ChannelOrder::Rgb),
+    ];
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+
+        #[test]
+        fn any_frame_is_given_back_by_a_decoder_of_others(
+            (format, order) in prop::sample::select(FORMATS.to_vec()),
+            (width, height) in (1..160_u32, 1..90_u32),
+            repeated in prop::collection::vec(any::<u8>(), 1..400),
+            noisy_bits in any::<u8>(),
+        ) {
+            let info = FrameInfo { width, height, format };
+            let frame = made(info, |at, noise| {
+                repeated[at % repeated.len()].wrapping_add(noise & noisy_bits)
+            });
+            let (_, read) = decode(&written(&frame), order).expect("a PNG file");
+            prop_assert!(read == frame, "{}", info);
+        }
+    }
+
+    #[test]
+    fn frames_that_would_not_be_read_again_are_refused() {
+        for (width, height) in [(0, 1), (1, 0), (0, 0), (16_385, 1), (1, 16_385)] {
+            let info = FrameInfo {
+                width,
+                height,
+                format: PixelFormat::Gray8,
+            };
+            let bytes = vec![0; info.byte_len().expect("small")];
+            let frame = Frame::new(info, bytes).expect("as long as it says");
+            let problem = PngFile::plan(&frame).expect_err("not read");
+            let expected = format!("a frame of {info}, expected sides of 1 to 16384 pixels");
+            assert_eq!(problem, expected);
+        }
+        let widest = noisy(16_384, 1, PixelFormat::Gray8);
+        let (_, read) = decode(&written(&widest), ChannelOrder::Gray).expect("a PNG file");
+        assert_eq!(read, widest);
+    }
+
     #[test]
     fn every_frame_reads_back_bit_for_bit_by_a_decoder_of_others() {
-        let formats = [
-            (PixelFormat::Gray8, ChannelOrder::Gray),
-            (PixelFormat::Gray16, ChannelOrder::Gray),
-            (PixelFormat::Rgb8, ChannelOrder::Rgb),
-            (PixelFormat::Rgb16, ChannelOrder::Rgb),
-        ];
-        for (format, order) in formats {
+        for (format, order) in FORMATS {
             for [width, height] in [[1, 1], [1, 9], [9, 1], [67, 41], [200, 300]] {
                 let frame = noisy(width, height, format);
                 let file = written(&frame);

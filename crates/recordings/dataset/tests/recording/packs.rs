@@ -66,6 +66,38 @@ fn frames_lie_in_one_pack_where_what_stays_the_same_is_stored_once() {
 }
 
 #[test]
+fn a_frame_whose_difference_would_be_longer_is_stored_whole() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let info = FrameInfo {
+        width: 40,
+        height: 30,
+        format: PixelFormat::Gray8,
+    };
+    let mut random = Random::new(3);
+    let noise: Vec<u8> = (0..1_200)
+        .map(|_| random.below(200).to_le_bytes()[0])
+        .collect();
+    let frames =
+        [noise, vec![90; 1_200]].map(|bytes| Frame::new(info, bytes).expect("of 40×30 pixels"));
+    let mut recorder = Recorder::open(&path, &spec()).expect("opened");
+    for (number, frame) in (0_u8..).zip(&frames) {
+        let sample = sample(number).with_frame(frame.clone());
+        recorder.append(&sample).expect("recorded");
+    }
+    recorder.close().expect("closed");
+    let dataset = Dataset::open(&path).expect("opens");
+    dataset.verify_frames().expect("whole");
+    for (row, frame) in frames.iter().enumerate() {
+        let decoded = dataset.frame(row).expect("decodes");
+        assert_eq!(decoded.as_ref(), Some(frame));
+        let entry = dataset.table().frames()[row].as_ref();
+        let span = entry.and_then(|entry| entry.span).expect("in a pack");
+        assert!(!span.is_difference, "{row}");
+    }
+}
+
+#[test]
 fn a_frame_that_comes_again_has_the_digest_that_it_had() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("set");
