@@ -66,12 +66,15 @@ fn the_example_is_allowed_checked_and_planned_with_and_says_what_is_wrong_with_i
     for (line, words) in [
         (
             (|_| "hello\n".to_owned()) as fn(u64) -> String,
-            "is no reading",
+            "expected a number, three forces and three torques",
         ),
-        (|_| "x".repeat(4096), "is no reading"),
+        (
+            |_| "x".repeat(4096),
+            "expected a number, three forces and three torques",
+        ),
         (
             |number| format!("{number};NaN;0;0;0;0;0\n"),
-            "is no reading",
+            "expected a number, three forces and three torques",
         ),
         (
             |_| "7;0;0;1;0;0;0\n".to_owned(),

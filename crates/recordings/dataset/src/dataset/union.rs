@@ -95,7 +95,11 @@ impl Dataset {
         for other in &recordings[1..] {
             check_alike(&recordings[0], other)?;
         }
-        let tasks = shared_tasks(&recordings)?;
+        let tasks = shared_tasks(recordings.iter().map(|one| one.table.tasks()));
+        let tasks = tasks.map_err(|found| {
+            let [one, other] = found.recordings.map(|position| &recordings[position]);
+            unlike(one, other, found.problem)
+        })?;
         let names = names(recordings.iter().map(Dataset::path));
         let table = joined_table(&recordings, &names, tasks);
         let seen = recordings[0].seen.clone();

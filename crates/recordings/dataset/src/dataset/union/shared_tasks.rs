@@ -1,31 +1,47 @@
 //! Tasks of joined recordings, whose definitions must agree.
 
-use super::{Dataset, unlike};
-use crate::error::DatasetError;
+use crate::table::TaskColumn;
 use crate::task::Task;
+
+/// Two recordings that define a task differently.
+pub(super) struct OtherDefinition {
+    /// Positions of both recordings.
+    pub(super) recordings: [usize; 2],
+    /// Both definitions, in words.
+    pub(super) problem: String,
+}
+
+/// A task, and the position of the first recording that has it.
+struct Known<'a> {
+    recording: usize,
+    task: &'a Task,
+}
 
 /// Tasks of all recordings, each once. A recording may lack a task of another one.
 ///
 /// # Errors
-/// [`DatasetError::Unlike`] if two recordings define a task differently, because a position in other names is another class.
-pub(super) fn shared_tasks(recordings: &[Dataset]) -> Result<Vec<Task>, DatasetError> {
-    let mut known: Vec<(&Dataset, &Task)> = Vec::new();
-    for recording in recordings {
-        for own in recording.table.tasks() {
-            let task = own.task();
-            match known.iter().find(|(_, other)| other.name == task.name) {
-                None => known.push((recording, task)),
-                Some((_, other)) if other.definition() == task.definition() => {}
-                Some((one, other)) => {
-                    let problem = format!(
-                        "the task `{}` in the first recording and `{}` in the second differ; evaluate them separately",
-                        other.definition(),
-                        task.definition()
-                    );
-                    return Err(unlike(one, recording, problem));
+/// [`OtherDefinition`] if two recordings define a task differently, because a position in other names is another class.
+pub(super) fn shared_tasks<'a>(
+    recordings: impl Iterator<Item = &'a [TaskColumn]>,
+) -> Result<Vec<Task>, OtherDefinition> {
+    let mut known: Vec<Known<'_>> = Vec::new();
+    for (recording, tasks) in recordings.enumerate() {
+        for task in tasks.iter().map(TaskColumn::task) {
+            match known.iter().find(|other| other.task.name == task.name) {
+                None => known.push(Known { recording, task }),
+                Some(other) if other.task.definition() == task.definition() => {}
+                Some(other) => {
+                    return Err(OtherDefinition {
+                        recordings: [other.recording, recording],
+                        problem: format!(
+                            "the task `{}` in the first recording and `{}` in the second differ; evaluate them separately",
+                            other.task.definition(),
+                            task.definition()
+                        ),
+                    });
                 }
             }
         }
     }
-    Ok(known.into_iter().map(|(_, task)| task.clone()).collect())
+    Ok(known.into_iter().map(|own| own.task.clone()).collect())
 }
