@@ -8,18 +8,18 @@ use crate::drawing::{picture, press};
 
 /// First sixteen digits of the digest of each fault, over its five parameters in gray and in colour. The test prints the rows if they differ.
 const GOLDEN: [(&str, &str); 12] = [
-    ("defocus", "to be filled in"),
-    ("dead_pixels", "to be filled in"),
-    ("exposure_low", "to be filled in"),
-    ("exposure_high", "to be filled in"),
-    ("sensor_noise", "to be filled in"),
-    ("cable_noise", "to be filled in"),
-    ("camera_shift", "to be filled in"),
-    ("led_loss", "to be filled in"),
-    ("scratches", "to be filled in"),
-    ("tear", "to be filled in"),
-    ("dust", "to be filled in"),
-    ("stale_frames", "to be filled in"),
+    ("defocus", "16ece641ee79781a"),
+    ("dead_pixels", "87b84580c6aa6c8a"),
+    ("exposure_low", "3d9cc32da6347d85"),
+    ("exposure_high", "7fe7f5f8b0354f9c"),
+    ("sensor_noise", "38c3a51f818b91af"),
+    ("cable_noise", "6ca4c242d422f0a5"),
+    ("camera_shift", "6cf3a01c475b1e26"),
+    ("led_loss", "c3c4f055536c4aa3"),
+    ("scratches", "3f9ab1e610b37d34"),
+    ("tear", "ac7f7e560caa10c1"),
+    ("dust", "8b52d442df7f7eba"),
+    ("stale_frames", "5303e7c267a48cc1"),
 ];
 
 /// A coloured picture of 16 bits, and the one before it.

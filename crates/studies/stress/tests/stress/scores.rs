@@ -186,7 +186,7 @@ fn a_note_names_the_faults_whose_places_are_one_draw() {
     };
     let wanted = request(&["exposure_low", "sensor_noise", "tear", "dust"]);
     let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
-    let expected = "tear, dust: the places were drawn once, with seed 7;";
+    let expected = "tear, dust: one draw of places, by seed 7;";
     assert!(report.notes[0].starts_with(expected), "{:?}", report.notes);
     let wanted = request(&["exposure_low", "sensor_noise"]);
     let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
@@ -334,7 +334,7 @@ fn a_plan_names_faults_and_frames_and_reads_none() {
     assert!(text.contains("60 frames of the part `all`"), "{text}");
     assert!(text.contains("fault    tear: a disc"), "{text}");
     assert!(
-        text.contains("10 cells and beside 5 untouched pictures"),
+        text.contains("10 cells, and with 5 untouched pictures"),
         "{text}"
     );
     assert!(text.contains("synthetic"), "{text}");
