@@ -36,6 +36,16 @@ pub struct Estimate {
     pub of_constant: Option<f64>,
 }
 
+impl Estimate {
+    /// The same estimate with an interval whose lower end is `least` or more, the least possible value of the score.
+    pub(crate) fn at_least(mut self, least: f64) -> Estimate {
+        if let Interval::Jackknife { low, .. } = &mut self.interval {
+            *low = low.max(least);
+        }
+        self
+    }
+}
+
 /// `{value, undefined, ci95, n, clusters, of_constant}`; `undefined` is the reason of a missing value.
 impl Serialize for Estimate {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {

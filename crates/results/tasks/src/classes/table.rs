@@ -59,8 +59,12 @@ impl Confusion<'_> {
             }
         };
         let weighted = self.share(Margins::f1_weighted, all.f1_weighted_of_constant());
-        let kappa = self.estimate(Margins::kappa, |_| Range::BelowOne, Some(0.0));
-        let mcc = self.estimate(Margins::mcc, |_| Range::BelowOne, Some(0.0));
+        let kappa = self
+            .estimate(Margins::kappa, |_| Range::BelowOne, Some(0.0))
+            .at_least(-1.0);
+        let mcc = self
+            .estimate(Margins::mcc, |_| Range::BelowOne, Some(0.0))
+            .at_least(-1.0);
         vec![
             accuracy.beside(all.right(), all.n),
             self.score(
