@@ -261,7 +261,7 @@ fn published_numbers_of_a_built_in_sensor_stay_beside_measured_ones() {
     assert!(!answers.is_empty());
     for answer in answers {
         let words = answer["answer"].as_str().expect("words");
-        assert!(words.contains("other samples"), "{words}");
+        assert!(words.contains("different samples"), "{words}");
     }
     edit(&bench.path("c/entries/gelsight.toml"), |text| {
         let size = "[size]\nmm = [1.0]\nsource = \"x\"\nread_from = \"text\"\nconditions = \"x\"\n";

@@ -115,7 +115,7 @@ fn after_a_new_untouched_picture_the_limits_are_those_of_the_present_light() {
     let fresh = bench.run(&format!("{words} --fresh"));
     assert!(!fresh.out.contains("untouched"), "{}", fresh.out);
     assert!(
-        fresh.err.contains("least changes that are found"),
+        fresh.err.contains("smallest changes that are found"),
         "{}",
         fresh.err
     );

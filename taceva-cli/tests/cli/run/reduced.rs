@@ -79,8 +79,7 @@ fn scores_of_forces_are_the_same_and_reports_say_that_frames_were_reduced() {
             "{metric}"
         );
     }
-    let note =
-        "frames were kept as 40×36 gray8: area averages, rounded to 8 bits, from 45×45 gray16";
+    let note = "frames were kept as 40×36 gray8: area averages, rounded to 8 bits, of 45×45 gray16";
     let notes = |report: &Value| report["provenance"]["notes"].to_string();
     assert!(notes(&reduced).contains(note), "{}", notes(&reduced));
     assert!(!notes(&whole).contains("frames were kept"));
@@ -106,7 +105,7 @@ fn a_recording_of_reduced_frames_is_checked_exported_and_imported_again() {
     for form in ["csv", "hdf5"] {
         bench.ok(&format!("export {path} --format {form} --out {form}"));
         let map = fs::read_to_string(bench.path(form).join("map.toml")).expect("a map");
-        let said = "# The frames were reduced before recording: area averages, rounded to 8 bits, from 45×45 gray16.";
+        let said = "# The frames were reduced before recording: area averages, rounded to 8 bits, of 45×45 gray16.";
         assert!(map.contains(said), "{map}");
         bench.ok(&format!(
             "import {form} --map {form}/map.toml --out {form}-again"
