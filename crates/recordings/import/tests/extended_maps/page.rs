@@ -23,7 +23,7 @@ opaque = "unknown"
 "#;
 
 /// Lines that a fragment needs around it, by its table.
-const AROUND: [(&str, &str); 6] = [
+const AROUND: [(&str, &str); 7] = [
     ("frame", "channel_order = \"gray\"\nreference = \"unknown\""),
     ("join", "name = \"j\"\ntable = \"j.csv\""),
     (
@@ -36,6 +36,10 @@ const AROUND: [(&str, &str); 6] = [
     ),
     ("path", "pattern = \"{n}.csv\""),
     ("classes", ""),
+    (
+        "task.slip",
+        "kind = \"event\"\nfrom = \"slip\"\nnames = [\"no_slip\", \"slip\"]\ncluster = \"stroke\"",
+    ),
 ];
 
 /// Table of each key that the page writes without a table.
@@ -134,7 +138,14 @@ fn table_of<'m>(map: &'m mut Table, name: &str) -> &'m mut Table {
         "join" | "matrix" => Value::Array(vec![Value::Table(around)]),
         _ => Value::Table(around),
     };
-    let own = map.entry(name).or_insert(begun);
+    let own = match name.split_once('.') {
+        Some((outer, inner)) => {
+            let outer = map.entry(outer).or_insert(Value::Table(Table::new()));
+            let outer = outer.as_table_mut().expect("a table");
+            outer.entry(inner).or_insert(begun)
+        }
+        None => map.entry(name).or_insert(begun),
+    };
     match own {
         Value::Array(tables) => tables[0].as_table_mut().expect("a table"),
         own => own.as_table_mut().expect("a table"),

@@ -235,7 +235,7 @@ fn a_draft_prefers_what_was_measured_to_commands_predictions_and_deviations() {
     ] {
         assert_eq!(line(channel), "", "{draft}");
         assert!(
-            excluded.contains(&format!("{name} (by {word}")),
+            excluded.contains(&format!("{name} ({word} means")),
             "{excluded}"
         );
     }

@@ -326,7 +326,7 @@ mod tests {
             ),
             (
                 Note::FramesFrozen(1),
-                "the camera froze: 1 frame equalled the one before although the force changed, and its press was aborted and repeated",
+                "the camera froze: 1 frame repeated the previous frame although the force changed, and its press was aborted and repeated",
             ),
             (
                 left_out(1),
