@@ -121,7 +121,7 @@ fn a_budget_that_cannot_be_made_is_one_line_with_the_reason() {
     let table = "sample,point_id,Fz,Fz_predicted\n1,a,0.5,0.4\n2,b,0.7,0.8\n";
     alone.samples = Some(Samples::read(table).expect("samples"));
     let section_alone = section(&[alone]);
-    let reason = "no uncertainty budget (Fz: 2 rows of 2 points, expected two points or more";
+    let reason = "no uncertainty budget (Fz: 2 rows of 2 points, expected at least two points";
     assert!(section_alone.contains(reason), "{section_alone}");
 }
 
