@@ -4,7 +4,7 @@ use clap::Args;
 use taceva_evaluate::TaskSpec;
 
 /// Options that concern channels, which tasks do not have.
-const OF_CHANNELS: [&str; 12] = [
+const OF_CHANNELS: [&str; 13] = [
     "units",
     "periods",
     "allow_invalid",
@@ -17,6 +17,7 @@ const OF_CHANNELS: [&str; 12] = [
     "figures",
     "samples_out",
     "table",
+    "explain",
 ];
 
 /// Tasks to score in the place of channels.

@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 
 use taceva_core::{Traceability, counted, shown};
-use taceva_dataset::{Dataset, Header, RecordedSessions, Source};
+use taceva_dataset::{Dataset, Header, RecordedSessions, Source, Task};
 
 pub(crate) fn write(dataset: &Dataset, out: &mut dyn Write) -> io::Result<()> {
     let header = dataset.header();
@@ -18,6 +18,9 @@ pub(crate) fn write(dataset: &Dataset, out: &mut dyn Write) -> io::Result<()> {
     let labels = header.channels.iter();
     let labels = labels.map(|channel| format!("{} in {}", channel.name(), channel.unit()));
     line("labels", &listed(labels))?;
+    for own in dataset.tasks() {
+        line("task", &task(own.task()))?;
+    }
     if !header.presses.is_empty() {
         let presses = header.presses.iter();
         let presses = presses.map(|(outcome, count)| format!("{count} {outcome}"));
@@ -52,6 +55,20 @@ fn content(header: &Header) -> String {
         ),
         None => format!("{samples} without frames"),
     }
+}
+
+/// Task with its classes and the column that tells its clusters.
+fn task(task: &Task) -> String {
+    let classes = match task.names.is_empty() {
+        true => String::new(),
+        false => format!(" of {}", task.names.join(", ")),
+    };
+    format!(
+        "{} = {}{classes}, clusters by `{}`",
+        task.name,
+        task.kind.name(),
+        task.cluster
+    )
 }
 
 /// Origin of the samples, with the days of the recording if they are known.

@@ -201,3 +201,15 @@ fn options_of_channels_and_unknown_kinds_are_refused_with_tasks() {
     assert_eq!(ran.code, 2, "{}", ran.err);
     assert!(ran.err.contains("did you mean event?"), "{}", ran.err);
 }
+
+#[test]
+fn classes_that_both_tables_write_differently_are_refused_with_both() {
+    let bench = Bench::new();
+    bench.write("truth.csv", "id,point_id,held\n1,a,yes\n2,b,no\n");
+    bench.write("pred.csv", "id,held\n1,Yes\n2,No\n");
+    bench.refused(
+        "score --truth truth.csv --pred pred.csv --task held=outcome:positive=yes",
+        3,
+        "has no class of the truth: No, Yes, expected some of no, yes",
+    );
+}

@@ -152,7 +152,10 @@ impl Probabilities {
                 value: value(&all.without(part)),
             });
             let parts: Vec<Part> = parts.collect();
-            let found = estimate(value(&all), Range::Positive, &parts, of_constant);
+            // Rows that are no probabilities have no constant either.
+            let value = value(&all);
+            let of_constant = value.and(Ok(of_constant)).unwrap_or_default();
+            let found = estimate(value, Range::Positive, &parts, of_constant);
             TaskScore::new(metric, definition, found)
         };
         let brier = match of_two {

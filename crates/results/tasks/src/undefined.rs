@@ -70,7 +70,9 @@ impl fmt::Display for Undefined {
             Undefined::NoPositive => "no positive sample",
             Undefined::NoPrediction => "no sample is predicted as the class",
             Undefined::NoNegative => "no negative sample",
-            Undefined::NotProbabilities => "the scores are not probabilities",
+            Undefined::NotProbabilities => {
+                "the scores are not probabilities: each from 0 to 1, and their sum 1 within 1e-6, so write seven decimals or more"
+            },
             Undefined::InfiniteLoss => "a class of probability 0 is true",
             Undefined::TooManyPlaces => "as many places as classes, or more",
             Undefined::NoThresholds => "the task has no thresholds",

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Field, shown};
+use taceva_core::{Field, counted, shown};
 use taceva_dataset::{Dataset, Task, TaskKind};
-use taceva_tasks::{Classes, TaskError, TaskReport, TaskScores};
+use taceva_tasks::events::{EventRule, EventState, Frame};
+use taceva_tasks::{Classes, TaskError, TaskReport, TaskScore, TaskScores};
 
 use super::{EvaluateRequest, ModelChoice, evaluate};
 use crate::error::EvaluateError;
@@ -90,32 +91,70 @@ pub fn evaluate_task(
     )
     .map_err(|error| refused(task, &error))?;
     let channel = samples.channel(name).expect("the channel of the task");
+    let times = dataset.table().t_s();
+    let positive = task.positive.as_deref();
+    let positive = task.names.iter().position(|name| positive == Some(name));
+    let mut frames: BTreeMap<&str, Vec<Frame>> = BTreeMap::new();
     for row in 0..samples.rows() {
         let Some([truth, predicted]) = channel.pair(row) else {
             continue;
         };
         let sample = samples
             .word("sample", row)
-            .and_then(|sample| rows.get(sample));
-        let cluster = sample.and_then(|row| clusters[*row].as_deref());
-        let cluster = cluster.ok_or_else(|| without_cluster(task))?;
+            .and_then(|sample| rows.get(sample).copied());
+        let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
+        let (row, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
         let [truth, predicted] = [position(truth, task)?, position(predicted, task)?];
         classes
             .push_positions(cluster, &[truth], &[predicted])
             .map_err(|error| refused(task, &error))?;
+        let is_event = |class: u32| positive == Some(class as usize);
+        let score = f64::from(u8::from(is_event(predicted)));
+        let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
+        frames.entry(cluster).or_default().push(frame);
     }
     let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
         .of_classes(&classes);
     scores.notes.push(format!("model {model}, split {split}"));
+    let labelled = own_labels(dataset, name);
+    let left_out = dataset.table().rows() - labelled;
+    if left_out > 0 {
+        let words = format!("{} without a label, left out", counted(left_out, "row"));
+        scores.notes.push(words);
+    }
     if task.kind == TaskKind::Event {
-        let words = "onsets and delays are not scored here: write the predictions as a table and use `taceva score --task`";
-        scores.notes.push(words.to_owned());
+        scores.scores.extend(onsets(frames, task)?);
     }
     let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), "by their row of the dataset");
     report.tables = [("dataset".to_owned(), dataset.digest().to_string())].into();
     report.sources = vec![evaluated.subject.source];
     report.tasks.push(scores);
     Ok(report)
+}
+
+/// Number of rows with a label of the task called `name`.
+fn own_labels(dataset: &Dataset, name: &str) -> usize {
+    let own = dataset.table().task(name);
+    let rows = 0..dataset.table().rows();
+    own.map_or(0, |own| {
+        rows.filter(|row| own.class(*row).is_some()).count()
+    })
+}
+
+/// Scores of the onsets of an event, in the order of time within each cluster.
+fn onsets(
+    clusters: BTreeMap<&str, Vec<Frame>>,
+    task: &Task,
+) -> Result<Vec<TaskScore>, EvaluateError> {
+    let mut state = EventState::new(EventRule::default());
+    for (cluster, mut frames) in clusters {
+        let time = |frame: &Frame| frame.time_s.unwrap_or_default();
+        frames.sort_by(|one, other| time(one).total_cmp(&time(other)));
+        state.push(cluster, &frames).map_err(|error| {
+            EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
+        })?;
+    }
+    Ok(state.scores())
 }
 
 fn check_model(fit: &FitRequest, task: &Task) -> Result<(), EvaluateError> {

@@ -162,7 +162,11 @@ impl SeenTable<'_> {
             is_taxels.then(|| of_columns(run, from))
         };
         let mut found: Vec<Taxels> = runs.iter().filter_map(of_run).collect();
-        let series = axes::series(&numbers).into_iter();
+        let series = axes::series(numbers.iter().map(|column| column.name.as_str()));
+        let series = series.into_iter().map(|positions| {
+            let columns = positions.into_iter().map(|position| numbers[position]);
+            columns.collect::<Vec<_>>()
+        });
         let series = series.filter(|columns| (LEAST..=MOST).contains(&columns.len()));
         found.extend(series.map(|columns| Taxels {
             shape: vec![columns.len() / axes::COUNT, axes::COUNT],

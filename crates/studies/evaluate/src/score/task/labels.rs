@@ -42,7 +42,9 @@ impl ClassNames {
         let columns = tables.prediction.names().iter();
         let with_scores = columns.filter_map(|name| name.strip_prefix(&prefix));
         let mut found: BTreeSet<String> = with_scores.map(str::to_owned).collect();
-        for (table, is_needed) in [(&tables.truth, true), (&tables.prediction, false)] {
+        let mut by_table: [BTreeSet<&str>; 2] = Default::default();
+        let both = [(&tables.truth, true), (&tables.prediction, false)];
+        for ((table, is_needed), own) in both.into_iter().zip(&mut by_table) {
             if !is_needed && !table.has(&task.name) {
                 continue;
             }
@@ -52,6 +54,9 @@ impl ClassNames {
                 if cell.eq_ignore_ascii_case("nan") {
                     let expected = "expected a class, or an empty cell for a row without a label";
                     return Err(table.refuse(row, column, expected).into());
+                }
+                if !cell.is_empty() {
+                    own.insert(cell);
                 }
                 if !cell.is_empty() && !found.contains(cell) {
                     found.insert(cell.to_owned());
@@ -66,6 +71,19 @@ impl ClassNames {
                     return Err(table.refuse(row, column, &expected).into());
                 }
             }
+        }
+        let [truth, predicted] = &by_table;
+        if !predicted.is_empty() && truth.is_disjoint(predicted) {
+            return Err(EvaluateError::Tables {
+                path: tables.prediction.path().to_owned(),
+                problem: format!(
+                    "column `{}` has no class of the truth: {}, expected some of {}; write both tables alike, or state the classes with \
+                     :names=A|B behind the kind",
+                    shown(&task.name),
+                    listed(predicted.iter().copied()),
+                    listed(truth.iter().copied())
+                ),
+            });
         }
         let mut names: Vec<String> = found.into_iter().collect();
         let numbers: Option<Vec<i64>> = names.iter().map(|name| name.parse().ok()).collect();

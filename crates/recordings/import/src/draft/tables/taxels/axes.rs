@@ -2,8 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use crate::draft::tables::SeenColumn;
-
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// Number of axes of each taxel.
@@ -20,21 +18,22 @@ fn place(name: &str) -> Option<(&str, usize)> {
     Some((stem, number.checked_mul(COUNT)? + axis))
 }
 
-/// Complete series among `columns`: one text before the axis, every axis of every number, in order.
-pub(super) fn series<'c>(columns: &[&'c SeenColumn]) -> Vec<Vec<&'c SeenColumn>> {
-    let mut found: BTreeMap<&str, Vec<(usize, &SeenColumn)>> = BTreeMap::new();
-    for column in columns {
-        if let Some((stem, place)) = place(&column.name) {
-            found.entry(stem).or_default().push((place, *column));
+/// Complete series among columns called `names`, each by the positions of its columns: one text before the axis, every axis of every
+/// number, in order.
+pub(super) fn series<'n>(names: impl Iterator<Item = &'n str>) -> Vec<Vec<usize>> {
+    let mut found: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
+    for (position, name) in names.enumerate() {
+        if let Some((stem, place)) = place(name) {
+            found.entry(stem).or_default().push((place, position));
         }
     }
-    let is_complete = |places: &Vec<(usize, &SeenColumn)>| {
+    let is_complete = |places: &Vec<(usize, usize)>| {
         let mut numbered = places.iter().enumerate();
         places.len().is_multiple_of(COUNT) && numbered.all(|(at, (place, _))| at == *place)
     };
     let complete = found.into_values().filter(is_complete);
     complete
-        .map(|places| places.into_iter().map(|(_, column)| column).collect())
+        .map(|places| places.into_iter().map(|(_, position)| position).collect())
         .collect()
 }
 
