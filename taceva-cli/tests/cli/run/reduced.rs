@@ -105,7 +105,7 @@ fn a_recording_of_reduced_frames_is_checked_exported_and_imported_again() {
     for form in ["csv", "hdf5"] {
         bench.ok(&format!("export {path} --format {form} --out {form}"));
         let map = fs::read_to_string(bench.path(form).join("map.toml")).expect("a map");
-        let said = "# The frames were reduced before recording: area averages, rounded to 8 bits, of 45×45 gray16.";
+        let said = "# The frames were reduced before recording: area averages, rounded to 8 bits, from 45×45 gray16.";
         assert!(map.contains(said), "{map}");
         bench.ok(&format!(
             "import {form} --map {form}/map.toml --out {form}-again"
