@@ -45,7 +45,7 @@ def test_rows_that_are_none_are_refused(recording: Path) -> None:
     dataset = taceva.open(recording)
     with pytest.raises(IndexError, match=f"row {len(dataset)}: the recording has {len(dataset)} rows"):
         dataset.frames([len(dataset)])
-    with pytest.raises(IndexError, match=f"row -{len(dataset) + 1} of a recording"):
+    with pytest.raises(IndexError, match=f"row -{len(dataset) + 1}: the recording has {len(dataset)} rows"):
         dataset.frame(-len(dataset) - 1)
     with pytest.raises(IndexError, match=f"a mask of 2 rows for a recording of {len(dataset)}"):
         dataset.frames([True, False])

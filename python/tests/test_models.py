@@ -126,7 +126,7 @@ def test_what_is_no_model_is_refused(drawn: taceva.Dataset) -> None:
         taceva.evaluate(drawn, Mean)
     with pytest.raises(TypeError, match="cannot be called"):
         taceva.evaluate(drawn, 7)
-    with pytest.raises(ValueError, match="has none"):
+    with pytest.raises(ValueError, match="has no settings"):
         taceva.evaluate(drawn, lambda batch: batch, settings={"size": "8x8"})
     with pytest.raises(ValueError, match="no such channel"):
         taceva.evaluate(drawn, Mean(), channels=["Mz"])
