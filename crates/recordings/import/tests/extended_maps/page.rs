@@ -38,7 +38,7 @@ const AROUND: [(&str, &str); 7] = [
     ("classes", ""),
     (
         "task.slip",
-        "kind = \"event\"\nfrom = \"slip\"\nnames = [\"no_slip\", \"slip\"]\ncluster = \"source_table\"",
+        "kind = \"event\"\nfrom = \"slip\"\nnames = [\"no_slip\", \"slip\"]\npositive = \"slip\"\ncluster = \"source_table\"",
     ),
 ];
 
