@@ -79,8 +79,8 @@ pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
-    Period, PoseThresholds, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError,
-    TaskRequest, TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks,
+    Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, TaskRequest,
+    TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};

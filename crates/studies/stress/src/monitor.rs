@@ -303,7 +303,7 @@ impl Monitor {
         (stimulus > REFERENCE).then_some(stimulus)
     }
 
-    /// Those of `alarms` whose change was not found before.
+    /// Alarms of changes that were not found before.
     fn first(&mut self, mut alarms: Vec<Alarm>) -> Vec<Alarm> {
         alarms.retain(|alarm| self.found.insert(alarm.change));
         alarms

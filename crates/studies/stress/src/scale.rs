@@ -119,7 +119,7 @@ pub(crate) struct Touch {
     pub(crate) is_contact: bool,
 }
 
-/// Those of `rows` whose load is known, in order; `None` for a recording without a channel of loads.
+/// Rows among `rows` with a known load, in order; `None` for a recording without a channel of loads.
 pub(crate) fn touches(dataset: &Dataset, rows: &[usize]) -> Option<Vec<Touch>> {
     Loads::of(dataset, rows).touches()
 }

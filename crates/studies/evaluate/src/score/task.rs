@@ -22,7 +22,7 @@ use super::tables::{self, Pairing};
 use crate::error::EvaluateError;
 
 pub use rule::TaskRule;
-pub use spec::{PoseThresholds, TaskSpec};
+pub use spec::TaskSpec;
 
 /// Column with the clusters if the caller names none.
 const CLUSTER: &str = "point_id";

@@ -105,8 +105,8 @@ fn definition(task: &TaskSpec) -> Result<PoseTask, EvaluateError> {
     let Some(of) = &task.thresholds else {
         return Ok(PoseTask::default());
     };
-    let [translation, rotation] = [&of.translation_mm, &of.rotation_deg]
-        .map(|texts| texts.iter().map(String::as_str).collect::<Vec<_>>());
+    let [translation, rotation] =
+        [&of.t, &of.r].map(|texts| texts.iter().map(String::as_str).collect::<Vec<_>>());
     let thresholds = Thresholds::new(&translation, &rotation);
     let thresholds = thresholds.map_err(|error| {
         EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))

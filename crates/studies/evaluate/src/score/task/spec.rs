@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use taceva_core::{nearest, shown};
-use taceva_dataset::TaskKind;
+use taceva_dataset::{PoseThresholds, TaskKind};
 
 /// A task of two tables: its column, its kind, and its classes.
 ///
@@ -28,18 +28,8 @@ pub struct TaskSpec {
     pub positive: Option<String>,
     /// Classes in their order; empty to take those of both tables.
     pub names: Vec<String>,
-    /// Thresholds between the classes of a pose; `None` scores a pose by its errors alone.
+    /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose by its errors alone.
     pub thresholds: Option<PoseThresholds>,
-}
-
-/// Thresholds of a pose as decimals, as in `t=0.1|0.5|1:r=0.03|0.2|0.5`.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub struct PoseThresholds {
-    /// Thresholds along x and y, mm.
-    pub translation_mm: Vec<String>,
-    /// Thresholds of the yaw, degrees.
-    pub rotation_deg: Vec<String>,
 }
 
 /// Form of a task, for messages.
@@ -72,10 +62,10 @@ impl FromStr for TaskSpec {
                     spec.names = listed(names);
                 }
                 Some(("t", cuts)) if !cuts.is_empty() => {
-                    spec.thresholds.get_or_insert_default().translation_mm = listed(cuts);
+                    spec.thresholds.get_or_insert_default().t = listed(cuts);
                 }
                 Some(("r", cuts)) if !cuts.is_empty() => {
-                    spec.thresholds.get_or_insert_default().rotation_deg = listed(cuts);
+                    spec.thresholds.get_or_insert_default().r = listed(cuts);
                 }
                 _ => return Err(format!("`{}` of `{}`: {FORM}", shown(part), shown(word))),
             }
