@@ -96,6 +96,18 @@ fn slip_of_unseen_strokes_is_predicted_and_scored_with_intervals_by_stroke() {
 }
 
 #[test]
+fn labelled_rows_that_are_not_scored_are_counted() {
+    let bench = strokes();
+    let split = "--split by-column:stroke=train:s0,s1,s2,s3,s4,s5;test:s6,s7,s8,s9,s10,s11";
+    let report = bench.json(&format!("evaluate data --task slip {split} --no-cache"));
+    let notes = report["tasks"][0]["notes"].to_string();
+    assert!(
+        notes.contains("60 of 120 labelled rows are scored"),
+        "{notes}"
+    );
+}
+
+#[test]
 fn a_model_of_numbers_and_a_split_that_divides_strokes_are_refused_with_others_to_name() {
     let bench = strokes();
     bench.refused(

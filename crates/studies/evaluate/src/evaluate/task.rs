@@ -122,6 +122,13 @@ pub fn evaluate_task(
         let words = format!("{} without a label, left out", counted(left_out, "row"));
         scores.notes.push(words);
     }
+    if classes.n() != labelled as u64 {
+        let scored = classes.n();
+        let words = format!(
+            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
+        );
+        scores.notes.push(words);
+    }
     if task.kind == TaskKind::Event {
         scores.scores.extend(onsets(frames, task)?);
     }
