@@ -108,6 +108,24 @@ fn labelled_rows_that_are_not_scored_are_counted() {
 }
 
 #[test]
+fn a_class_of_a_single_stroke_is_named_because_no_model_has_learnt_it() {
+    let bench = strokes();
+    let table = std::fs::read_to_string(bench.path("lab/strokes.csv")).expect("a table");
+    bench.write("lab/strokes.csv", &table.replace(",s3,slip,", ",s3,stick,"));
+    let names = "names = [\"no_slip\", \"slip\", \"stick\"]";
+    let map = MAP.replace("names = [\"no_slip\", \"slip\"]", names);
+    bench.write("lab/map.toml", &map.replace("\"outcome\"", "\"class\""));
+    bench.ok("import lab --map lab/map.toml --out three -q");
+    let report = bench.json("evaluate three --task slip --no-cache");
+    let notes = report["tasks"][0]["notes"].to_string();
+    assert!(
+        notes.contains("the class `stick` is in one cluster only"),
+        "{notes}"
+    );
+    assert!(!notes.contains("`slip` is in one"), "{notes}");
+}
+
+#[test]
 fn a_model_of_numbers_and_a_split_that_divides_strokes_are_refused_with_others_to_name() {
     let bench = strokes();
     bench.refused(

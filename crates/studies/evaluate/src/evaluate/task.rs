@@ -1,6 +1,6 @@
 //! Scores of a task of a dataset: a classifier predicts the classes of clusters that it has not seen.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::{Field, counted, shown};
 use taceva_dataset::{Dataset, Task, TaskKind};
@@ -24,8 +24,7 @@ const MOST_FOLDS: usize = 5;
 /// [`EvaluateError::Request`] for fewer than two clusters.
 pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateError> {
     let clusters = dataset.clusters_of(task);
-    let distinct: std::collections::BTreeSet<&str> =
-        clusters.iter().flatten().map(String::as_str).collect();
+    let distinct: BTreeSet<&str> = clusters.iter().flatten().map(String::as_str).collect();
     let folds = distinct.len().min(MOST_FOLDS);
     if folds < 2 {
         return Err(EvaluateError::Request(format!(
@@ -116,6 +115,9 @@ pub fn evaluate_task(
     let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
         .of_classes(&classes);
     scores.notes.push(format!("model {model}, split {split}"));
+    scores
+        .notes
+        .extend(of_one_cluster(dataset, task, &clusters));
     let labelled = own_labels(dataset, name);
     let left_out = dataset.table().rows() - labelled;
     if left_out > 0 {
@@ -146,6 +148,27 @@ fn own_labels(dataset: &Dataset, name: &str) -> usize {
     own.map_or(0, |own| {
         rows.filter(|row| own.class(*row).is_some()).count()
     })
+}
+
+/// Remark on each class of a single cluster, which no model has learnt that predicts the cluster.
+fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -> Vec<String> {
+    let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    let own = dataset.table().task(&task.name);
+    for (row, cluster) in clusters.iter().enumerate() {
+        if let (Some(class), Some(cluster)) = (own.and_then(|own| own.class(row)), cluster) {
+            found.entry(class).or_default().insert(cluster);
+        }
+    }
+    let single = found
+        .into_iter()
+        .filter(|(_, clusters)| clusters.len() == 1);
+    let words = single.map(|(class, _)| {
+        format!(
+            "the class `{}` is in one cluster only, so the model that predicts this cluster has not learnt it: record it in another cluster",
+            shown(class)
+        )
+    });
+    words.collect()
 }
 
 /// Scores of the onsets of an event, in the order of time within each cluster.
