@@ -111,7 +111,7 @@ impl Channelwise for ErrorLimits {
         if run.n > 0 {
             clusters.at(first, 0).merge(&run);
         }
-        sums.bound();
+        sums.bound_group();
     }
 
     fn to_record(&self, sums: &ErrorSums) -> Record {

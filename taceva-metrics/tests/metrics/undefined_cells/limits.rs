@@ -214,6 +214,32 @@ fn errors_of_more_than_30_000_places_count_as_without_places_in_any_order() {
 }
 
 #[test]
+fn the_state_of_60_000_places_is_the_same_in_one_part_and_in_three() {
+    let wanted = catalogue::select(["agreement"]).expect("a known name");
+    let channels = Channels::new([Channel::FZ]).expect("one channel");
+    let plan = MetricPlan::new(&wanted, channels, Field::ALL.into_iter().collect());
+    let of = |places: &mut dyn Iterator<Item = u32>| {
+        let mut evaluator = Evaluator::new(&plan);
+        for place in places {
+            let error = 0.001 * f64::from(place % 7);
+            let sample = at(&place.to_string(), pair(&[1.0], &[1.0 - error]));
+            evaluator.accept(&sample).expect("the plan's channel");
+        }
+        evaluator
+    };
+    let mut whole = of(&mut (0..60_000));
+    let mut parts = of(&mut (40_000..60_000));
+    for mut places in [0..20_000, 20_000..40_000] {
+        parts.merge(of(&mut places)).expect("one plan");
+    }
+    let states = whole.states().expect("states");
+    assert_eq!(states, parts.states().expect("states"));
+    // Names of 60,000 places would take megabytes.
+    let length: usize = states.iter().map(|state| format!("{state:?}").len()).sum();
+    assert!(length < 200_000, "{length}");
+}
+
+#[test]
 fn limits_of_errors_say_why_there_are_none() {
     let both = ["agreement", "tolerance_interval"];
     for metric in both {
