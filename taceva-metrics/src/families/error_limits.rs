@@ -2,6 +2,7 @@
 
 mod errors;
 mod intervals;
+mod pair_sums;
 mod sums;
 
 use taceva_core::{Batch, Field, FieldSet, Labels, Needs, Unit};
@@ -12,11 +13,13 @@ use crate::evaluate::plan::MetricPlan;
 use crate::exact::moments::Moments;
 use crate::exact::record::Record;
 use crate::families::channelwise::{ByChannel, Channelwise, each_pair};
+use crate::pair::is_valid;
 use crate::score::ClusteredBy;
 use crate::score::value::UndefinedReason;
 use crate::stats::NormalSample;
 pub(crate) use errors::Errors;
 pub(crate) use intervals::{Whole, of_components};
+use pair_sums::PairColumns;
 use sums::{ErrorSums, Totals};
 
 /// Least number of samples for a standard deviation.
@@ -53,6 +56,8 @@ pub(crate) static ERROR_LIMITS: FamilyKind = FamilyKind {
 /// Errors by cluster.
 pub(crate) struct ErrorLimits {
     clustered_by: ClusteredBy,
+    /// Columns by index of the channel, because channels differ in magnitude.
+    columns: Vec<PairColumns>,
 }
 
 impl ErrorLimits {
@@ -60,6 +65,7 @@ impl ErrorLimits {
     pub(crate) fn for_plan(plan: &MetricPlan) -> ErrorLimits {
         ErrorLimits {
             clustered_by: plan.clustered_by(),
+            columns: Vec::new(),
         }
     }
 
@@ -89,6 +95,11 @@ impl Channelwise for ErrorLimits {
         rows: Option<&[u32]>,
     ) {
         let labels = self.labels(batch);
+        if self.columns.len() <= position {
+            self.columns.resize_with(position + 1, PairColumns::default);
+        }
+        let columns = &mut self.columns[position];
+        let is_named = labels.is_some() && sums.clusters.are_named();
         let mut clusters = sums.clusters.of_labels(labels, batch.rows());
         let name = |row: usize| labels.and_then(|labels| labels.get(row));
         // Rows of one cluster mostly follow each other.
@@ -98,16 +109,30 @@ impl Channelwise for ErrorLimits {
                 sums.n_invalid += 1;
                 return;
             }
+            sums.n += 1;
+            let difference = pair.residual();
+            if !is_valid(difference) {
+                // Too large for a column, though its pair is not.
+                sums.line.add(pair.reference, pair.estimate);
+                run.add(difference);
+                return;
+            }
+            columns.push(f64::midpoint(pair.reference, pair.estimate), difference);
+            if !is_named {
+                return;
+            }
             if run.n > 0 && name(row) != name(first) {
                 clusters.at(first, 0).merge(&std::mem::take(&mut run));
             }
             if run.n == 0 {
                 first = row;
             }
-            sums.n += 1;
-            run.add(pair.residual());
-            sums.line.add(pair.reference, pair.estimate);
+            run.add(difference);
         });
+        let differences = columns.settle_into(&mut sums.line);
+        if !is_named {
+            run.merge(&differences);
+        }
         if run.n > 0 {
             clusters.at(first, 0).merge(&run);
         }
