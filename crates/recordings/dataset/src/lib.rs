@@ -55,7 +55,7 @@ pub use header::{
     MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,
     ReferenceInfo, SensorFacts, Shape, Source, SourcesInfo, StreamFacts, TableInfo, ViewInfo,
 };
-pub use later_facts::add_device_warnings;
+pub use later_facts::{add_device_warnings, add_measured_settings};
 pub use pack::Span;
 pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec, Streamed};
