@@ -48,7 +48,7 @@ pub(crate) use registration::Turned;
 pub use rehearsal::{AIR_MM, rehearse_scene};
 pub use rig_locks::HeldRigs;
 use schedule::Schedule;
-pub(crate) use settings::{add_settings, of_rig_file};
+pub(crate) use settings::{add_settings, of_rig_file, sensor_driver};
 pub(crate) use tap::{TappedRig, tap_study};
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 

@@ -1,5 +1,6 @@
 //! Methods paragraph for a paper, and citations.
 
+mod devices;
 mod statistics;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -47,6 +48,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
         )
     );
     out += &origin(studies);
+    out += &devices::devices(studies);
     out += &joined(studies);
     out += &pressed(studies);
     out += &divided(studies);
