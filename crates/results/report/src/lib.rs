@@ -9,6 +9,7 @@ mod choose;
 mod compare;
 mod contributions;
 mod curve;
+mod depth_zero;
 mod escape;
 mod figure;
 mod figures;
@@ -48,6 +49,7 @@ pub use compare::{
     OVERVIEW_WIDTH, RequestError, compare, ties,
 };
 pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveRequest};
+pub use depth_zero::depth_zero_figure;
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{
