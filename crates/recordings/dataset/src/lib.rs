@@ -67,7 +67,7 @@ pub use table::{FrameEntry, Row, RowFrame, Table, TaskColumn, ViewFrames};
 pub use task::{PoseThresholds, Task, TaskKind, TaskLabel};
 pub use toml_file::read_toml;
 pub use version::Version;
-pub use zero_table::{PressZero, add_press_zero, press_zeros};
+pub use zero_table::{PressZero, add_press_zero, press_zeros, zero_settings};
 
 /// Parts that the importer shares with the reader and the recorder. The interface is not stable.
 #[doc(hidden)]

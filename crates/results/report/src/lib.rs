@@ -10,6 +10,7 @@ mod compare;
 mod contributions;
 mod curve;
 mod depth_zero;
+mod devices;
 mod escape;
 mod figure;
 mod figures;
@@ -50,6 +51,7 @@ pub use compare::{
 };
 pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveRequest};
 pub use depth_zero::depth_zero_figure;
+pub use devices::device_table;
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{

@@ -28,7 +28,7 @@ use taceva_core::{DriverSource, Outline};
 use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec,
     ReducedFrames, SensorFacts, SessionTable, Source, add_device_warnings, add_frame_retries,
-    add_frozen_frames, add_measured_settings,
+    add_frozen_frames, add_measured_settings, zero_settings,
 };
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, Setting, StopCause};
@@ -146,7 +146,8 @@ fn acquire(
         open.warn(workshop, &mut warned);
         // A failure to keep a warning or a drift must not lose the recording.
         drop(add_device_warnings(path, &open.warnings()));
-        let measured = measured_settings(open.settings());
+        let mut measured = measured_settings(open.settings());
+        measured.extend(zero_settings(path));
         drop(add_measured_settings(path, &measured));
         sitting.is_enabled = true;
         if let Err(error) = done {
