@@ -34,7 +34,7 @@ pub(crate) struct DeviceFact {
 }
 
 impl DeviceFact {
-    /// A fact whose name and value are its words: `driver ati/netft`.
+    /// A fact whose name and value are its words: `driver camera/v4l2`.
     fn named(name: &str, value: &str) -> DeviceFact {
         DeviceFact {
             name: name.to_owned(),
