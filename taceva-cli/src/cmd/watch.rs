@@ -39,8 +39,8 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
     let work = context.work(None);
     let is_known = args.calibration.is_some() && !args.fresh;
     if is_known {
-        let is_learnt = monitor.learn_from(&calibration, work)?;
-        say_what_is_known(&monitor, is_learnt, path, context);
+        monitor.learn_from(&calibration, work)?;
+        say_what_is_known(&monitor, path, context);
     }
     let monitor = match &recording {
         None => watch_sensor(args, monitor, context)?,
@@ -63,7 +63,7 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
 }
 
 /// Says what the untouched pictures of the calibration can show, if they are fewer than usual.
-fn say_what_is_known(monitor: &Monitor, is_learnt: bool, path: &Path, context: &Context) {
+fn say_what_is_known(monitor: &Monitor, path: &Path, context: &Context) {
     let pictures = monitor.calibration_pictures().unwrap_or_default();
     if pictures >= Monitor::PICTURES {
         return;
@@ -74,9 +74,11 @@ fn say_what_is_known(monitor: &Monitor, is_learnt: bool, path: &Path, context: &
         counted(pictures, "untouched picture"),
         Monitor::PICTURES
     );
-    match is_learnt {
-        true => context.say(format_args!("{known}: smaller changes are not found")),
-        false => context.say(format_args!(
+    match monitor.smallest() {
+        Some([level, pattern, detail]) => context.say(format_args!(
+            "{known}: they find changes of brightness from {level:.2} of the change by contact, of large parts from {pattern:.2}, of detail from {detail:.2}"
+        )),
+        None => context.say(format_args!(
             "{known}: a change since then is found only if it exceeds that by contact; the first {} watched pictures set the limits for later changes",
             monitor.missing()
         )),
