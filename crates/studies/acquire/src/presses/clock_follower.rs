@@ -1,7 +1,8 @@
 //! Follows the clock of a camera against the clock of this machine, and takes its drift off the time stamps.
 //!
 //! A frame arrives later than its stamp. Delays only add to this offset, so its least value in each block of frames shows the clock. A line through these
-//! least offsets gives the drift. The median of all pairwise slopes (Theil 1950, Sen 1968) is not moved by blocks in which every frame was delayed.
+//! least offsets gives the drift. The median of all pairwise slopes (Theil 1950, Sen 1968), weighted by their times, is not moved by blocks in which every
+//! frame was delayed.
 
 use std::collections::BTreeMap;
 
@@ -10,15 +11,19 @@ use taceva_core::Stamp;
 /// Duration of the first blocks, s. It doubles each time the blocks are merged, up to `BLOCK_MAX_S`.
 const BLOCK_S: f64 = 0.25;
 const BLOCK_MAX_S: f64 = 4.0;
-/// Minimum number of frames in a block.
+/// Minimum number of frames in a block, and greatest time within which they arrive, s.
 const FRAMES: u32 = 4;
-/// Number of blocks that determine a line: least and greatest.
+const FRAMES_WITHIN_S: f64 = 30.0;
+/// Number of blocks that determine a line: least and greatest, and the least for a line that is followed.
 const BLOCKS_MIN: usize = 6;
 const BLOCKS_MAX: usize = 64;
+const FOLLOWED_MIN: usize = 12;
 /// Greatest drift that is followed. A faster change is no drift of an oscillator.
 const PPM_MAX: f64 = 1000.0;
 /// Number of standard uncertainties above which a drift is taken off.
 const SHOWN: f64 = 3.0;
+/// Greatest error of a line that is continued after its last block, s, by as many standard uncertainties of its slope.
+const CONTINUED_S: f64 = 1e-3;
 /// Ratio of the standard deviation of a normal distribution to its median absolute deviation.
 const NORMAL: f64 = 1.4826;
 /// Greatest change of the correction, relative to the time between two stamps. Corrected stamps therefore keep their order.
@@ -68,6 +73,13 @@ struct Line {
     slope_u: f64,
 }
 
+/// Slope between two offsets, weighted by the time between them.
+#[derive(Clone, Copy, Debug)]
+struct Slope {
+    slope: f64,
+    weight: f64,
+}
+
 impl Line {
     /// Robust line through at least two offsets at different times.
     fn through(offsets: &[Offset]) -> Line {
@@ -76,9 +88,12 @@ impl Line {
         let pairs = offsets.iter().enumerate();
         let slopes = pairs.flat_map(|(place, one)| {
             let later = offsets[place + 1..].iter();
-            later.map(move |other| (other.offset_s - one.offset_s) / (other.at_s - one.at_s))
+            later.map(move |other| Slope {
+                slope: (other.offset_s - one.offset_s) / (other.at_s - one.at_s),
+                weight: other.at_s - one.at_s,
+            })
         });
-        let slope = median(slopes.collect());
+        let slope = weighted_median(slopes.collect());
         let flat = |offset: &Offset| offset.offset_s - slope * (offset.at_s - middle_s);
         let middle = Offset {
             at_s: middle_s,
@@ -117,10 +132,14 @@ impl ClockFollower {
             at_s,
             offset_s: at_s - stamp.valid_s,
         });
-        if let Some(line) = self.line.filter(Line::shows_drift) {
-            let oldest_s = self.least.first().map_or(at_s, |oldest| oldest.at_s);
-            let anchor_s = *self.anchor_s.get_or_insert(line.at(oldest_s));
-            let wanted_s = line.at(at_s) - anchor_s;
+        if let (Some(line), [oldest, .., newest]) = (self.line, self.least.as_slice())
+            && self.least.len() >= FOLLOWED_MIN
+            && line.shows_drift()
+        {
+            // A pause would multiply the error of the slope.
+            let known_s = newest.at_s + CONTINUED_S / (SHOWN * line.slope_u);
+            let anchor_s = *self.anchor_s.get_or_insert(line.at(oldest.at_s));
+            let wanted_s = line.at(at_s.min(known_s)) - anchor_s;
             let passed_s = self.last_s.map_or(0.0, |last_s| stamp.valid_s - last_s);
             let most_s = SLEW * passed_s.max(0.0);
             self.taken_off_s += (wanted_s - self.taken_off_s).clamp(-most_s, most_s);
@@ -148,8 +167,18 @@ impl ClockFollower {
         ])
     }
 
-    /// Adds the offset of a frame to its block.
+    /// Adds the offset of a frame to its block. The first frame after the end of a block begins the next one, so that no block spans a pause.
     fn see(&mut self, seen: Offset) {
+        let lasts_s = (BLOCK_S * 2.0_f64.powi(self.merged)).min(BLOCK_MAX_S);
+        if let Some(block) = self.block {
+            let passed_s = seen.at_s - block.begun_s;
+            if passed_s >= lasts_s && block.frames >= FRAMES {
+                self.block = None;
+                self.close(block.least, lasts_s);
+            } else if passed_s >= FRAMES_WITHIN_S {
+                self.block = None;
+            }
+        }
         let block = self.block.get_or_insert(Block {
             begun_s: seen.at_s,
             frames: 0,
@@ -159,12 +188,10 @@ impl ClockFollower {
         if seen.offset_s < block.least.offset_s {
             block.least = seen;
         }
-        let lasts_s = (BLOCK_S * 2.0_f64.powi(self.merged)).min(BLOCK_MAX_S);
-        if block.frames < FRAMES || seen.at_s - block.begun_s < lasts_s {
-            return;
-        }
-        let least = block.least;
-        self.block = None;
+    }
+
+    /// Adds the least offset of a complete block of `lasts_s`.
+    fn close(&mut self, least: Offset, lasts_s: f64) {
         let is_later = self.least.last().is_none_or(|last| last.at_s < least.at_s);
         if !is_later {
             return;
@@ -199,6 +226,18 @@ pub(crate) fn measured_settings(now: BTreeMap<String, String>) -> BTreeMap<Strin
     let mut settings = now;
     settings.retain(|name, _| [DRIFT, DRIFT_U].contains(&name.as_str()));
     settings
+}
+
+/// Weighted median of at least one slope.
+fn weighted_median(mut slopes: Vec<Slope>) -> f64 {
+    slopes.sort_unstable_by(|one, other| one.slope.total_cmp(&other.slope));
+    let half = slopes.iter().map(|of| of.weight).sum::<f64>() / 2.0;
+    let mut below = 0.0;
+    let found = slopes.iter().find(|of| {
+        below += of.weight;
+        below >= half
+    });
+    found.or(slopes.last()).map_or(f64::NAN, |of| of.slope)
 }
 
 /// Median of finite values; NaN without values.

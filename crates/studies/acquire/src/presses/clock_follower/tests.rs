@@ -136,6 +136,36 @@ fn a_change_faster_than_an_oscillator_is_not_followed_and_is_stated() {
 }
 
 #[test]
+fn a_drift_of_a_few_noisy_frames_is_not_continued_through_a_long_pause() {
+    let mut follower = ClockFollower::default();
+    let mut number = 0_u32;
+    let mut greatest_s: f64 = 0.0;
+    for begun_s in [100.0, 704.0] {
+        for place in 0..125_u32 {
+            number += 1;
+            let passed_s = PERIOD_S * f64::from(place);
+            // Delays grow as a queue fills, and look like a drift of 600 ppm.
+            let grown_s = if begun_s < 700.0 {
+                6e-4 * passed_s
+            } else {
+                2e-3
+            };
+            let delay_s = grown_s + 1e-4 * f64::from(number / 7 * 37 % 11);
+            let true_s = begun_s + passed_s;
+            let stamp = Stamp {
+                valid_s: true_s,
+                received_s: Some(true_s + delay_s),
+            };
+            let followed = follower.follow(stamp, true_s + delay_s);
+            greatest_s = greatest_s.max((followed.valid_s - true_s).abs());
+        }
+    }
+    assert!(follower.anchor_s.is_some(), "a drift was followed");
+    // Continued, it would be 0.36 s.
+    assert!(greatest_s < 0.05, "{greatest_s}");
+}
+
+#[test]
 fn too_few_frames_state_no_drift_and_only_a_drift_is_kept_later() {
     let mut session = Session::begun();
     session.take(1.0, 200.0, 0.0);
