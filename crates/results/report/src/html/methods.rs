@@ -1,5 +1,6 @@
 //! Methods paragraph for a paper, and citations.
 
+mod equipment;
 mod statistics;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,7 +9,7 @@ use maud::{Markup, html};
 use taceva_core::counted;
 
 use super::sensor_summary::{counted_span, points, span, whole};
-use crate::devices::{device_table, devices};
+use crate::devices::device_table;
 use crate::markup::{heads, scroll};
 use crate::names::{listed, names};
 use crate::results::Study;
@@ -49,7 +50,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
         )
     );
     out += &origin(studies);
-    out += &equipped(studies);
+    out += &equipment::equipment(studies);
     out += &joined(studies);
     out += &pressed(studies);
     out += &divided(studies);
@@ -101,30 +102,6 @@ fn origin(studies: &[Study]) -> String {
         );
     }
     out
-}
-
-/// Sentences on the devices of measured recordings. Studies with the same devices share one.
-fn equipped(studies: &[Study]) -> String {
-    let mut shared: Vec<(String, Vec<String>)> = Vec::new();
-    for (study, name) in studies.iter().zip(names(studies)) {
-        let devices = devices(study).into_iter().map(|device| {
-            let facts = device.facts.iter().map(|fact| fact.words.as_str());
-            let facts: Vec<&str> = facts.collect();
-            let (kind, facts) = (device.kind, facts.join("; "));
-            format!("the {} ({facts}) {}", kind.name, kind.work)
-        });
-        let text = devices.collect::<Vec<_>>().join("; ");
-        match shared.iter_mut().find(|(known, _)| *known == text) {
-            _ if text.is_empty() => {}
-            Some((_, of)) => of.push(name),
-            None => shared.push((text, vec![name])),
-        }
-    }
-    let sentence = |(text, of): (String, Vec<String>)| match of.len() == studies.len() {
-        true => format!(" Devices: {text}."),
-        false => format!(" Devices of {}: {text}.", listed(&of)),
-    };
-    shared.into_iter().map(sentence).collect()
 }
 
 /// Sentence on the tables that imports joined, from the notes of the results.
