@@ -1,6 +1,6 @@
 //! `taceva watch`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use anyhow::Context as _;
@@ -38,12 +38,9 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
         .with_context(applied)?;
     let work = context.work(None);
     let is_known = args.calibration.is_some() && !args.fresh;
-    if is_known && !monitor.learn_from(&calibration, work)? {
-        context.say(format_args!(
-            "{}: too few untouched pictures, so the first {} watched pictures set the limits",
-            shown(path),
-            monitor.missing()
-        ));
+    if is_known {
+        monitor.learn_from(&calibration, work)?;
+        say_what_is_known(&monitor, path, context);
     }
     let monitor = match &recording {
         None => watch_sensor(args, monitor, context)?,
@@ -59,10 +56,33 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
         }
     };
     summarise(&monitor, context);
-    Ok(match monitor.found().is_empty() {
+    Ok(match monitor.found().is_empty() && monitor.is_decided() {
         true => exit::DONE,
         false => exit::CHECK_FAILED,
     })
+}
+
+/// Says what the untouched pictures of the calibration can show, if they are fewer than usual.
+fn say_what_is_known(monitor: &Monitor, path: &Path, context: &Context) {
+    let pictures = monitor.calibration_pictures().unwrap_or_default();
+    if pictures >= Monitor::PICTURES {
+        return;
+    }
+    let known = format!(
+        "{}: {} in the calibration, expected {}",
+        shown(path),
+        counted(pictures, "untouched picture"),
+        Monitor::PICTURES
+    );
+    match monitor.smallest() {
+        Some([level, pattern, detail]) => context.say(format_args!(
+            "{known}: they find changes of brightness from {level:.2} of the change by contact, of large parts from {pattern:.2}, of detail from {detail:.2}"
+        )),
+        None => context.say(format_args!(
+            "{known}: a change since then is found only if it exceeds that by contact; the first {} watched pictures set the limits for later changes",
+            monitor.missing()
+        )),
+    }
 }
 
 /// Watches the sensor of the arguments.
@@ -99,8 +119,9 @@ fn watch_sensor(args: &Watch, monitor: Monitor, context: &Context) -> anyhow::Re
     if monitor.missing() > 0 {
         anyhow::bail!(
             "nothing was watched: {} more untouched pictures are needed to set the limits; set a larger --frames, or name a recording \
-             with 250 untouched pictures after --calibration",
-            monitor.missing()
+             with {} untouched pictures after --calibration",
+            monitor.missing(),
+            Monitor::LEAST_PICTURES
         );
     }
     Ok(monitor)
@@ -114,7 +135,8 @@ fn line(words: &str) -> anyhow::Result<()> {
 fn summarise(monitor: &Monitor, context: &Context) {
     let [untouched, touched] = monitor.pictures();
     let changes = match monitor.found().len() {
-        0 => "no change".to_owned(),
+        0 if monitor.is_decided() => "no change".to_owned(),
+        0 => undecided(monitor),
         count => format!(
             "{}; after a new untouched picture, watch with --calibration and --fresh",
             counted(count, "change")
@@ -128,6 +150,19 @@ fn summarise(monitor: &Monitor, context: &Context) {
         context.say(format_args!(
             "smallest changes that are found, relative to the change by contact: brightness {level:.2}, large parts {pattern:.2}, detail {detail:.2}"
         ));
+    }
+}
+
+/// Sentence on pictures without a change that are too few to exclude one.
+fn undecided(monitor: &Monitor) -> String {
+    let least = Monitor::LEAST_PICTURES;
+    let few = "not enough untouched pictures to decide";
+    match monitor.calibration_pictures() {
+        Some(pictures) if pictures < least => format!(
+            "{few} if anything changed since the calibration, which has {pictures}, expected at least {least}: record the untouched sensor for longer, \
+             and name that recording after --calibration"
+        ),
+        _ => format!("{few}, expected at least 30 beyond those that set the limits"),
     }
 }
 

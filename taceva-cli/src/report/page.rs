@@ -9,8 +9,8 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
 use taceva_report::{
-    Figure, FigureStyle, Layout, Picture, ReportPage, ScoreTable, Study, Triple, figures_for,
-    paper_form, picks, study_figures, undrawn,
+    Figure, FigureStyle, Layout, Picture, ReportPage, ScoreTable, Study, Triple, device_table,
+    figures_for, paper_form, picks, study_figures, undrawn,
 };
 use taceva_results::{EvaluationReport, not_measured};
 
@@ -183,6 +183,22 @@ impl Page {
         ] {
             let path = folder.join(name);
             output::write(Some(&path), |out| out.write_all(&text))?;
+        }
+        self.write_devices(folder)
+    }
+
+    /// Writes the devices of measured recordings into `folder`, if a recording states one.
+    fn write_devices(&self, folder: &Path) -> anyhow::Result<()> {
+        let Some(table) = device_table(&self.studies) else {
+            return Ok(());
+        };
+        for (name, text) in [
+            ("devices.csv", table.csv()),
+            ("devices.md", table.markdown()),
+            ("devices.tex", table.latex(Layout::Float)),
+        ] {
+            let path = folder.join(name);
+            output::write(Some(&path), |out| out.write_all(text.as_bytes()))?;
         }
         Ok(())
     }

@@ -82,6 +82,9 @@ pub(crate) fn tap(tap: &RigTap, format: ListFormat, out: &mut dyn Write) -> io::
             "[{device}] latency_ms = {now_ms:.1} (before {before_ms:.1})"
         )?;
     }
+    for (name, value) in &tap.settings {
+        writeln!(out, "setting {name} = {value}")?;
+    }
     Ok(())
 }
 

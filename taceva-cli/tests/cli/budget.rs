@@ -1,5 +1,6 @@
 //! Uncertainty budgets, from a file of sources and from a result.
 
+mod depth_zero;
 mod refusals;
 
 use serde_json::Value;

@@ -219,6 +219,23 @@ impl Bench {
         path
     }
 
+    /// A recording of depths at `name`, each counted from a fitted surface with this standard uncertainty.
+    pub(crate) fn record_depths(&self, name: &str, zero_u_mm: f64) {
+        let channels = Channels::new([Channel::PZ]).expect("one");
+        let spec = RecordingSpec::new(spec().facts, channels);
+        let mut recorder = Recorder::create(&self.path(name), &spec).expect("a new recording");
+        for number in 0..SAMPLES {
+            let (_, depth) = label(number);
+            let sample = Sample::new(format!("{name}-{number:02}"))
+                .with_point_id(format!("p{}", number / 6))
+                .with_frame(draw((number, 0), 32))
+                .with_truth(Readings::from_values([depth]))
+                .with_zero_u_mm(Some(zero_u_mm));
+            recorder.append(&sample).expect("recorded");
+        }
+        recorder.close().expect("closed");
+    }
+
     /// A lab's folder `lab` with `labels.csv`, `pictures/` and `map.toml`.
     pub(crate) fn lab(&self) {
         let recording = self.record("drawn", 32);

@@ -150,10 +150,51 @@ fn a_sensor_is_watched_without_a_force_until_its_last_picture() {
         let few = bench.run(&format!("{words} --frames 2"));
         assert!(
             few.err
-                .contains("2 untouched pictures and 0 of contact: no change"),
+                .contains("2 untouched pictures and 0 of contact: not enough untouched pictures to decide, expected at least 30"),
             "{}",
             few.err
         );
+    }
+}
+
+#[test]
+fn a_calibration_with_few_untouched_pictures_says_what_it_finds_and_never_that_nothing_changed() {
+    let bench = bench();
+    record(&bench, "same", 100.0, 300, 1000);
+    record(&bench, "darker", 92.0, 300, 2000);
+    record(&bench, "some", 100.0, 120, 5000);
+    record(&bench, "few", 100.0, 20, 8000);
+    let watched = |name: &str, calibration: &str| {
+        bench.run(&format!(
+            "watch m.taceva --recording {name} --calibration {calibration}"
+        ))
+    };
+    // 100 of 120 pictures set the limits: the change is found against the calibration, not learnt.
+    let darker = watched("darker", "some");
+    assert_eq!(darker.code, 1, "{}", darker.err);
+    assert!(darker.out.contains("brighter or darker"), "{}", darker.out);
+    let words = "some: 120 untouched pictures in the calibration, expected 250: they find changes of brightness from 0.";
+    assert!(darker.err.contains(words), "{}", darker.err);
+    let same = watched("same", "some");
+    assert_eq!((same.code, same.out.as_str()), (0, ""), "{}", same.err);
+    for words in ["of contact: no change", "smallest changes that are found"] {
+        assert!(same.err.contains(words), "{words}: {}", same.err);
+    }
+    let same = watched("same", "few");
+    assert_eq!((same.code, same.out.as_str()), (1, ""), "{}", same.err);
+    for words in [
+        "few: 20 untouched pictures in the calibration, expected 250",
+        "the first 250 watched pictures set the limits for later changes",
+        "not enough untouched pictures to decide if anything changed since the calibration, which has 20, expected at least 100",
+    ] {
+        assert!(same.err.contains(words), "{words}: {}", same.err);
+    }
+    // The first pictures of the darker recording set the limits, so its light is hidden.
+    let darker = watched("darker", "few");
+    assert!(!darker.out.contains("brighter or darker"), "{}", darker.out);
+    for ran in [&same, &darker] {
+        assert_eq!(ran.code, 1, "{}", ran.err);
+        assert!(!ran.err.contains("no change"), "{}", ran.err);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod body;
 mod camera;
+mod camera_clock;
 mod factory;
 mod head;
 mod parts;

@@ -1,6 +1,7 @@
 //! Emulated camera that streams over HTTP: `multipart/x-mixed-replace` with a JPEG or, for comparisons, a PNG in each part.
 //!
-//! A path that ends in `.png` streams PNG, any other path JPEG. A connection carries one stream; a second request on it is ignored.
+//! A path that ends in `.png` streams PNG, any other path JPEG. The query `drift_ppm=200` stamps each part by a clock that is 200 ppm too fast. A connection
+//! carries one stream; a second request on it is ignored.
 
 use std::io::{self, Write};
 use std::net::{Ipv4Addr, SocketAddr, TcpStream};
@@ -41,6 +42,8 @@ const HOSTILE: &[u8] =
     b"--taceva-frame\r\nContent-type: image/jpeg\r\nContent-length: 18446744073709551615\r\n\r\n";
 /// JPEG quality, with little loss.
 const QUALITY: u8 = 95;
+/// Time of the camera's clock at the start of the bench, s.
+const CLOCK_S: f64 = 1_700_000_000.0;
 /// Maximum length of a request, bytes.
 const REQUEST_MAX: usize = 8192;
 
@@ -74,6 +77,11 @@ impl Emulator {
         format!("http://{}/stream.mjpeg", self.address())
     }
 
+    /// URL of the JPEG stream with the stamps of a clock that drifts by `ppm`.
+    pub fn drifting_url(&self, ppm: f64) -> String {
+        format!("{}?drift_ppm={ppm}", self.url())
+    }
+
     /// URL of the PNG stream, which is lossless.
     pub fn png_url(&self) -> String {
         format!("http://{}/stream.png", self.address())
@@ -84,6 +92,10 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
     let Some(path) = requested(&mut stream, end) else {
         return stream.write_all(b"HTTP/1.1 400 Bad Request\r\nContent-Length: 0\r\n\r\n");
     };
+    let (path, query) = path.split_once('?').unwrap_or((path.as_str(), ""));
+    let drift_ppm: Option<f64> = query
+        .strip_prefix("drift_ppm=")
+        .and_then(|ppm| ppm.parse().ok());
     let is_png = path.ends_with(".png");
     let kind = if is_png { "image/png" } else { "image/jpeg" };
     let head = match style {
@@ -107,11 +119,15 @@ fn serve(mut stream: TcpStream, bench: &WallBench, style: Style, end: &End) -> i
         }
         // A late camera skips frames.
         due = (due + period).max(now);
+        let stamp = drift_ppm.map_or_else(String::new, |ppm| {
+            let clock_s = CLOCK_S + now.as_secs_f64() * (1.0 + 1e-6 * ppm);
+            format!("X-Timestamp: {clock_s:.6}\r\n")
+        });
         if shown.is_empty() || !bench.is_faulty(Device::Camera, FaultKind::Frozen) {
             let pixels = bench.picture().map_err(io::Error::other)?;
             shown = encode(&pixels, info, is_png).map_err(io::Error::other)?;
         }
-        let part = part(&shown, kind, style);
+        let part = part(&shown, &format!("Content-type: {kind}\r\n{stamp}"), style);
         link.send(bench, &part, |bytes| stream.write_all(bytes))?;
     }
     Ok(())
@@ -136,7 +152,8 @@ fn requested(stream: &mut TcpStream, end: &End) -> Option<String> {
     (words.next() == Some("GET")).then(|| words.next().map(str::to_owned))?
 }
 
-fn part(picture: &[u8], kind: &str, style: Style) -> Vec<u8> {
+/// A picture with its delimiter, `lines` and its length.
+fn part(picture: &[u8], lines: &str, style: Style) -> Vec<u8> {
     let length = match style {
         Style::Usual | Style::Ffmpeg => format!("Content-length: {}\r\n", picture.len()),
         Style::Lengthless => String::new(),
@@ -145,7 +162,7 @@ fn part(picture: &[u8], kind: &str, style: Style) -> Vec<u8> {
         Style::Ffmpeg => "ffmpeg",
         Style::Usual | Style::Lengthless => BOUNDARY,
     };
-    let head = format!("--{boundary}\r\nContent-type: {kind}\r\n{length}\r\n");
+    let head = format!("--{boundary}\r\n{lines}{length}\r\n");
     let part = [head.as_bytes(), picture, b"\r\n"].concat();
     match style {
         Style::Ffmpeg => {

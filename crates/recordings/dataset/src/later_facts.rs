@@ -1,7 +1,8 @@
-//! Facts of an unfinished recording that its journal lacks: the day of the last session, and warnings of devices.
+//! Facts of an unfinished recording that its journal lacks: the day of the last session, warnings of devices, and settings that were measured meanwhile.
 //!
 //! These facts become known only after the journal was begun. A file beside the recording stores them until the recording is closed.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -21,6 +22,8 @@ pub(crate) struct LaterFacts {
     pub(crate) recorded_until: Option<Date>,
     /// Warnings of the devices about their readings.
     pub(crate) warnings: Vec<String>,
+    /// Settings that are known only after a session, such as the drift of a clock. A session may continue with other values.
+    pub(crate) measured: BTreeMap<String, String>,
 }
 
 impl LaterFacts {
@@ -76,6 +79,23 @@ pub fn add_device_warnings(recording: &Path, warnings: &[String]) -> io::Result<
         true => Ok(()),
         false => facts.write(recording),
     }
+}
+
+/// Adds settings that were measured during a session of the unfinished recording at `recording`. They replace those of earlier sessions.
+///
+/// # Errors
+/// Errors of the file system.
+#[doc(hidden)]
+pub fn add_measured_settings(
+    recording: &Path,
+    measured: &BTreeMap<String, String>,
+) -> io::Result<()> {
+    if measured.is_empty() {
+        return Ok(());
+    }
+    let mut facts = LaterFacts::of(recording);
+    facts.measured.extend(measured.clone());
+    facts.write(recording)
 }
 
 fn place(recording: &Path) -> PathBuf {

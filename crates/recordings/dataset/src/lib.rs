@@ -55,7 +55,7 @@ pub use header::{
     MappedClass, MappedColumn, MappedJoin, MappedPictures, RecordingFacts, ReducedFrames,
     ReferenceInfo, SensorFacts, Shape, Source, SourcesInfo, StreamFacts, TableInfo, ViewInfo,
 };
-pub use later_facts::add_device_warnings;
+pub use later_facts::{add_device_warnings, add_measured_settings};
 pub use pack::Span;
 pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec, Streamed};
@@ -67,7 +67,7 @@ pub use table::{FrameEntry, Row, RowFrame, Table, TaskColumn, ViewFrames};
 pub use task::{PoseThresholds, Task, TaskKind, TaskLabel};
 pub use toml_file::read_toml;
 pub use version::Version;
-pub use zero_table::{PressZero, add_press_zero, press_zeros};
+pub use zero_table::{PressZero, add_press_zero, press_zeros, zero_settings};
 
 /// Parts that the importer shares with the reader and the recorder. The interface is not stable.
 #[doc(hidden)]

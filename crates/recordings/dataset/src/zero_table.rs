@@ -1,5 +1,6 @@
 //! Table of the zeros of the transducer in a recording on a real rig. Each press adds a row.
 
+use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -88,21 +89,62 @@ pub fn press_zeros(recording: &Path) -> Vec<PressZero> {
     rows.unwrap_or_default()
 }
 
+/// Changes of the zero over the kept presses of a recording.
+struct ZeroChanges {
+    /// Greatest change of a component during a press, N.
+    step_n: f64,
+    /// Greatest range of a component between the presses, N.
+    range_n: f64,
+    /// Number of presses that were repeated because the zero changed further.
+    discarded: usize,
+}
+
+impl ZeroChanges {
+    /// Changes in the table beside the recording at `recording`; `None` without a kept press.
+    fn of(recording: &Path) -> Option<ZeroChanges> {
+        let rows = press_zeros(recording);
+        let kept = || rows.iter().filter(|row| row.is_kept);
+        let first_n = kept().next()?.before_n();
+        let ranges_n = (0..3).map(|axis| {
+            let zeros = kept().map(|row| row.before_n()[axis]);
+            let ends = (first_n[axis], first_n[axis]);
+            let (least, most) = zeros.fold(ends, |(least, most), zero| {
+                (zero.min(least), zero.max(most))
+            });
+            most - least
+        });
+        Some(ZeroChanges {
+            step_n: kept().map(PressZero::change_n).fold(0.0, f64::max),
+            range_n: ranges_n.fold(0.0, f64::max),
+            discarded: rows.len() - kept().count(),
+        })
+    }
+}
+
+/// Changes of the zero as settings of the recording at `recording`; empty without a kept press.
+#[doc(hidden)]
+pub fn zero_settings(recording: &Path) -> BTreeMap<String, String> {
+    let changes = ZeroChanges::of(recording).into_iter();
+    let settings = changes.flat_map(|changes| {
+        [
+            ("force_zero_step_N", format!("{:.4}", changes.step_n)),
+            ("force_zero_range_N", format!("{:.4}", changes.range_n)),
+            ("force_zero_repeated_presses", changes.discarded.to_string()),
+        ]
+    });
+    settings
+        .map(|(name, value)| (name.to_owned(), value))
+        .collect()
+}
+
 /// Clause about the zeros for the report; `None` without a kept press.
 pub(crate) fn zeros_clause(recording: &Path) -> Option<String> {
-    let rows = press_zeros(recording);
-    let kept = || rows.iter().filter(|row| row.is_kept);
-    let first_n = kept().next()?.before_n();
-    let step_n = kept().map(PressZero::change_n).fold(0.0, f64::max);
-    let ranges_n = (0..3).map(|axis| {
-        let zeros = kept().map(|row| row.before_n()[axis]);
-        let (least, most) = zeros.fold((first_n[axis], first_n[axis]), |(least, most), zero| {
-            (zero.min(least), zero.max(most))
-        });
-        most - least
-    });
-    let range_n = ranges_n.fold(0.0, f64::max);
-    let discarded = match rows.len() - kept().count() {
+    let ZeroChanges {
+        step_n,
+        range_n,
+        discarded,
+    } = ZeroChanges::of(recording)?;
+    let discarded = match discarded {
         0 => String::new(),
         1 => "; 1 press was repeated because the zero changed further".to_owned(),
         presses => format!("; {presses} presses were repeated because the zero changed further"),
@@ -141,6 +183,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let recording = folder.path().join("1-gel");
         assert_eq!(zeros_clause(&recording), None);
+        assert!(zero_settings(&recording).is_empty());
         let rows = [
             zero("a", true, 7.5, 7.503),
             zero("b", false, 7.51, 7.8),
@@ -162,6 +205,14 @@ mod tests {
                 "the zero of the transducer changed by at most 0.0030 N during a press, and by 0.3000 N between the presses; 1 press was repeated because the zero changed further"
             )
         );
+        // The settings state the numbers of the clause.
+        let expected = [
+            ("force_zero_range_N", "0.3000"),
+            ("force_zero_repeated_presses", "1"),
+            ("force_zero_step_N", "0.0030"),
+        ];
+        let expected = expected.map(|(name, value)| (name.to_owned(), value.to_owned()));
+        assert_eq!(zero_settings(&recording), BTreeMap::from(expected));
         add_press_zero(&recording, &rows[0]).expect("written");
         assert_eq!(press_zeros(&recording).len(), 4);
     }

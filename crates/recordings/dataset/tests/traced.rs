@@ -1,5 +1,6 @@
 //! Tests of instruments and certificates of a recording, in its journal, its header and in joined recordings.
 
+use std::collections::BTreeMap;
 use std::path::Path;
 
 use taceva_core::{
@@ -40,6 +41,18 @@ fn spec(number: &str) -> RecordingSpec {
     let robot = Traceability::new(Instrument::Robot);
     let facts = facts.with_traceability(vec![traced(number), robot]);
     RecordingSpec::new(facts, Channels::new([Channel::FZ]).expect("one"))
+}
+
+/// Day of this number since 1970.
+fn day(number: u64) -> Date {
+    Date::of_unix_s(86_400 * number)
+}
+
+/// Recording that is begun or continued on day `number`.
+fn spec_on(number: u64) -> RecordingSpec {
+    let mut spec = spec("D-K-1");
+    spec.facts.recorded_on = Some(day(number));
+    spec
 }
 
 fn sample(name: &str, force: f64) -> Sample {
@@ -111,18 +124,13 @@ fn a_recording_of_a_build_that_kept_no_instruments_goes_on() {
 fn a_recording_that_goes_on_the_next_day_keeps_the_day_on_which_it_began() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("set");
-    let on = |day: u64| {
-        let mut spec = spec("D-K-1");
-        spec.facts.recorded_on = Some(Date::of_unix_s(86_400 * day));
-        spec
-    };
-    let mut recorder = Recorder::create(&path, &on(20_779)).expect("created");
+    let mut recorder = Recorder::create(&path, &spec_on(20_779)).expect("created");
     recorder.append(&sample("1", 0.5)).expect("recorded");
     drop(recorder);
-    let recorder = Recorder::open(&path, &on(20_780)).expect("goes on");
+    let recorder = Recorder::open(&path, &spec_on(20_780)).expect("goes on");
     recorder.close().expect("closed");
     let header = Dataset::open(&path).expect("opens").header().clone();
-    let [first, last] = [20_779, 20_780].map(|day| Date::of_unix_s(86_400 * day));
+    let [first, last] = [20_779, 20_780].map(day);
     assert_eq!(header.recorded_on, Some(first));
     assert_eq!(header.recorded_until, Some(last));
     assert_eq!(header.days(&[]), Some(first..=last));
@@ -132,22 +140,16 @@ fn a_recording_that_goes_on_the_next_day_keeps_the_day_on_which_it_began() {
 fn a_recording_that_a_close_alone_ends_keeps_the_days_of_all_its_sessions() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("set");
-    let on = |day: u64| {
-        let mut spec = spec("D-K-1");
-        spec.facts.recorded_on = Some(Date::of_unix_s(86_400 * day));
-        spec
-    };
-    let mut recorder = Recorder::create(&path, &on(20_779)).expect("created");
+    let mut recorder = Recorder::create(&path, &spec_on(20_779)).expect("created");
     recorder.append(&sample("1", 0.5)).expect("recorded");
     drop(recorder);
-    for day in [20_781, 20_781] {
-        drop(Recorder::open(&path, &on(day)).expect("goes on"));
+    for _ in 0..2 {
+        drop(Recorder::open(&path, &spec_on(20_781)).expect("goes on"));
     }
     let later = folder.path().join("set.later.toml");
     assert!(later.exists());
     let closed = Recorder::resume(&path).expect("goes on").close();
-    let last = Date::of_unix_s(86_400 * 20_781);
-    assert_eq!(closed.expect("closed").recorded_until, Some(last));
+    assert_eq!(closed.expect("closed").recorded_until, Some(day(20_781)));
     assert!(!later.exists(), "the header has it");
 }
 
@@ -174,31 +176,54 @@ fn warnings_of_devices_stand_in_the_header_once_whichever_session_gave_them() {
 }
 
 #[test]
+fn a_drift_that_differs_in_each_session_is_a_setting_of_the_last_and_refuses_none() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let measure = |ppm: &str| {
+        let measured = BTreeMap::from([("sensor_clock_drift_ppm".to_owned(), ppm.to_owned())]);
+        taceva_dataset::add_measured_settings(&path, &measured).expect("written");
+    };
+    let mut stated = spec("D-K-1");
+    let exposure = ("exposure_ms".to_owned(), "15".to_owned());
+    stated.facts.settings = BTreeMap::from([exposure.clone()]);
+    let mut recorder = Recorder::create(&path, &stated).expect("created");
+    recorder.append(&sample("1", 0.5)).expect("recorded");
+    measure("41.30");
+    drop(recorder);
+    let recorder = Recorder::open(&path, &stated).expect("goes on");
+    taceva_dataset::add_measured_settings(&path, &BTreeMap::new()).expect("nothing to write");
+    measure("-12.00");
+    let header = recorder.close().expect("closed");
+    let drift = ("sensor_clock_drift_ppm".to_owned(), "-12.00".to_owned());
+    assert_eq!(header.settings, BTreeMap::from([exposure, drift]));
+    let read = Dataset::open(&path).expect("opens");
+    assert_eq!(read.header().settings, header.settings);
+}
+
+#[test]
 fn joined_recordings_keep_the_first_and_the_last_of_their_days() {
     let folder = tempfile::tempdir().expect("a folder");
-    let day = |day: u64| Some(Date::of_unix_s(86_400 * day));
-    let on = |name: &str, begun: Option<Date>, force: f64| {
+    let on = |name: &str, begun: Option<u64>, force: f64| {
         let path = folder.path().join(name);
-        let mut spec = spec("D-K-1");
-        spec.facts.recorded_on = begun;
+        let spec = begun.map_or_else(|| spec("D-K-1"), spec_on);
         let mut recorder = Recorder::create(&path, &spec).expect("created");
         recorder.append(&sample("1", force)).expect("recorded");
         recorder.close().expect("closed");
         Dataset::open(&path).expect("opens")
     };
     let recordings = vec![
-        on("two", day(20_780), 0.5),
-        on("one", day(20_779), 0.6),
-        on("three", day(20_785), 0.7),
+        on("two", Some(20_780), 0.5),
+        on("one", Some(20_779), 0.6),
+        on("three", Some(20_785), 0.7),
         on("unknown", None, 0.8),
     ];
     let joined = Dataset::joined(recordings).expect("alike");
     let header = joined.header();
     assert_eq!(
         (header.recorded_on, header.recorded_until),
-        (day(20_779), day(20_785))
+        (Some(day(20_779)), Some(day(20_785)))
     );
-    let same = vec![on("a", day(20_779), 0.5), on("b", day(20_779), 0.6)];
+    let same = vec![on("a", Some(20_779), 0.5), on("b", Some(20_779), 0.6)];
     let joined = Dataset::joined(same).expect("alike");
     assert_eq!(joined.header().recorded_until, None);
 }

@@ -9,6 +9,8 @@ mod choose;
 mod compare;
 mod contributions;
 mod curve;
+mod depth_zero;
+mod devices;
 mod escape;
 mod figure;
 mod figures;
@@ -48,6 +50,8 @@ pub use compare::{
     OVERVIEW_WIDTH, RequestError, compare, ties,
 };
 pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveRequest};
+pub use depth_zero::depth_zero_figure;
+pub use devices::device_table;
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{

@@ -15,6 +15,8 @@ pub(crate) use standing_by_r2::by_published_r2;
 pub use statement::Statement;
 pub(crate) use statement::UNSTATED;
 
+use std::collections::BTreeMap;
+
 use taceva_core::{Traceability, Unit};
 use taceva_metrics::{Standing, TrainingSpread, catalogue};
 use taceva_results::{
@@ -87,6 +89,8 @@ pub struct Made {
     pub folds: Option<String>,
     /// Groups that the split does not divide: the column `object`, or `block of time`; `None` for contact points.
     pub group: Option<String>,
+    /// Settings of the devices that made the recording, by name: `force_rate_hz`.
+    pub devices: BTreeMap<String, String>,
     /// Digest of the samples, for numbers of a bundle in a catalogue.
     pub samples_digest: Option<String>,
 }
@@ -108,6 +112,7 @@ impl From<EvaluationReport> for Study {
             seen_part,
             part: report.provenance.part.clone(),
             recordings: report.provenance.recordings.len(),
+            devices: report.provenance.devices,
             ..match report.provenance.model {
                 Some(model) => Made {
                     model: Some(model.name),

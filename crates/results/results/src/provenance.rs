@@ -57,6 +57,9 @@ pub struct Provenance {
     /// Instruments of the labels with their certificates, over all recordings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub traceability: Vec<Traceability>,
+    /// Settings of the devices that made the recordings, such as `force_rate_hz`; for several recordings those that are equal in all.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub devices: BTreeMap<String, String>,
     /// UTC day of the last recording that has instruments.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub recorded_on: Option<Date>,
@@ -124,6 +127,8 @@ impl Provenance {
         self.presses
             .extend(presses.map(|(digest, counts)| (digest.clone(), counts.clone())));
         self.traceability = Traceability::joined(&self.traceability, &other.traceability);
+        self.devices
+            .retain(|name, value| other.devices.get(name) == Some(value));
         self.recorded_on = self.recorded_on.max(other.recorded_on);
         // No table of samples is written for several states.
         self.samples_table = None;
@@ -207,6 +212,24 @@ mod tests {
         assert_eq!(numbers, [Some("D-K-1"), Some("D-K-2")]);
         let in_part = of("D-K-1").joined(&Provenance::default());
         assert!(in_part.traceability[1].certificate.is_none());
+    }
+
+    #[test]
+    fn a_joined_result_states_the_settings_of_devices_that_are_equal_in_both() {
+        let with = |filter: &str| {
+            let settings = [("force_rate_hz", "500"), ("force_filter", filter)];
+            let settings = settings.map(|(name, value)| (name.to_owned(), value.to_owned()));
+            Provenance {
+                devices: BTreeMap::from(settings),
+                ..Provenance::default()
+            }
+        };
+        assert_eq!(with("8").joined(&with("8")), with("8"));
+        let joined = with("8").joined(&with("0"));
+        let names: Vec<&str> = joined.devices.keys().map(String::as_str).collect();
+        assert_eq!(names, ["force_rate_hz"]);
+        let text = serde_json::to_string(&Provenance::default()).expect("JSON");
+        assert!(!text.contains("devices"), "{text}");
     }
 
     #[test]

@@ -26,12 +26,13 @@ const WORDS: [&str; 11] = [
     Samples::FOLD,
 ];
 /// Names of numeric columns other than channels.
-const NUMBERS: [&str; 6] = [
+const NUMBERS: [&str; 7] = [
     "depth_step",
     "repeat",
     "t_s",
     "spacing_mm",
     "spacing_predicted_mm",
+    Samples::ZERO_U,
     "intensity",
 ];
 /// Suffix of columns with unclipped predictions, before limiting to the bounds of the model.
@@ -42,7 +43,7 @@ const UNBOUNDED: &str = "_predicted_unbounded";
 /// # Shapes
 /// Each column has one optional value per sample.
 /// # Units
-/// Channels in their own unit; `t_s` in s; spacings in mm; `intensity` in grey levels, 0 to 255.
+/// Channels in their own unit; `t_s` in s; spacings and `zero_u_mm` in mm; `intensity` in grey levels, 0 to 255.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
     rows: usize,
@@ -95,6 +96,8 @@ impl Samples {
     pub const GROUP: &'static str = "group";
     /// Name of the column with fold numbers, from 1. Each fold was predicted by its own model.
     pub const FOLD: &'static str = "fold";
+    /// Name of the column with the standard uncertainty of the height from which the depth of a sample counts, in mm.
+    pub const ZERO_U: &'static str = "zero_u_mm";
     /// Suffix of the columns with predictions.
     pub const PREDICTED: &'static str = "_predicted";
 

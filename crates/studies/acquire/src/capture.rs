@@ -23,13 +23,13 @@ use std::time::Duration;
 use taceva_core::{Axis, Channel, Channels, Clock, DriverError, DriverKey, ErrorKind, Progress};
 use taceva_dataset::{
     DatasetError, Header, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source,
-    StreamFacts, Streamed, add_device_warnings,
+    StreamFacts, Streamed, add_device_warnings, add_measured_settings,
 };
 use taceva_protocol::RigFile;
 
 use crate::error::AcquireError;
 use crate::instruments::{day_of, kept};
-use crate::presses::of_rig_file;
+use crate::presses::{measured_settings, of_rig_file};
 use crate::viewer::Viewer;
 use contacts::Contacts;
 pub use devices::{LiveDevices, LiveSpec};
@@ -215,8 +215,10 @@ pub fn capture(
     match done {
         Err(source) => Err(kept_after(recorder, &request.path, state, source)),
         Ok(()) => {
-            // A failure to keep a warning must not lose the recording.
+            // A failure to keep a warning or a drift must not lose the recording.
             drop(add_device_warnings(&request.path, &live.device_warnings()));
+            let measured = measured_settings(live.settings());
+            drop(add_measured_settings(&request.path, &measured));
             let closed = recorder.close();
             let header = closed.map_err(|source| broken(&request.path, state, false, source))?;
             match device {

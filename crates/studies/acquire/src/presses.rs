@@ -1,6 +1,7 @@
 //! Records the missing presses of a plan, one unit after another. Each press is safely on disk before the next begins.
 
 mod changers;
+mod clock_follower;
 mod content_key;
 mod device;
 mod devices;
@@ -27,7 +28,7 @@ use taceva_core::{DriverSource, Outline};
 use taceva_dataset::{
     Dataset, DatasetError, Footprint, Known, Recorder, RecordingFacts, RecordingSpec,
     ReducedFrames, SensorFacts, SessionTable, Source, add_device_warnings, add_frame_retries,
-    add_frozen_frames,
+    add_frozen_frames, add_measured_settings, zero_settings,
 };
 use taceva_drivers::{Drivers, Selector};
 use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, Setting, StopCause};
@@ -35,6 +36,7 @@ use taceva_protocol::{Cancel, Event, Mode, Plan, PressLog, RunSpec, Setting, Sto
 use crate::error::AcquireError;
 use crate::instruments;
 use crate::scene::{PlannedStudy, RigSpec, StudySource};
+pub(crate) use clock_follower::measured_settings;
 pub(crate) use device::Opened;
 pub(crate) use devices::written_latencies_ms;
 use devices::{OpenRig, Sitting};
@@ -46,8 +48,8 @@ pub(crate) use registration::Turned;
 pub use rehearsal::{AIR_MM, rehearse_scene};
 pub use rig_locks::HeldRigs;
 use schedule::Schedule;
-pub(crate) use settings::{add_settings, of_rig_file};
-pub(crate) use tap::tap_study;
+pub(crate) use settings::{add_settings, of_rig_file, sensor_driver};
+pub(crate) use tap::{TappedRig, tap_study};
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
 
 impl PlannedStudy {
@@ -142,8 +144,11 @@ fn acquire(
         };
         let done = acquire_unit(study, unit, &mut open, path, log, of_unit);
         open.warn(workshop, &mut warned);
-        // A failure to keep a warning must not lose the recording.
+        // A failure to keep a warning or a drift must not lose the recording.
         drop(add_device_warnings(path, &open.warnings()));
+        let mut measured = measured_settings(open.settings());
+        measured.extend(zero_settings(path));
+        drop(add_measured_settings(path, &measured));
         sitting.is_enabled = true;
         if let Err(error) = done {
             left += presses_skipped(error)?;

@@ -22,6 +22,7 @@ pub fn of(dataset: &Dataset) -> Provenance {
         recordings: recordings::provenance(dataset),
         view: dataset.view(),
         traceability: dataset.header().traceability.clone(),
+        devices: dataset.header().settings.clone(),
         ..Provenance::default()
     };
     match dataset.recordings() {

@@ -325,6 +325,15 @@ mod tests {
 
     /// Test note on a recording of presses to 1 mm, with the uncertainties `zeros_u_mm` of their zeros.
     fn note(channel: Channel, zeros_u_mm: &[Option<f64>]) -> Vec<Note> {
+        pressed(channel, zeros_u_mm, depth_zeros)
+    }
+
+    /// Result of `act` on such a recording.
+    fn pressed<T>(
+        channel: Channel,
+        zeros_u_mm: &[Option<f64>],
+        act: impl FnOnce(&Dataset) -> T,
+    ) -> T {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("pressed");
         let facts = RecordingFacts::new(
@@ -346,7 +355,23 @@ mod tests {
         let recorded = recorder.append_press("press", PressOutcome::Complete, &samples);
         recorded.expect("recorded");
         recorder.close().expect("closed");
-        depth_zeros(&Dataset::open(&path).expect("a dataset"))
+        act(&Dataset::open(&path).expect("a dataset"))
+    }
+
+    #[test]
+    fn samples_of_depths_state_the_uncertainty_of_their_zeros_if_any_is_fitted() {
+        let zeros_u_mm = [Some(0.02), None, Some(0.004)];
+        let column = |channel, zeros_u_mm: &[Option<f64>]| {
+            pressed(channel, zeros_u_mm, |dataset| {
+                let rows: Vec<usize> = (0..zeros_u_mm.len()).collect();
+                let samples = crate::samples::of(dataset, &rows).expect("samples");
+                let stated = rows.iter().map(|&row| samples.number("zero_u_mm", row));
+                samples.has("zero_u_mm").then(|| stated.collect::<Vec<_>>())
+            })
+        };
+        assert_eq!(column(Channel::PZ, &zeros_u_mm), Some(zeros_u_mm.to_vec()));
+        assert_eq!(column(Channel::FZ, &zeros_u_mm), None);
+        assert_eq!(column(Channel::PZ, &[None, None]), None);
     }
 
     #[test]

@@ -28,6 +28,13 @@ pub fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, EvaluateError> {
             samples.push_words(field.name(), words.collect());
         }
     }
+    let zeros = table.zero_u_mm();
+    let has_depths = table.channels().position("Pz").is_some();
+    if has_depths && rows.iter().any(|&row| zeros[row].is_some()) {
+        let mut column = Column::default();
+        rows.iter().for_each(|&row| column.push(zeros[row]));
+        samples.push_numbers(Samples::ZERO_U, column);
+    }
     for channel in table.channels().iter() {
         samples.push_numbers(channel.name(), truth(dataset, channel, rows)?);
     }

@@ -23,8 +23,6 @@ use crate::scale::Scale;
 
 /// Pictures whose mean is the baseline.
 const SETTLED: u32 = 50;
-/// Untouched pictures until changes are found.
-const TO_LEARN: usize = SETTLED as usize + LEARNT;
 /// Least stimulus that counts as a change of pattern.
 const PATTERN: f64 = 0.1;
 /// Least stimulus that counts as a change of detail. Noise hides most of such a change.
@@ -78,7 +76,11 @@ pub struct Monitor {
     has_repeats: bool,
     repeats: Newest,
     training: Option<Training>,
+    /// Untouched pictures of the calibration, if the monitor was to learn from them.
+    calibration: Option<usize>,
     untouched: u64,
+    /// Untouched pictures that were compared with the limits.
+    compared: u64,
     touched: u64,
     found: BTreeSet<Change>,
 }
@@ -107,6 +109,11 @@ impl Newest {
 }
 
 impl Monitor {
+    /// Number of untouched pictures that set the baseline and the limits.
+    pub const PICTURES: usize = SETTLED as usize + LEARNT;
+    /// Least number of untouched pictures of a calibration that set the baseline and the limits. Their limits may be wider.
+    pub const LEAST_PICTURES: usize = 2 * SETTLED as usize;
+
     /// A monitor with the untouched picture `reference` of the calibration. `contact` is the mean change of pictures by contact, a share of full scale.
     ///
     /// # Errors
@@ -136,7 +143,9 @@ impl Monitor {
             has_repeats: false,
             repeats: Newest::default(),
             training: None,
+            calibration: None,
             untouched: 0,
+            compared: 0,
             touched: 0,
             found: BTreeSet::new(),
         })
@@ -221,6 +230,26 @@ impl Monitor {
         [self.untouched, self.touched]
     }
 
+    /// Number of untouched pictures of the calibration; `None` unless the monitor was to [learn from it](Monitor::learn_from).
+    pub fn calibration_pictures(&self) -> Option<usize> {
+        self.calibration
+    }
+
+    /// True if the pictures so far can show that nothing has changed: the calibration, if the monitor was to learn from it, has enough untouched pictures, and
+    /// at least 30 were compared with the limits.
+    ///
+    /// ```
+    /// use taceva_core::{Frame, FrameInfo, PixelFormat};
+    /// let info = FrameInfo { width: 4, height: 4, format: PixelFormat::Gray8 };
+    /// let monitor = taceva_stress::Monitor::new(Frame::new(info, vec![9; 16])?, 0.1)?;
+    /// assert!(!monitor.is_decided());
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn is_decided(&self) -> bool {
+        let is_enough = |pictures: usize| pictures >= Monitor::LEAST_PICTURES;
+        self.calibration.is_none_or(is_enough) && self.compared >= WINDOW as u64
+    }
+
     /// Changes found so far.
     pub fn found(&self) -> &BTreeSet<Change> {
         &self.found
@@ -256,6 +285,7 @@ impl Monitor {
         match is_learning {
             true => self.has_repeats |= is_repeat,
             false => {
+                self.compared += 1;
                 let repeats = self.repeats.push(is_repeat);
                 let is_change = repeats >= REPEATS && !self.has_repeats;
                 let strength = is_change.then(|| share(repeats));

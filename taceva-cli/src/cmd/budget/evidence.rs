@@ -6,8 +6,8 @@ use taceva_core::{Date, shown};
 use taceva_metrology::budget::{
     BudgetError, BudgetText, Components, Evidence, Figure, Freedom, Missing,
 };
-use taceva_report::{reference_certificate, residual_components};
-use taceva_results::{EvaluationReport, Score};
+use taceva_report::{depth_zero_figure, reference_certificate, residual_components};
+use taceva_results::{EvaluationReport, Samples, Score};
 
 use crate::cmd::quantity::unit_of_six;
 use crate::cmd::{Usage, results};
@@ -16,6 +16,8 @@ use crate::cmd::{Usage, results};
 const RESIDUALS: [&str; 4] = ["error", "error.between", "error.within", "bias"];
 /// Figures taken from scores.
 const SCORES: [&str; 4] = ["repeatability", "drift", "r_light", "hysteresis"];
+/// Figure of depths, from a column of the samples with this name.
+const ZERO: &str = Samples::ZERO_U;
 /// Channels for a template, in order of preference.
 const CHANNELS: [&str; 6] = ["Fz", "Fx", "Fy", "Pz", "Px", "Py"];
 
@@ -53,7 +55,7 @@ pub(super) struct Measured {
 impl Measured {
     pub(super) fn without_result() -> Measured {
         let mut measured = Measured::default();
-        for figure in RESIDUALS.into_iter().chain(SCORES) {
+        for figure in RESIDUALS.into_iter().chain(SCORES).chain([ZERO]) {
             measured.lacks(figure, "no result is given; add --results RESULT.json");
         }
         measured.lacks(
@@ -76,6 +78,13 @@ impl Measured {
             match found.figure(figure, channel) {
                 Ok(value) => measured.take(|evidence| evidence.with(figure, value)),
                 Err(reason) => measured.lacks(figure, &reason),
+            }
+        }
+        // Other channels count from no zero, so nothing is absent there.
+        if channel.name == "Pz" {
+            match found.zero(channel) {
+                Ok(value) => measured.take(|evidence| evidence.with(ZERO, value)),
+                Err(reason) => measured.lacks(ZERO, &reason),
             }
         }
         measured.add_certificate(found, channel);
@@ -209,14 +218,24 @@ impl Found {
         part: &str,
         column: &str,
     ) -> Result<Components, String> {
-        let Some(samples) = &self.report.samples else {
+        residual_components(self.samples()?, &channel.name, part, column)
+    }
+
+    /// Samples of the result, or the reason why there are none.
+    fn samples(&self) -> Result<&Samples, String> {
+        self.report.samples.as_ref().ok_or_else(|| {
             let message = self.without_samples.as_deref();
             let message = message.unwrap_or("the result has no samples");
-            return Err(format!(
-                "{message}; `--samples-out` of evaluate writes them"
-            ));
-        };
-        residual_components(samples, &channel.name, part, column)
+            format!("{message}; `--samples-out` of evaluate writes them")
+        })
+    }
+
+    /// Uncertainty of the heights from which depths count.
+    fn zero(&self, channel: &Channel) -> Result<Figure, String> {
+        let mut figure = depth_zero_figure(self.samples()?, &channel.name)?;
+        let table = &self.report.provenance.samples_table;
+        figure.digest.clone_from(table);
+        Ok(figure)
     }
 
     /// Score of the channel. Uses the variant that decides verdicts, if there is one.

@@ -42,6 +42,14 @@ impl Emulated {
         format!("camera/mjpeg:url={}", self.camera.url())
     }
 
+    /// The camera with stamps of a clock that is too fast by `ppm`.
+    pub(crate) fn drifting_sensor(&self, ppm: f64) -> String {
+        format!(
+            "camera/mjpeg:url={};clock=server",
+            self.camera.drifting_url(ppm)
+        )
+    }
+
     pub(crate) fn force(&self) -> String {
         self.force.selector()
     }

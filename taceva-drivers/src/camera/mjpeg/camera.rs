@@ -9,6 +9,7 @@ use taceva_core::{
 };
 
 use super::KEY;
+use super::camera_clock::CameraClock;
 use super::stream::{Picture, Stream};
 use super::url::Url;
 use crate::camera::CAPTURE;
@@ -34,6 +35,8 @@ pub(super) struct Camera {
     given: Option<Arc<[u8]>>,
     /// Number of images that were replaced before a capture.
     missed: u64,
+    /// Clock of the server, if it stamps the frames. Otherwise a frame is stamped on arrival.
+    clock: Option<CameraClock>,
 }
 
 /// Timeout for the first image, which determines the size.
@@ -53,11 +56,18 @@ fn connected(url: &Url, pictures: &Arc<Mailbox<Picture>>) -> Result<Stream, Driv
 }
 
 impl Camera {
-    /// Connects to a camera and waits for its first image.
-    pub(super) fn open(url: Url, preset: Option<&Preset>) -> Result<Camera, DriverError> {
+    /// Connects to a camera and waits for its first image. The server stamps the frames if `is_stamping`.
+    pub(super) fn open(
+        url: Url,
+        preset: Option<&Preset>,
+        is_stamping: bool,
+    ) -> Result<Camera, DriverError> {
         let pictures = Arc::new(Mailbox::default());
         let stream = connected(&url, &pictures)?;
         let first = next(&pictures, 0, FIRST)?;
+        if is_stamping {
+            stamped_s(&first.what)?;
+        }
         let crop = preset.map_or(Crop::NONE, |preset| {
             preset.crop(preset.width, preset.height)
         });
@@ -81,8 +91,17 @@ impl Camera {
             last: first.number,
             given: None,
             missed: 0,
+            clock: is_stamping.then(CameraClock::default),
         })
     }
+}
+
+/// Stamp of an image by the clock of its server, s.
+fn stamped_s(picture: &Picture) -> Result<f64, DriverError> {
+    picture.stamped_s.ok_or_else(|| {
+        let why = "the picture has no `X-Timestamp` in seconds, expected by `clock=server`: omit `clock`, or make the server write it";
+        failed(ErrorKind::Protocol, CAPTURE, why)
+    })
 }
 
 /// Waits for the next image.
@@ -109,6 +128,7 @@ impl Sensor for Camera {
         if self.pictures.has_ended() {
             // Reconnect to a camera that was lost.
             self.pictures.begin_again();
+            self.clock.iter_mut().for_each(CameraClock::begin_again);
             match connected(&self.url, &self.pictures) {
                 Ok(stream) => self.stream = stream,
                 Err(error) => {
@@ -149,8 +169,12 @@ impl Sensor for Camera {
                 by_count(broken, "was", "were")
             )
         })?;
+        let began = match &mut self.clock {
+            Some(clock) => clock.place(stamped_s(&seen.what)?, seen.what.began),
+            None => seen.what.began,
+        };
         self.given = Some(seen.what.bytes);
-        Ok(Stamp::new(seen.what.began, Some(seen.at)))
+        Ok(Stamp::new(began, Some(seen.at)))
     }
 
     fn sequence(&self) -> Option<u64> {

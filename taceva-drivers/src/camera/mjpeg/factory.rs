@@ -20,6 +20,8 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 ///   of that frame. The connection lasts until the sensor is dropped; `start` reconnects to a lost camera.
 /// - A frame is the newest image received; images not captured in time are missed. Its stamp is the arrival time of its first bytes, on the
 ///   monotonic clock. Exposure and compression in the camera happen earlier and are not included.
+/// - With `clock=server` the stamp is the time that the server writes with each picture (`X-Timestamp`, as `ustreamer` and `mjpg-streamer` do), plus the
+///   least delay of the first 32 frames. Delays of the link then do not scatter the stamps, but a drift of that clock remains in them.
 /// - The driver sets nothing: exposure, gain, white balance and focus must be fixed at the camera's server.
 /// - Only plain HTTP without a password is supported. Redirections are not followed.
 ///
@@ -54,6 +56,9 @@ impl MjpegFactory {
                 .optional()
                 .help("frames per second that the camera sends, if known")
                 .changes_facts(),
+            ArgSpec::choice("clock", ["arrival", "server"])
+                .default(ArgValue::Text("arrival".to_owned()))
+                .help("time of a frame: its arrival, or the `X-Timestamp` of the server"),
         ];
         let facts = Facts::Sensor(Box::default());
         let title = "a camera that streams over HTTP";
@@ -85,7 +90,8 @@ impl Factory<dyn Sensor> for MjpegFactory {
             DriverError::new(ErrorKind::InvalidArgument, &KEY, "connect to the camera")
                 .because(error)
         })?;
-        Ok(Box::new(Camera::open(url, preset(args))?))
+        let is_stamping = args.text("clock") == "server";
+        Ok(Box::new(Camera::open(url, preset(args), is_stamping)?))
     }
 }
 

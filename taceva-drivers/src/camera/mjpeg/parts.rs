@@ -16,6 +16,8 @@ pub(super) struct Parts {
     searched: usize,
     /// Parts dropped because their length was wrong.
     broken: u64,
+    /// Stamp in the head of the current part, s.
+    stamped_s: Option<f64>,
 }
 
 /// Position within the body.
@@ -59,6 +61,7 @@ impl Parts {
             within: Within::Between,
             searched: 0,
             broken: 0,
+            stamped_s: None,
         }
     }
 
@@ -75,6 +78,11 @@ impl Parts {
     /// Number of parts dropped because their length was wrong.
     pub(super) fn broken(&self) -> u64 {
         self.broken
+    }
+
+    /// Stamp of the last returned image by the clock of its server, s; `None` if the server writes none. Valid until the next call of [`next`](Parts::next).
+    pub(super) fn stamped_s(&self) -> Option<f64> {
+        self.stamped_s
     }
 
     /// Returns the next complete image; `None` until it has arrived.
@@ -95,6 +103,7 @@ impl Parts {
                         let lines = String::from_utf8_lossy(&self.waiting[..length]).into_owned();
                         self.waiting.drain(..length);
                         self.within = Within::Picture(announced(&lines)?);
+                        self.stamped_s = stamped_s(&lines);
                         self.searched = 0;
                     }
                     None if self.waiting.len() > PART_HEAD_MAX => return Err(PartError::Head),
@@ -225,6 +234,14 @@ fn announced(lines: &str) -> Result<Option<usize>, PartError> {
     }
 }
 
+/// Stamp in the head of a part, as `X-Timestamp: 1234.567890`, s.
+fn stamped_s(lines: &str) -> Option<f64> {
+    let mut fields = lines.lines().filter_map(|line| line.split_once(':'));
+    let (_, value) = fields.find(|(name, _)| name.trim().eq_ignore_ascii_case("x-timestamp"))?;
+    let stamped_s: f64 = value.trim().parse().ok()?;
+    stamped_s.is_finite().then_some(stamped_s)
+}
+
 /// Strips the hyphens and the line end that belong to the next delimiter.
 fn without_ending(picture: &[u8]) -> &[u8] {
     let hyphens = picture
@@ -299,6 +316,21 @@ mod tests {
         assert_eq!(all(&mut parts), [PICTURES[2]]);
         parts.push(b"--f\r\nContent-Length: 4\r\n\r\n\xff\xd8\xff\xd9");
         assert_eq!(all(&mut parts), [PICTURES[2]]);
+    }
+
+    #[test]
+    fn a_picture_has_the_stamp_of_its_own_head() {
+        let mut parts = Parts::new(Some("f"));
+        for (head, stamped_s) in [
+            ("X-Timestamp: 12.5\r\n", Some(12.5)),
+            ("", None),
+            ("x-timestamp: soon\r\n", None),
+        ] {
+            let part = format!("--f\r\n{head}Content-Length: 2\r\n\r\nok\r\n");
+            parts.push(part.as_bytes());
+            assert_eq!(parts.next(), Ok(Some(b"ok".to_vec())));
+            assert_eq!(parts.stamped_s(), stamped_s, "{head}");
+        }
     }
 
     #[test]

@@ -21,6 +21,8 @@ use crate::link::{LinkError, Mailbox, connect, monotonic};
 pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
     pub(super) began: Duration,
+    /// Stamp by the clock of the server, s; `None` if the server writes none.
+    pub(super) stamped_s: Option<f64>,
     /// Number of parts with a wrong length so far.
     pub(super) broken: u64,
 }
@@ -151,7 +153,7 @@ fn read(
             match parts.next() {
                 Ok(Some(bytes)) => {
                     count += 1;
-                    newest = Some((bytes, began.take().unwrap_or(at)));
+                    newest = Some((bytes, began.take().unwrap_or(at), parts.stamped_s()));
                 }
                 Ok(None) => break,
                 Err(error) => {
@@ -160,12 +162,13 @@ fn read(
                 }
             }
         }
-        if let Some((bytes, first)) = newest {
+        if let Some((bytes, first, stamped_s)) = newest {
             // An image whose first bytes came with an earlier image is stamped at its end.
             last_began = if first > last_began { first } else { at };
             let picture = Picture {
                 bytes: bytes.into(),
                 began: last_began,
+                stamped_s,
                 broken: parts.broken(),
             };
             posting.post_last(count, picture, at);

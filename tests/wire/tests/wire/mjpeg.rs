@@ -16,6 +16,7 @@ use taceva_wire::{BenchOptions, Device, Fault, FaultKind, WallBench};
 
 const PATIENCE: Deadline = Deadline::after(Duration::from_secs(2));
 
+/// Opens the camera at `url`, which further arguments may follow.
 fn opened(url: &str) -> Result<Box<dyn Sensor>, DriverError> {
     let factory = MjpegFactory::new().expect("a factory");
     let args = factory.descriptor().args(&format!("url={url}"));
@@ -71,6 +72,27 @@ fn a_lossless_stream_and_a_jpeg_show_the_same_gel() {
     let samples = u32::try_from(exact.len()).expect("small");
     assert!(difference / f64::from(samples) < 4.0, "{difference}");
     assert!(stamp.received_s >= Some(stamp.valid_s));
+}
+
+#[test]
+fn stamps_of_a_server_keep_its_drift_and_one_that_writes_none_is_refused() {
+    let (_bench, camera) = camera(Style::Usual);
+    // A clock that is twice as fast.
+    let url = camera.drifting_url(1e6);
+    let mut sensor = started(&format!("{url};clock=server"));
+    let stamps: Vec<Stamp> = (0..60)
+        .map(|_| frame(&mut sensor).expect("a frame").1)
+        .collect();
+    let [first, last] = [stamps[32], stamps[59]];
+    let received_s = |stamp: Stamp| stamp.received_s.expect("it is stamped on arrival too");
+    let ratio = (last.valid_s - first.valid_s) / (received_s(last) - received_s(first));
+    // 27 frames of 40 ms each, with delays of the link.
+    assert!((1.5..2.5).contains(&ratio), "{ratio}");
+    let Err(error) = opened(&format!("{};clock=server", camera.url())) else {
+        panic!("opened")
+    };
+    assert_eq!(error.kind(), ErrorKind::Protocol);
+    assert!(error.to_string().contains("X-Timestamp"), "{error}");
 }
 
 #[test]

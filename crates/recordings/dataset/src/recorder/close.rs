@@ -25,6 +25,8 @@ impl Recorder {
         if let Some(table) = &predictions {
             table.write(&self.path)?;
         }
+        let later = LaterFacts::of(&self.path);
+        self.facts.settings.extend(later.measured);
         let name = |name: &str| partial(&self.path, name);
         let (samples, header_path) = (name(layout::SAMPLES), name(layout::HEADER));
         let header = write_table_and_header(
@@ -38,7 +40,7 @@ impl Recorder {
                 stream: self.stream,
                 predictions: predictions.map(|table| table.facts),
                 signals,
-                warnings: LaterFacts::of(&self.path).warnings,
+                warnings: later.warnings,
                 ..Beside::default()
             },
         )?;

@@ -5,8 +5,12 @@ use super::evidence::Evidence;
 use super::input::Input;
 use super::report::Missing;
 
+/// Uncertainty of the height from which depths count. The depth label of each press has the error of its own zero, which residuals and repeats therefore
+/// contain.
+const ZERO: &str = "zero_u_mm";
+
 /// Figures of residuals, each with the figures included in it.
-const INSIDE: [(&str, &[&str]); 2] = [
+const INSIDE: [(&str, &[&str]); 4] = [
     (
         "error",
         &[
@@ -16,9 +20,15 @@ const INSIDE: [(&str, &[&str]); 2] = [
             "repeatability",
             "noise",
             "placement",
+            ZERO,
         ],
     ),
-    ("error.within", &["repeatability", "noise", "placement"]),
+    (
+        "error.within",
+        &["repeatability", "noise", "placement", ZERO],
+    ),
+    ("error.between", &[ZERO]),
+    ("repeatability", &[ZERO]),
 ];
 
 /// Effects that presses of one unit in one session do not vary, each with its figure.
@@ -62,7 +72,11 @@ fn holds(outer: &str, inner: &str) -> bool {
         Some((_, "repeatability")) => "repeatability",
         _ => inner,
     };
-    let inside = INSIDE.iter().find(|(name, _)| *name == outer);
+    let whole = match outer.rsplit_once('#') {
+        Some((_, "repeatability" | "gauge" | "total")) => "repeatability",
+        _ => outer,
+    };
+    let inside = INSIDE.iter().find(|(name, _)| *name == whole);
     let is_inside = inside.is_some_and(|(_, figures)| figures.contains(&plain));
     is_inside || (plain == outer && inner != outer)
 }
@@ -114,5 +128,10 @@ pub(super) fn missing(inputs: &[Input], evidence: &Evidence) -> Vec<Missing> {
             "mean residual: measured, but no source of the budget names it",
         )
     });
-    effects.chain(bias).chain(reference).collect()
+    let is_counted = all.iter().any(|name| name == ZERO || holds(name, ZERO));
+    let zero = (evidence.figure(ZERO).is_some() && !is_counted).then(|| {
+        let reason = "zero of depths: measured, but no source of the budget names it";
+        Missing::new(ZERO, reason)
+    });
+    effects.chain(bias).chain(zero).chain(reference).collect()
 }

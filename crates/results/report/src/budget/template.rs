@@ -4,13 +4,22 @@ use taceva_metrology::budget::{BudgetText, Evidence, Figure, Missing, MonteCarlo
 use taceva_results::not_measured;
 
 use crate::budget_source::{
-    BETWEEN, BIAS, BudgetSource, CERTIFICATE, DRIFT, LIGHT, REPEATS, WITHIN,
+    BETWEEN, BIAS, BudgetSource, CERTIFICATE, DRIFT, LIGHT, REPEATS, WITHIN, ZERO,
 };
 use crate::escape::{terminal as line, toml_string as quoted};
 use crate::number::FormattedValue;
 
 /// Sources of the file. A source with a key that the user must complete is written as a comment.
-const SOURCES: [BudgetSource; 7] = [BIAS, BETWEEN, WITHIN, REPEATS, LIGHT, DRIFT, CERTIFICATE];
+const SOURCES: [BudgetSource; 8] = [
+    BIAS,
+    BETWEEN,
+    WITHIN,
+    REPEATS,
+    ZERO,
+    LIGHT,
+    DRIFT,
+    CERTIFICATE,
+];
 
 /// Data for the file.
 #[derive(Clone, Copy, Debug)]
@@ -54,8 +63,8 @@ impl BudgetTemplate<'_> {
         );
         for source in SOURCES {
             let figure = source.figure;
-            if self.is_inside(figure) {
-                out += &format!("\n# {figure}: measured, and inside `error.within`\n");
+            if let Some(outer) = self.holder(figure) {
+                out += &format!("\n# {figure}: measured, and inside `{outer}`\n");
                 continue;
             }
             if let Some(found) = self.found(figure) {
@@ -71,9 +80,17 @@ impl BudgetTemplate<'_> {
         out + &remarks
     }
 
-    fn is_inside(&self, figure: &str) -> bool {
+    /// Measured figure of the file that includes the measured `figure`; `None` if no figure does.
+    fn holder(&self, figure: &str) -> Option<&'static str> {
         let is_measured = |figure: &str| self.evidence.figure(figure).is_some();
-        figure == REPEATS.figure && is_measured(figure) && is_measured(WITHIN.figure)
+        let outer: &[BudgetSource] = match figure {
+            _ if !is_measured(figure) => &[],
+            _ if figure == REPEATS.figure => &[WITHIN],
+            _ if figure == ZERO.figure => &[WITHIN, BETWEEN, REPEATS],
+            _ => &[],
+        };
+        let mut outer = outer.iter().map(|source| source.figure);
+        outer.find(|figure| is_measured(figure))
     }
 
     /// Measured figure as text; `None` if it has no value.
@@ -98,8 +115,12 @@ impl BudgetTemplate<'_> {
         let rows = found.n.map_or_else(String::new, |n| format!(", {n} rows"));
         let clusters = found.clusters;
         let clusters = clusters.map_or_else(String::new, |count| format!(" in {count} clusters"));
+        let column = match figure == ZERO.figure {
+            true => ", from the column of this name of the samples",
+            false => "",
+        };
         Some(format!(
-            "u = {}{rows}{clusters}, nu {}",
+            "u = {}{rows}{clusters}, nu {}{column}",
             phrase(found.u, self.unit),
             found.freedom
         ))

@@ -1,5 +1,6 @@
 //! Methods paragraph for a paper, and citations.
 
+mod equipment;
 mod statistics;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,6 +9,7 @@ use maud::{Markup, html};
 use taceva_core::counted;
 
 use super::sensor_summary::{counted_span, points, span, whole};
+use crate::devices::device_table;
 use crate::markup::{heads, scroll};
 use crate::names::{listed, names};
 use crate::results::Study;
@@ -26,6 +28,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
         (copied("methods-text", "Methods", &paragraph))
         (copied("bibtex-text", "BibTeX", &entries))
         (sensors(studies))
+        @if let Some(table) = device_table(studies) { (table.html()) }
     }
 }
 
@@ -47,6 +50,7 @@ fn paragraph(studies: &[Study], table: &ScoreTable) -> String {
         )
     );
     out += &origin(studies);
+    out += &equipment::equipment(studies);
     out += &joined(studies);
     out += &pressed(studies);
     out += &divided(studies);

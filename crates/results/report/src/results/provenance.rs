@@ -1,5 +1,6 @@
 //! Provenance entries for a page, each with a name and a text.
 
+use std::collections::BTreeMap;
 use std::fmt::Display;
 
 use super::traceability::traceability_line;
@@ -46,6 +47,7 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
         ),
         ("presses", joined(presses)),
         ("traceability", traceability),
+        ("devices", equations(&provenance.devices)),
         (
             "recorded_on",
             provenance
@@ -82,6 +84,13 @@ fn pairs<'a, K: Display + 'a, V: Display + 'a>(
 ) -> String {
     let pairs = pairs.into_iter();
     joined(pairs.map(|(name, value)| format!("{name} {value}")))
+}
+
+/// Settings as text: `force_filter = 8; force_rate_hz = 500`.
+fn equations(settings: &BTreeMap<String, String>) -> String {
+    let settings = settings.iter();
+    let texts = settings.map(|(name, value)| format!("{name} = {value}"));
+    texts.collect::<Vec<_>>().join("; ")
 }
 
 fn joined(texts: impl Iterator<Item = String>) -> String {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::mpsc::sync_channel;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
 use taceva_core::{
@@ -16,12 +16,12 @@ use taceva_protocol::{RigFile, Setting, SignedAxes};
 use super::camera::{Camera, ROOM};
 use super::device_error;
 use super::predictor::LivePredictor;
-use super::streams::{Counts, Streams};
+use super::streams::{Counts, Over, Streams};
 use super::track::Track;
 use super::transducer::Transducer;
 use crate::error::AcquireError;
 use crate::instruments::{traced, warnings_today};
-use crate::presses::{HeldRigs, Opened, Turned, add_settings};
+use crate::presses::{HeldRigs, Opened, Turned, add_settings, sensor_driver};
 use crate::scene::read_rig_file;
 
 /// Deadline for the start of a sensor, and for its first frame.
@@ -258,9 +258,11 @@ impl LiveDevices {
         self.traceability.clone()
     }
 
-    /// Settings that the devices report. Names of the transducer's settings begin with `force_`.
+    /// Settings that the devices report, and the driver of a real sensor. Names of the transducer's settings begin with `force_`.
     pub(super) fn settings(&self) -> BTreeMap<String, String> {
         let mut settings = self.sensor.settings();
+        let is_real = self.sensor_source == DriverSource::Real;
+        settings.extend(is_real.then(|| sensor_driver(self.sensor_driver.as_str())));
         if let Some(force) = &self.force {
             add_settings(&mut settings, "force", force.device.settings());
         }
@@ -377,24 +379,5 @@ impl LiveDevices {
         }
         let failed = failed.into_inner().unwrap_or_else(PoisonError::into_inner);
         (done, failed)
-    }
-}
-
-/// Guard that ends the device threads when it is dropped.
-struct Over<'a> {
-    counts: &'a Counts,
-    interrupt: Option<Arc<dyn taceva_core::Interrupt>>,
-    predictor: Option<&'a LivePredictor<'a>>,
-}
-
-impl Drop for Over<'_> {
-    fn drop(&mut self) {
-        self.counts.end();
-        if let Some(interrupt) = &self.interrupt {
-            interrupt.interrupt();
-        }
-        if let Some(predictor) = self.predictor {
-            predictor.end();
-        }
     }
 }

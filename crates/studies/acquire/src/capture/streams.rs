@@ -1,12 +1,15 @@
 //! Streams of frames and readings.
 
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, TryRecvError};
 use std::time::Duration;
 
+use taceva_core::Interrupt;
 use taceva_dataset::StreamFacts;
 
 use super::camera::Taken;
+use super::predictor::LivePredictor;
 use super::track::Track;
 
 /// Maximum wait for one frame.
@@ -102,3 +105,22 @@ impl Streams<'_> {
 /// Error of a stream of frames that has ended.
 #[derive(Debug)]
 pub(super) struct Ended;
+
+/// Guard that ends the device threads when it is dropped.
+pub(super) struct Over<'a> {
+    pub(super) counts: &'a Counts,
+    pub(super) interrupt: Option<Arc<dyn Interrupt>>,
+    pub(super) predictor: Option<&'a LivePredictor<'a>>,
+}
+
+impl Drop for Over<'_> {
+    fn drop(&mut self) {
+        self.counts.end();
+        if let Some(interrupt) = &self.interrupt {
+            interrupt.interrupt();
+        }
+        if let Some(predictor) = self.predictor {
+            predictor.end();
+        }
+    }
+}

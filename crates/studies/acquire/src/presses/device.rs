@@ -3,6 +3,7 @@
 use taceva_core::{Descriptor, Device, DriverSource, Facts, Registry, Rig, SampleTiming};
 use taceva_drivers::{OpenError, Selector, open};
 
+use super::clock_follower::ClockFollower;
 use super::latency::{IntoDevice, Late};
 
 /// An open device with its descriptor.
@@ -39,7 +40,7 @@ impl<D: ?Sized + 'static> Opened<D>
 where
     Late<D>: IntoDevice<D>,
 {
-    /// Corrects the time stamps of the device by `latency_ms` in its facts, if positive, and checks the timing of its samples.
+    /// Corrects the time stamps of the device by `latency_ms` in its facts, if positive, and by the drift of a camera's clock. Checks the timing of its samples.
     pub(crate) fn timely(
         self,
         is_emulated: bool,
@@ -51,8 +52,10 @@ where
             return self.device;
         }
         let driver = self.descriptor.key().clone();
+        let follower = timing.is_some().then(ClockFollower::default);
         let timing = timing.unwrap_or_else(SampleTiming::unchecked);
-        Late::new(self.device, driver, latency_ms, timing).boxed()
+        let late = Late::new(self.device, driver, latency_ms, timing);
+        late.with_follower(follower).boxed()
     }
 }
 
@@ -259,8 +262,57 @@ mod tests {
         }
     }
 
+    /// Test camera with 500 frames a second, whose clock is too fast by 900 ppm.
+    struct Drifting {
+        begun_s: f64,
+    }
+
+    impl Sensor for Drifting {
+        fn frame_info(&self) -> FrameInfo {
+            FRAME
+        }
+
+        fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+            std::thread::sleep(Duration::from_millis(2));
+            let now_s = MonotonicClock.now_s();
+            Ok(Stamp {
+                valid_s: now_s + 900e-6 * (now_s - self.begun_s),
+                received_s: Some(now_s),
+            })
+        }
+    }
+
     mod waiting {
         use super::*;
+
+        #[test]
+        fn the_drift_of_a_camera_is_taken_off_its_stamps_unless_its_time_is_its_own() {
+            for (source, is_followed) in
+                [(DriverSource::Real, true), (DriverSource::Recorded, false)]
+            {
+                let facts = SensorFacts::default().with_frame(FRAME);
+                let facts = Facts::Sensor(Box::new(facts));
+                let begun_s = MonotonicClock.now_s();
+                let device = Box::new(Drifting { begun_s });
+                let camera = opened::<dyn Sensor>(device, source, facts);
+                // A latency wraps a device whose timing is not checked, too.
+                let mut camera = camera.timely(false, |_| Some(1.0));
+                let mut off_s = 0.0;
+                while MonotonicClock.now_s() < begun_s + 6.0 {
+                    let mut bytes = [0];
+                    let frame = FrameMut::new(FRAME, &mut bytes).expect("a byte");
+                    let stamp = camera.capture(frame, Deadline::PASSED).expect("a frame");
+                    off_s = stamp.valid_s - stamp.received_s.expect("stated") + 1e-3;
+                }
+                let drifted_s = if is_followed { 0.0 } else { 5.4e-3 };
+                assert!((off_s - drifted_s).abs() < 1e-3, "{source}: {off_s}");
+                let settings = camera.settings();
+                let ppm = settings.get("sensor_clock_drift_ppm");
+                let ppm: Option<f64> = ppm.map(|ppm| ppm.parse().expect("a number"));
+                assert_eq!(ppm.is_some(), is_followed, "{settings:?}");
+                assert!(ppm.is_none_or(|ppm| (ppm - 900.0).abs() < 20.0), "{ppm:?}");
+            }
+        }
 
         #[test]
         fn a_transducer_that_is_slow_for_nine_readings_only_is_no_error() {

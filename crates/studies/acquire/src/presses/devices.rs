@@ -379,7 +379,7 @@ impl RigSpec {
 }
 
 /// Driver key of a selector: the text before its arguments.
-fn key_of(selector: &str) -> &str {
+pub(super) fn key_of(selector: &str) -> &str {
     selector.split_once(':').map_or(selector, |(key, _)| key)
 }
 

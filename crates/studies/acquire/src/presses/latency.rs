@@ -9,12 +9,17 @@ use taceva_core::{
     FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Newton, Pose, Robot,
     RobotWatch, SampleTiming, Sensor, Speed, Stamp, Tare, Wrench,
 };
+use taceva_drivers::MonotonicClock;
+
+use super::clock_follower::ClockFollower;
 
 /// A device whose time stamps are later than the observation by a known latency. The timing of its samples is checked.
 pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     driver: DriverKey,
     timing: SampleTiming,
+    /// Follower of the clock that stamps the frames of a real sensor. Other devices have no use for it.
+    follower: Option<ClockFollower>,
     device: Box<D>,
 }
 
@@ -30,8 +35,14 @@ impl<D: ?Sized> Late<D> {
             latency_s: latency_ms * 1e-3,
             driver,
             timing,
+            follower: None,
             device,
         }
+    }
+
+    /// Takes the drift of the clock, as `follower` finds it, off the stamps of frames.
+    pub(super) fn with_follower(self, follower: Option<ClockFollower>) -> Late<D> {
+        Late { follower, ..self }
     }
 
     fn true_stamp(&self, stamp: Stamp) -> Stamp {
@@ -242,7 +253,11 @@ impl Sensor for Late<dyn Sensor> {
         let asked = Instant::now();
         let taken = self.device.capture(into, deadline);
         let stamp = self.checked("capture a frame", asked, taken, |stamp| *stamp)?;
-        Ok(self.true_stamp(stamp))
+        let followed = match &mut self.follower {
+            Some(follower) => follower.follow(stamp, MonotonicClock.now_s()),
+            None => stamp,
+        };
+        Ok(self.true_stamp(followed))
     }
 
     fn sequence(&self) -> Option<u64> {
@@ -262,7 +277,10 @@ impl Sensor for Late<dyn Sensor> {
     }
 
     fn settings(&self) -> BTreeMap<String, String> {
-        self.device.settings()
+        let mut settings = self.device.settings();
+        let follower = self.follower.as_ref();
+        settings.extend(follower.map(ClockFollower::settings).unwrap_or_default());
+        settings
     }
 
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {

@@ -5,7 +5,7 @@ use std::sync::PoisonError;
 
 use taceva_protocol::RigFile;
 
-use super::devices::{OpenRig, written_latencies_ms};
+use super::devices::{OpenRig, key_of, written_latencies_ms};
 use super::workshop::Workshop;
 use crate::instruments;
 
@@ -46,7 +46,12 @@ impl OpenRig {
     }
 }
 
-/// Mounting and latencies of the devices in a rig file, as settings of a recording, and the digest of the file.
+/// Setting that names the driver of the sensor. The drivers of labels stand with their certificates.
+pub(crate) fn sensor_driver(key: &str) -> (String, String) {
+    ("sensor_driver".to_owned(), key.to_owned())
+}
+
+/// Mounting and latencies of the devices in a rig file and the driver of its sensor, as settings of a recording, and the digest of the file.
 pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     let mut settings = BTreeMap::from([("rig_file".to_owned(), rig.digest().to_string())]);
     let axes = [
@@ -56,6 +61,8 @@ pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     for (name, axes) in axes {
         settings.extend(axes.map(|axes| (name.to_owned(), axes.value.to_string())));
     }
+    let sensor = rig.sensor.as_ref();
+    settings.extend(sensor.map(|sensor| sensor_driver(key_of(&sensor.driver.value))));
     let [robot_ms, force_ms, sensor_ms] = written_latencies_ms(rig);
     let force_u_ms = rig.force.as_ref().and_then(|force| force.latency_u_ms);
     let sensor_u_ms = rig.sensor.as_ref().and_then(|sensor| sensor.latency_u_ms);
@@ -98,6 +105,9 @@ mod tests {
         assert_eq!(settings["force_latency_u_ms"], "0.3");
         assert_eq!(settings["rig_file"], rig.digest().to_string());
         assert_eq!(settings.len(), 4, "{settings:?}");
+        let camera = "[sensor]\ndriver = \"camera/mjpeg:url=http://10.0.0.9/\"\n";
+        let rig = RigFile::parse("lab.toml", &format!("{text}{camera}")).expect("a rig");
+        assert_eq!(of_rig_file(&rig)["sensor_driver"], "camera/mjpeg");
     }
 
     #[test]

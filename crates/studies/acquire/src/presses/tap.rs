@@ -1,5 +1,6 @@
 //! Taps on the rig of a rig file. Threads record every device while the tip moves down and up, under the guard of a run.
 
+use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
@@ -12,6 +13,7 @@ use taceva_protocol::{
     Cancel, Controls, RunError, SessionSpec, StopCause, TapHeard, TapListener, Tapped, tap,
 };
 
+use super::clock_follower::measured_settings;
 use super::devices::{OpenRig, Sitting, to_be_enabled};
 use super::guardian::{Guarded, Over};
 use super::workshop::Workshop;
@@ -25,15 +27,23 @@ const FRAME: Deadline = Deadline::after(Duration::from_millis(200));
 /// Delay before a failing device is retried.
 const FAILED_REST: Duration = Duration::from_millis(5);
 
-/// Taps the gel on the rig of `study`, and returns the recorded taps. Also returns true if the robot reports an emulation. The presses of the study are not
-/// made.
+/// Recorded taps of a rig.
+pub(crate) struct TappedRig {
+    pub(crate) tapped: Tapped,
+    /// True if the robot reports an emulation.
+    pub(crate) is_emulated: bool,
+    /// Settings of the sensor that were measured during the taps.
+    pub(crate) measured: BTreeMap<String, String>,
+}
+
+/// Taps the gel on the rig of `study`, and returns the recorded taps. The presses of the study are not made.
 ///
 /// # Errors
 /// [`AcquireError::Open`] and [`AcquireError::Acquisition`] if a device fails, the rig contradicts its file, or the run is cancelled.
 pub(crate) fn tap_study(
     study: &PlannedStudy,
     workshop: Workshop<'_>,
-) -> Result<(Tapped, bool), AcquireError> {
+) -> Result<TappedRig, AcquireError> {
     let mut plan = study.plan.clone();
     for press in &mut plan.presses {
         // The listener thread owns the sensor.
@@ -54,8 +64,7 @@ pub(crate) fn tap_study(
     let cancel = Cancel::new();
     let sitting = Sitting::new(workshop, &cancel);
     let mut open = OpenRig::open(study, rig, unit, sitting)?;
-    let is_emulated = open.robot.is_emulated();
-    Ok((open.tap(&plan, sitting, missing, failed)?, is_emulated))
+    open.tap(&plan, sitting, missing, failed)
 }
 
 impl OpenRig {
@@ -65,7 +74,8 @@ impl OpenRig {
         sitting: Sitting<'_>,
         missing: impl Fn(&str) -> AcquireError,
         failed: impl Fn(RunError) -> AcquireError,
-    ) -> Result<Tapped, AcquireError> {
+    ) -> Result<TappedRig, AcquireError> {
+        let is_emulated = self.robot.is_emulated();
         let Sitting {
             workshop, cancel, ..
         } = sitting;
@@ -147,7 +157,11 @@ impl OpenRig {
         // A failed device ends the taps with missing values. Its own error is the cause, so it is returned first.
         heard?;
         sensor.stop()?;
-        tapped.map_err(failed)
+        Ok(TappedRig {
+            tapped: tapped.map_err(failed)?,
+            is_emulated,
+            measured: measured_settings(sensor.settings()),
+        })
     }
 }
 

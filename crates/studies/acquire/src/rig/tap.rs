@@ -1,12 +1,13 @@
 //! `rig tap`: taps the gel at one place, and determines the latency of each device for the rig file.
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use taceva_core::Descriptor;
 use taceva_protocol::{Latency, RigFile, RigLatencies, SceneProblem};
 
 use crate::error::AcquireError;
-use crate::presses::{Workshop, tap_study, written_latencies_ms};
+use crate::presses::{TappedRig, Workshop, tap_study, written_latencies_ms};
 use crate::scene::{Overrides, PlannedScene, SceneText, StudySource};
 
 /// Scene for taps: limits, speeds and the start of a session. The footprint is in the middle of the gel.
@@ -47,6 +48,8 @@ pub struct RigTap {
     pub sensor: Latency,
     /// Latencies for the rig file.
     pub latencies: RigLatencies,
+    /// Settings of the sensor that were measured during the taps: the drift of its clock, and the standard uncertainty of this drift.
+    pub settings: BTreeMap<String, String>,
     /// Text of the rig file with these latencies; `None` if the user must edit the file.
     #[serde(skip)]
     pub text: Option<String>,
@@ -93,7 +96,11 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
         let latency = written[device].or(stated[device]);
         latency.unwrap_or(0.0)
     });
-    let (tapped, is_emulated) = tap_study(study, workshop)?;
+    let TappedRig {
+        tapped,
+        is_emulated,
+        measured,
+    } = tap_study(study, workshop)?;
     let (force, sensor) = tapped.latencies().map_err(|source| AcquireError::Taps {
         rig: rig.name().to_owned(),
         source,
@@ -109,6 +116,7 @@ pub fn tap_rig(path: &Path, workshop: Workshop<'_>) -> Result<RigTap, AcquireErr
         force,
         sensor,
         latencies,
+        settings: measured,
         text: rig.with_latencies(&latencies),
     })
 }

@@ -15,9 +15,11 @@ const LEAST: f64 = 0.1;
 /// Limits that a single picture counts at most, so that a few accidental pictures are no change.
 const MOST: f64 = 5.0;
 
-/// Brightness of each untouched picture, with the mean and the spread of the first [`LEARNT`] ones.
-#[derive(Clone, Debug, Default)]
+/// Brightness of each untouched picture, with the mean and the spread of the first ones.
+#[derive(Clone, Debug)]
 pub(super) struct Level {
+    /// Pictures that set the limit, at least [`WINDOW`].
+    wanted: usize,
     learnt: Vec<f64>,
     usual: Option<Usual>,
     newest: VecDeque<f64>,
@@ -30,7 +32,23 @@ struct Usual {
     limit: f64,
 }
 
+impl Default for Level {
+    fn default() -> Level {
+        Level {
+            wanted: LEARNT,
+            learnt: Vec::new(),
+            usual: None,
+            newest: VecDeque::new(),
+        }
+    }
+}
+
 impl Level {
+    /// Sets the number of pictures that set the limit. No picture was taken yet.
+    pub(super) fn want(&mut self, pictures: usize) {
+        self.wanted = pictures;
+    }
+
     /// Least change that is found. `None` before the limit is set.
     pub(super) fn smallest(&self) -> Option<f64> {
         self.usual.map(|of| of.limit)
@@ -44,7 +62,7 @@ impl Level {
         self.newest.push_back(brightness);
         let Some(Usual { mean, limit }) = self.usual else {
             self.learnt.push(brightness);
-            if self.learnt.len() == LEARNT {
+            if self.learnt.len() == self.wanted {
                 self.usual = Some(self.usual_of_learnt());
             }
             return None;
@@ -63,7 +81,7 @@ impl Level {
     }
 
     fn usual_of_learnt(&self) -> Usual {
-        let count = LEARNT as f64;
+        let count = self.learnt.len() as f64;
         let mean = self.learnt.iter().sum::<f64>() / count;
         let squares = self.learnt.iter().map(|of| (of - mean).powi(2));
         let variance = squares.sum::<f64>() / (count - 1.0);

@@ -19,8 +19,10 @@ pub(super) const RUNS: f64 = 3.0;
 pub(super) struct Limited {
     /// Least excess over the median that counts as beyond.
     least: f64,
+    /// Pictures that set the limit, at least [`WINDOW`].
+    wanted: usize,
     learnt: Vec<f64>,
-    /// Set by the last of the [`LEARNT`] pictures.
+    /// Set by the last of the `wanted` pictures.
     limit: Option<Limit>,
     newest: VecDeque<f64>,
 }
@@ -35,15 +37,21 @@ impl Limited {
     pub(super) fn new(least: f64) -> Limited {
         Limited {
             least,
+            wanted: LEARNT,
             learnt: Vec::new(),
             limit: None,
             newest: VecDeque::new(),
         }
     }
 
+    /// Sets the number of pictures that set the limit. No picture was taken yet.
+    pub(super) fn want(&mut self, pictures: usize) {
+        self.wanted = pictures;
+    }
+
     /// Number of pictures that are still needed to set the limit.
     pub(super) fn missing(&self) -> usize {
-        LEARNT - self.learnt.len()
+        self.wanted.saturating_sub(self.learnt.len())
     }
 
     /// Least excess over the median that is found. `None` before the limit is set.
@@ -73,7 +81,8 @@ impl Limited {
     fn limit_of_learnt(&self) -> Limit {
         let mut sorted = self.learnt.clone();
         sorted.sort_unstable_by(f64::total_cmp);
-        let median = sorted[LEARNT / 2];
+        let count = sorted.len();
+        let median = sorted[count / 2];
         // The number that enough pictures of a run exceed or reach.
         let runs = self.learnt.windows(WINDOW).map(|run| {
             let mut run = run.to_vec();
@@ -84,7 +93,8 @@ impl Limited {
         let excess = self.least.max(RUNS * farthest);
         Limit {
             median,
-            limit: sorted[LEARNT - RANK].max(median + excess),
+            // The same share of the pictures is beyond it, however many there are.
+            limit: sorted[count - (RANK * count / LEARNT).max(1)].max(median + excess),
         }
     }
 }

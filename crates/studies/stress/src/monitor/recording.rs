@@ -6,15 +6,16 @@ use taceva_evaluate::{EvaluateError, Work};
 
 use super::change::Alarm;
 use super::limit::WINDOW;
-use super::{Monitor, SETTLED, TO_LEARN, framed};
+use super::{Monitor, SETTLED, framed};
 use crate::scale::{Touch, touches};
 
 /// Successive pictures of a run that is learnt. Pictures far apart would hide that successive ones are alike.
 const RUN: usize = SETTLED as usize;
 
 impl Monitor {
-    /// Learns from untouched pictures of `dataset`, the recording of the calibration: evenly spaced runs of 50 successive ones. Returns false if it has too
-    /// few of them; the monitor then learns from the pictures that it watches.
+    /// Learns from untouched pictures of `dataset`, the recording of the calibration: five evenly spaced runs of 50 successive ones, or as many as it has.
+    /// Returns false if it has fewer than [`LEAST_PICTURES`](Monitor::LEAST_PICTURES); the monitor then learns from the pictures that it watches, and finds no
+    /// smaller change since the calibration than one by contact.
     ///
     /// # Errors
     /// Errors of reading.
@@ -25,11 +26,17 @@ impl Monitor {
             .filter(|of| !of.is_contact)
             .map(|of| of.row)
             .collect();
-        if untouched.len() < TO_LEARN {
+        self.calibration = Some(untouched.len());
+        if untouched.len() < Monitor::LEAST_PICTURES {
             return Ok(false);
         }
-        let last = TO_LEARN / RUN - 1;
-        let chosen = (0..TO_LEARN).map(|place| {
+        let learnt = untouched.len().min(Monitor::PICTURES) / RUN * RUN;
+        for limited in [&mut self.pattern, &mut self.detail] {
+            limited.want(learnt - RUN);
+        }
+        self.level.want(learnt - RUN);
+        let last = learnt / RUN - 1;
+        let chosen = (0..learnt).map(|place| {
             let first = place / RUN * (untouched.len() - RUN) / last;
             untouched[first + place % RUN]
         });
@@ -45,7 +52,7 @@ impl Monitor {
         )?;
         // Pictures of the calibration are no change, and were not watched.
         self.found.clear();
-        self.untouched = 0;
+        (self.untouched, self.compared) = (0, 0);
         self.before = None;
         Ok(true)
     }
@@ -80,7 +87,8 @@ pub fn watch(
     if untouched < least {
         return refused(format!(
             "{untouched} untouched pictures with a label, expected at least {least}; record the sensor without contact, or name by --calibration a \
-             recording with {TO_LEARN} of them"
+             recording with {} of them",
+            Monitor::LEAST_PICTURES
         ));
     }
     let rows: Vec<usize> = touches.iter().map(|of| of.row).collect();

@@ -194,6 +194,40 @@ fn a_recording_is_watched_with_what_the_calibration_shows() {
 }
 
 #[test]
+fn a_calibration_with_120_untouched_pictures_sets_the_limits_and_one_with_fewer_decides_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = |name: &str| folder.path().join(name);
+    let some = record_rest(&path("some"), 0.3, 120, 0);
+    let mut monitor = Monitor::of(&some).expect("a monitor");
+    assert_eq!(monitor.calibration_pictures(), None);
+    assert!(monitor.learn_from(&some, WORK).expect("read"));
+    assert_eq!(monitor.calibration_pictures(), Some(120));
+    assert_eq!((monitor.missing(), monitor.pictures()), (0, [0, 0]));
+    let smallest = monitor.smallest().expect("limits");
+    assert!(smallest.iter().all(|least| *least < 1.0), "{smallest:?}");
+    for number in 0..30 {
+        assert!(!monitor.is_decided());
+        assert!(passes(&mut monitor, &rest(0.3, 5000 + number)).is_empty());
+    }
+    assert!(monitor.is_decided());
+    let mut found = Vec::new();
+    for number in 0..30 {
+        found.extend(passes(&mut monitor, &rest(0.28, 6000 + number)));
+    }
+    let found: Vec<Change> = found.into_iter().map(|alarm| alarm.change).collect();
+    assert!(found.contains(&Change::Brightness), "{found:?}");
+    // The first watched pictures set the limits, in whatever light.
+    let few = record_rest(&path("few"), 0.3, 99, 8000);
+    let mut monitor = Monitor::of(&few).expect("a monitor");
+    assert!(!monitor.learn_from(&few, WORK).expect("read"));
+    assert_eq!(monitor.missing(), Monitor::PICTURES);
+    let darker = record_rest(&path("darker"), 0.28, 300, 9000);
+    let watched = watch(&darker, &mut monitor, WORK, &mut |_, _| {});
+    watched.expect("watched");
+    assert!(!monitor.is_decided(), "{:?}", monitor.found());
+}
+
+#[test]
 fn repeats_in_the_calibration_are_no_change() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = |name: &str| folder.path().join(name);

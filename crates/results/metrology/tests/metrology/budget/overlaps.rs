@@ -17,6 +17,7 @@ fn of_figures(one: &str, other: &str) -> Result<Vec<Budget>, BudgetError> {
         "error.within",
         "error.between",
         "repeatability",
+        "zero_u_mm",
         "g.json#repeatability",
         "g.json#reproducibility",
         "g.json#unit",
@@ -36,6 +37,7 @@ fn components_of_a_gauge_study_that_differ_and_those_of_two_studies_stand_beside
         ("g.json#repeatability", "g.json#unit"),
         ("g.json#reproducibility", "other.json#unit"),
         ("error.within", "g.json#unit"),
+        ("zero_u_mm", "g.json#unit"),
     ] {
         assert!(of_figures(one, other).is_ok(), "{one}, {other}");
     }
@@ -66,4 +68,31 @@ fn a_figure_inside_another_one_is_refused_with_both_lines() {
         figures("error.within", "error.within")
             .contains("`error.within` is used twice, here and in line 5")
     );
+}
+
+#[test]
+fn the_zero_of_depths_is_inside_residuals_and_repeats_and_is_missing_where_nothing_counts_it() {
+    for outer in [
+        "error",
+        "error.within",
+        "error.between",
+        "repeatability",
+        "g.json#repeatability",
+    ] {
+        let found = figures("zero_u_mm", outer);
+        let said = format!("line 5, `from`: `zero_u_mm` is inside `{outer}` (line 8)");
+        assert!(found.contains(&said), "{found}");
+    }
+    let missing = |one: &str, other: &str| {
+        let budgets = of_figures(one, other).expect("a budget");
+        let missing = budgets.into_iter().flat_map(|budget| budget.missing);
+        let mut zeros = missing.filter(|of| of.source == "zero_u_mm");
+        zeros.next().map(|of| of.reason)
+    };
+    assert_eq!(
+        missing("g.json#unit", "other.json#unit").as_deref(),
+        Some("zero of depths: measured, but no source of the budget names it")
+    );
+    assert_eq!(missing("zero_u_mm", "g.json#unit"), None);
+    assert_eq!(missing("error.within", "g.json#unit"), None);
 }

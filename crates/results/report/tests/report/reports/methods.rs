@@ -2,7 +2,7 @@
 
 use super::page;
 use crate::support::{self, drawn};
-use taceva_report::{ReportPage, report};
+use taceva_report::{Layout, ReportPage, device_table, report};
 
 #[test]
 fn methods_say_how_it_was_done_and_nothing_that_is_not_known() {
@@ -143,4 +143,102 @@ fn the_intervals_of_independent_samples_apply_to_samples() {
     let result: serde_json::Value = serde_json::from_str(&result).expect("a result");
     let page = page(&[support::study(&result)]);
     assert!(page.contains(" Intervals apply to other samples on the same units"));
+}
+
+/// Methods paragraph of the page.
+fn paragraph(studies: &[taceva_report::Study]) -> String {
+    let page = page(studies);
+    let (_, text) = page
+        .split_once("<p id=\"methods-text\">")
+        .expect("a paragraph");
+    let (text, _) = text.split_once("</p>").expect("an end");
+    text.to_owned()
+}
+
+/// Asserts that the table of devices states each fact in every format, and the paragraph each value. The JSON of the result is their source.
+fn same_facts_in_every_format(study: &taceva_report::Study, paragraph: &str) {
+    let table = device_table(std::slice::from_ref(study)).expect("devices");
+    let page = page(std::slice::from_ref(study));
+    assert!(page.contains("Devices of the recordings"));
+    // Both escape signs, but no letters and digits.
+    for text in [table.markdown(), table.latex(Layout::Float)] {
+        for words in ["transducer", "FT12345", "filter", "v2.7.0"] {
+            assert!(text.contains(words), "{words}: {text}");
+        }
+    }
+    let formats = [table.csv(), page];
+    for row in [
+        ["force transducer", "driver", "ati/netft"],
+        ["force transducer", "serial number", "FT12345"],
+        [
+            "force transducer",
+            "certificate",
+            "D-K-1 of a laboratory, 2026-05-12",
+        ],
+        ["force transducer", "filter", "8"],
+        ["robot", "firmware", "v2.7.0"],
+        ["sensor", "driver", "camera/v4l2"],
+    ] {
+        for text in &formats {
+            assert!(row.iter().all(|cell| text.contains(*cell)), "{row:?}");
+        }
+        let found = table.rows.iter().any(|of| of.plain()[1..] == row);
+        assert!(found && paragraph.contains(row[2]), "{row:?}");
+    }
+    let latency = ["force transducer", "latency_ms", "31.8 ± 0.3"];
+    assert!(table.rows.iter().any(|of| of.plain()[1..] == latency));
+    let force = |row: &&taceva_report::Row| row.plain()[1] == "force transducer";
+    assert_eq!(table.rows.iter().filter(force).count(), 7);
+}
+
+#[test]
+fn methods_name_the_devices_of_a_measured_recording_and_invent_none() {
+    let mut plain = support::results("one", 1.0);
+    plain["subject"]["source"] = "recorded".into();
+    let mut equipped = plain.clone();
+    equipped["subject"]["sensor"] = "two".into();
+    let certificate = serde_json::json!({"number": "D-K-1", "laboratory": "a laboratory", "issued": "2026-05-12",
+        "serial": "FT12345", "k": 2.0, "U": {"Fz": "3 mN"}});
+    equipped["provenance"]["traceability"] = serde_json::json!([
+        {"instrument": "force", "driver": "ati/netft", "serial": "FT12345", "certificate": certificate},
+        {"instrument": "robot", "driver": "ufactory/xarm", "serial": "XF1300"},
+    ]);
+    equipped["provenance"]["devices"] = serde_json::json!({
+        "exposure_ms": "15",
+        "force_axes": "[\"x\", \"-y\", \"-z\"]",
+        "force_filter": "8",
+        "force_latency_ms": "31.8",
+        "force_latency_u_ms": "0.3",
+        "force_rate_hz": "500",
+        "force_serial": "FT12345",
+        "rig_file": "sha256:abc",
+        "robot_firmware": "v2.7.0",
+        "sensor_clock_drift_ppm": "41.30",
+        "sensor_clock_drift_u_ppm": "0.20",
+        "sensor_driver": "camera/v4l2",
+    });
+    let text = paragraph(&[support::study(&equipped)]);
+    let expected = "Devices: the force transducer (driver ati/netft; serial number FT12345; certificate D-K-1 of a laboratory, 2026-05-12; \
+        axes = [&quot;x&quot;, &quot;-y&quot;, &quot;-z&quot;]; filter = 8; rate_hz = 500; latency of 31.8 ± 0.3 ms subtracted from its stamps) \
+        measured the forces; the robot (driver ufactory/xarm; serial number XF1300; firmware = v2.7.0) moved the tip; the sensor (driver \
+        camera/v4l2; exposure_ms = 15; clock that drifted by 41.30 ± 0.20 ppm) recorded the frames.";
+    assert!(text.contains(expected), "{text}");
+    same_facts_in_every_format(&support::study(&equipped), &text);
+    let both = paragraph(&[support::study(&plain), support::study(&equipped)]);
+    assert!(
+        both.contains("Devices of two: the force transducer"),
+        "{both}"
+    );
+    let without = paragraph(&[support::study(&plain)]);
+    assert!(!without.contains("Devices"), "{without}");
+    assert!(device_table(&[support::study(&plain)]).is_none());
+    // An emulated rig names devices that do not exist.
+    equipped["subject"]["source"] = "simulated".into();
+    let simulated = paragraph(&[support::study(&equipped)]);
+    assert!(!simulated.contains("Devices"), "{simulated}");
+    assert!(device_table(&[support::study(&equipped)]).is_none());
+    assert!(
+        simulated.contains("none was measured on hardware"),
+        "{simulated}"
+    );
 }

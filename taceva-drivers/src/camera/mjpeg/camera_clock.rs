@@ -1,0 +1,83 @@
+//! Clock of a camera's server, which stamps its pictures. No I/O.
+
+use std::time::Duration;
+
+/// Number of pictures after which the place of the clock on this machine's clock is fixed. A drift remains in the stamps.
+const PICTURES: u32 = 32;
+
+/// Place of a server's clock on the monotonic clock of this machine.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct CameraClock {
+    /// Least time from a server's stamp to the arrival, s; `None` before the first picture. Delays only add to it.
+    behind_s: Option<f64>,
+    pictures: u32,
+    /// Last returned time, s.
+    last_s: f64,
+}
+
+impl CameraClock {
+    /// Time of a picture on the monotonic clock. The server stamped it by `stamped_s`, s, and it arrived at `arrived`.
+    pub(super) fn place(&mut self, stamped_s: f64, arrived: Duration) -> Duration {
+        let behind_s = arrived.as_secs_f64() - stamped_s;
+        let behind_s = match self.behind_s {
+            Some(least_s) if self.pictures >= PICTURES => least_s,
+            Some(least_s) => least_s.min(behind_s),
+            None => behind_s,
+        };
+        self.behind_s = Some(behind_s);
+        self.pictures = self.pictures.saturating_add(1);
+        // A smaller offset must not put a picture before the last one.
+        self.last_s = self.last_s.max(stamped_s + behind_s);
+        Duration::try_from_secs_f64(self.last_s).unwrap_or(arrived)
+    }
+
+    /// Forgets the place of the clock of a server that is connected again.
+    pub(super) fn begin_again(&mut self) {
+        *self = CameraClock::default();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Place of a picture stamped by `stamped_s` that arrived at `arrived_s`, s.
+    fn placed(clock: &mut CameraClock, stamped_s: f64, arrived_s: f64) -> f64 {
+        let arrived = Duration::from_secs_f64(arrived_s);
+        clock.place(stamped_s, arrived).as_secs_f64()
+    }
+
+    #[test]
+    fn the_least_delay_of_the_first_pictures_places_the_clock_of_the_server() {
+        let mut clock = CameraClock::default();
+        for (number, delay_s) in [0.03, 0.005, 0.02, 0.01].into_iter().enumerate() {
+            let taken_s = 0.04 * f64::from(u32::try_from(number).expect("small"));
+            let found_s = placed(&mut clock, 5e8 + taken_s, 10.0 + taken_s + delay_s);
+            let expected_s = 10.0 + taken_s + if number == 0 { 0.03 } else { 0.005 };
+            assert!((found_s - expected_s).abs() < 1e-6, "{number}: {found_s}");
+        }
+    }
+
+    #[test]
+    fn a_drift_stays_in_the_stamps_and_no_stamp_is_before_the_last() {
+        let mut clock = CameraClock::default();
+        let mut last_s = 0.0;
+        for number in 0..1000_u32 {
+            let taken_s = 0.04 * f64::from(number);
+            // The first delay is longer than a period.
+            let delay_s = if number == 0 { 0.1 } else { 0.005 };
+            last_s = match placed(&mut clock, 1.01 * taken_s, 10.0 + taken_s + delay_s) {
+                found_s if found_s >= last_s => found_s,
+                found_s => panic!("{number}: {found_s} after {last_s}"),
+            };
+        }
+        let drifted_s = last_s - (10.005 + 0.04 * 999.0);
+        assert!(
+            (drifted_s - 0.01 * 0.04 * 999.0).abs() < 0.02,
+            "{drifted_s}"
+        );
+        clock.begin_again();
+        let again_s = placed(&mut clock, 7.0, 60.0);
+        assert!((again_s - 60.0).abs() < 1e-9, "{again_s}");
+    }
+}
