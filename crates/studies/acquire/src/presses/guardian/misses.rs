@@ -72,7 +72,7 @@ impl Misses {
             .stale
             .take_if(|stale| now_s - stale.found_s > SETTLED_S)?;
         let words = format!(
-            "late: a reading was {:.0} ms old, although its guard was in time: its device, link or driver delayed it; check cable, network and rate of the device",
+            "late: the newest reading was from {:.0} ms ago, although its guard was in time: its device, link or driver delayed it; check cable, network and rate of the device",
             stale.age_s * 1e3
         );
         self.count(Cause::Device, words)
@@ -149,7 +149,7 @@ mod tests {
         misses.stale(0.061, 20.0);
         assert_eq!(misses.settle(20.1), None, "the reader may still come");
         let line = misses.settle(20.3).expect("it did not");
-        assert!(line.contains("61 ms old"), "{line}");
+        assert!(line.contains("from 61 ms ago"), "{line}");
         assert_eq!(misses.settle(21.0), None, "it is counted once");
 
         // The reader was late: it ends its turn after the watcher found the reading stale, or before.
