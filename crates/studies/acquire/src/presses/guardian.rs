@@ -98,6 +98,7 @@ impl Guarded<'_> {
             };
             scope.spawn(move || reader.serve(force, listeners));
             scope.spawn(|| watcher.look_on(&is_over));
+            scope.spawn(|| punctuality.show_until(&is_over));
             let _over = Over::new(&is_over);
             // Dropped here, so that the reader thread ends even if `conduct` panics.
             let mut mailbox = mailbox;

@@ -214,6 +214,8 @@ impl Reader {
                     // A closed channel means that the run has ended.
                     let _ = outcome.send(carry_out(task, force));
                     self.heard = Instant::now();
+                    // The time of a task belongs to no turn.
+                    timer.restart();
                 }
                 Err(TryRecvError::Empty) => {
                     timer.begin(Duration::ZERO);
