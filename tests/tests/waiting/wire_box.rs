@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::fs;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::time::Duration;
 
 use taceva_dataset::press_zeros;
@@ -86,19 +86,21 @@ struct Touch {
 /// Runs the study to its end, and looks at the gel meanwhile.
 fn watched(on: &OnTheWire) -> (Result<(), String>, Vec<Touch>) {
     let bench = on.served.bench();
-    let is_over = AtomicBool::new(false);
     std::thread::scope(|scope| {
-        let looks = scope.spawn(|| touches(bench, &is_over));
+        // Dropped even if the study panics, which ends the looks.
+        let (over, is_over) = channel();
+        let looks = scope.spawn(move || touches(bench, &is_over));
         let ended = ended(on);
-        is_over.store(true, Ordering::Release);
+        drop(over);
         (ended, looks.join().expect("looks do not panic"))
     })
 }
 
-fn touches(bench: &WallBench, is_over: &AtomicBool) -> Vec<Touch> {
+/// Deepest places of the tip between two ways through the air, until the sender of `is_over` is dropped.
+fn touches(bench: &WallBench, is_over: &Receiver<()>) -> Vec<Touch> {
     let mut found = Vec::new();
     let mut deepest: Option<Touch> = None;
-    while !is_over.load(Ordering::Acquire) {
+    while is_over.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
         let truth = bench.truth();
         let [x, y, z] = truth.tip_mm;
         if z < IN_AIR_MM {
@@ -109,7 +111,6 @@ fn touches(bench: &WallBench, is_over: &AtomicBool) -> Vec<Touch> {
                 depth_mm: truth.depth_mm,
             });
         }
-        std::thread::sleep(LOOK);
     }
     found.extend(deepest);
     found

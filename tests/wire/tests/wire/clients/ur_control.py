@@ -31,7 +31,7 @@ def moves():
 down = [math.pi, 0, 0]
 print("=", arm.moveL([0.3, 0.002, 0.268, *down], 0.05, 0.5), *place(), flush=True)
 # Angles of a UR5 whose tip is at (302, -4, 268) mm and points down.
-angles = [0.360188, -1.108002, -2.356236, -1.194298, 1.558241, 1.930646]
+angles = [0.356516, -1.117325, -2.337605, -1.25746, 1.570796, -1.21428]
 print("=", arm.moveJ(angles, 0.2, 1.0), *place(), flush=True)
 print("=", arm.moveJ_IK([0.3, 0.002, 0.268, *down], 0.2, 1.0), *place(), flush=True)
 print("=", arm.moveL_FK(angles, 0.05, 0.5), *place(), flush=True)
