@@ -211,6 +211,7 @@ FAULTS = {
     "has_another_shape": ("return tp.Reading([1.0, 2.0], 0.01)", "expected Fz, [Fx, Fy, Fz] or [Fx, Fy, Fz, Tx, Ty, Tz]"),
     "gives_nothing": ("return None", "expected taceva.plugin.Reading(force, time)"),
     "gives_no_time": ("return tp.Reading(1.0, 'now')", "a time of type str, expected seconds as taceva.plugin.now() counts them"),
+    "counts_by_a_word": ("return tp.Reading(1.0, 0.01, None, 'two')", "'str' object cannot be interpreted as an integer"),
     "leaves_the_process": ("import os; os._exit(3)", "the process ended"),
     "ends_the_interpreter": ("raise SystemExit('bye')", "SystemExit: bye"),
 }

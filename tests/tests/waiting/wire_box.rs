@@ -22,10 +22,10 @@ const DRIFT_N_MIN: f64 = 0.02;
 const FORCE_PART: f64 = 0.02;
 /// Greatest difference of a recorded depth from that of the gel.
 const DEPTH_ERROR_MM: f64 = 0.02;
-/// Height at which the tip is between two presses, interval of looks at it, and distance from a press at which its samples lie.
+/// Height at which the tip is between two presses, interval of looks at it, and greatest distance of a sheared sample from the place of its press.
 const IN_AIR_MM: f64 = -0.5;
 const LOOK: Duration = Duration::from_millis(5);
-const NEAR_MM: f64 = 0.6;
+const NEAR_MM: f64 = 1.0;
 /// Axes of a transducer in the base frame, and those after a quarter turn about its x axis.
 const OWN: &str = "axes = [\"x\", \"-y\", \"-z\"]";
 const TURNED: &str = "axes = [\"x\", \"z\", \"-y\"]";
