@@ -34,7 +34,7 @@ license = "MIT"
 
 [program]
 python = "lab_scale"
-wire = 1
+wire = 2
 
 [[provides]]
 kind = "force"
@@ -123,9 +123,9 @@ def test_a_new_project_of_every_kind_says_what_its_manifest_says_and_keeps_every
 
 
 def test_a_manifest_of_another_wire_is_refused_with_both_numbers_and_the_remedy(tmp_path: Path, program: Program) -> None:
-    made = package(tmp_path, manifest=MANIFEST.replace("wire = 1", "wire = 2"))
+    made = package(tmp_path, manifest=MANIFEST.replace("wire = 2", "wire = 3"))
     listed = program.run("plugin", "list", "--all", "--plugin-dir", str(made)).stdout
-    assert "written for wire version 2, but this TacEva has 1" in listed
+    assert "written for wire version 3, but this TacEva has 2" in listed
     assert "python -m taceva.plugin manifest MODULE --write" in listed
 
 
@@ -211,6 +211,7 @@ FAULTS = {
     "has_another_shape": ("return tp.Reading([1.0, 2.0], 0.01)", "expected Fz, [Fx, Fy, Fz] or [Fx, Fy, Fz, Tx, Ty, Tz]"),
     "gives_nothing": ("return None", "expected taceva.plugin.Reading(force, time)"),
     "gives_no_time": ("return tp.Reading(1.0, 'now')", "a time of type str, expected seconds as taceva.plugin.now() counts them"),
+    "counts_by_a_word": ("return tp.Reading(1.0, 0.01, None, 'two')", "'str' object cannot be interpreted as an integer"),
     "leaves_the_process": ("import os; os._exit(3)", "the process ended"),
     "ends_the_interpreter": ("raise SystemExit('bye')", "SystemExit: bye"),
 }
@@ -329,7 +330,7 @@ def test_code_that_comes_too_late_is_refused_and_the_remedy_is_named(tmp_path: P
     why = failure(program, package(tmp_path / "late", late), "force/reads")
     assert "_sqlite3: failed to map segment; name its module in `preload` of plugin.toml" in why and "interpreter-open" in why
     for name, more in [("early", 'preload = ["sqlite3", "lzma"]'), ("open", 'profile = "interpreter-open"')]:
-        made = package(tmp_path / name, late, MANIFEST.replace("wire = 1", f"wire = 1\n{more}"))
+        made = package(tmp_path / name, late, MANIFEST.replace("wire = 2", f"wire = 2\n{more}"))
         done = program.check(KEY, made, "--only", "force/reads")
         assert done["failed"] == [], done
     listed = program.run("plugin", "list", "--plugin-dir", str(tmp_path / "open/src/lab_scale")).stdout

@@ -26,8 +26,10 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
         println!("killed {times} times: {presses} presses, each recorded once");
         return Ok(ExitCode::SUCCESS);
     }
-    println!("| fault | times | studies | ended | in motion, median | most | allowed |");
-    println!("|---|---|---|---|---|---|---|");
+    println!(
+        "| fault | times | studies | ended | in motion, median | most | allowed | late by the kernel | by the program | by a device | unknown |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|");
     let cases: Vec<&Case> = CASES
         .iter()
         .filter(|case| case.name.starts_with(&name))
@@ -59,14 +61,19 @@ fn played(case: &Case, times: usize) -> bool {
         Outcome::Unharmed | Outcome::MayEnd(None) => "–".to_owned(),
         Outcome::Left => "0 mm after".to_owned(),
     };
+    let late = result.late;
     println!(
-        "| {} | {} | {} | {} | {:.1} ms | {:.1} ms | {allowed} |",
+        "| {} | {} | {} | {} | {:.1} ms | {:.1} ms | {allowed} | {} | {} | {} | {} |",
         case.name,
         result.times,
         result.studies,
         result.ended,
         result.median_ms(),
-        result.most_ms()
+        result.most_ms(),
+        late.kernel,
+        late.program,
+        late.device,
+        late.unknown
     );
     for broken in &result.broken {
         println!("{broken}");

@@ -2,8 +2,10 @@
 
 mod compared;
 pub mod faults;
+mod late_counts;
 
 pub use compared::{Compared, compare};
+pub use late_counts::LateCounts;
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};

@@ -31,7 +31,7 @@ pub struct Wrench {
 /// ```
 /// use taceva_abi::{DeviceCalls, ForceCalls};
 /// let device = DeviceCalls { size: size_of::<ForceCalls>() as u32, reserved: 0, close: None, interrupt: None, extension: None };
-/// let calls = ForceCalls { device, start: None, read: None, stop: None };
+/// let calls = ForceCalls { device, start: None, read: None, stop: None, lost: None };
 /// assert!(calls.start.is_none(), "it reads without being started");
 /// ```
 #[derive(Clone, Copy, Debug)]
@@ -53,4 +53,6 @@ pub struct ForceCalls {
     >,
     /// `[owner & open]` Stops the readings; idempotent.
     pub stop: Option<unsafe extern "C" fn(*mut c_void, *mut Error) -> Status>,
+    /// `[owner & open]` Writes the number of readings lost since the opening. Returns `NOT_FOUND` if they are not counted. Since minor 4.
+    pub lost: Option<unsafe extern "C" fn(*mut c_void, *mut u64, *mut Error) -> Status>,
 }

@@ -13,7 +13,7 @@ pub const MAGIC: u32 = 0x3145_4154;
 /// Major version of the interface. The host rejects a library with another major version.
 pub const ABI_MAJOR: u32 = 1;
 /// Minor version of the interface. Host and library may have different minor versions.
-pub const ABI_MINOR: u32 = 3;
+pub const ABI_MINOR: u32 = 4;
 /// Name of the exported symbol.
 pub const ENTRY_SYMBOL: &CStr = c"taceva_plugin_v1";
 

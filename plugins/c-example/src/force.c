@@ -86,7 +86,7 @@ static const void *extension(void *handle, taceva_text id) {
 }
 
 static const taceva_force_calls calls = {
-    {sizeof calls, 0, close_force, interrupt_force, extension}, start, read_force, stop,
+    {sizeof calls, 0, close_force, interrupt_force, extension}, start, read_force, stop, NULL,
 };
 
 taceva_status open_force(uint32_t driver, const taceva_args *args, taceva_rig *rig, taceva_device *device, taceva_error *error) {

@@ -133,7 +133,7 @@ id = "org.example.bench"
 name = "bench"
 version = "1.0.0"
 license = "MIT"
-program = { python = "lab_bench", wire = 1 }
+program = { python = "lab_bench", wire = 2 }
 [[provides]]
 kind = "sensor"
 key = "camera"

@@ -2,4 +2,4 @@
 
 /// Wire version. It increases by one with every change of a message. `tests/wire/` holds the golden bytes. A host and a child with different versions
 /// reject each other.
-pub const WIRE: u32 = 1;
+pub const WIRE: u32 = 2;

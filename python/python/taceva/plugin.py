@@ -96,12 +96,14 @@ class Reading(NamedTuple):
     """Reading of a force transducer.
 
     ``force`` is Fz, or ``[Fx, Fy, Fz]``, or ``[Fx, Fy, Fz, Tx, Ty, Tz]``, in N and N·mm. ``time`` is its time on the clock of `now`.
-    ``number`` is its sequence number, if the device numbers its readings.
+    ``number`` is its sequence number, if the device numbers its readings. ``lost`` is the number of readings that were lost between the
+    device and the plugin since it was opened, if the device shows them.
     """
 
     force: float | Sequence[float]
     time: float | tuple[float, float]
     number: int | None = None
+    lost: int | None = None
 
 
 def now() -> float:

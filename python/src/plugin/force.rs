@@ -20,6 +20,17 @@ pub(super) struct PythonForce {
     axes: Axes,
     can_tare: bool,
     sequence: Option<u64>,
+    lost: Option<u64>,
+}
+
+/// Result of `read`.
+struct Reading {
+    wrench: Wrench,
+    stamp: Stamp,
+    /// Sequence number of the device.
+    sequence: Option<u64>,
+    /// Number of lost readings.
+    lost: Option<u64>,
 }
 
 impl PythonForce {
@@ -38,16 +49,18 @@ impl PythonForce {
             axes: facts.map(|facts| facts.axes).unwrap_or_default(),
             can_tare,
             sequence: None,
+            lost: None,
         })
     }
 }
 
-/// Parses the result of `read`: force in N, time, and sequence number of the device.
-fn reading(said: &Bound<'_, PyAny>) -> PyResult<(Wrench, Stamp, Option<u64>)> {
+/// Parses the result of `read`: force in N, time, sequence number of the device and number of lost readings.
+fn reading(said: &Bound<'_, PyAny>) -> PyResult<Reading> {
     let parts: Vec<Bound<'_, PyAny>> = said.extract().unwrap_or_default();
-    let (force, time, number) = match parts.as_slice() {
-        [force, time] => (force, time, None),
-        [force, time, number] => (force, time, number.extract()?),
+    let (force, time, number, lost) = match parts.as_slice() {
+        [force, time] => (force, time, None, None),
+        [force, time, number] => (force, time, number.extract()?, None),
+        [force, time, number, lost] => (force, time, number.extract()?, lost.extract()?),
         _ => {
             let class = said.get_type().name()?;
             return Err(value_error(format_args!(
@@ -55,7 +68,12 @@ fn reading(said: &Bound<'_, PyAny>) -> PyResult<(Wrench, Stamp, Option<u64>)> {
             )));
         }
     };
-    Ok((wrench(force)?, stamp(time, "read")?, number))
+    Ok(Reading {
+        wrench: wrench(force)?,
+        stamp: stamp(time, "read")?,
+        sequence: number,
+        lost,
+    })
 }
 
 /// Parses one number as the force along z, three as the force, six as force and torque.
@@ -91,15 +109,19 @@ impl ForceTransducer for PythonForce {
     }
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
-        let (wrench, stamp, sequence) = self.object.call(READ, deadline, |object, deadline| {
+        let read = self.object.call(READ, deadline, |object, deadline| {
             reading(&object.call_method1("read", (deadline,))?)
         })?;
-        self.sequence = sequence;
-        Ok((wrench, stamp))
+        (self.sequence, self.lost) = (read.sequence, read.lost);
+        Ok((read.wrench, read.stamp))
     }
 
     fn sequence(&self) -> Option<u64> {
         self.sequence
+    }
+
+    fn lost(&self) -> Option<u64> {
+        self.lost
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

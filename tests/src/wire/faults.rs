@@ -6,7 +6,7 @@ use std::time::Duration;
 use taceva_dataset::Dataset;
 use taceva_wire::{ArmFault, BenchOptions, Device, Fault, FaultKind, ServeOptions};
 
-use super::{OnTheWire, RUN, UnderWay, scene_of};
+use super::{LateCounts, OnTheWire, RUN, UnderWay, scene_of};
 use crate::random::Random;
 
 /// A fault.
@@ -114,6 +114,8 @@ pub struct Played {
     pub studies: usize,
     /// Number of studies that ended early and were resumed.
     pub ended: usize,
+    /// Late turns of the guard and stale readings, as the studies counted them.
+    pub late: LateCounts,
     /// Forbidden outcomes.
     pub broken: Vec<String>,
 }
@@ -196,6 +198,12 @@ impl Played {
                 is_left = self.strike(case, on);
             }
             let (is_well, said) = study.end();
+            self.late.add(&said);
+            if !self.broken.is_empty() {
+                // They state whether the kernel, the program or a device was late.
+                self.broken
+                    .extend(LateCounts::lines(&said).map(str::to_owned));
+            }
             if is_left {
                 self.is_still(on, is_well);
                 return;

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
+use std::time::Duration;
 
 use taceva_dataset::press_zeros;
 use taceva_tests::wire::{OnTheWire, RUN, finished, scene_of};
 use taceva_wire::netft::Setup;
-use taceva_wire::{BenchOptions, ForceKind, ServeOptions};
+use taceva_wire::{BenchOptions, ForceKind, ServeOptions, WallBench};
 
 use crate::wire_faults::alone;
 
@@ -18,7 +20,12 @@ const PATIENCE: usize = 6;
 const DRIFT_N_MIN: f64 = 0.02;
 /// Greatest difference of a force component, as a part of the greatest force of the study.
 const FORCE_PART: f64 = 0.02;
-const DEPTH_APART_MM: f64 = 0.02;
+/// Greatest difference of a recorded depth from that of the gel.
+const DEPTH_ERROR_MM: f64 = 0.02;
+/// Height at which the tip is between two presses, interval of looks at it, and greatest distance of a sheared sample from the place of its press.
+const IN_AIR_MM: f64 = -0.5;
+const LOOK: Duration = Duration::from_millis(5);
+const NEAR_MM: f64 = 1.0;
 /// Axes of a transducer in the base frame, and those after a quarter turn about its x axis.
 const OWN: &str = "axes = [\"x\", \"-y\", \"-z\"]";
 const TURNED: &str = "axes = [\"x\", \"z\", \"-y\"]";
@@ -69,11 +76,66 @@ fn ended(on: &OnTheWire) -> Result<(), String> {
     Err("the machine is too busy".to_owned())
 }
 
-/// Depth and forces of each sample, by name.
-fn labels(on: &OnTheWire) -> BTreeMap<String, [f64; 4]> {
+/// Deepest place of a press, as the gel knows it.
+#[derive(Clone, Copy, Debug)]
+struct Touch {
+    at_mm: [f64; 2],
+    depth_mm: f64,
+}
+
+/// Runs the study to its end, and looks at the gel meanwhile.
+fn watched(on: &OnTheWire) -> (Result<(), String>, Vec<Touch>) {
+    let bench = on.served.bench();
+    std::thread::scope(|scope| {
+        // Dropped even if the study panics, which ends the looks.
+        let (over, is_over) = channel();
+        let looks = scope.spawn(move || touches(bench, &is_over));
+        let ended = ended(on);
+        drop(over);
+        (ended, looks.join().expect("looks do not panic"))
+    })
+}
+
+/// Deepest places of the tip between two ways through the air, until the sender of `is_over` is dropped.
+fn touches(bench: &WallBench, is_over: &Receiver<()>) -> Vec<Touch> {
+    let mut found = Vec::new();
+    let mut deepest: Option<Touch> = None;
+    while is_over.recv_timeout(LOOK) == Err(RecvTimeoutError::Timeout) {
+        let truth = bench.truth();
+        let [x, y, z] = truth.tip_mm;
+        if z < IN_AIR_MM {
+            found.extend(deepest.take());
+        } else if truth.depth_mm > deepest.map_or(0.0, |touch| touch.depth_mm) {
+            deepest = Some(Touch {
+                at_mm: [x, y],
+                depth_mm: truth.depth_mm,
+            });
+        }
+    }
+    found.extend(deepest);
+    found
+}
+
+/// Greatest difference of a recorded depth from that of the gel, mm. Infinite if the gel was not touched there.
+fn depth_error_mm(on: &OnTheWire, touches: &[Touch]) -> f64 {
+    let errors = labels(on, ["Px", "Py", "Pz"])
+        .into_values()
+        .map(|[x, y, z]| {
+            let near = touches.iter().filter(|touch| {
+                let [touch_x, touch_y] = touch.at_mm;
+                (touch_x - x).hypot(touch_y - y) < NEAR_MM
+            });
+            let apart = near.map(|touch| (touch.depth_mm - z).abs());
+            apart.fold(f64::INFINITY, f64::min)
+        });
+    errors.fold(0.0, f64::max)
+}
+
+/// Labels of each sample, by its name.
+fn labels(on: &OnTheWire, names: [&str; 3]) -> BTreeMap<String, [f64; 3]> {
     let recording = on.recording(RUN);
     let table = recording.table();
-    let columns = ["Pz", "Fx", "Fy", "Fz"].map(|name| {
+    let columns = names.map(|name| {
         let position = table.channels().position(name);
         table.truth(position.expect("it is measured"))
     });
@@ -92,23 +154,27 @@ fn a_study_with_a_turned_frame_a_low_pass_and_drift_ends_within_2_percent_of_one
         return;
     };
     let plain = served(Setup::PLAIN, OWN, "", "latency_ms = 0.0");
-    ended(&plain).expect("a plain box");
+    let (ended, touches) = watched(&plain);
+    ended.expect("a plain box");
+    let plain_error_mm = depth_error_mm(&plain, &touches);
     let bent = served(BENT, TURNED, ";frame=tool", "latency_ms = 31.8");
-    ended(&bent).expect("a box that states what it does");
-    let (expected, found) = (labels(&plain), labels(&bent));
+    let (ended, touches) = watched(&bent);
+    ended.expect("a box that states what it does");
+    let depth_mm = plain_error_mm.max(depth_error_mm(&bent, &touches));
+    let [expected, found] = [&plain, &bent].map(|on| labels(on, ["Fx", "Fy", "Fz"]));
     assert!(expected.keys().eq(found.keys()), "they are of one plan");
     assert_eq!(found.len(), 2 * PRESSES);
-    let forces = expected.values().flat_map(|[_, forces @ ..]| forces);
+    let forces = expected.values().flatten();
     let greatest_n = forces.fold(0.0, |most: f64, force_n| most.max(force_n.abs()));
-    let (mut depth_mm, mut force_n) = (0.0_f64, 0.0_f64);
-    for (name, expected) in &expected {
-        let [depth_apart, forces_apart @ ..] =
-            std::array::from_fn::<f64, 4, _>(|at| (found[name][at] - expected[at]).abs());
-        depth_mm = depth_mm.max(depth_apart);
-        force_n = forces_apart.into_iter().fold(force_n, f64::max);
-    }
-    eprintln!("depths by {depth_mm:.4} mm, forces by {force_n:.4} N of {greatest_n:.3} N");
-    assert!(depth_mm <= DEPTH_APART_MM, "{depth_mm} mm");
+    let apart = expected.iter().flat_map(|(name, expected)| {
+        let pairs = found[name].into_iter().zip(expected);
+        pairs.map(|(found, expected)| (found - expected).abs())
+    });
+    let force_n = apart.fold(0.0, f64::max);
+    eprintln!(
+        "depths by {depth_mm:.4} mm from those of the gel, forces by {force_n:.4} N of {greatest_n:.3} N"
+    );
+    assert!(depth_mm <= DEPTH_ERROR_MM, "{depth_mm} mm");
     assert!(
         force_n <= FORCE_PART * greatest_n,
         "{force_n} of {greatest_n} N"

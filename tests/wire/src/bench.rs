@@ -34,6 +34,8 @@ pub struct Truth {
     pub tip_mm: [f64; 3],
     /// Force on the gel in the sensor's frame, N; 0 under a board.
     pub force_n: [f64; 3],
+    /// Depth of a ball below the true surface of the gel, mm; 0 without contact and under a board.
+    pub depth_mm: f64,
     /// True while the tip moves.
     pub is_moving: bool,
     /// Length of the tip's path since the start of the bench, mm.
@@ -271,7 +273,8 @@ impl Inner {
             truth.in_motion += now.saturating_sub(since);
         }
         truth.is_moving = self.rig.is_moving();
-        truth.force_n = self.rig.truth().map_or([0.0; 3], |contact| contact.force_n);
+        let contact = self.rig.truth().unwrap_or_default();
+        (truth.force_n, truth.depth_mm) = (contact.force_n, contact.depth_mm);
         truth.deepest_mm = truth.deepest_mm.max(truth.tip_mm[2]);
         let is_beyond = truth.limit_n.is_some_and(|limit| truth.force_n[2] > limit);
         if is_beyond && truth.passed.is_none() {
@@ -321,6 +324,7 @@ mod tests {
             truth.force_n[2] > 0.2 && truth.deepest_mm > 0.0,
             "{truth:?}"
         );
+        assert!(truth.depth_mm > 0.0 && truth.depth_mm < 0.6, "{truth:?}");
         assert!(truth.way_mm > 20.0 && truth.moved >= truth.passed.unwrap_or_default());
         std::thread::sleep(TICK);
         assert_eq!(bench.truth().moved, truth.moved, "it stands");

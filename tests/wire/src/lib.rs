@@ -23,6 +23,7 @@ mod error;
 mod fault;
 mod link;
 mod options;
+mod placement;
 mod rig_file;
 mod server;
 #[cfg(unix)]

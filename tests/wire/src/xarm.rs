@@ -12,7 +12,6 @@ mod controller;
 mod joint_motion;
 mod kinematics;
 mod line;
-mod placement;
 mod report;
 mod session;
 

@@ -24,6 +24,8 @@ mod load_limit;
 mod log;
 mod motion;
 mod observe;
+#[cfg(test)]
+mod one_press;
 mod operator;
 mod oversight;
 mod press;

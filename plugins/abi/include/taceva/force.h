@@ -20,6 +20,9 @@ typedef struct taceva_force_calls {
   taceva_status (*start)(void *handle, uint64_t timeout_ns, taceva_error *error); /* [owner & open] idempotent */
   taceva_status (*read)(void *handle, taceva_wrench *wrench, taceva_stamp *stamp, uint64_t timeout_ns, taceva_error *error); /* [owner & started] */
   taceva_status (*stop)(void *handle, taceva_error *error);                       /* [owner & open] idempotent */
+  /* Since minor 4. [owner & open] Number of readings lost between device and plugin since the opening, by the numbers of the device. A reading
+   * that a newer one replaced is not lost. NULL, or NOT_FOUND, if they are not counted. */
+  taceva_status (*lost)(void *handle, uint64_t *lost, taceva_error *error);
 } taceva_force_calls;
 
 #ifdef __cplusplus

@@ -13,7 +13,7 @@ class force : public device {
   virtual void next_reading(taceva_wrench &into, taceva_stamp &stamp, deadline until) = 0; /* N and N mm; `into` and `stamp` are 0 before the call */
 };
 
-/* Abilities: further base classes of a transducer, with `tare = true` or `numbered = true` in its manifest. */
+/* Abilities: further base classes of a transducer. The first two need `tare = true` or `numbered = true` in its manifest. */
 struct can_tare {
   virtual ~can_tare() = default;
   virtual void zero(deadline until) = 0; /* returns once the zero takes effect */
@@ -21,6 +21,10 @@ struct can_tare {
 struct can_number {
   virtual ~can_number() = default;
   virtual uint64_t sequence() = 0; /* number of the last reading, assigned by the device */
+};
+struct can_count_lost {
+  virtual ~can_count_lost() = default;
+  virtual uint64_t lost() = 0; /* readings lost between device and plugin since the opening */
 };
 
 template <> struct [[gnu::visibility("hidden")]] kind_of<force> {
@@ -47,6 +51,14 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<force> {
       *number = able<can_number>(handle)->sequence();
     });
   }
+  static taceva_status lost(void *handle, uint64_t *number, taceva_error *error) noexcept {
+    return device_calls::guarded(error, [&] {
+      device_calls::expect(number, "`lost` is NULL");
+      can_count_lost *it = able<can_count_lost>(handle);
+      if (!it) throw failure(TACEVA_NOT_FOUND, "it counts no lost readings");
+      *number = it->lost();
+    });
+  }
   static constexpr taceva_tare_calls tares = {sizeof(taceva_tare_calls), 0, zero};
   static constexpr taceva_numbered_calls numbers = {sizeof(taceva_numbered_calls), 0, sequence};
   static const void *extension(void *handle, taceva_text name) noexcept {
@@ -56,7 +68,7 @@ template <> struct [[gnu::visibility("hidden")]] kind_of<force> {
     return nullptr;
   }
   static constexpr taceva_force_calls calls = {
-      {sizeof(taceva_force_calls), 0, device_calls::close, device_calls::interrupt, extension}, device_calls::start, read, device_calls::stop};
+      {sizeof(taceva_force_calls), 0, device_calls::close, device_calls::interrupt, extension}, device_calls::start, read, device_calls::stop, lost};
 };
 }  // namespace taceva
 

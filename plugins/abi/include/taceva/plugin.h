@@ -36,7 +36,7 @@ extern "C" {
 
 #define TACEVA_MAGIC 0x31454154u /* "TAE1", little-endian */
 #define TACEVA_ABI_MAJOR 1u      /* equal on both sides, or the library is rejected */
-#define TACEVA_ABI_MINOR 3u      /* may differ between the sides */
+#define TACEVA_ABI_MINOR 4u      /* may differ between the sides */
 
 /* ---- status: the closed list of failures, 0 and below ---- */
 

@@ -73,7 +73,7 @@ fn sizes_and_offsets() -> Vec<Line> {
         taceva_motion = Motion { size, reserved, target, speed_m_per_s }
         taceva_robot_calls = RobotCalls { device, pose, move_to, wait, halt, clear_halt }
         taceva_wrench = Wrench { force_n, torque_n_mm }
-        taceva_force_calls = ForceCalls { device, start, read, stop }
+        taceva_force_calls = ForceCalls { device, start, read, stop, lost }
         taceva_lighting_calls = LightingCalls { device, set }
         taceva_changer_calls = ChangerCalls { device, bring }
         taceva_training_set = TrainingSet {

@@ -162,7 +162,7 @@ mod tests {
     #[test]
     fn a_host_of_another_wire_is_refused_before_anything_is_given_up_or_loaded() {
         let (mut host, theirs) = Socket::pair().expect("a pair");
-        host.send(&(7_u32, FirstWord::OfOtherWire(2)), &[])
+        host.send(&(7_u32, FirstWord::OfOtherWire(3)), &[])
             .expect("sent");
         let code = run(Socket::from(theirs), |_, _| {
             Err((ErrorKind::Internal, "it was loaded".to_owned()))
@@ -176,7 +176,7 @@ mod tests {
         assert_eq!(failure.kind, ErrorKind::Abi);
         let why = failure.cause.expect("a reason");
         assert!(
-            why.contains("version 1 of the wire, its host version 2"),
+            why.contains("version 2 of the wire, its host version 3"),
             "{why}"
         );
     }

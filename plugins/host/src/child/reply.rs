@@ -16,12 +16,13 @@ pub(super) trait Reply: Sized {
     fn check(&self) -> Result<(), String>;
 }
 
-/// Reading of a force transducer with its sequence number.
+/// Reading of a force transducer with its sequence number and the number of lost readings.
 #[derive(Clone, Copy)]
 pub(super) struct Reading {
     pub(super) wrench: Wrench,
     pub(super) stamp: Stamp,
     pub(super) sequence: Option<u64>,
+    pub(super) lost: Option<u64>,
 }
 
 /// Name of the item that a changer has in place.
@@ -55,7 +56,7 @@ replies! {
     (): () = () => Done {}, |()| Ok(());
     Stamp: stamp = stamp => Stamped { stamp }, is_time;
     (Pose, Stamp): (pose, stamp) = (pose, stamp) => At { pose, stamp }, |(pose, stamp)| is_pose(pose, stamp);
-    Reading: Reading { wrench, stamp, sequence } = Reading { wrench, stamp, sequence } => Load { wrench, stamp, sequence }, is_load;
+    Reading: Reading { wrench, stamp, sequence, lost } = Reading { wrench, stamp, sequence, lost } => Load { wrench, stamp, sequence, lost }, is_load;
     InPlace: InPlace(name) = InPlace(name) => InPlace { name }, is_name;
     GuardedStop: stop = stop => Stopped { stop }, is_stop;
 }

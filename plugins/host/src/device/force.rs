@@ -28,6 +28,8 @@ pub(crate) struct PluginForce {
     numbers: Option<Sequence>,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
+    /// Number of lost readings, as stated after the last one.
+    lost: Option<u64>,
 }
 
 type Sequence = unsafe extern "C" fn(*mut c_void, *mut u64, *mut abi::Error) -> abi::Status;
@@ -79,6 +81,7 @@ impl PluginDevice for PluginForce {
         Ok(PluginForce {
             numbers,
             sequence: None,
+            lost: None,
             handle,
             calls,
             read,
@@ -139,11 +142,30 @@ impl ForceTransducer for PluginForce {
             })?;
             self.sequence = Some(sequence);
         }
+        if let Some(lost) = self.calls.lost {
+            let mut count = 0;
+            let counted = self.handle.call("count lost readings", |raw, error| {
+                // SAFETY: [owner & open] by `&mut self`, with a place for the number and an error that outlive the call.
+                unsafe { lost(raw, &raw mut count, error) }
+            });
+            self.lost = match counted {
+                Ok(()) => Some(count),
+                Err(error) if error.kind() == ErrorKind::NotFound => {
+                    self.calls.lost = None;
+                    None
+                }
+                Err(error) => return Err(error),
+            };
+        }
         Ok((measured(wrench, self.axes), stamp(when)))
     }
 
     fn sequence(&self) -> Option<u64> {
         self.sequence
+    }
+
+    fn lost(&self) -> Option<u64> {
+        self.lost
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -278,9 +278,12 @@ fn agree(
     }
 }
 
-/// Text for a missing entry, with the remedy if an old interface version may be the cause: minor version 3 has a new id for force transducers.
+/// Minor version with a new id for force transducers.
+const NEW_FORCE_MINOR: u32 = 3;
+
+/// Text for a missing entry, with the remedy if an old interface version may be the cause.
 fn absent(minor: u32) -> String {
-    if minor >= abi::ABI_MINOR {
+    if minor >= NEW_FORCE_MINOR {
         return "absent".to_owned();
     }
     let [major, known] = [abi::ABI_MAJOR, abi::ABI_MINOR];

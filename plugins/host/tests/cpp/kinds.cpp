@@ -26,7 +26,7 @@ class eye : public taceva::sensor {
   clock_type::time_point due_;
 };
 
-class wrist : public taceva::force, public taceva::can_tare, public taceva::can_number {
+class wrist : public taceva::force, public taceva::can_tare, public taceva::can_number, public taceva::can_count_lost {
  public:
   static constexpr const char *table =
       "kind = \"force\"\nkey = \"wrist\"\ntitle = \"wrist\"\nsource = \"simulated\"\naxes = [\"Fz\"]\n"
@@ -45,6 +45,7 @@ class wrist : public taceva::force, public taceva::can_tare, public taceva::can_
     if (readings_ == 0) throw taceva::failure(TACEVA_NOT_FOUND, "nothing was read yet");
     return readings_;
   }
+  uint64_t lost() override { return 0; }
 
  private:
   clock_type::time_point due_;

@@ -380,7 +380,7 @@ static taceva_status read_force(void *handle, taceva_wrench *wrench, taceva_stam
   stamp->valid_ns = stamp->received_ns = is("stamp_stale") ? 0 : 5;
   return TACEVA_OK;
 }
-static const taceva_force_calls force_calls = {{sizeof(taceva_force_calls), 0, close_device, interrupt, extension}, start, read_force, stop};
+static const taceva_force_calls force_calls = {{sizeof(taceva_force_calls), 0, close_device, interrupt, extension}, start, read_force, stop, NULL};
 
 /* ---- factories ---- */
 

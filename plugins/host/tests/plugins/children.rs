@@ -64,10 +64,11 @@ fn what_a_plugin_logs_comes_while_it_runs_with_control_characters_written_out() 
 }
 
 #[test]
-fn numbers_of_readings_and_faults_of_a_robot_cross_to_the_host() {
+fn numbers_and_losses_of_readings_and_faults_of_a_robot_cross_to_the_host() {
     const SECOND: Deadline = Deadline::after(Duration::from_secs(1));
     let macros = [
         "NUMBERED",
+        "LOST",
         "FAULT=TACEVA_FAULT_COLLISION",
         "FAULT_WORDS=\"\"",
     ];
@@ -79,11 +80,12 @@ fn numbers_of_readings_and_faults_of_a_robot_cross_to_the_host() {
     let mut rig = taceva_core::Rig::new();
     let wrist = host.drivers::<dyn ForceTransducer>().swap_remove(0);
     let mut wrist = wrist.open(&Args::default(), &mut rig).expect("opens");
-    assert_eq!(wrist.sequence(), None);
+    assert_eq!((wrist.sequence(), wrist.lost()), (None, None));
     wrist.start(SECOND).expect("starts");
     for number in 1..4 {
         wrist.read(SECOND).expect("reads");
         assert_eq!(wrist.sequence(), Some(number));
+        assert_eq!(wrist.lost(), Some(2 * number));
     }
     let arm = host.drivers::<dyn Robot>().swap_remove(0);
     let mut arm = arm.open(&Args::default(), &mut rig).expect("opens");

@@ -260,6 +260,34 @@ fn readings_have_the_numbers_that_the_device_gave_them_and_none_where_it_gives_n
 }
 
 #[test]
+fn lost_readings_are_those_that_the_device_counts_and_a_table_of_an_earlier_interface_counts_none()
+{
+    let Some(fixture) = Fixture::built(&["LOST"]) else {
+        return;
+    };
+    let session = fixture.session();
+    let mut wrist = session.force(&WRIST, &Args::default()).expect("opens");
+    assert_eq!(wrist.lost(), None);
+    wrist.start(SECOND).expect("starts");
+    for readings in 1..4 {
+        wrist.read(SECOND).expect("reads");
+        assert_eq!(wrist.lost(), Some(2 * readings));
+    }
+
+    // The table of minor 3 ended before this function. Its bytes are there, and nobody reads them.
+    let size = "FORCE_SIZE=offsetof(taceva_force_calls, lost)";
+    let Some(fixture) = Fixture::built(&["LOST", "MINOR=3", size]) else {
+        return;
+    };
+    let session = fixture.session();
+    let mut wrist = session.force(&WRIST, &Args::default()).expect("opens");
+    wrist.start(SECOND).expect("starts");
+    let (wrench, _) = wrist.read(SECOND).expect("reads");
+    assert_eq!(wrench.force[2], Newton(1.5));
+    assert_eq!(wrist.lost(), None);
+}
+
+#[test]
 fn a_frozen_number_is_found_by_the_conformance_suite() {
     let Some(fixture) = Fixture::built(&["NUMBERED", "FROZEN"]) else {
         return;

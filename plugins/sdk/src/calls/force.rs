@@ -42,6 +42,7 @@ static CALLS: ForceCalls = ForceCalls {
     start: Some(start),
     read: Some(read),
     stop: Some(stop),
+    lost: Some(lost),
 };
 
 static TARE_CALLS: TareCalls = TareCalls {
@@ -83,6 +84,18 @@ unsafe extern "C" fn stop(handle: *mut c_void, error: *mut Error) -> Status {
             Ok(opened.force.stop()?)
         })
     }
+}
+
+unsafe extern "C" fn lost(handle: *mut c_void, lost: *mut u64, error: *mut Error) -> Status {
+    let work = |opened: &mut Opened| {
+        // SAFETY: the host provides memory for the number.
+        let place = unsafe { memory::place("lost", lost) }?;
+        let none = || Failure::new(ErrorKind::NotFound, "the driver counts no lost readings");
+        *place = opened.force.lost().ok_or_else(none)?;
+        Ok(())
+    };
+    // SAFETY: the host guarantees that `error` is valid.
+    unsafe { call(handle, error, work) }
 }
 
 unsafe extern "C" fn read(

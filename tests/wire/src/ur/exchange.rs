@@ -4,7 +4,8 @@ use std::io::{self, Write};
 use std::net::TcpStream;
 use std::time::Duration;
 
-use super::Controller;
+use super::controller::Controller;
+use super::inputs::Recipe;
 use super::outputs::{NOT_FOUND, type_of};
 use super::program::REGISTER;
 use crate::fault::{ArmFault, Device, FaultKind};
@@ -19,6 +20,8 @@ const RATES_MAX_HZ: [f64; 2] = [125.0, 500.0];
 #[derive(Debug)]
 struct Wanted {
     names: Vec<String>,
+    /// Recipes of inputs, the first with the number 1.
+    inputs: Vec<Recipe>,
     rate_hz: f64,
     is_started: bool,
     /// Version of the controller: major and minor.
@@ -34,6 +37,7 @@ pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -
     let bench = &controller.bench;
     let mut wanted = Wanted {
         names: Vec::new(),
+        inputs: Vec::new(),
         rate_hz: 125.0,
         is_started: false,
         version: controller.version,
@@ -55,6 +59,10 @@ pub(super) fn serve(mut stream: TcpStream, controller: &Controller, end: &End) -
                 break;
             }
             let frame: Vec<u8> = waiting.drain(..length).collect();
+            if kind == b'U' {
+                wanted.write(&frame[3..], controller);
+                continue;
+            }
             let answer = wanted.answer(kind, &frame[3..]);
             stream.write_all(&answer)?;
             due = bench.now();
@@ -112,6 +120,16 @@ impl Wanted {
                     &[&[u8::from(is_known)], types.join(",").as_bytes()].concat(),
                 )
             }
+            (b'I', names) => {
+                let (recipe, types) = Recipe::read(&String::from_utf8_lossy(names));
+                // A recipe with an unknown input is none: its number is 0.
+                let number = match u8::try_from(self.inputs.len() + 1) {
+                    Ok(number) if recipe.is_some() => number,
+                    _ => 0,
+                };
+                self.inputs.extend(recipe.filter(|_| number > 0));
+                message(b'I', &[&[number], types.as_bytes()].concat())
+            }
             (b'S', _) => {
                 self.is_started = !self.names.is_empty();
                 message(b'S', &[u8::from(self.is_started)])
@@ -120,8 +138,19 @@ impl Wanted {
                 self.is_started = false;
                 message(b'P', &[1])
             }
-            // Inputs and messages are rejected.
+            // Messages are rejected.
             (kind, _) => message(kind, &[0]),
+        }
+    }
+
+    /// Writes the values of a message, which begins with the number of its recipe.
+    fn write(&self, says: &[u8], controller: &Controller) {
+        let Some((number, values)) = says.split_first() else {
+            return;
+        };
+        let recipe = usize::from(*number).checked_sub(1);
+        if let Some(recipe) = recipe.and_then(|at| self.inputs.get(at)) {
+            controller.write(recipe, values);
         }
     }
 
@@ -132,6 +161,10 @@ impl Wanted {
         const NORMAL: u32 = 1;
         const PROTECTIVE_STOPPED: u32 = 1 << 2;
         const EMERGENCY_STOPPED: u32 = 1 << 7 | 1 << 6;
+        const POWER_ON: u32 = 1;
+        const PROGRAM_RUNNING: u32 = 2;
+        let [state, result, progress] = controller.script_outputs().map(i32::cast_unsigned);
+        let is_running = controller.is_running();
         let mut says = vec![1];
         for name in &self.names {
             let word = match name.as_str() {
@@ -142,8 +175,16 @@ impl Wanted {
                     Some(ArmFault::Collision) => PROTECTIVE_STOPPED,
                 },
                 "safety_mode" => NORMAL,
-                "runtime_state" if controller.is_moving() => PLAYING,
+                "runtime_state" if is_running => PLAYING,
                 "runtime_state" => STOPPED,
+                "robot_status_bits" => match controller.fault() {
+                    Some(ArmFault::EmergencyStop) => 0,
+                    _ if is_running => POWER_ON | PROGRAM_RUNNING,
+                    _ => POWER_ON,
+                },
+                "output_int_register_0" => state,
+                "output_int_register_1" => result,
+                "output_int_register_2" => progress,
                 name if name == format!("output_int_register_{REGISTER}") => {
                     controller.stop_number().cast_unsigned()
                 }

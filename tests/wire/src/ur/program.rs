@@ -1,5 +1,7 @@
 //! Supported part of the vendor's script language.
 
+use super::register_script::FIRST_LINE;
+
 /// A program.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Program {
@@ -12,6 +14,8 @@ pub(super) enum Program {
     },
     /// Brakes, and reports its number if it has one.
     Stop { number: Option<i32> },
+    /// The script of a public client that takes commands from registers.
+    Registers,
     /// Any other program: replaces the running one and does nothing.
     Other,
 }
@@ -27,6 +31,9 @@ impl Program {
     }
 
     fn read(program: &str) -> Program {
+        if program.trim_start().starts_with(FIRST_LINE) {
+            return Program::Registers;
+        }
         if program.contains("speedl(") {
             return Program::cruise(program).unwrap_or(Program::Other);
         }
@@ -117,6 +124,8 @@ mod tests {
             lasts_s: 0.2,
         };
         assert_eq!(cruise, expected);
+        let script = "def rtde_control():\n  global a = 0\n  thread b():\n    speedl(target, a=acceleration)\n  end\nend\n";
+        assert_eq!(Program::take(script).expect("one").0, Program::Registers);
         let turning = "def e():\n  speedl([0, 0, 0, 0, 0, 1], a=0.5, t=0.2)\nend\n";
         assert_eq!(Program::take(turning).expect("one").0, Program::Other);
     }

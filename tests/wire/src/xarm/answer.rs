@@ -4,7 +4,7 @@ use super::client::{Client, Push};
 use super::controller::{Controller, Snapshot, Taken};
 use super::joint_motion::JointMotion;
 use super::line::Line;
-use super::placement::Placement;
+use crate::placement::Placement;
 
 /// Settings of one client.
 #[derive(Debug, Default)]

@@ -9,10 +9,10 @@ use super::client::Push;
 use super::joint_motion::JointMotion;
 use super::kinematics::{ABOVE, Angles, angles_at, flange};
 use super::line::Line;
-use super::placement::Placement;
 use crate::base::Base;
 use crate::bench::WallBench;
 use crate::fault::ArmFault;
+use crate::placement::Placement;
 
 /// The control box.
 #[derive(Debug)]

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::placement::Placement;
+use crate::placement::Placement;
 
 /// Angles of the joints, rad.
 pub(super) type Angles = [f64; 6];

@@ -1,6 +1,6 @@
 //! Encoding of straight motions in commands.
 
-use super::placement::Placement;
+use crate::placement::Placement;
 
 /// Requested motion of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]

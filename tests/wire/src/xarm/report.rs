@@ -7,9 +7,9 @@ use std::time::Duration;
 use taceva_core::single;
 
 use super::controller::{Controller, JOINT_SPEEDS_RAD_S, SPEEDS_MM_S, Snapshot};
-use super::placement::Placement;
 use crate::fault::{Device, FaultKind};
 use crate::link::Link;
+use crate::placement::Placement;
 use crate::server::End;
 
 /// Port of a report.

@@ -235,6 +235,30 @@ fn the_page_shows_frames_forces_and_presses_and_says_nothing_on_the_console() {
 }
 
 #[test]
+fn a_tip_that_was_lifted_as_asked_is_beyond_no_limit_on_the_page_and_one_too_deep_is() {
+    let at = |opened: &Opened, z_mm: f64| {
+        let mut pose = Pose::default();
+        pose.position.z = Millimetre(z_mm);
+        opened.live.pose(&pose);
+    };
+    let begun = Opened::showing(|opened| {
+        opened.live.limits(Limits::none().with_depth(1.0));
+        at(opened, 1.25);
+    });
+    let Some(mut opened) = begun else {
+        return;
+    };
+    // The class of the gauge is its colour.
+    opened.until("document.getElementById('depth').classList.contains('over')");
+    at(&opened, -20.0);
+    opened.until("document.querySelector('#depth .number').textContent.startsWith('-20')");
+    let classes = opened
+        .browser
+        .evaluate("['near', 'over'].filter((name) => document.getElementById('depth').classList.contains(name)).length");
+    assert_eq!(classes, json!(0));
+}
+
+#[test]
 fn nothing_leaves_the_screen_on_a_desk_or_a_phone_in_light_or_dark() {
     let Some(mut opened) = Opened::new() else {
         return;

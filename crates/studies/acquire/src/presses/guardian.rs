@@ -5,9 +5,13 @@
 //! cancellation. Both halt through the supervisor, which alone decides.
 //!
 //! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
-//! milliseconds.
+//! milliseconds. A turn that took too long is printed with its cause, and so are the counts of a session at its end.
 
 mod mailbox;
+mod misses;
+mod punctuality;
+mod thread_facts;
+mod turn;
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -17,10 +21,14 @@ use taceva_core::{
     Deadline, DriverKey, EnablingSwitch, ForceTransducer, Pose, Progress, Robot, RobotWatch, Stamp,
 };
 use taceva_drivers::MonotonicClock;
-use taceva_protocol::{Cancel, Enabling, Observation, RigLimits, SharedSupervisor, Supervisor};
+use taceva_protocol::{
+    Cancel, Enabling, Observation, RigLimits, SharedSupervisor, Supervisor, Trip,
+};
 
 use crate::viewer::Viewer;
 use mailbox::{Listeners, Mailbox};
+use punctuality::Punctuality;
+use turn::{Turn, TurnTimer};
 
 /// Interval between readings of the robot; each reading waits for the next report. An interval of 10 ms, the period of an arm, would miss every
 /// second report. Detecting a frozen signal takes eight readings, each after a motion.
@@ -66,8 +74,12 @@ impl Guarded<'_> {
         }
         let supervisor = SharedSupervisor::new(supervisor);
         let (mailbox, reader) = Mailbox::of(force, driver);
+        let punctuality = Punctuality::new(progress);
         let watcher = Watcher {
             supervisor: &supervisor,
+            punctuality: &punctuality,
+            was_under_way: false,
+            was_stale: false,
             watch: robot.watch_handle(),
             last: None,
             switch,
@@ -77,19 +89,23 @@ impl Guarded<'_> {
             was_cancelled: false,
         };
         let is_over = AtomicBool::new(false);
-        std::thread::scope(|scope| {
+        let conducted = std::thread::scope(|scope| {
             let listeners = Listeners {
                 supervisor: &supervisor,
+                punctuality: &punctuality,
                 viewer,
                 progress,
             };
             scope.spawn(move || reader.serve(force, listeners));
             scope.spawn(|| watcher.look_on(&is_over));
+            scope.spawn(|| punctuality.show_until(&is_over));
             let _over = Over::new(&is_over);
             // Dropped here, so that the reader thread ends even if `conduct` panics.
             let mut mailbox = mailbox;
             conduct(robot, &mut mailbox, supervisor.clone())
-        })
+        });
+        punctuality.end();
+        conducted
     }
 }
 
@@ -111,6 +127,11 @@ impl Drop for Over<'_> {
 /// Watches for errors of the robot, the switch, missing readings and cancellation.
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
+    punctuality: &'a Punctuality<'a>,
+    /// True if the last turn ended during a motion.
+    was_under_way: bool,
+    /// True if the last turn found a halt for a stale reading.
+    was_stale: bool,
     watch: Option<Arc<dyn RobotWatch>>,
     /// Last pose received.
     last: Option<(Pose, Stamp)>,
@@ -123,12 +144,34 @@ struct Watcher<'a> {
 
 impl Watcher<'_> {
     fn look_on(mut self, is_over: &AtomicBool) {
+        let mut timer = TurnTimer::of_this_thread();
         while !is_over.load(Ordering::Acquire) {
-            std::thread::sleep(LOOK);
+            timer.begin(LOOK);
             self.obey();
             self.feel();
             self.look();
+            self.time(&timer.end());
         }
+    }
+
+    /// Notes a turn that was late during a motion, and a reading that was found stale.
+    fn time(&mut self, turn: &Turn) {
+        let supervisor = self.supervisor.lock();
+        let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
+        let stale_s = match supervisor.tripped() {
+            Some(Trip::StaleForce { age_s } | Trip::StalePose { age_s }) => Some(age_s),
+            _ => None,
+        };
+        drop(supervisor);
+        self.was_under_way = is_under_way;
+        if is_under_way || was_under_way {
+            self.punctuality.turn("pose", turn);
+        }
+        let was_stale = std::mem::replace(&mut self.was_stale, stale_s.is_some());
+        if let Some(age_s) = stale_s.filter(|_| !was_stale) {
+            self.punctuality.stale(age_s, turn.ended_s);
+        }
+        self.punctuality.settle(turn.ended_s);
     }
 
     /// Handles cancellation. The first ends the motion in progress, but not the retreat after it. The second also ends the retreat.

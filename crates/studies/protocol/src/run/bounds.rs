@@ -121,6 +121,17 @@ mod tests {
     }
 
     #[test]
+    fn no_bound_refuses_the_lift_that_was_asked_for_and_each_refuses_more() {
+        // A run in the air asks for 10 mm above the clearance of 2 mm.
+        for (lift_mm, highest_mm) in [(0.0, -2.0), (10.0, -12.0)] {
+            let bounds = Bounds::of(&plan(), lift_mm).expect("it moves");
+            assert!(is_admitted(&bounds, [0.0, 0.0, highest_mm]), "{lift_mm}");
+            let beyond = [0.0, 0.0, highest_mm - 1e-6];
+            assert!(!is_admitted(&bounds, beyond), "{lift_mm}");
+        }
+    }
+
+    #[test]
     fn what_lies_outside_along_two_axes_is_refused_with_its_place() {
         let bounds = Bounds::of(&plan(), 0.0).expect("it moves");
         for (x, y, z) in [(9.0, 11.0, 0.0), (9.0, 0.0, 2.0), (0.0, 11.0, -9.0)] {

@@ -128,13 +128,9 @@ fn after_limit(waypoints: &[Waypoint], place: usize, reached_mm: f64) -> Visit {
 
 #[cfg(test)]
 mod tests {
-    use taceva_core::{Frame, SinkError};
-
     use super::*;
-    use crate::content_id::ContentId;
-    use crate::press::Motion;
-    use crate::run::rig::{CONTACT_MM, Rig, plan};
-    use crate::run::{Cancel, Controls, Devices, Mode, PressLog, PressRecord, RunSpec, run};
+    use crate::run::one_press::OnePress;
+    use crate::run::rig::CONTACT_MM;
 
     #[test]
     fn after_a_limit_the_way_out_begins_where_the_way_in_ended() {
@@ -159,27 +155,11 @@ mod tests {
         assert_eq!(visits(0.39), [Not, WhereItIs, Visited, Visited, Visited]);
     }
 
-    #[derive(Default)]
-    struct Memory(Vec<PressRecord>);
-
-    impl PressLog for Memory {
-        fn is_finished(&self, _: ContentId) -> bool {
-            false
-        }
-        fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
-            self.0.push(record.clone());
-            Ok(())
-        }
-        fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
-            Ok(())
-        }
-    }
-
     #[test]
     fn a_limit_that_holds_at_the_first_contact_too_ends_the_press_after_so_many_draw_backs() {
         // After the first press this gel exceeds the limit at any contact.
         let mut pressed = false;
-        let mut rig = Rig::new(-3.0, move |question, height_mm| {
+        let force = move |question: u32, height_mm: f64| {
             pressed |= height_mm > CONTACT_MM + 0.25;
             let force_n = match (height_mm >= 0.0, pressed) {
                 (false, _) => 0.0,
@@ -187,44 +167,15 @@ mod tests {
                 (true, true) => 2.0,
             };
             Some(force_n + f64::from(question) * 1e-6)
-        });
-        let mut plan = plan();
-        let is_indent = |press: &PlannedPress| matches!(press.press.motion, Motion::Indent(_));
-        plan.presses.retain(is_indent);
-        plan.presses.truncate(1);
-        let planned = &mut plan.presses[0];
-        planned.frames = false;
-        planned.press.light = None;
-        planned.press.place = [Nanometre(0); 2];
-        planned.press.motion = Motion::Indent(vec![Waypoint {
-            depth: Nanometre(1_000_000),
-            shear: [Nanometre(0); 2],
-            phase: Phase::Load,
-        }]);
-        let spec = RunSpec {
-            plan: &plan,
-            unit: &plan.presses[0].press.unit,
-            mode: Mode::Acquire,
         };
-        let (mut force, mut clock) = (rig.clone(), rig.clone());
-        let devices = Devices {
-            robot: &mut rig,
-            force: &mut force,
-            sensor: None,
-            lighting: None,
-            specimens: None,
-        };
-        let (mut log, mut halts) = (Memory::default(), 0);
-        let controls = Controls {
-            clock: &mut clock,
-            cancel: &Cancel::new(),
-            events: &mut |event| halts += u32::from(matches!(event, Event::Halted(_))),
-            operator: None,
-        };
-        run(&spec, devices, &mut log, controls).expect("a limit is no fault");
+        let press = OnePress::to(Nanometre(1_000_000), force, |_| {});
+        let halts = press.count(|event| matches!(event, Event::Halted(_)));
+        press.done.expect("a limit is no fault");
         let limited = PressOutcome::Limited(Limit::NormalForce);
-        assert_eq!(log.0.len(), 1);
-        assert_eq!((log.0[0].outcome, log.0[0].samples.len()), (limited, 0));
+        let [record] = &press.log.records[..] else {
+            panic!("{} presses", press.log.records.len());
+        };
+        assert_eq!((record.outcome, record.samples.len()), (limited, 0));
         assert_eq!(halts, 1 + DRAW_BACKS);
     }
 }

@@ -104,16 +104,12 @@ impl Sum {
 
 #[cfg(test)]
 mod tests {
-    use taceva_core::{Frame, Nanometre, Phase, SinkError};
+    use taceva_core::Nanometre;
 
-    use crate::content_id::ContentId;
-    use crate::press::{Motion, Waypoint};
+    use crate::run::one_press::OnePress;
     use crate::run::rig::{CONTACT_MM, Rig, plan, with_tip};
     use crate::run::tip::ANY_FORCE;
-    use crate::run::{
-        Cancel, Controls, Devices, Event, ForceZero, Mode, PressLog, PressRecord, RunError,
-        RunReport, RunSpec, StopCause, run,
-    };
+    use crate::run::{Event, StopCause};
 
     #[test]
     fn the_host_calls_the_mean_of_a_quarter_of_a_second_zero() {
@@ -148,29 +144,6 @@ mod tests {
         assert!(force_n.expect("it rests") > 0.4);
     }
 
-    #[derive(Default)]
-    struct Memory {
-        records: Vec<PressRecord>,
-        steps: Vec<ForceZero>,
-    }
-
-    impl PressLog for Memory {
-        fn is_finished(&self, _: ContentId) -> bool {
-            false
-        }
-        fn append(&mut self, record: &PressRecord) -> Result<(), SinkError> {
-            self.records.push(record.clone());
-            Ok(())
-        }
-        fn untouched(&mut self, _: &Frame) -> Result<(), SinkError> {
-            Ok(())
-        }
-        fn zero_step(&mut self, _: ContentId, zero: &ForceZero) -> Result<(), SinkError> {
-            self.steps.push(*zero);
-            Ok(())
-        }
-    }
-
     /// Force of a gel of 1 N/mm, with a zero that changes by `step_n` in each of the first `steps` presses.
     fn stepping(step_n: f64, steps: u32) -> impl FnMut(u32, f64) -> Option<f64> {
         let (mut zero_n, mut left, mut is_deep) = (0.0, steps, false);
@@ -185,50 +158,19 @@ mod tests {
         }
     }
 
-    /// Runs one press of 0.5 mm depth, whose zero the host computes.
-    fn pressed(
-        force: impl FnMut(u32, f64) -> Option<f64> + Send + 'static,
-    ) -> (Memory, u32, Result<RunReport, RunError>) {
-        let mut rig = Rig::new(-3.0, force);
-        let mut plan = plan();
-        plan.limits.as_mut().expect("it moves").signals.host_zero = true;
-        plan.presses.truncate(1);
-        let planned = &mut plan.presses[0];
-        planned.frames = false;
-        planned.press.light = None;
-        planned.press.place = [Nanometre(0); 2];
-        planned.press.motion = Motion::Indent(vec![Waypoint {
-            depth: Nanometre(500_000),
-            shear: [Nanometre(0); 2],
-            phase: Phase::Load,
-        }]);
-        let spec = RunSpec {
-            plan: &plan,
-            unit: &plan.presses[0].press.unit,
-            mode: Mode::Acquire,
-        };
-        let (mut force, mut clock) = (rig.clone(), rig.clone());
-        let devices = Devices {
-            robot: &mut rig,
-            force: &mut force,
-            sensor: None,
-            lighting: None,
-            specimens: None,
-        };
-        let (mut log, mut stepped) = (Memory::default(), 0);
-        let controls = Controls {
-            clock: &mut clock,
-            cancel: &Cancel::new(),
-            events: &mut |event| stepped += u32::from(matches!(event, Event::ZeroStepped(_))),
-            operator: None,
-        };
-        let done = run(&spec, devices, &mut log, controls);
-        (log, stepped, done)
+    /// Runs one press of 0.5 mm depth, whose zero the host computes. The second value is the number of discarded attempts.
+    fn pressed(step_n: f64, steps: u32) -> (OnePress, u32) {
+        let depth = Nanometre(500_000);
+        let press = OnePress::to(depth, stepping(step_n, steps), |plan| {
+            plan.limits.as_mut().expect("it moves").signals.host_zero = true;
+        });
+        let stepped = press.count(|event| matches!(event, Event::ZeroStepped(_)));
+        (press, stepped)
     }
 
     #[test]
     fn a_zero_that_drifts_within_its_limit_is_recorded_with_the_press() {
-        let (log, stepped, done) = pressed(stepping(0.05, 1));
+        let (OnePress { log, done, .. }, stepped) = pressed(0.05, 1);
         let report = done.expect("it drifts slowly");
         assert_eq!((report.made, report.redone, stepped), (1, 0, 0));
         let zero = log.records[0].force_zero.expect("the host computes it");
@@ -238,7 +180,7 @@ mod tests {
 
     #[test]
     fn a_press_in_which_the_zero_steps_is_made_again_and_the_run_goes_on() {
-        let (log, stepped, done) = pressed(stepping(0.3, 1));
+        let (OnePress { log, done, .. }, stepped) = pressed(0.3, 1);
         let report = done.expect("it steps once");
         assert_eq!((report.made, report.redone, stepped), (1, 1, 1));
         let [step] = log.steps[..] else {
@@ -256,7 +198,7 @@ mod tests {
 
     #[test]
     fn a_zero_that_steps_in_three_attempts_at_a_press_ends_the_run_above_the_gel() {
-        let (log, stepped, done) = pressed(stepping(0.3, 3));
+        let (OnePress { log, done, .. }, stepped) = pressed(0.3, 3);
         let error = done.expect_err("it never holds");
         assert!(matches!(error.cause, StopCause::ZeroStep(_)), "{error}");
         assert_eq!(error.left, crate::run::Left::Clear);

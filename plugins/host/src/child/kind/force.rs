@@ -19,6 +19,8 @@ struct ForceProxy {
     tare: bool,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
+    /// Number of lost readings, as stated after the last one.
+    lost: Option<u64>,
 }
 
 impl Kind for dyn ForceTransducer {
@@ -40,6 +42,7 @@ impl Kind for dyn ForceTransducer {
                 interrupts,
                 tare,
                 sequence: None,
+                lost: None,
             })),
             _ => Err(link.broke("it opened no force transducer")),
         }
@@ -64,11 +67,12 @@ impl Server for Box<dyn ForceTransducer> {
             Call::Start { deadline } => answered(self.start(deadline)),
             Call::Read { deadline } => {
                 let read = self.read(deadline);
-                let sequence = self.sequence();
+                let [sequence, lost] = [self.sequence(), self.lost()];
                 answered(read.map(|(wrench, stamp)| Reading {
                     wrench,
                     stamp,
                     sequence,
+                    lost,
                 }))
             }
             Call::Zero { deadline } => {
@@ -93,12 +97,16 @@ impl ForceTransducer for ForceProxy {
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
         let call = Call::Read { deadline };
         let read: Reading = self.link.ask(&call, "read the force", deadline)?;
-        self.sequence = read.sequence;
+        (self.sequence, self.lost) = (read.sequence, read.lost);
         Ok((read.wrench, read.stamp))
     }
 
     fn sequence(&self) -> Option<u64> {
         self.sequence
+    }
+
+    fn lost(&self) -> Option<u64> {
+        self.lost
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

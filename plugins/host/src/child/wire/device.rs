@@ -43,7 +43,7 @@ messages! {
         0 => Done {},
         1 => Stamped { stamp: Stamp },
         2 => At { pose: Pose, stamp: Stamp },
-        3 => Load { wrench: Wrench, stamp: Stamp, sequence: Option<u64> },
+        3 => Load { wrench: Wrench, stamp: Stamp, sequence: Option<u64>, lost: Option<u64> },
         4 => Stopped { stop: GuardedStop },
         5 => Failed { failure: Failure },
         6 => InPlace { name: String },

@@ -268,6 +268,7 @@ fn calls(into: &mut String) {
             wrench: Wrench::default(),
             stamp: stamp(),
             sequence: Some(12),
+            lost: Some(3),
         },
         Answer::Stopped {
             stop: GuardedStop::Arrived { stamp: stamp() },

@@ -17,7 +17,7 @@ license = "MIT"
 
 [program]
 python = "lab_scale"
-wire = 1
+wire = 2
 
 [[provides]]
 kind = "force"
@@ -139,11 +139,11 @@ fn an_entry_point_that_names_nothing_or_another_plugin_is_refused_with_its_name(
         ),
         "{said}"
     );
-    let newer = Environment::new(&MANIFEST.replace("wire = 1", "wire = 2"));
+    let newer = Environment::new(&MANIFEST.replace("wire = 2", "wire = 3"));
     let interpreter = newer.naming("org.example.scale", "lab_scale");
     let said = refused(&interpreter);
     assert!(
-        said.contains("written for wire version 2, but this TacEva has 1"),
+        said.contains("written for wire version 3, but this TacEva has 2"),
         "{said}"
     );
     assert_eq!(

@@ -46,3 +46,15 @@ fn a_wrench_arrives_in_newton_and_newton_metres_and_a_tare_calls_it_zero() {
             .is_none()
     );
 }
+
+#[test]
+fn lost_readings_are_those_that_the_driver_counts() {
+    for (way, expected) in [("well", (Status::OK, 3)), ("nan", (Status::NOT_FOUND, 0))] {
+        let force = Open::new(FORCE_FACTORY, way);
+        let lost = force.calls::<ForceCalls>().lost.expect("a function");
+        let mut count = 0;
+        // SAFETY: the number lives for the call.
+        let (status, _) = ended(|error| unsafe { lost(force.handle(), &raw mut count, error) });
+        assert_eq!((status, count), expected, "{way}");
+    }
+}

@@ -9,23 +9,38 @@ use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use super::{address, python};
 
-/// Checks the readings of the client from an arm of `version` whose speed slider is at 50 %.
-fn read(last: u8, version: [u32; 2], polyscope: &str) {
-    let Some(python) = python::with("rtde_receive") else {
-        return;
-    };
+/// Output of `script` with an arm of `version` whose speed slider is at `slider`; `None` without `module`, or if its ports are in use.
+fn said(
+    module: &str,
+    script: &str,
+    last: u8,
+    version: [u32; 2],
+    slider: f64,
+) -> Option<Vec<String>> {
+    let python = python::with(module)?;
     let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
     let host = address(last);
     let arm = match Emulator::of_version(&bench, host, USUAL_PORTS, version) {
         Ok(arm) => Arc::new(arm),
-        Err(error @ WireError::Listen { .. }) => return skip(Need::PublicClients, error),
+        Err(error @ WireError::Listen { .. }) => {
+            skip(Need::PublicClients, error);
+            return None;
+        }
         Err(error) => panic!("{error}"),
     };
-    arm.set_slider(0.5);
+    arm.set_slider(slider);
     let arm: Arc<dyn Arm> = arm;
     let control = Control::start(&bench, Some(arm), host, 0).expect("a port");
     let port = control.address().port().to_string();
-    let said = python::run(&python, include_str!("ur.py"), &[host.to_string(), port]);
+    Some(python::run(&python, script, &[host.to_string(), port]))
+}
+
+/// Checks the readings of the client from an arm of `version`.
+fn read(last: u8, version: [u32; 2], polyscope: &str) {
+    let script = include_str!("ur.py");
+    let Some(said) = said("rtde_receive", script, last, version, 0.5) else {
+        return;
+    };
     let dashboard = format!("{polyscope} Robotmode: RUNNING False");
     let expected = [
         "0.3 0.0 0.2713 3.1416 0.0 0.0",
@@ -38,6 +53,37 @@ fn read(last: u8, version: [u32; 2], polyscope: &str) {
     assert_eq!(said, expected);
 }
 
+/// Checks the motions that the client asks for by its script on an arm of `version`.
+fn control(last: u8, version: [u32; 2]) {
+    let script = include_str!("ur_control.py");
+    let Some(said) = said("rtde_control", script, last, version, 1.0) else {
+        return;
+    };
+    let expected = [
+        // Connected, the program runs, power and program in the status.
+        "True True 3",
+        "True 0.3 0.002 0.268 3.1416 0.0 0.0",
+        "True 0.302 -0.004 0.268 3.1416 0.0 0.0",
+        "True 0.3 0.002 0.268 3.1416 0.0 0.0",
+        "True 0.302 -0.004 0.268 3.1416 0.0 0.0",
+        "0.0 0.0 0.0 0.0 0.0 0.0",
+        // A motion under way, and after its stop.
+        "True True False",
+        "False True True",
+        // A velocity, and after its stop.
+        "True",
+        "False True True",
+        "True True",
+        // A collision, and after its end.
+        "True",
+        "False False True",
+        "True",
+        "True 0.3 0.0 0.2713 3.1416 0.0 0.0",
+        "False 1",
+    ];
+    assert_eq!(said, expected);
+}
+
 #[test]
 fn the_public_client_sees_an_e_series_arm_and_its_dashboard() {
     read(5, [5, 11], "5.11.0.108249");
@@ -46,4 +92,14 @@ fn the_public_client_sees_an_e_series_arm_and_its_dashboard() {
 #[test]
 fn the_public_client_sees_an_older_arm_and_its_dashboard() {
     read(8, [3, 15], "3.15.0.108249");
+}
+
+#[test]
+fn the_public_client_moves_and_stops_an_e_series_arm_by_its_script_on_the_controller() {
+    control(21, [5, 11]);
+}
+
+#[test]
+fn the_public_client_moves_and_stops_an_older_arm_by_its_script_on_the_controller() {
+    control(22, [3, 15]);
 }

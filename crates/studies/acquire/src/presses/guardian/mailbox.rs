@@ -11,6 +11,8 @@ use taceva_core::{
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Event, Observation, SharedSupervisor};
 
+use super::punctuality::Punctuality;
+use super::turn::TurnTimer;
 use crate::viewer::Viewer;
 
 /// Deadline for each reading. A reading that misses it is retried.
@@ -75,12 +77,15 @@ pub(super) struct Reader {
     requests: Receiver<Request>,
     /// Time of the last reading.
     heard: Instant,
+    /// True if the last turn ended during a motion.
+    was_under_way: bool,
 }
 
 /// Receivers of every reading, and of the loss of the force.
 #[derive(Clone, Copy)]
 pub(super) struct Listeners<'a> {
     pub(super) supervisor: &'a SharedSupervisor,
+    pub(super) punctuality: &'a Punctuality<'a>,
     pub(super) viewer: Option<&'a dyn Viewer>,
     pub(super) progress: &'a dyn Progress,
 }
@@ -116,6 +121,7 @@ impl Mailbox {
             slot,
             requests: received,
             heard: Instant::now(),
+            was_under_way: false,
         };
         (mailbox, reader)
     }
@@ -189,6 +195,7 @@ impl Reader {
     /// Reads `force` from start to stop, passes every reading to `listeners`, and executes tasks between readings. Ends when the mailbox is dropped.
     pub(super) fn serve(mut self, force: &mut dyn ForceTransducer, listeners: Listeners<'_>) {
         let mut is_started = false;
+        let mut timer = TurnTimer::of_this_thread();
         loop {
             let request = match is_started {
                 true => self.requests.try_recv(),
@@ -207,8 +214,19 @@ impl Reader {
                     // A closed channel means that the run has ended.
                     let _ = outcome.send(carry_out(task, force));
                     self.heard = Instant::now();
+                    // The time of a task belongs to no turn.
+                    timer.restart();
                 }
-                Err(TryRecvError::Empty) => self.read(force, listeners),
+                Err(TryRecvError::Empty) => {
+                    timer.begin(Duration::ZERO);
+                    self.read(force, listeners);
+                    let turn = timer.end();
+                    let is_under_way = listeners.supervisor.lock().is_under_way();
+                    if is_under_way || self.was_under_way {
+                        listeners.punctuality.turn("force", &turn);
+                    }
+                    self.was_under_way = is_under_way;
+                }
                 Err(TryRecvError::Disconnected) => return,
             }
         }

@@ -78,9 +78,11 @@ fn reading_for<T>(
     let supervisor = SharedSupervisor::new(supervisor);
     let mut force = Script(script);
     let (mailbox, reader) = Mailbox::of(&mut force, KEY);
+    let punctuality = Punctuality::new(progress);
     let seen = std::thread::scope(|scope| {
         let listeners = Listeners {
             supervisor: &supervisor,
+            punctuality: &punctuality,
             viewer: None,
             progress,
         };

@@ -77,6 +77,27 @@ const TOUCHING: MotionStage = MotionStage::Press { height_mm: 0.0 };
 const STAGES: [MotionStage; 2] = [TOUCHING, MotionStage::Search];
 
 #[test]
+fn no_limit_halts_a_tip_that_was_lifted_as_asked_and_the_same_way_into_the_gel_does() {
+    let threshold_n = 0.1;
+    let force_n = 1.0;
+    let stages = [
+        TOUCHING,
+        MotionStage::Search,
+        MotionStage::Travel { threshold_n },
+        MotionStage::Retreat { force_n },
+    ];
+    for lift_mm in [10.0, 30.0] {
+        for stage in stages {
+            let lifted = [0.0, 0.0, -lift_mm];
+            assert_eq!(placed(stage, lifted, lifted), None, "{stage:?}");
+        }
+        let pressed = [0.0, 0.0, lift_mm];
+        let trip = placed(TOUCHING, pressed, pressed);
+        assert!(matches!(trip, Some(Trip::Depth { .. })), "{trip:?}");
+    }
+}
+
+#[test]
 fn a_normal_force_on_the_limit_passes_and_the_next_number_halts_pressing_and_pulling() {
     for stage in STAGES {
         for on in along(2, 2.0) {

@@ -4,15 +4,15 @@ use taceva_core::single;
 
 /// Place and rotation of one frame in another.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Placement {
-    pub(super) at_mm: [f64; 3],
+pub(crate) struct Placement {
+    pub(crate) at_mm: [f64; 3],
     /// Rows of the rotation.
-    pub(super) rows: [[f64; 3]; 3],
+    pub(crate) rows: [[f64; 3]; 3],
 }
 
 impl Placement {
     /// Frame at x, y and z in mm, turned about the fixed x, y and z by roll, pitch and yaw in rad.
-    pub(super) fn of_pose(pose: [f32; 6]) -> Placement {
+    pub(crate) fn of_pose(pose: [f32; 6]) -> Placement {
         let [x, y, z, roll, pitch, yaw] = pose.map(f64::from);
         let [(sr, cr), (sp, cp), (sy, cy)] = [roll, pitch, yaw].map(f64::sin_cos);
         Placement {
@@ -26,7 +26,7 @@ impl Placement {
     }
 
     /// Frame at x, y and z in mm, turned by a rotation vector in rad.
-    pub(super) fn of_rotation_vector(pose: [f32; 6]) -> Placement {
+    pub(crate) fn of_rotation_vector(pose: [f32; 6]) -> Placement {
         let [x, y, z, rotation @ ..] = pose.map(f64::from);
         let angle = length(rotation);
         let axis = rotation.map(|part| if angle > 0.0 { part / angle } else { 0.0 });
@@ -41,7 +41,7 @@ impl Placement {
     }
 
     /// The place in mm with roll, pitch and yaw in rad.
-    pub(super) fn pose(&self) -> [f32; 6] {
+    pub(crate) fn pose(&self) -> [f32; 6] {
         let [[r00, ..], [r10, r11, r12], [r20, r21, r22]] = self.rows;
         let level = r00.hypot(r10);
         let pitch = (-r20).atan2(level);
@@ -56,7 +56,7 @@ impl Placement {
     }
 
     /// The place in mm with a rotation vector in rad.
-    pub(super) fn rotation_vector(&self) -> [f32; 6] {
+    pub(crate) fn rotation_vector(&self) -> [f32; 6] {
         let skew = self.skew();
         let sin = length(skew);
         let cos = (self.rows[0][0] + self.rows[1][1] + self.rows[2][2] - 1.0) / 2.0;
@@ -97,7 +97,7 @@ impl Placement {
     }
 
     /// The frame `inner`, which is placed in this one.
-    pub(super) fn then(&self, inner: &Placement) -> Placement {
+    pub(crate) fn then(&self, inner: &Placement) -> Placement {
         let moved = self.turned(inner.at_mm);
         Placement {
             at_mm: std::array::from_fn(|axis| self.at_mm[axis] + moved[axis]),
@@ -106,7 +106,7 @@ impl Placement {
     }
 
     /// This frame, moved and turned by `by` along and about the axes of its base.
-    pub(super) fn moved_by(&self, by: &Placement) -> Placement {
+    pub(crate) fn moved_by(&self, by: &Placement) -> Placement {
         Placement {
             at_mm: std::array::from_fn(|axis| self.at_mm[axis] + by.at_mm[axis]),
             rows: by.times(self),
@@ -114,7 +114,7 @@ impl Placement {
     }
 
     /// Way from this place to that of `other`, mm, and the rotation vector from this rotation to the other, rad, for small turns.
-    pub(super) fn apart(&self, other: &Placement) -> [f64; 6] {
+    pub(crate) fn apart(&self, other: &Placement) -> [f64; 6] {
         let back = Placement {
             at_mm: [0.0; 3],
             rows: square(|row, column| self.rows[column][row]),

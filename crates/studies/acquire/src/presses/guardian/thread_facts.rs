@@ -1,0 +1,88 @@
+//! Facts that Linux states of the calling thread: its time without a processor, and its scheduling policy.
+
+use std::fs::File;
+use std::io::{Read, Seek};
+
+/// Time that a thread waits for a processor.
+pub(super) struct ProcessorQueue(Option<File>);
+
+impl ProcessorQueue {
+    /// Opens the statistics of the calling thread, if the system has them.
+    pub(super) fn of_this_thread() -> ProcessorQueue {
+        ProcessorQueue(File::open("/proc/thread-self/schedstat").ok())
+    }
+
+    /// Time since the start of the thread, s; `None` if the system does not state it.
+    pub(super) fn waited_s(&self) -> Option<f64> {
+        let mut file = self.0.as_ref()?;
+        let mut bytes = [0; 128];
+        file.rewind().ok()?;
+        let count = file.read(&mut bytes).ok()?;
+        waited_s(std::str::from_utf8(&bytes[..count]).ok()?)
+    }
+}
+
+/// Second number of `schedstat`, which is in ns.
+fn waited_s(schedstat: &str) -> Option<f64> {
+    let waited_ns: u64 = schedstat.split_whitespace().nth(1)?.parse().ok()?;
+    Some(waited_ns as f64 / 1e9)
+}
+
+/// Scheduling policy of the calling thread, such as `SCHED_FIFO`.
+pub(super) fn policy() -> &'static str {
+    let stat = std::fs::read_to_string("/proc/thread-self/stat").unwrap_or_default();
+    policy_of(&stat)
+}
+
+/// Policy in `stat`. The name of the thread, in brackets, may have blanks.
+fn policy_of(stat: &str) -> &'static str {
+    /// Number of the field, and of the first one behind the name.
+    const FIELD: usize = 41;
+    const FIRST: usize = 3;
+    let behind = stat.rsplit_once(')').map_or("", |(_, behind)| behind);
+    match behind.split_whitespace().nth(FIELD - FIRST) {
+        Some("0") => "SCHED_OTHER",
+        Some("1") => "SCHED_FIFO",
+        Some("2") => "SCHED_RR",
+        Some("3") => "SCHED_BATCH",
+        Some("5") => "SCHED_IDLE",
+        Some("6") => "SCHED_DEADLINE",
+        _ => "unknown scheduling policy",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn waiting_is_the_second_number_and_absent_without_one() {
+        assert_eq!(
+            waited_s("812345 250000000 17\n").map(f64::to_bits),
+            Some(0.25_f64.to_bits())
+        );
+        for text in ["", "812345", "812345 none 17"] {
+            assert_eq!(waited_s(text), None, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_policy_is_found_behind_a_name_with_blanks_and_brackets() {
+        // Fields 3 to 40 are numbers without a meaning here.
+        let stat = |policy: &str| {
+            let fields: Vec<String> = (3..41).map(|field| field.to_string()).collect();
+            format!("4711 (a guard) 1)) {} {policy} 0 0", fields.join(" "))
+        };
+        assert_eq!(policy_of(&stat("0")), "SCHED_OTHER");
+        assert_eq!(policy_of(&stat("1")), "SCHED_FIFO");
+        assert_eq!(policy_of("4711 (guard) S 1"), "unknown scheduling policy");
+    }
+
+    #[test]
+    fn a_thread_of_this_machine_has_a_queue_that_only_grows() {
+        let queue = ProcessorQueue::of_this_thread();
+        if let (Some(before_s), Some(after_s)) = (queue.waited_s(), queue.waited_s()) {
+            assert!(before_s <= after_s, "{before_s} {after_s}");
+        }
+    }
+}

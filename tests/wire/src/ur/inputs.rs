@@ -1,0 +1,130 @@
+//! Inputs of a controller: the recipes of a client, and the registers that it writes.
+
+use super::outputs::NOT_FOUND;
+
+/// Number of registers of each type.
+const COUNT: usize = 48;
+
+/// General-purpose registers that clients write.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Inputs {
+    pub(super) integers: [i32; COUNT],
+    pub(super) doubles: [f64; COUNT],
+}
+
+impl Default for Inputs {
+    fn default() -> Inputs {
+        Inputs {
+            integers: [0; COUNT],
+            doubles: [0.0; COUNT],
+        }
+    }
+}
+
+/// Input by its name.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Input {
+    Integer(usize),
+    Double(usize),
+    /// Force of an external sensor, which the emulator ignores.
+    Wrench,
+}
+
+/// Inputs of a message, in their order.
+#[derive(Debug)]
+pub(super) struct Recipe(Vec<Input>);
+
+impl Recipe {
+    /// Recipe of `names`, which commas separate, and the types of its answer; no recipe if an input is unknown.
+    pub(super) fn read(names: &str) -> (Option<Recipe>, String) {
+        // The recipes of a public client end with a comma.
+        let names = names.strip_suffix(',').unwrap_or(names);
+        let inputs: Vec<Option<Input>> = names.split(',').map(Input::of).collect();
+        let types: Vec<&str> = inputs
+            .iter()
+            .map(|input| input.map_or(NOT_FOUND, Input::type_name))
+            .collect();
+        let recipe: Option<Vec<Input>> = inputs.iter().copied().collect();
+        (recipe.map(Recipe), types.join(","))
+    }
+
+    /// Writes the values of a message to `inputs`. False without a change if their length is not that of the recipe.
+    pub(super) fn write(&self, values: &[u8], inputs: &mut Inputs) -> bool {
+        let length: usize = self.0.iter().map(|input| input.bytes()).sum();
+        if values.len() != length {
+            return false;
+        }
+        let mut rest = values;
+        for input in &self.0 {
+            let (value, after) = rest.split_at(input.bytes());
+            match *input {
+                Input::Integer(number) => {
+                    inputs.integers[number] = value.try_into().map_or(0, i32::from_be_bytes);
+                }
+                Input::Double(number) => {
+                    inputs.doubles[number] = value.try_into().map_or(0.0, f64::from_be_bytes);
+                }
+                Input::Wrench => {}
+            }
+            rest = after;
+        }
+        true
+    }
+}
+
+impl Input {
+    fn of(name: &str) -> Option<Input> {
+        if name == "external_force_torque" {
+            return Some(Input::Wrench);
+        }
+        let number = |begin: &str| {
+            let number: usize = name.strip_prefix(begin)?.parse().ok()?;
+            (number < COUNT).then_some(number)
+        };
+        number("input_int_register_")
+            .map(Input::Integer)
+            .or_else(|| number("input_double_register_").map(Input::Double))
+    }
+
+    fn type_name(self) -> &'static str {
+        match self {
+            Input::Integer(_) => "INT32",
+            Input::Double(_) => "DOUBLE",
+            Input::Wrench => "VECTOR6D",
+        }
+    }
+
+    fn bytes(self) -> usize {
+        match self {
+            Input::Integer(_) => 4,
+            Input::Double(_) => 8,
+            Input::Wrench => 48,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_go_to_the_registers_of_their_recipe_and_a_message_of_another_length_to_none() {
+        let (recipe, types) = Recipe::read("input_int_register_1,input_double_register_7,");
+        assert_eq!(types, "INT32,DOUBLE");
+        let recipe = recipe.expect("both are known");
+        let mut inputs = Inputs::default();
+        let values = [&3_i32.to_be_bytes()[..], &0.25_f64.to_be_bytes()].concat();
+        assert!(!recipe.write(&values[..11], &mut inputs));
+        assert_eq!(inputs.integers[1], 0);
+        assert!(recipe.write(&values, &mut inputs));
+        assert_eq!(inputs.integers[1], 3);
+        assert_eq!(inputs.doubles[7].to_bits(), 0.25_f64.to_bits());
+    }
+
+    #[test]
+    fn a_recipe_with_an_input_that_no_controller_has_is_none() {
+        let (recipe, types) = Recipe::read("input_int_register_0,input_int_register_48");
+        assert!(recipe.is_none());
+        assert_eq!(types, "INT32,NOT_FOUND");
+    }
+}
