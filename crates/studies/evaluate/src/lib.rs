@@ -38,7 +38,7 @@ mod subject;
 mod validation;
 mod work;
 
-pub use accumulate::{Columns, Rows, accumulate};
+pub use accumulate::{Columns, OF_SENSOR, Rows, accumulate};
 pub use assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 pub use bounded_share::Bounded;
 pub use cache::{
