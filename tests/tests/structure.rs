@@ -9,9 +9,9 @@ use taceva_tests::structure::{
 /// Most lines of product code, and of all `.rs` files. Readers of SQLite, bags, Arrow and protobuf, and angles, take 6,000 and 11,000 of
 /// them, gauge studies, budgets, curves and their distributions 9,000 and 13,000, agreement and tolerance intervals of predictions 750 and
 /// 1,400, certificates 1,300 and 2,700, `taceva budget`, decision rules, settings of boxes and remedies 3,350 and 7,800,
-/// bundles with models, forms and catalogues 7,800 and 13,500, faults and wear 2,950 and 5,400, unkinder emulators 1,700,
+/// bundles with models, pictures, forms and catalogues 8,050 and 13,900, faults and wear 2,950 and 5,400, unkinder emulators 1,700,
 /// scores and labels of tasks 7,000 and 14,500, the monitor of a sensor in use 1,300 and 2,500, zeros of presses 900 and 2,000.
-const MOST_LINES: (usize, usize) = (249_600, 480_300);
+const MOST_LINES: (usize, usize) = (249_850, 480_700);
 
 /// Most lines of one file, with its comments and tests.
 const MOST_LINES_OF_A_FILE: usize = 400;
