@@ -376,3 +376,6 @@ fn text(path: &Path) -> Result<String, BundleError> {
     }
     fs::read_to_string(path).map_err(BundleError::file(path))
 }
+
+#[cfg(test)]
+mod tests;
