@@ -162,7 +162,8 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     let mut behind = BTreeSet::new();
     for (files, report) in manifest.studies.iter().zip(reports) {
         // A state that counts twice halves intervals, and one file behind many studies is read as often.
-        if let Some(name) = files.names().find(|name| !behind.insert(name.as_str())) {
+        let mut named = files.names().chain(&files.frames);
+        if let Some(name) = named.find(|name| !behind.insert(name.as_str())) {
             let rule = "a file belongs to one study, once";
             damage.push(Damage::new(name, rule, "it is named twice in `studies`"));
             continue;

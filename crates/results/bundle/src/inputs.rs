@@ -154,7 +154,9 @@ fn studies(
     let of_run = entries_of_run(run, STATES)?;
     let models = models(request, run, path, reports)?;
     let recordings = entries_of_run(run, RECORDINGS)?;
-    let recordings = recordings.into_iter().filter(|path| path.is_dir());
+    let recordings = recordings
+        .into_iter()
+        .filter(|path| path.join(HEADER).is_file());
     let recordings: Vec<PathBuf> = request.datasets.iter().cloned().chain(recordings).collect();
     let mut studies = Vec::new();
     for (report, number) in reports.iter().zip(1_usize..) {
@@ -220,6 +222,10 @@ fn check_frames(path: &Path, studies: &[StudyInputs]) -> Result<(), BundleError>
         for file in &recording.files {
             let file = recording.folder.join(file);
             let about = fs::metadata(&file).map_err(BundleError::file(&file))?;
+            // A pipe would be waited for.
+            if !about.is_file() {
+                return Err(BundleError::input(&file, "expected a regular file"));
+            }
             count += 1;
             bytes = bytes.saturating_add(about.len());
         }

@@ -97,8 +97,8 @@ fn times_that_are_edited_give_other_sums_than_the_state_of_the_rate() {
     bench.write("small.toml", &scene);
     bench.ok("run small.toml --out run -q");
     bench.ok("bundle run --draft --out b -q");
-    edit_table(&bench, |name, cell| match name {
-        "t_s" if !cell.is_empty() => format!("{cell}5"),
+    edit_cells(&bench, |name, cell| match name {
+        "t_s" if !cell.is_empty() => (2.0 * cell.parse::<f64>().expect("a time")).to_string(),
         _ => cell.to_owned(),
     });
     let found = verified(&bench, "b", 1);
@@ -128,13 +128,33 @@ fn a_state_of_another_phase_in_the_place_of_that_of_a_phase_differs() {
     let found = verified(&bench, "b", 1);
     assert!(is_other(&found, "phases"), "{}", found["others"]);
     // Results that name the other phase too have sums that its rows do not give.
+    let named = read(&state)["provenance"]["phases"].clone();
     let path = bench.path("b/results.json");
-    edit(&path, of_idle);
+    edit(&path, |text| {
+        let metrics = named.as_object().expect("phases").keys();
+        metrics.fold(text, |text, metric| {
+            let phase = |name: &str| format!(r#""{metric}": "{name}""#);
+            text.replace(&phase("calibration"), &phase("idle"))
+        })
+    });
     accept(&path);
     relist(&bench, "b", of_another_version);
     let found = verified(&bench, "b", 1);
     assert!(!is_other(&found, "phases"), "{}", found["others"]);
     assert!(is_other(&found, "state"), "{}", found["others"]);
+}
+
+#[test]
+fn a_table_without_phases_gives_no_claim_of_states_that_name_one() {
+    let bench = run();
+    bench.ok("bundle run --draft --out b -q");
+    edit_table(&bench, |text| text.replacen("protocol", "part", 1));
+    let found = verified(&bench, "b", 1);
+    let claims = found["claims"].as_array().expect("claims");
+    for claim in claims {
+        let reason = claim["reason"].as_str().expect("a reason");
+        assert!(reason.contains("do not name one phase"), "{reason}");
+    }
 }
 
 /// JSON of the file at `path`.
@@ -149,23 +169,29 @@ fn is_other(found: &Value, part: &str) -> bool {
     others.any(|other| other["part"] == part && other["verdict"] == "differs")
 }
 
-/// Changes the cells of the table of samples of the bundle `b`, by the name of their column, and its digest in the results.
-fn edit_table(bench: &Bench, change: impl Fn(&str, &str) -> String) {
+/// Changes the cells of the table of samples of the bundle `b`, by the name of their column.
+fn edit_cells(bench: &Bench, change: impl Fn(&str, &str) -> String) {
+    edit_table(bench, |text| {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let names = reader.headers().expect("a head").clone();
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(&names).expect("room");
+        for record in reader.records() {
+            let record = record.expect("a row");
+            let cells = names.iter().zip(&record);
+            let cells = cells.map(|(name, cell)| change(name, cell));
+            writer.write_record(cells).expect("room");
+        }
+        String::from_utf8(writer.into_inner().expect("room")).expect("a text")
+    });
+}
+
+/// Changes the table of samples of the bundle `b`, and its digest in the results.
+fn edit_table(bench: &Bench, change: impl FnOnce(String) -> String) {
     let table = bench.path("b/tables/samples-0.csv");
     let digest = || digest_of_bytes(&fs::read(&table).expect("written"));
     let old = digest();
-    edit(&table, |text| {
-        let mut lines = text.lines();
-        let head = lines.next().expect("a head");
-        let names: Vec<&str> = head.split(',').collect();
-        let edited = lines.map(|line| {
-            let cells = names.iter().zip(line.split(','));
-            let cells: Vec<String> = cells.map(|(name, cell)| change(name, cell)).collect();
-            cells.join(",")
-        });
-        let lines: Vec<String> = std::iter::once(head.to_owned()).chain(edited).collect();
-        lines.join("\n") + "\n"
-    });
+    edit(&table, change);
     let new = digest();
     let results = bench.path("b/results.json");
     edit(&results, |text| text.replace(&old, &new));
@@ -177,7 +203,7 @@ fn edit_table(bench: &Bench, change: impl Fn(&str, &str) -> String) {
 fn an_edited_prediction_of_a_run_leaves_its_claims_below_the_level_that_they_state() {
     let bench = run();
     bench.ok("bundle run --draft --out b -q");
-    edit_table(&bench, |name, cell| match name {
+    edit_cells(&bench, |name, cell| match name {
         "Fz_predicted" if !cell.is_empty() => "0.015625".to_owned(),
         _ => cell.to_owned(),
     });

@@ -162,6 +162,13 @@ fn pictures_in_a_bundle_are_predicted_again_without_the_recording() {
     let found = verified(&bench, "b --level model", 1);
     let lost = of_verdict(&found, "not recomputable");
     assert_eq!(lost.len(), claims.len(), "{found}");
+    // Their folder is not read twice.
+    relist(&bench, "b", |manifest| {
+        manifest["studies"][0]["frames"] = serde_json::json!(["frames/0", "frames/0"]);
+    });
+    let found = verified(&bench, "b", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(problem.contains("named twice"), "{problem}");
 }
 
 #[test]

@@ -22,8 +22,9 @@ const OF_RUNS: [Field; 4] = [
 
 /// Reason for a metric whose fields the table lacks.
 const LACKING: &str = "the table of samples lacks a field that it reads";
-/// Reason for the metrics of a state that does not name one phase for all of them.
-const NO_PHASE: &str = "its state does not name one phase of the protocol; run the scene again";
+/// Reason for the metrics of a state that does not name one phase of the table for all of them.
+const NO_PHASE: &str =
+    "its state and the table of samples do not name one phase of the protocol; run the scene again";
 /// Reason for the metrics of a state with other sums than its phase.
 const OTHER_SUMS: &str = "the rows of its phase do not give the sums of the state";
 /// Greatest number of rows that are read for all states together.
@@ -99,7 +100,11 @@ fn uncovered(state: &ReadState, plan: &MetricPlan, samples: &Samples) -> Option<
     if lacks_digests || fields.any(|field| !held.contains(field)) {
         return Some(LACKING);
     }
-    (phase_of(state, plan).is_none() && samples.has("protocol")).then_some(NO_PHASE)
+    let is_named = match samples.has("protocol") {
+        true => phase_of(state, plan).is_some(),
+        false => state.file.provenance.phases.is_empty(),
+    };
+    (!is_named).then_some(NO_PHASE)
 }
 
 /// The phase that the provenance of `state` names for every metric of `plan`.
@@ -111,6 +116,19 @@ fn phase_of<'a>(state: &'a ReadState, plan: &MetricPlan) -> Option<&'a str> {
     is_only.then_some(first.as_str())
 }
 
+/// True if a run never sums the metrics of `plan` together: they read other rows, or predictions before and after clipping.
+fn is_mixed(plan: &MetricPlan) -> bool {
+    let mut kinds = plan.kept().iter().map(|own| {
+        [
+            own.reads_predictions(),
+            own.reads_unbounded_predictions(),
+            own.id == OF_SENSOR,
+        ]
+    });
+    let first = kinds.next();
+    kinds.any(|kind| Some(kind) != first)
+}
+
 /// Sums of the metrics of `plan` over the rows of the phase of `state`; `None` if they are not those of `state`.
 fn sums(
     state: &ReadState,
@@ -118,6 +136,9 @@ fn sums(
     samples: &Samples,
     jobs: NonZeroUsize,
 ) -> Result<Option<Evaluator>, EvaluateError> {
+    if is_mixed(plan) {
+        return Ok(None);
+    }
     let reads = |of: fn(&Metric) -> bool| plan.kept().iter().any(|own| of(own));
     let of_phase = samples.of_protocol(phase_of(state, plan).unwrap_or_default());
     let is_of_sensor = reads(|own| own.id == OF_SENSOR);
@@ -152,7 +173,25 @@ fn sums(
 
 #[cfg(test)]
 mod tests {
+    use taceva_core::{Channel, Channels};
+    use taceva_metrics::catalogue;
+
     use super::*;
+
+    #[test]
+    fn metrics_that_a_run_sums_apart_are_mixed() {
+        let are_mixed = |ids: [&str; 2]| {
+            let metrics = ids.map(|id| catalogue::find(id).expect("a metric"));
+            let channels = Channels::new([Channel::PX, Channel::PY, Channel::FZ]);
+            let fields = Field::ALL.into_iter().collect();
+            let plan = MetricPlan::new(&metrics, channels.expect("three channels"), fields);
+            assert_eq!(plan.kept().len(), 2, "{ids:?}");
+            is_mixed(&plan)
+        };
+        assert!(!are_mixed(["mae", "bias"]));
+        assert!(are_mixed(["mae", "r_light"]));
+        assert!(are_mixed(["mae", "intrinsic"]));
+    }
 
     #[test]
     fn a_table_with_too_many_rows_for_its_states_is_refused_by_their_numbers() {
