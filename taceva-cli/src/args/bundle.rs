@@ -48,7 +48,7 @@ pub(crate) struct BundleMake {
     /// The `--key` with which `taceva score` paired the rows of both tables
     #[arg(long, value_name = "NAME|order", requires = "truth")]
     pub(crate) key: Option<String>,
-    /// A recording behind the result, to add its dataset.toml; not needed for a run; may be repeated
+    /// A recording behind the result, to add its dataset.toml, and its pictures by --with frames; not needed for a run; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     /// A text to add: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml; not needed for the scene of a run; may be repeated
@@ -57,9 +57,9 @@ pub(crate) struct BundleMake {
     /// A model file behind the result, as fit writes it; implies --with model; may be repeated
     #[arg(long = "model", value_name = "FILE")]
     pub(crate) models: Vec<PathBuf>,
-    /// Add files that are left out by default; models of a run come from its folder
-    #[arg(long, value_enum, value_name = "PART")]
-    pub(crate) with: Option<WithPart>,
+    /// Add files that are left out by default, separated by commas; models and pictures of a run come from its folder
+    #[arg(long, value_enum, value_name = "PART", value_delimiter = ',')]
+    pub(crate) with: Vec<WithPart>,
     /// Leave files out, and state their digests: the bundle is then verified as deep as the rest allows
     #[arg(long, value_enum, value_name = "PART")]
     pub(crate) without: Option<WithoutPart>,
@@ -94,6 +94,9 @@ pub(crate) struct BundleMake {
 pub(crate) enum WithPart {
     /// Model files, so that the predictions can be computed again
     Model,
+    /// Pictures behind the predictions, so that the model predicts them again without --dataset: at most 3840 files and 2 GiB, with every label of their
+    /// recording
+    Frames,
 }
 
 /// Files that can be left out.
@@ -110,7 +113,8 @@ pub(crate) struct BundleVerify {
     /// The level to reach; the exit code is 1 if a claim does not reach it [default: the deepest that the files allow]
     #[arg(long, value_enum, value_name = "LEVEL")]
     pub(crate) level: Option<LevelArg>,
-    /// A recording behind the results, which the levels model and fit need: the model of the bundle predicts it again; may be repeated
+    /// A recording behind the results, which the level fit needs, and the level model if the bundle has no pictures: the model of the bundle predicts it
+    /// again; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     /// The greatest difference between a claim and its recomputed number for the verdict `within`, in the unit of each score

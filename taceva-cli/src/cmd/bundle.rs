@@ -45,7 +45,8 @@ fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
     request.datasets.clone_from(&args.datasets);
     request.texts.clone_from(&args.texts);
     request.models.clone_from(&args.models);
-    request.adds_models = args.with == Some(WithPart::Model);
+    request.adds_models = args.with.contains(&WithPart::Model);
+    request.adds_frames = args.with.contains(&WithPart::Frames);
     request.withholds_predictions = args.without == Some(WithoutPart::Predictions);
     request.redactions.clone_from(&args.redact);
     request.jobs = context.jobs;

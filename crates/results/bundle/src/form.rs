@@ -11,8 +11,8 @@ use crate::environment::{ENVIRONMENT_SCHEMA, Environment};
 use crate::error::{BundleError, Damage};
 use crate::header;
 use crate::layout::{
-    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_AUTHORS, MOST_CLAIMS, MOST_TEXT, RESULTS, SAMPLES,
-    is_header,
+    ENVIRONMENT, HEADER, HEADER_ROLE, MANIFEST, MOST_AUTHORS, MOST_CLAIMS, MOST_TEXT, RESULTS,
+    SAMPLES, is_header,
 };
 use crate::licence::has_form;
 use crate::manifest::{Manifest, badge_of, model_digest, source_of};
@@ -162,16 +162,23 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     let mut behind = BTreeSet::new();
     for (files, report) in manifest.studies.iter().zip(reports) {
         // A state that counts twice halves intervals, and one file behind many studies is read as often.
-        if let Some(name) = files.names().find(|name| !behind.insert(name.as_str())) {
+        let mut named = files.names().chain(&files.frames);
+        if let Some(name) = named.find(|name| !behind.insert(name.as_str())) {
             let rule = "a file belongs to one study, once";
             damage.push(Damage::new(name, rule, "it is named twice in `studies`"));
             continue;
         }
+        let headers = files
+            .frames
+            .iter()
+            .map(|folder| format!("{folder}/{HEADER}"));
         let unlisted = files
             .names()
-            .find(|name| !source.files().contains_key(*name));
+            .cloned()
+            .chain(headers)
+            .find(|name| !source.files().contains_key(name));
         if let Some(name) = unlisted {
-            damage.push(Damage::new(name, rule, "it is missing"));
+            damage.push(Damage::new(&name, rule, "it is missing"));
             continue;
         }
         let table = report.provenance.samples_table.as_deref();

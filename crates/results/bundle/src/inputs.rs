@@ -5,13 +5,16 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use taceva_evaluate::{MODELS, RECORDINGS, STATES};
+use taceva_core::counted;
+use taceva_evaluate::{MODELS, PredictionFiles, RECORDINGS, STATES, prediction_files};
 use taceva_files::parent_of;
-use taceva_results::EvaluationReport;
+use taceva_results::{EvaluationReport, Samples};
 
 use crate::error::BundleError;
 use crate::header;
-use crate::layout::{HEADER, MODEL_ROLE, MOST_TABLE, MOST_TEXT, RESULTS, TEXTS};
+use crate::layout::{
+    FRAMES_ROLE, HEADER, MODEL_ROLE, MOST_BYTES, MOST_FRAMES, MOST_TABLE, MOST_TEXT, RESULTS, TEXTS,
+};
 use crate::manifest::{Withheld, model_digest};
 use crate::request::{BundleRequest, ScoredTables};
 use crate::source::digest_of;
@@ -43,9 +46,25 @@ pub(crate) struct StudyInputs {
     /// Digest of the model file, if the results name one.
     pub(crate) model_digest: Option<String>,
     pub(crate) model: Option<PathBuf>,
+    /// Digest of the recording behind predictions, if the results name one.
+    pub(crate) dataset_digest: Option<String>,
+    /// Recordings with the pictures behind the predictions, if they are added.
+    pub(crate) frames: Vec<PredictionFiles>,
 }
 
 impl StudyInputs {
+    /// The recording that the results name, if its pictures are not added.
+    pub(crate) fn withheld_frames(&self) -> Option<Withheld> {
+        let digest = self.dataset_digest.as_ref();
+        digest
+            .filter(|_| self.frames.is_empty())
+            .map(|digest| Withheld {
+                role: FRAMES_ROLE.to_owned(),
+                reason: "not added by --with frames".to_owned(),
+                digest: digest.clone(),
+            })
+    }
+
     /// The model file that the results name, if it is not added.
     pub(crate) fn withheld_model(&self) -> Option<Withheld> {
         let digest = self.model_digest.as_ref();
@@ -73,6 +92,7 @@ impl Inputs {
             source,
         })?;
         let studies = studies(request, run, &path, &reports)?;
+        check_frames(&path, &studies)?;
         let mut texts = BTreeMap::new();
         let of_run = run
             .map(|run| run.join(TEXTS[0]))
@@ -107,6 +127,10 @@ fn studies(
     path: &Path,
     reports: &[EvaluationReport],
 ) -> Result<Vec<StudyInputs>, BundleError> {
+    if request.adds_frames && request.withholds_predictions {
+        let problem = "pictures come with the labels of their recording, which --without predictions leaves out; name one of both options";
+        return Err(BundleError::input(path, problem));
+    }
     let are_given = !request.states.is_empty() || request.tables.is_some();
     if are_given && reports.len() != 1 {
         let problem = format!(
@@ -129,6 +153,11 @@ fn studies(
     };
     let of_run = entries_of_run(run, STATES)?;
     let models = models(request, run, path, reports)?;
+    let recordings = entries_of_run(run, RECORDINGS)?;
+    let recordings = recordings
+        .into_iter()
+        .filter(|path| path.join(HEADER).is_file());
+    let recordings: Vec<PathBuf> = request.datasets.iter().cloned().chain(recordings).collect();
     let mut studies = Vec::new();
     for (report, number) in reports.iter().zip(1_usize..) {
         let is_own = |path: &&PathBuf| {
@@ -138,10 +167,17 @@ fn studies(
         let states = request.states.iter();
         let states = states.chain(of_run.iter().filter(is_own)).cloned();
         let digest = report.provenance.samples_table.as_ref();
+        let samples = digest.and_then(|digest| known.get(digest).cloned());
+        let frames = match request.adds_frames {
+            true => frames(&recordings, path, report, samples.as_deref())?,
+            false => Vec::new(),
+        };
         studies.push(StudyInputs {
             states: states.collect(),
             tables: request.tables.clone(),
-            samples: digest.and_then(|digest| known.get(digest).cloned()),
+            samples,
+            dataset_digest: report.provenance.dataset.clone(),
+            frames,
             model_digest: model_digest(report).map(str::to_owned),
             model: model_digest(report).and_then(|digest| models.get(digest).cloned()),
         });
@@ -155,6 +191,53 @@ fn studies(
         return Err(BundleError::input(path, problem));
     }
     Ok(studies)
+}
+
+/// Files of those of `recordings` that are behind the predictions in `table`, the table of samples of `report`.
+fn frames(
+    recordings: &[PathBuf],
+    path: &Path,
+    report: &EvaluationReport,
+    table: Option<&Path>,
+) -> Result<Vec<PredictionFiles>, BundleError> {
+    let refused = |problem: &str| Err(BundleError::input(path, problem));
+    let Some(table) = table else {
+        return refused(
+            "no table of samples, which names the predicted pictures: write it by --samples-out, or leave --with frames out",
+        );
+    };
+    if recordings.is_empty() {
+        return refused("no recording with pictures: name it by --dataset");
+    }
+    let text = fs::read_to_string(table).map_err(BundleError::file(table))?;
+    let samples =
+        Samples::read(&text).map_err(|error| BundleError::input(table, error.to_string()))?;
+    Ok(prediction_files(recordings, &report.provenance, &samples)?)
+}
+
+/// Rejects recordings with more files or bytes than a bundle holds.
+fn check_frames(path: &Path, studies: &[StudyInputs]) -> Result<(), BundleError> {
+    let (mut count, mut bytes) = (0_usize, 0_u64);
+    for recording in studies.iter().flat_map(|study| &study.frames) {
+        for file in &recording.files {
+            let file = recording.folder.join(file);
+            let about = fs::metadata(&file).map_err(BundleError::file(&file))?;
+            // A pipe would be waited for.
+            if !about.is_file() {
+                return Err(BundleError::input(&file, "expected a regular file"));
+            }
+            count += 1;
+            bytes = bytes.saturating_add(about.len());
+        }
+    }
+    if count <= MOST_FRAMES && bytes <= MOST_BYTES {
+        return Ok(());
+    }
+    let problem = format!(
+        "its pictures are {} of {bytes} bytes, expected at most {MOST_FRAMES} of {MOST_BYTES} bytes; leave --with frames out, and verify with --dataset",
+        counted(count as u64, "file")
+    );
+    Err(BundleError::input(path, problem))
 }
 
 /// Rejects swapped tables of truth and prediction.
@@ -299,3 +382,6 @@ fn text(path: &Path) -> Result<String, BundleError> {
     }
     fs::read_to_string(path).map_err(BundleError::file(path))
 }
+
+#[cfg(test)]
+mod tests;

@@ -26,6 +26,10 @@ pub(crate) const GENERATED: [&str; 6] = [CARD, CITATION, LICENCE, EVAL_RESULTS, 
 pub(crate) const HEADER: &str = "dataset.toml";
 /// Role of the header of a dataset.
 pub(crate) const HEADER_ROLE: &str = "dataset";
+/// Folder of recordings with pictures.
+pub(crate) const FRAMES: &str = "frames";
+/// Role of the files of these recordings.
+pub(crate) const FRAMES_ROLE: &str = "frames";
 /// Role of a model file.
 pub(crate) const MODEL_ROLE: &str = "model";
 /// Texts that a bundle may hold.
@@ -39,6 +43,8 @@ pub(crate) const TEXTS: [&str; 5] = [
 
 /// Maximum number of files in a bundle.
 pub(crate) const MOST_FILES: usize = 4096;
+/// Maximum number of files of recordings with pictures; the rest is left for the other files.
+pub(crate) const MOST_FRAMES: usize = MOST_FILES - 256;
 /// Default maximum size of all files together, bytes.
 pub const MOST_BYTES: u64 = 2 << 30;
 /// Maximum size of the manifest, bytes.
@@ -69,7 +75,7 @@ pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
 /// True for a name that a bundle gives to its files.
 pub(crate) fn is_own(name: &str) -> bool {
     let fixed = [MANIFEST, RESULTS, SAMPLES, ENVIRONMENT];
-    let is_inner = ["states/", "tables/", "model/"]
+    let is_inner = ["states/", "tables/", "model/", "frames/"]
         .iter()
         .any(|own| name.starts_with(own));
     let is_fixed = fixed.contains(&name) || GENERATED.contains(&name);

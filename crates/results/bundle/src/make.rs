@@ -14,8 +14,8 @@ use crate::error::BundleError;
 use crate::form::owners;
 use crate::inputs::Inputs;
 use crate::layout::{
-    ENVIRONMENT, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TEXT, RESULTS, SAMPLES,
-    is_own,
+    ENVIRONMENT, FRAMES, FRAMES_ROLE, HEADER_ROLE, MANIFEST, MOST_CLAIMS, MOST_MANIFEST, MOST_TEXT,
+    RESULTS, SAMPLES, is_own,
 };
 use crate::manifest::{BUNDLE_SCHEMA, Manifest, StudyFiles, badge_of, source_of};
 use crate::redaction::{Redaction, redacted};
@@ -253,6 +253,15 @@ fn sensors(inputs: &Inputs) -> String {
 /// Remarks for the maker on words that redaction cannot change.
 fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<String> {
     let mut notes: Vec<String> = badge_of(&inputs.reports).into_iter().collect();
+    let frames = written.files.iter().filter(|file| file.role == FRAMES_ROLE);
+    let sizes: Vec<u64> = frames.map(|file| file.size).collect();
+    if !sizes.is_empty() {
+        notes.push(format!(
+            "{FRAMES}/ has {} of {} bytes: the pictures behind predictions, and every label of their recordings",
+            counted(sizes.len() as u64, "file"),
+            sizes.iter().sum::<u64>()
+        ));
+    }
     if request.redactions.contains(&Redaction::Serials) {
         let serials = inputs
             .reports

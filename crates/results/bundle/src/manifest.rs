@@ -9,7 +9,7 @@ use taceva_results::{EvaluationReport, not_measured};
 use crate::author::Author;
 use crate::claim::Claim;
 use crate::error::{BundleError, Damage};
-use crate::layout::{GENERATED, MANIFEST, MODEL_ROLE};
+use crate::layout::{FRAMES_ROLE, GENERATED, MANIFEST, MODEL_ROLE};
 use crate::organization::Organization;
 
 /// Schema of the manifest.
@@ -90,7 +90,9 @@ impl BundledFile {
             Some("csv") => "text/csv",
             Some("parquet") => "application/x-parquet",
             Some("toml") => "application/toml",
-            Some("taceva") => "application/octet-stream",
+            Some("taceva" | "pack") => "application/octet-stream",
+            Some("png") => "image/png",
+            Some("jpg" | "jpeg") => "image/jpeg",
             _ => "text/plain",
         }
     }
@@ -115,10 +117,13 @@ pub struct StudyFiles {
     /// The model file that made the predictions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub model: Option<String>,
+    /// Folders of the recordings with the pictures behind the predictions.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub frames: Vec<String>,
 }
 
 impl StudyFiles {
-    /// Names of all files.
+    /// Names of all files, except those of recordings.
     pub(crate) fn names(&self) -> impl Iterator<Item = &String> {
         let inputs = self.states.iter().chain(self.table_names());
         inputs.chain(&self.model)
@@ -234,7 +239,7 @@ impl Manifest {
     /// True if tables were left out.
     pub(crate) fn withholds_tables(&self) -> bool {
         let mut withheld = self.withheld.iter();
-        withheld.any(|own| own.role != MODEL_ROLE)
+        withheld.any(|own| ![MODEL_ROLE, FRAMES_ROLE].contains(&own.role.as_str()))
     }
 
     /// Digest that the manifest states of the file `name`.

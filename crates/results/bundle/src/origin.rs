@@ -1,5 +1,6 @@
 //! Subject and inputs of results, compared with those of their states.
 
+use taceva_core::shown;
 use taceva_results::{EvaluationReport, OPTIMISTIC, Provenance};
 
 /// Parts of `report` that name another subject or other inputs than its states, each with the reason.
@@ -39,6 +40,19 @@ pub(crate) fn differences(
         if !is_same {
             found.push((part, other_than(part)));
         }
+    }
+    let mut phases = own.phases.iter().chain(&other.phases);
+    let is_other = |of: &(&String, &String)| own.phases.get(of.0) != other.phases.get(of.0);
+    if let Some((metric, _)) = phases.find(is_other) {
+        let [in_results, in_state] = [own, other].map(|from| {
+            let phase = from.phases.get(metric);
+            phase.map_or_else(|| "none".to_owned(), |phase| format!("`{}`", shown(phase)))
+        });
+        let reason = format!(
+            "results.json has {} of the phase {in_results}; the state has {in_state}",
+            shown(metric)
+        );
+        found.push(("phases", reason));
     }
     let mut notes = other.notes.iter();
     let is_hidden = |note: &&String| note.contains(OPTIMISTIC) && !own.notes.contains(note);

@@ -59,7 +59,7 @@ pub(crate) struct RecomputationSettings<'a> {
     pub(crate) reads_tables: bool,
     /// True if the maker of the bundle left tables out.
     pub(crate) are_tables_withheld: bool,
-    /// Recordings on which models predict again; `None` if they do not.
+    /// Recordings on which models predict again, or those in the bundle if empty; `None` if models do not predict.
     pub(crate) datasets: Option<&'a [PathBuf]>,
     /// True if models are fitted again.
     pub(crate) fits: bool,
@@ -113,6 +113,11 @@ impl Recomputation {
             },
             model: match settings.datasets {
                 None => Err(Stop::absent("not requested")),
+                Some([]) => {
+                    let folders = files.frames.iter().map(|folder| source.path(folder));
+                    let recordings: Vec<PathBuf> = folders.collect();
+                    of_model(source, files, report, &recordings, settings).map_err(named)
+                }
                 Some(datasets) => {
                     of_model(source, files, report, datasets, settings).map_err(named)
                 }

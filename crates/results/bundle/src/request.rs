@@ -27,7 +27,7 @@ pub struct BundleRequest {
     pub states: Vec<PathBuf>,
     /// Two tables that were scored, for results of one study.
     pub tables: Option<ScoredTables>,
-    /// Recordings whose headers are added. Not needed for a run.
+    /// Recordings whose headers are added, and pictures on request. Not needed for a run.
     pub datasets: Vec<PathBuf>,
     /// Texts that are added by their names: `scene.toml`, `rig.toml`, `map.toml`, `limits.toml`, `tasks.toml`.
     pub texts: Vec<PathBuf>,
@@ -35,6 +35,9 @@ pub struct BundleRequest {
     pub models: Vec<PathBuf>,
     /// True if model files are added; those of a run come from its folder. Otherwise the bundle states only their digests.
     pub adds_models: bool,
+    /// True if the pictures behind predictions are added, with the labels of their recordings. Otherwise the bundle states only the digests of the
+    /// recordings.
+    pub adds_frames: bool,
     /// True if tables are left out, and only their digests are stated.
     pub withholds_predictions: bool,
     /// Words that are redacted in texts.
@@ -82,6 +85,7 @@ impl BundleRequest {
             texts: Vec::new(),
             models: Vec::new(),
             adds_models: false,
+            adds_frames: false,
             withholds_predictions: false,
             redactions: Vec::new(),
             jobs: NonZeroUsize::MIN,

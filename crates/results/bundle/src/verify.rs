@@ -29,7 +29,8 @@ pub struct VerifyRequest {
     pub tolerance: f64,
     /// Maximum size of all files together, bytes.
     pub most: u64,
-    /// Recordings behind the results. The models of the bundle predict them again, as [`Level::Model`] and [`Level::Fit`] need.
+    /// Recordings behind the results. The models of the bundle predict them again, as [`Level::Model`] and [`Level::Fit`] need. Without any,
+    /// [`Level::Model`] reads the pictures in the bundle.
     pub datasets: Vec<PathBuf>,
     /// Number of threads.
     pub jobs: NonZeroUsize,

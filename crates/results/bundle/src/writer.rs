@@ -1,15 +1,17 @@
 //! Files of a bundle while it is written.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::io::Write as _;
 use std::path::Path;
 
+use taceva_evaluate::PredictionFiles;
 use taceva_files::seal::digest_of_bytes;
 use taceva_files::{parent_of, sync_folder};
 
 use crate::error::BundleError;
 use crate::inputs::StudyInputs;
-use crate::layout::{MODEL_ROLE, MOST_MODEL, MOST_TABLE, MOST_TEXT};
+use crate::layout::{FRAMES, FRAMES_ROLE, MODEL_ROLE, MOST_MODEL, MOST_TABLE, MOST_TEXT};
 use crate::manifest::{BundledFile, StudyFiles, TableFiles, Withheld};
 use crate::source::digest_of;
 
@@ -85,6 +87,27 @@ impl<'a> Writer<'a> {
         self.add(name, role, &bytes)
     }
 
+    /// Copies the files of `recording` into the new folder `folder`, block by block.
+    fn recording(&mut self, folder: &str, recording: &PredictionFiles) -> Result<(), BundleError> {
+        for file in &recording.files {
+            let (from, name) = (recording.folder.join(file), format!("{folder}/{file}"));
+            let path = self.root.join(&name);
+            let parent = parent_of(&path);
+            fs::create_dir_all(parent).map_err(BundleError::file(parent))?;
+            let copied = fs::copy(&from, &path).and_then(|size| {
+                File::open(&path)?.sync_all()?;
+                Ok(size)
+            });
+            self.files.push(BundledFile {
+                path: name,
+                size: copied.map_err(BundleError::file(&from))?,
+                sha256: digest_of(&path)?,
+                role: FRAMES_ROLE.to_owned(),
+            });
+        }
+        Ok(())
+    }
+
     /// Copies the files of study `number`, or states the digests of its tables.
     pub(crate) fn study(
         &mut self,
@@ -108,6 +131,15 @@ impl<'a> Writer<'a> {
             files.model = Some(name);
         }
         withheld.extend(study.withheld_model());
+        for (position, recording) in study.frames.iter().enumerate() {
+            let folder = match position {
+                0 => format!("{FRAMES}/{number}"),
+                position => format!("{FRAMES}/{number}-{position}"),
+            };
+            self.recording(&folder, recording)?;
+            files.frames.push(folder);
+        }
+        withheld.extend(study.withheld_frames());
         if is_without_tables {
             let tables = study.tables.iter();
             let tables = tables
@@ -144,11 +176,13 @@ impl<'a> Writer<'a> {
 
     /// Syncs the names of all files to disk.
     pub(crate) fn sync(&self) -> Result<(), BundleError> {
-        for name in ["states", "tables", "model", ".eval_results", ""] {
-            let folder = self.root.join(name);
-            if folder.is_dir() {
-                sync_folder(&folder).map_err(BundleError::file(&folder))?;
-            }
+        let root = self.root;
+        let folders = self.files.iter().flat_map(|file| {
+            let above = Path::new(&file.path).ancestors().skip(1);
+            above.map(move |folder| root.join(folder))
+        });
+        for folder in folders.collect::<BTreeSet<_>>() {
+            sync_folder(&folder).map_err(BundleError::file(&folder))?;
         }
         Ok(())
     }

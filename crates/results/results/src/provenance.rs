@@ -51,6 +51,9 @@ pub struct Provenance {
     /// Number of samples in each part, if there is a split.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub samples: BTreeMap<String, usize>,
+    /// Phase of the protocol in which each metric was scored, by metric; empty without a protocol.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub phases: BTreeMap<String, String>,
     /// Number of presses by outcome, by digest of the recording; empty without a protocol.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub presses: BTreeMap<String, BTreeMap<PressOutcome, u64>>,
@@ -118,6 +121,8 @@ impl Provenance {
             }
             self.tables.insert(name, digest.clone());
         }
+        self.phases
+            .retain(|metric, phase| other.phases.get(metric) == Some(phase));
         for (part, count) in &other.samples {
             let own = self.samples.entry(part.clone()).or_default();
             *own = own.saturating_add(*count);

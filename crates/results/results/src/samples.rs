@@ -12,7 +12,7 @@ use taceva_core::{Channel, Column, Unit, shown};
 use crate::formula::{escape_csv, unescape_csv};
 
 /// Names of text columns.
-const WORDS: [&str; 11] = [
+const WORDS: [&str; 12] = [
     Samples::KEY,
     "recording",
     "protocol",
@@ -22,6 +22,7 @@ const WORDS: [&str; 11] = [
     "scene",
     "phase",
     "kind",
+    "frame_sha256",
     Samples::GROUP,
     Samples::FOLD,
 ];

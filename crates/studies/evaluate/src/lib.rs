@@ -20,6 +20,7 @@ mod over_seeds;
 mod plan;
 mod predict;
 mod prediction_check;
+mod prediction_files;
 mod provenance;
 mod recordings;
 mod recount;
@@ -38,7 +39,7 @@ mod subject;
 mod validation;
 mod work;
 
-pub use accumulate::{Columns, Rows, accumulate};
+pub use accumulate::{Columns, OF_SENSOR, Rows, accumulate};
 pub use assess::{Assessed, Context, FitFacts, ScoredRows, assess};
 pub use bounded_share::Bounded;
 pub use cache::{
@@ -69,6 +70,7 @@ pub use predict::{
     predicted_numbers, predicted_table, truth,
 };
 pub use prediction_check::{PredictionCheck, check_predictions};
+pub use prediction_files::{PredictionFiles, prediction_files};
 pub use provenance::{choices, model as model_provenance, of as provenance_of};
 pub use recordings::{depth_zeros, device_warnings, reduced};
 pub use recount::{Recount, recount_phases, recount_samples};

@@ -37,21 +37,30 @@ pub(crate) fn evaluation_of(state: &ReadState) -> Result<Evaluation, EvaluateErr
     file.finish(evaluator)
 }
 
-/// Report with `parts`, the scores of each of `states`, and the subject and provenance of the first state.
+/// Report with `parts`, the scores of each of `states`, the subject and provenance of the first state, and the phases of all.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] without a state.
+/// [`EvaluateError::Request`] without a state. [`EvaluateError::State`] for two states that name a phase for one metric.
 pub(crate) fn report_of(
     states: &[ReadState],
     parts: Vec<Evaluation>,
 ) -> Result<EvaluationReport, EvaluateError> {
     let first = &states.first().ok_or_else(no_state)?.file;
+    let mut provenance = first.provenance.clone();
+    for ReadState { path, file, .. } in states.iter().skip(1) {
+        for (metric, phase) in &file.provenance.phases {
+            let known = provenance.phases.insert(metric.clone(), phase.clone());
+            if known.is_some() {
+                return Err(EvaluateError::State {
+                    path: path.clone(),
+                    problem: format!("it holds `{}`, as another state does", shown(metric)),
+                });
+            }
+        }
+    }
     let evaluation = Evaluation::joined(parts, Vec::new());
-    Ok(EvaluationReport::new(
-        first.subject.clone(),
-        &evaluation,
-        first.provenance.clone(),
-    ))
+    let subject = first.subject.clone();
+    Ok(EvaluationReport::new(subject, &evaluation, provenance))
 }
 
 fn no_state() -> EvaluateError {

@@ -80,6 +80,7 @@ pub fn recount_samples(
         provenance: &file.provenance,
         is_unbounded,
         rows: (0..samples.rows()).collect(),
+        timed: None,
     };
     rows(false)
         .check(&plan)
@@ -136,6 +137,8 @@ struct SampleRows<'a> {
     is_unbounded: bool,
     /// Rows of the table that are summed, ascending.
     rows: Vec<usize>,
+    /// Rows whose times are read, ascending; `None` for all rows.
+    timed: Option<Vec<usize>>,
 }
 
 impl SampleRows<'_> {
@@ -202,6 +205,12 @@ impl SampleRows<'_> {
         labels
     }
 
+    /// True if the time of `row` is read.
+    fn is_timed(&self, row: usize) -> bool {
+        let timed = self.timed.as_ref();
+        timed.is_none_or(|timed| timed.binary_search(&row).is_ok())
+    }
+
     fn numbers(&self, field: Field, rows: &[usize]) -> Column {
         let name = match field {
             Field::PredictedSpacing => PREDICTED_SPACING,
@@ -214,6 +223,7 @@ impl SampleRows<'_> {
                 Field::Spacing | Field::PredictedSpacing => {
                     format!("{number:?}").parse().ok().map(Nanometre::to_f64)
                 }
+                Field::Stamp => self.is_timed(row).then_some(number),
                 _ => Some(number),
             }
         };
@@ -256,7 +266,7 @@ impl Rows for SampleRows<'_> {
         };
         for field in wanted.iter() {
             batch = match field {
-                Field::UnitId | Field::Scene | Field::Phase | Field::Kind => {
+                Field::UnitId | Field::Scene | Field::Phase | Field::Kind | Field::FrameDigest => {
                     batch.with_labels(field, self.labels(field, rows))
                 }
                 Field::DepthStep

@@ -8,6 +8,7 @@ mod score;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use taceva_core::Field;
 use taceva_dataset::{Dataset, RecordedSessions, frame_retries, frozen_frames};
 use taceva_files::{parent_of, replace};
 use taceva_metrics::Evaluation;
@@ -80,6 +81,7 @@ pub(crate) fn assess(
         evaluation,
         mut notes,
         states,
+        phases,
     } = scores_of(predicted.as_ref())?;
     let state_path = |number: usize| {
         let mut name = context.states.as_os_str().to_owned();
@@ -142,6 +144,7 @@ pub(crate) fn assess(
             .transpose()?,
         split: divided.map(|divided| divided.spec.to_string()),
         seed: Some(scene.scene.seed),
+        phases,
         samples: divided.map(Divided::counts).unwrap_or_default(),
         frames_decoded: frames_decoded.into_iter().flatten().sum(),
         ..provenance_of(dataset)
@@ -156,6 +159,10 @@ pub(crate) fn assess(
     }
     if let Some(spacings) = &spacings {
         samples.push_numbers("spacing_predicted_mm", spacings.in_millimetres(&rows));
+    }
+    let digest = Field::FrameDigest.name();
+    if let Some(digests) = dataset.table().as_text(digest) {
+        samples.push_words(digest, digests);
     }
     let mut subject = subject_of(dataset);
     if let Some((unit, note)) = phase_rows.measured_unit() {

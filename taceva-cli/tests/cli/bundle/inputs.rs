@@ -1,6 +1,7 @@
 //! Bundles of evaluations and of runs, and texts beside them.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
@@ -70,12 +71,12 @@ fn a_run_is_verified_by_its_samples_phase_by_phase() {
 }
 
 #[test]
-fn every_claim_of_a_run_but_those_that_read_all_phases_reaches_the_predictions() {
+fn a_run_is_verified_to_the_predictions_for_every_claim() {
     let bench = Bench::new();
     bench.write("small.toml", crate::run::SMALL);
     bench.ok("run small.toml --out run -q");
     bench.ok("bundle run --draft --out b -q");
-    let found = verified(&bench, "b", 0);
+    let found = verified(&bench, "b --level predictions", 0);
     let claims = found["claims"].as_array().expect("claims");
     for metric in ["mae", "drift", "hysteresis", "intrinsic", "r_light", "sr"] {
         let mut names = claims.iter().map(|claim| &claim["metric"]);
@@ -83,40 +84,129 @@ fn every_claim_of_a_run_but_those_that_read_all_phases_reaches_the_predictions()
     }
     for claim in claims {
         assert_eq!(claim["verdict"], "equal", "{claim}");
-        let level = match claim["metric"].as_str() {
-            Some("intrinsic") => "scores",
-            _ => "predictions",
-        };
-        assert_eq!(claim["level"], level, "{claim}");
+        assert_eq!(claim["level"], "predictions", "{claim}");
     }
+    assert_eq!(found["others"].as_array().map(Vec::len), Some(0));
+}
+
+#[test]
+fn times_that_are_edited_give_other_sums_than_the_state_of_the_rate() {
+    let bench = Bench::new();
+    let want = r#"want = ["mae", "intrinsic"]"#;
+    let scene = SCENE.replace(r#"want = ["mae", "noise_equivalent_force"]"#, want);
+    bench.write("small.toml", &scene);
+    bench.ok("run small.toml --out run -q");
+    bench.ok("bundle run --draft --out b -q");
+    edit_cells(&bench, |name, cell| match name {
+        "t_s" if !cell.is_empty() => (2.0 * cell.parse::<f64>().expect("a time")).to_string(),
+        _ => cell.to_owned(),
+    });
+    let found = verified(&bench, "b", 1);
+    let lost = of_verdict(&found, "not recomputable");
+    assert!(!lost.is_empty(), "{}", found["summary"]);
+    for claim in lost {
+        assert_eq!(claim["metric"], "intrinsic", "{claim}");
+    }
+    assert!(is_other(&found, "state"), "{}", found["others"]);
+}
+
+#[test]
+fn a_state_of_another_phase_in_the_place_of_that_of_a_phase_differs() {
+    let bench = run();
+    bench.ok("bundle run --draft --out b -q");
+    let results: Value = read(&bench.path("b/results.json"));
+    let phases = &results["studies"][0]["provenance"]["phases"];
+    assert_eq!(phases["mae"], "calibration", "{phases}");
+    let states = fs::read_dir(bench.path("b/states")).expect("a folder");
+    let mut states = states.map(|entry| entry.expect("readable").path());
+    let is_of_errors = |path: &PathBuf| !read(path)["provenance"]["phases"]["mae"].is_null();
+    let state = states.find(is_of_errors).expect("a state of errors");
+    let of_idle = |text: String| text.replace(r#""calibration""#, r#""idle""#);
+    edit(&state, of_idle);
+    accept(&state);
+    relist(&bench, "b", of_another_version);
+    let found = verified(&bench, "b", 1);
+    assert!(is_other(&found, "phases"), "{}", found["others"]);
+    // Results that name the other phase too have sums that its rows do not give.
+    let named = read(&state)["provenance"]["phases"].clone();
+    let path = bench.path("b/results.json");
+    edit(&path, |text| {
+        let metrics = named.as_object().expect("phases").keys();
+        metrics.fold(text, |text, metric| {
+            let phase = |name: &str| format!(r#""{metric}": "{name}""#);
+            text.replace(&phase("calibration"), &phase("idle"))
+        })
+    });
+    accept(&path);
+    relist(&bench, "b", of_another_version);
+    let found = verified(&bench, "b", 1);
+    assert!(!is_other(&found, "phases"), "{}", found["others"]);
+    assert!(is_other(&found, "state"), "{}", found["others"]);
+}
+
+#[test]
+fn a_table_without_phases_gives_no_claim_of_states_that_name_one() {
+    let bench = run();
+    bench.ok("bundle run --draft --out b -q");
+    edit_table(&bench, |text| text.replacen("protocol", "part", 1));
+    let found = verified(&bench, "b", 1);
+    let claims = found["claims"].as_array().expect("claims");
+    for claim in claims {
+        let reason = claim["reason"].as_str().expect("a reason");
+        assert!(reason.contains("do not name one phase"), "{reason}");
+    }
+}
+
+/// JSON of the file at `path`.
+fn read(path: &Path) -> Value {
+    let text = fs::read_to_string(path).expect("written");
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// True if the part `part` of the results differs.
+fn is_other(found: &Value, part: &str) -> bool {
+    let mut others = found["others"].as_array().expect("others").iter();
+    others.any(|other| other["part"] == part && other["verdict"] == "differs")
+}
+
+/// Changes the cells of the table of samples of the bundle `b`, by the name of their column.
+fn edit_cells(bench: &Bench, change: impl Fn(&str, &str) -> String) {
+    edit_table(bench, |text| {
+        let mut reader = csv::Reader::from_reader(text.as_bytes());
+        let names = reader.headers().expect("a head").clone();
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record(&names).expect("room");
+        for record in reader.records() {
+            let record = record.expect("a row");
+            let cells = names.iter().zip(&record);
+            let cells = cells.map(|(name, cell)| change(name, cell));
+            writer.write_record(cells).expect("room");
+        }
+        String::from_utf8(writer.into_inner().expect("room")).expect("a text")
+    });
+}
+
+/// Changes the table of samples of the bundle `b`, and its digest in the results.
+fn edit_table(bench: &Bench, change: impl FnOnce(String) -> String) {
+    let table = bench.path("b/tables/samples-0.csv");
+    let digest = || digest_of_bytes(&fs::read(&table).expect("written"));
+    let old = digest();
+    edit(&table, change);
+    let new = digest();
+    let results = bench.path("b/results.json");
+    edit(&results, |text| text.replace(&old, &new));
+    accept(&results);
+    relist(bench, "b", of_another_version);
 }
 
 #[test]
 fn an_edited_prediction_of_a_run_leaves_its_claims_below_the_level_that_they_state() {
     let bench = run();
     bench.ok("bundle run --draft --out b -q");
-    let table = bench.path("b/tables/samples-0.csv");
-    let digest = || digest_of_bytes(&fs::read(&table).expect("written"));
-    let old = digest();
-    edit(&table, |text| {
-        let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
-        let mut names = lines[0].split(',');
-        let at = names.position(|name| name == "Fz_predicted");
-        let at = at.expect("a predicted force");
-        for line in &mut lines[1..] {
-            let mut cells: Vec<&str> = line.split(',').collect();
-            if !cells[at].is_empty() {
-                cells[at] = "0.015625";
-                *line = cells.join(",");
-            }
-        }
-        lines.join("\n") + "\n"
+    edit_cells(&bench, |name, cell| match name {
+        "Fz_predicted" if !cell.is_empty() => "0.015625".to_owned(),
+        _ => cell.to_owned(),
     });
-    let new = digest();
-    let results = bench.path("b/results.json");
-    edit(&results, |text| text.replace(&old, &new));
-    accept(&results);
-    relist(&bench, "b", of_another_version);
     let found = verified(&bench, "b", 1);
     let lost = of_verdict(&found, "not recomputable");
     assert!(!lost.is_empty(), "{}", found["summary"]);
@@ -132,8 +222,7 @@ fn an_edited_prediction_of_a_run_leaves_its_claims_below_the_level_that_they_sta
         }
     });
     let found = verified(&bench, "b", 1);
-    let mut others = found["others"].as_array().expect("others").iter();
-    assert!(others.any(|other| other["part"] == "state" && other["verdict"] == "differs"));
+    assert!(is_other(&found, "state"), "{}", found["others"]);
 }
 
 #[test]

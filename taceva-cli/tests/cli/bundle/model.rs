@@ -121,6 +121,70 @@ fn the_level_of_the_model_says_what_is_missing() {
 }
 
 #[test]
+fn pictures_in_a_bundle_are_predicted_again_without_the_recording() {
+    let bench = Bench::new();
+    bench.lab();
+    bench.ok("import lab --map map.toml --out data -q");
+    bench.ok("fit data --model ridge --set size=8 --split random --out m.taceva -q");
+    bench.ok("evaluate data --with m.taceva --metrics mae --format json --out r.json --state-out r.state --samples-out r.samples.csv -q");
+    let words = format!("{BUNDLE} --model m.taceva --with frames");
+    bench.refused(
+        &words,
+        3,
+        "no recording with pictures: name it by --dataset",
+    );
+    let shut = format!("{words} --dataset data --without predictions");
+    bench.refused(&shut, 3, "come with the labels of their recording");
+    let said = bench.run(&format!("{words} --dataset data"));
+    assert_eq!(said.code, 0, "{}", said.err);
+    assert!(said.err.contains("frames/ has "), "{}", said.err);
+    let made = manifest(&bench, "b");
+    crate::schema::check("bundle", &made);
+    assert!(made["withheld"].is_null(), "{}", made["withheld"]);
+    let files = made["files"].as_array().expect("files").iter();
+    let pictures = files.filter_map(|file| file["path"].as_str());
+    let pictures: Vec<&str> = pictures.filter(|path| path.ends_with(".png")).collect();
+    // Pictures of the fit stay away.
+    let scored = made["claims"][0]["n"].as_u64().expect("a number");
+    assert_eq!(pictures.len() as u64, scored, "{pictures:?}");
+    fs::rename(bench.path("data"), bench.path("away")).expect("there");
+    let found = verified(&bench, "b --level model", 0);
+    let claims = found["claims"].as_array().expect("claims");
+    assert_eq!(of_verdict(&found, "equal").len(), claims.len(), "{found}");
+    assert!(claims.iter().all(|claim| claim["level"] == "model"));
+    // A picture is that of the recording, whatever the manifest lists.
+    fs::copy(
+        bench.path("b").join(pictures[0]),
+        bench.path("b").join(pictures[1]),
+    )
+    .expect("room");
+    relist(&bench, "b", super::forgery::of_another_version);
+    let found = verified(&bench, "b --level model", 1);
+    let lost = of_verdict(&found, "not recomputable");
+    assert_eq!(lost.len(), claims.len(), "{found}");
+    // Their folder is not read twice.
+    relist(&bench, "b", |manifest| {
+        manifest["studies"][0]["frames"] = serde_json::json!(["frames/0", "frames/0"]);
+    });
+    let found = verified(&bench, "b", 3);
+    let problem = found["damage"][0]["problem"].as_str().expect("words");
+    assert!(problem.contains("named twice"), "{problem}");
+}
+
+#[test]
+fn a_bundle_without_pictures_states_the_digest_of_their_recording() {
+    let bench = bench();
+    bench.ok(BUNDLE);
+    let withheld = manifest(&bench, "b")["withheld"].clone();
+    let withheld = withheld.as_array().expect("withheld files");
+    let frames = withheld.iter().find(|own| own["role"] == "frames");
+    let results = fs::read_to_string(bench.path("r.json")).expect("written");
+    let results: serde_json::Value = serde_json::from_str(&results).expect("JSON");
+    let frames = frames.expect("pictures");
+    assert_eq!(frames["digest"], results["provenance"]["dataset"]);
+}
+
+#[test]
 fn a_model_of_other_results_is_refused_when_a_bundle_is_made_and_when_it_is_verified() {
     let bench = bench();
     bench.ok("fit data --model ridge --set size=4 --split random --out other.taceva -q");
@@ -158,6 +222,8 @@ fn a_run_keeps_its_models_on_request_and_they_predict_its_samples_again() {
         .expect("kept")
         .collect();
     assert_eq!(kept.len(), 1);
+    bench.ok("bundle run --with model,frames --draft --out c -q");
+    verified(&bench, "c --level model", 0);
     bench.ok("bundle run --with model --draft --out b -q");
     let recording = fs::read_dir(bench.path("run/recordings")).expect("recorded");
     let recording = recording.map(|entry| entry.expect("readable").file_name());

@@ -56,6 +56,18 @@ impl<'a> PhaseRows<'a> {
         Some(phases.chain(others).collect())
     }
 
+    /// `phase` by the name of each of `metrics`; empty for a recording without a plan.
+    pub(super) fn named(
+        &self,
+        phase: PhaseKind,
+        metrics: &[&'static Metric],
+    ) -> BTreeMap<String, String> {
+        let metrics = metrics.iter().filter(|_| self.rows.is_some());
+        metrics
+            .map(|metric| (metric.id.to_owned(), phase.name().to_owned()))
+            .collect()
+    }
+
     /// Rows of repeated presses on further units, ascending.
     pub(super) fn of_other_units(&self) -> &[usize] {
         &self.of_other_units

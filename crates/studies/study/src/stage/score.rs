@@ -15,7 +15,7 @@ use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::Note;
 use taceva_evaluate::skill;
 use taceva_evaluate::{Bounded, EvaluateError, StateFile};
-use taceva_evaluate::{Columns, Rows, accumulate};
+use taceva_evaluate::{Columns, OF_SENSOR, Rows, accumulate};
 use taceva_evaluate::{Predicted, provenance_of, subject_of, truth};
 
 /// Inputs of the scores.
@@ -63,9 +63,6 @@ impl Within {
     }
 }
 
-/// Metric of the frame rate and the field of view. Only frames at rest without contact have the full rate, so contact points are read from all other phases.
-const OF_SENSOR: &str = "intrinsic";
-
 /// Scores of a study, with the sums behind them.
 pub(super) struct StudyScores {
     pub(super) evaluation: Evaluation,
@@ -73,6 +70,8 @@ pub(super) struct StudyScores {
     pub(super) notes: Vec<Note>,
     /// State of each group of rows.
     pub(super) states: Vec<StateFile>,
+    /// Phase of each metric; empty for a recording without a plan.
+    pub(super) phases: BTreeMap<String, String>,
 }
 
 /// Scores of all groups of rows.
@@ -95,17 +94,19 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<StudyScores, EvaluateError> {
         groups.entry(group).or_default().push(skill());
     }
     let (mut skipped, notes) = left_out(scores.study);
-    let (mut parts, mut states) = (Vec::new(), Vec::new());
+    let (mut parts, mut states, mut phases) = (Vec::new(), Vec::new(), BTreeMap::new());
     for (group, metrics) in &groups {
-        let GroupScores { evaluation, state } = scores.on(group, metrics)?;
-        skipped.extend(evaluation.skipped().iter().cloned());
-        parts.push(evaluation);
-        states.push(state);
+        let scored = scores.on(group, metrics)?;
+        skipped.extend(scored.evaluation.skipped().iter().cloned());
+        parts.push(scored.evaluation);
+        states.push(scored.state);
+        phases.extend(scored.phases);
     }
     Ok(StudyScores {
         evaluation: Evaluation::joined(parts, skipped),
         notes,
         states,
+        phases,
     })
 }
 
@@ -113,6 +114,8 @@ pub(super) fn score(scores: &Scores<'_>) -> Result<StudyScores, EvaluateError> {
 struct GroupScores {
     evaluation: Evaluation,
     state: StateFile,
+    /// Phase of each metric.
+    phases: BTreeMap<String, String>,
 }
 
 impl Scores<'_> {
@@ -160,14 +163,19 @@ impl Scores<'_> {
         };
         let mut evaluator = accumulate(&samples, &plan, self.jobs)?;
         let shares = bounded.shares();
-        let (mut subject, provenance) = (subject_of(self.dataset), provenance_of(self.dataset));
+        let (mut subject, mut provenance) = (subject_of(self.dataset), provenance_of(self.dataset));
+        provenance.phases = self.phase_rows.named(group.phase, metrics);
         // The report names this unit too.
         if let Some((unit, _)) = self.phase_rows.measured_unit() {
             subject.serial = unit;
         }
         let state = StateFile::of(&mut evaluator, &subject, &provenance, bounded)?;
         let evaluation = evaluator.finish()?.with_bounded_shares(&shares);
-        Ok(GroupScores { evaluation, state })
+        Ok(GroupScores {
+            evaluation,
+            state,
+            phases: provenance.phases,
+        })
     }
 
     /// Group of rows that determines the skill of the model: the unseen presses of the calibration. Without unseen presses, the phase with the most
