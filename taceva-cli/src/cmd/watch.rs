@@ -75,8 +75,8 @@ fn say_what_is_known(monitor: &Monitor, path: &Path, context: &Context) {
         Monitor::PICTURES
     );
     match monitor.smallest() {
-        Some([level, pattern, detail]) => context.say(format_args!(
-            "{known}: they find changes of brightness from {level:.2} of the change by contact, of large parts from {pattern:.2}, of detail from {detail:.2}"
+        Some([level, pattern, detail, lines]) => context.say(format_args!(
+            "{known}: they find changes of brightness from {level:.2} of the change by contact, of large parts from {pattern:.2}, of detail from {detail:.2}, of single lines from {lines:.2}"
         )),
         None => context.say(format_args!(
             "{known}: a change since then is found only if it exceeds that by contact; the first {} watched pictures set the limits for later changes",
@@ -146,9 +146,9 @@ fn summarise(monitor: &Monitor, context: &Context) {
         "{} and {touched} of contact: {changes}",
         counted(untouched, "untouched picture")
     ));
-    if let Some([level, pattern, detail]) = monitor.smallest() {
+    if let Some([level, pattern, detail, lines]) = monitor.smallest() {
         context.say(format_args!(
-            "smallest changes that are found, relative to the change by contact: brightness {level:.2}, large parts {pattern:.2}, detail {detail:.2}"
+            "smallest changes that are found, relative to the change by contact: brightness {level:.2}, large parts {pattern:.2}, detail {detail:.2}, single lines {lines:.2}"
         ));
     }
 }

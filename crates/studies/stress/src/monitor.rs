@@ -4,6 +4,7 @@ mod baseline;
 mod change;
 mod level;
 mod limit;
+mod outliers;
 mod recording;
 
 use std::collections::{BTreeSet, VecDeque};
@@ -19,6 +20,7 @@ pub use self::recording::watch;
 use self::baseline::Baseline;
 use self::level::Level;
 use self::limit::{LEARNT, Limited, WINDOW};
+use self::outliers::{Outliers, line_change};
 use crate::scale::Scale;
 
 /// Pictures whose mean is the baseline.
@@ -27,6 +29,8 @@ const SETTLED: u32 = 50;
 const PATTERN: f64 = 0.1;
 /// Least stimulus that counts as a change of detail. Noise hides most of such a change.
 const DETAIL: f64 = 0.05;
+/// Least stimulus of one line between successive pictures that counts as a change of lines.
+const LINES: f64 = 0.5;
 /// Stimulus of the baseline above which it differs from the reference. Flicker of a single reference picture is below it.
 const REFERENCE: f64 = 1.0;
 /// Repeated pictures among the newest that show a change.
@@ -37,7 +41,7 @@ const OUTSIDE: usize = 20;
 /// Monitor of a sensor in use.
 ///
 /// The mean of the first 50 untouched pictures is the baseline, and the next 200 set the limits. From then on a change is found if more than half of
-/// the newest 30 untouched pictures are beyond a limit, or if their mean brightness is. Each kind of change is reported once: after its remedy, begin
+/// the newest 30 untouched pictures are beyond a limit, if their mean brightness is, or if a line of three of them is far from the same line of the picture before. Each kind of change is reported once: after its remedy, begin
 /// with a new monitor.
 ///
 /// ```
@@ -71,6 +75,7 @@ pub struct Monitor {
     level: Level,
     pattern: Limited,
     detail: Limited,
+    lines: Outliers,
     before: Option<Frame>,
     /// True if a picture repeated the one before while the limits were set. Repeats are then no change.
     has_repeats: bool,
@@ -139,6 +144,7 @@ impl Monitor {
             level: Level::default(),
             pattern: Limited::new(PATTERN),
             detail: Limited::new(DETAIL),
+            lines: Outliers::new(LINES),
             before: None,
             has_repeats: false,
             repeats: Newest::default(),
@@ -204,19 +210,20 @@ impl Monitor {
         settled as usize + self.pattern.missing()
     }
 
-    /// Least stimulus of brightness, pattern and detail that is found. `None` while untouched pictures are [missing](Monitor::missing).
-    pub fn smallest(&self) -> Option<[f64; 3]> {
+    /// Least stimulus of brightness, pattern, detail and single lines that is found. `None` while untouched pictures are [missing](Monitor::missing).
+    pub fn smallest(&self) -> Option<[f64; 4]> {
         Some([
             self.level.smallest()?,
             self.pattern.smallest()?,
             self.detail.smallest()?,
+            self.lines.smallest()?,
         ])
     }
 
     /// Expected number of false alarms in `pictures` untouched pictures, an upper bound.
     ///
     /// The bound supposes untouched pictures without drift, whose order has no effect. The part of the brightness supposes normal flicker.
-    /// The others hold for every distribution. Flicker whose successive pictures are alike raises more alarms (docs/faults.md).
+    /// Those of pattern and detail hold for every distribution. Single lines have no part: no alarm is expected if their noise has no outliers. Flicker whose successive pictures are alike raises more alarms (docs/faults.md).
     ///
     /// ```
     /// assert!(taceva_stress::Monitor::false_alarms(300_000) < 0.001);
@@ -263,7 +270,8 @@ impl Monitor {
         self.require_kind(frame)?;
         self.untouched += 1;
         let before = self.before.replace(frame.clone());
-        let is_repeat = before.is_some_and(|before| before == *frame);
+        let is_repeat = before.as_ref().is_some_and(|before| before == frame);
+        let line = before.map_or(0.0, |before| line_change(&before, frame));
         let is_learning = self.missing() > 0;
         let number = self.untouched;
         let mut alarms = Vec::new();
@@ -280,6 +288,8 @@ impl Monitor {
                 alarms.extend(Alarm::of(Change::Brightness, number, level));
                 alarms.extend(Alarm::of(Change::Pattern, number, pattern));
                 alarms.extend(Alarm::of(Change::Detail, number, detail));
+                let lines = self.lines.push(line / self.contact);
+                alarms.extend(Alarm::of(Change::Lines, number, lines));
             }
         }
         match is_learning {

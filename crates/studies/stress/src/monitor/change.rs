@@ -16,6 +16,8 @@ pub enum Change {
     Pattern,
     /// Untouched pictures have changed in detail: blur, noise, dead pixels, bad lines, scratches, dust.
     Detail,
+    /// Lines of some untouched pictures are displaced or lost: a cable, a connector.
+    Lines,
     /// Untouched pictures repeat the one before.
     Repeats,
     /// Pictures of contact are unlike the training pictures.
@@ -39,6 +41,9 @@ impl Change {
             }
             Change::Detail => {
                 "look at the camera: focus, dirt on the lens, dead pixels, cable; for scratches and dust on the gel, record a new untouched picture"
+            }
+            Change::Lines => {
+                "look at the cable and the connectors of the camera: lines of its pictures are displaced or lost"
             }
             Change::Repeats => {
                 "look at the camera, its cable and its driver: new pictures do not arrive"
@@ -91,6 +96,11 @@ impl fmt::Display for Alarm {
                 format!("untouched pictures have changed in large parts, {stimulus}")
             }
             Change::Detail => format!("untouched pictures have changed in detail, {stimulus}"),
+            Change::Lines => {
+                format!(
+                    "lines of some untouched pictures are far from those of the others, {stimulus}"
+                )
+            }
             Change::Repeats => format!("{share} untouched pictures repeat the previous picture"),
             Change::Contact => {
                 format!("{share} pictures of contact are outside the training pictures")

@@ -35,6 +35,7 @@ impl Monitor {
             limited.want(learnt - RUN);
         }
         self.level.want(learnt - RUN);
+        self.lines.want(learnt - RUN);
         let last = learnt / RUN - 1;
         let chosen = (0..learnt).map(|place| {
             let first = place / RUN * (untouched.len() - RUN) / last;
