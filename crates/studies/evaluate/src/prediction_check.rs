@@ -1,5 +1,7 @@
 //! Compares labels and predictions in a table of samples with those of a recording and a model file.
 
+mod beside_channels;
+
 use std::path::{Path, PathBuf};
 
 use taceva_core::{Channel, FeatureShape, counted, shown};
@@ -11,6 +13,7 @@ use crate::error::EvaluateError;
 use crate::predict::{Predicted, Target, predict_target};
 use crate::rows::DataPart;
 use crate::work::Work;
+use beside_channels::other_columns;
 
 /// Greatest allowed difference of predictions on two instruction sets, as a share of the label range.
 const NEAR: f64 = 1e-5;
@@ -62,6 +65,7 @@ pub fn check_predictions(
         .map_or_else(|| dataset.all_rows(), |target| target.rows.clone());
     let differs = other_samples(&dataset, &rows, samples);
     let differs = differs.or_else(|| other_labels(&dataset, &rows, samples));
+    let differs = differs.or_else(|| other_columns(&dataset, &rows, samples));
     if let Some(problem) = differs {
         return Ok(PredictionCheck::Differs(problem));
     }

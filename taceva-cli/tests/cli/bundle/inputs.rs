@@ -170,7 +170,7 @@ fn is_other(found: &Value, part: &str) -> bool {
 }
 
 /// Changes the cells of the table of samples of the bundle `b`, by the name of their column.
-fn edit_cells(bench: &Bench, change: impl Fn(&str, &str) -> String) {
+pub(super) fn edit_cells(bench: &Bench, change: impl Fn(&str, &str) -> String) {
     edit_table(bench, |text| {
         let mut reader = csv::Reader::from_reader(text.as_bytes());
         let names = reader.headers().expect("a head").clone();

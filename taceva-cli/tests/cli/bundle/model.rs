@@ -240,4 +240,13 @@ fn a_run_keeps_its_models_on_request_and_they_predict_its_samples_again() {
         remarks.contains("Study 0: the model gives the predictions of"),
         "{remarks}"
     );
+    // No claim of this run reads times, but they are those of the recording.
+    super::inputs::edit_cells(&bench, |name, cell| match name {
+        "t_s" if !cell.is_empty() => (1.0 + cell.parse::<f64>().expect("a time")).to_string(),
+        _ => cell.to_owned(),
+    });
+    verified(&bench, "b --level predictions", 0);
+    let found = verified(&bench, &words, 1);
+    let others = found["others"].to_string();
+    assert!(others.contains("`t_s` in line "), "{others}");
 }
