@@ -1,16 +1,11 @@
 //! Tables of errors with faults.
 
-mod grid;
 mod numbers;
 
 use taceva_core::counted;
-use taceva_metrics::plane_of;
-use taceva_report::{Cell, Column, FormattedValue, Table};
-use taceva_stress::{
-    By, ByChannel, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined,
-};
+use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
+use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
 
-pub(crate) use self::grid::grid;
 pub(crate) use self::numbers::numbers;
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
@@ -246,16 +241,6 @@ fn by_channel(channels: &[&str], words: impl Fn(&str) -> Option<String>) -> Stri
         .iter()
         .filter_map(|name| Some(format!("{name} {}", words(name)?)));
     known.collect::<Vec<String>>().join(", ")
-}
-
-/// Names of planes, and of channels that are not an axis of a plane.
-pub(super) fn main_channels<T>(of: &ByChannel<T>) -> Vec<&str> {
-    let names = of.keys().map(String::as_str);
-    let is_main = |name: &&str| {
-        let plane = plane_of(name);
-        plane.is_none_or(|plane| !of.contains_key(plane))
-    };
-    names.filter(is_main).collect()
 }
 
 /// Number with four digits.

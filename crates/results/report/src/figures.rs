@@ -21,7 +21,7 @@ mod spatial;
 mod thin;
 mod undrawn;
 
-pub use fault_grid::{FaultGrid, FaultPanel, FaultRow, fault_grid};
+pub(crate) use fault_grid::{FaultGrid, FaultPanel, FaultRow, fault_grid};
 pub use models::model_bench;
 pub use of_study::{StudyFigures, study_figures};
 pub use race::{Race, RacePoint, race};

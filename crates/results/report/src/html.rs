@@ -32,6 +32,7 @@ pub(crate) use triple::cards as triples;
 use maud::{Markup, html};
 use taceva_core::counted;
 
+use crate::faults;
 use crate::figures::figures as all_figures;
 use crate::markup::{fold, folded_glossary};
 use crate::results::Study;
@@ -102,6 +103,9 @@ pub fn report(report: &ReportPage<'_>) -> String {
         let title = "The samples predicted worst and best";
         let section = fold("samples-all", title, &counted(count, "sample"), &section);
         document.section("samples", "Samples", section);
+    }
+    if let Some(section) = faults::section(studies) {
+        document.section("faults", "Faults", section);
     }
     document.section("methods", "Methods", methods::section(studies, &table));
     document.section("details", "Details", details(studies, &table));

@@ -10,6 +10,7 @@ mod compare;
 mod contributions;
 mod curve;
 mod escape;
+mod faults;
 mod figure;
 mod figures;
 mod gauge;
@@ -49,10 +50,10 @@ pub use compare::{
 };
 pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveRequest};
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
+pub use faults::{FaultResult, main_channels};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{
-    FaultGrid, FaultPanel, FaultRow, Race, RacePoint, StudyFigures, fault_grid, figures,
-    figures_for, model_bench, race, study_figures, undrawn,
+    Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
 };
 pub use gauge::{ChannelGauge, GaugeColumns, GaugeStudies};
 pub use html::{Pick, Picture, ReportPage, Triple, picks, report};

@@ -3,7 +3,7 @@
 use taceva_check::{FrameFacts, RestChange, Tiles};
 use taceva_core::Frame;
 use taceva_dataset::{Dataset, Digest};
-use taceva_evaluate::{EvaluateError, Work, subject_of};
+use taceva_evaluate::{EvaluateError, Target, Work, subject_of};
 use taceva_models::Model;
 use taceva_results::not_measured;
 
@@ -38,6 +38,31 @@ pub fn stress(
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let setup = Setup::new(dataset, model, request)?;
+    measure(dataset, model, setup, request, work)
+}
+
+/// Same as [`stress`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
+///
+/// # Errors
+/// Errors of [`stress`].
+pub fn stress_unseen(
+    dataset: &Dataset,
+    model: &Model,
+    target: Target,
+    request: &StressRequest,
+    work: Work<'_>,
+) -> Result<StressReport, EvaluateError> {
+    let setup = Setup::of_target(dataset, model, target, request)?;
+    measure(dataset, model, setup, request, work)
+}
+
+fn measure(
+    dataset: &Dataset,
+    model: &Model,
+    setup: Setup,
+    request: &StressRequest,
+    work: Work<'_>,
+) -> Result<StressReport, EvaluateError> {
     let scale = Scale::of(dataset, &setup.samples.rows)?;
     let levels = levels(&setup, &scale, request)?;
     let cells = cells(&setup, &scale, &levels, model, request);
