@@ -20,8 +20,8 @@ pub use model::Model;
 pub use outline::Outline;
 pub use section::{Entry, Origin};
 pub use sections::{
-    Camera, Dome, Gratings, Lattice, Layer, Markers, Material, Probing, Robot, Search, Surface,
-    Transducer, Variation, Wear,
+    Camera, Dome, GelWear, Gratings, Lattice, Layer, Markers, Material, Probing, Robot, Search,
+    Surface, Transducer, Variation,
 };
 
 use read::Document;
@@ -66,7 +66,7 @@ pub struct Parameters {
     /// Layers of a printed lattice, if any.
     pub lattice: Option<Lattice>,
     /// Wear of the gel; `None` for a new gel.
-    pub wear: Option<Wear>,
+    pub wear: Option<GelWear>,
     /// Blur and contrast of gratings.
     pub gratings: Gratings,
     /// Robot that moves the indenter.
@@ -101,7 +101,7 @@ impl Parameters {
         let camera = document.required()?;
         let markers = document.optional()?;
         let lattice = document.optional()?;
-        let wear: Option<Wear> = document.optional()?;
+        let wear: Option<GelWear> = document.optional()?;
         let gratings = document.required()?;
         let robot = document.required()?;
         let search = document.required()?;

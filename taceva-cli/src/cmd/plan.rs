@@ -17,7 +17,7 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let host = context.plugins(Some(Path::new(&args.scene.scene)))?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let planned = scene::planned(&args.scene, &drivers)?;
-    run::faults::check(&planned)?;
+    run::faults::check(&planned, &drivers)?;
     scene::print_cost(&planned, Path::new("."), context)?;
     run::faults::print_cost(&planned, context)?;
     scene::print_rigs(&planned, &drivers, context);

@@ -30,7 +30,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let planned = scene::to_run(args, &drivers)?;
     scene::check_metrics(&planned)?;
     check_models(&planned, &models)?;
-    faults::check(&planned)?;
+    faults::check(&planned, &drivers)?;
     let attended = Attended::open(args, &planned.scene.name)?;
     if attended.operator().is_none() {
         planned.check_unattended(&drivers)?;
@@ -103,7 +103,13 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     if let Some(cache) = &cache {
         stages::write(cache, &folder, context)?;
     }
-    let tested = faults::test(&planned, &folder, studies, context)?;
+    let tested = faults::TestedRun {
+        planned: &planned,
+        folder: &folder,
+        workshop,
+        context,
+    };
+    let tested = faults::test(&tested, studies)?;
     let mut reports = tested.reports;
     reports
         .iter_mut()

@@ -4,7 +4,9 @@ mod numbers;
 
 use taceva_core::counted;
 use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
-use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
+use taceva_stress::{
+    By, Estimate, FaultReport, GEL_FAULTS, NEVER, StressReport, TARGETS, Undefined,
+};
 
 pub(crate) use self::numbers::numbers;
 
@@ -23,7 +25,7 @@ pub(crate) fn table(report: &StressReport) -> Table {
     for fault in &report.faults {
         for of in &fault.severities {
             let mut cells = vec![
-                Cell::text(fault.id),
+                Cell::text(fault.id.as_str()),
                 Cell::Number(of.severity.to_string()),
                 Cell::Number(short(of.parameter)),
                 Cell::Number(of.stimulus.map_or_else(|| "–".to_owned(), short)),
@@ -100,7 +102,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }
     notes.extend(missed_targets(report));
     notes.extend(report.faults.iter().filter_map(|fault| {
-        let words = fault.note?;
+        let words = fault.note.as_ref()?;
         Some(format!("{}: {words}.", fault.id))
     }));
     if report.untouched != "reference" {
@@ -125,7 +127,10 @@ fn missed_targets(report: &StressReport) -> Option<String> {
     if report.by == By::Parameter {
         return None;
     }
-    let cells = report.faults.iter().flat_map(|fault| {
+    // Faults of a gel have parameters of their own and no target.
+    let of_pictures = report.faults.iter();
+    let of_pictures = of_pictures.filter(|fault| !GEL_FAULTS.contains(&fault.id.as_str()));
+    let cells = of_pictures.flat_map(|fault| {
         let severities = fault.severities.iter();
         severities.filter_map(move |of| {
             let target = TARGETS[usize::from(of.severity) - 1];

@@ -58,7 +58,7 @@ pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
             };
             let doubled = of.stale.iter().filter(move |(_, score)| is_doubled(score));
             doubled.map(move |(channel, _)| Unnoticed {
-                fault: fault.id,
+                fault: fault.id.clone(),
                 severity: of.severity,
                 channel: channel.clone(),
             })

@@ -18,10 +18,11 @@ mod severity;
 mod stress;
 mod study;
 mod wear;
+mod worn;
 
 pub use estimate::{Estimate, Undefined};
 pub use fault::{Fault, Scope};
-pub use faults::{FAULTS, LIST, select};
+pub use faults::{FAULTS, GEL_FAULTS, LIST, select};
 pub use monitor::{Alarm, Change, Monitor, watch};
 pub use report::{
     ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
@@ -35,3 +36,4 @@ pub use wear::{
     ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearBy, WearDifference, WearReport,
     WearRequest, wear,
 };
+pub use worn::{WornFault, WornGel};

@@ -88,8 +88,12 @@ impl Setup {
         model: &Model,
         target: Target,
         request: &StressRequest,
+        has_worn: bool,
     ) -> Result<Setup, EvaluateError> {
-        let chosen = request.checked()?;
+        let chosen = match request.faults.is_empty() && has_worn {
+            true => Vec::new(),
+            false => request.checked()?,
+        };
         let samples = Unseen::of_target(dataset, model, target)?;
         Ok(Setup::with(samples, chosen, request))
     }
@@ -100,8 +104,8 @@ impl Setup {
             !stress.repeats() || samples.rows.len() > 1
         });
         let skipped = orderless.into_iter().map(|fault| SkippedFault {
-            fault: fault.id,
-            reason: "the only scored picture has no previous picture",
+            fault: fault.id.to_owned(),
+            reason: "the only scored picture has no previous picture".to_owned(),
         });
         Setup {
             skipped: skipped.collect(),

@@ -21,11 +21,12 @@ use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest, compares};
 use crate::severity::{By, Levels, Reference};
 use crate::stress::{Stress, draw_seeds};
+use crate::worn::{NewGel, ScoredFault, WornFault};
 
 /// Stimulus below which a fault hardly changes the pictures.
-const LOW: f64 = 0.05;
+pub(crate) const LOW: f64 = 0.05;
 /// Check of untouched pictures.
-const CHANGED_REST: &str = "TAC034";
+pub(crate) const CHANGED_REST: &str = "TAC034";
 
 /// Errors of `model` on the pictures of `dataset` with faults. Nothing is fitted.
 ///
@@ -38,10 +39,11 @@ pub fn stress(
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let setup = Setup::new(dataset, model, request)?;
-    measure(dataset, model, setup, request, work)
+    measure(dataset, model, setup, Gels::new(request, &[]), work)
 }
 
 /// Same as [`stress`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
+/// Faults of the gel in `worn` come after those of the pictures; without a name in `request.faults`, they are the only ones.
 ///
 /// # Errors
 /// Errors of [`stress`].
@@ -50,17 +52,31 @@ pub fn stress_unseen(
     model: &Model,
     target: Target,
     request: &StressRequest,
+    worn: &[WornFault],
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
-    let setup = Setup::of_target(dataset, model, target, request)?;
-    measure(dataset, model, setup, request, work)
+    let setup = Setup::of_target(dataset, model, target, request, !worn.is_empty())?;
+    measure(dataset, model, setup, Gels::new(request, worn), work)
+}
+
+/// Faults of the pictures, and of gels.
+#[derive(Clone, Copy)]
+struct Gels<'a> {
+    request: &'a StressRequest,
+    worn: &'a [WornFault],
+}
+
+impl<'a> Gels<'a> {
+    fn new(request: &'a StressRequest, worn: &'a [WornFault]) -> Gels<'a> {
+        Gels { request, worn }
+    }
 }
 
 fn measure(
     dataset: &Dataset,
     model: &Model,
     setup: Setup,
-    request: &StressRequest,
+    Gels { request, worn }: Gels<'_>,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let scale = Scale::of(dataset, &setup.samples.rows)?;
@@ -87,18 +103,35 @@ fn measure(
         baseline: &baseline,
         rows: setup.samples.rows.len(),
     };
-    let faults: Vec<FaultReport> = (0..setup.faults.len())
+    let new = NewGel {
+        dataset,
+        model,
+        rows: &setup.samples.rows,
+        scorer: &scorer,
+        baseline: &baseline,
+        clean: &clean,
+        scale: &scale,
+    };
+    let worn_scores = worn.iter().map(|fault| new.beside(fault, work));
+    let worn_scores: Vec<ScoredFault> = worn_scores.collect::<Result<_, EvaluateError>>()?;
+    let mut faults: Vec<FaultReport> = (0..setup.faults.len())
         .map(|fault| results.of_fault(fault, setup.faults[fault], &levels[fault]))
         .collect();
-    let mean = results.mean(setup.faults.len());
+    let mean = results.mean(setup.faults.len(), &worn_scores);
     let subject = subject_of(dataset);
-    let provenance = setup.samples.provenance(dataset, model, scale.decoded)?;
+    let decoded = worn_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded;
+    let provenance = setup.samples.provenance(dataset, model, decoded)?;
+    let mut skipped = setup.skipped;
+    for of in worn_scores {
+        faults.push(of.report);
+        skipped.extend(of.skipped);
+    }
     Ok(StressReport {
         schema: STRESS_SCHEMA,
         not_measured: not_measured([subject.source.as_str()]),
         subject,
         by: request.by,
-        list: list(&setup.faults, request),
+        list: list(&setup.faults, request, worn),
         seed: request.seed,
         draws: request.draws,
         samples: setup.samples.rows.len(),
@@ -111,7 +144,7 @@ fn measure(
         unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
         notes: notes(&setup.faults, request, &baseline, setup.samples.rows.len()),
         faults,
-        skipped: setup.skipped,
+        skipped,
         provenance,
     })
 }
@@ -123,7 +156,7 @@ fn levels(
     request: &StressRequest,
 ) -> Result<Vec<Levels>, EvaluateError> {
     let faults = setup.faults.iter();
-    if request.by == By::Parameter {
+    if request.by == By::Parameter || setup.faults.is_empty() {
         let levels = faults.map(|fault| Levels::by_parameter(fault, &request.severities));
         return Ok(levels.collect());
     }
@@ -170,10 +203,12 @@ fn cells(
 }
 
 /// Name and digest of the faults with their severities.
-fn list(faults: &[&'static Fault], request: &StressRequest) -> FaultList {
-    let ids: Vec<&str> = faults.iter().map(|fault| fault.id).collect();
+fn list(faults: &[&'static Fault], request: &StressRequest, worn: &[WornFault]) -> FaultList {
+    let ids = faults.iter().map(|fault| fault.id);
+    let ids = ids.chain(worn.iter().map(|fault| fault.id.as_str()));
+    let ids: Vec<&str> = ids.collect();
     let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
-    let is_whole = faults.len() == FAULTS.len() && request.severities.len() == 5;
+    let is_whole = faults.len() == FAULTS.len() && worn.is_empty() && request.severities.len() == 5;
     let mut text = format!(
         "{LIST_VERSION}\n{:?}\n{}\n{}\n",
         request.by,
@@ -240,10 +275,10 @@ impl Results<'_> {
         };
         let has_fresh = scored.iter().all(|cell| cell.fresh.is_some()) && !scored.is_empty();
         FaultReport {
-            id: of.id,
-            title: of.title,
-            parameter: of.parameter,
-            note: of.note,
+            id: of.id.to_owned(),
+            title: of.title.to_owned(),
+            parameter: of.parameter.to_owned(),
+            note: of.note.map(str::to_owned),
             mean: by_channel(&stale),
             recovers: by_channel(&|name: &str| match has_fresh {
                 true => recovers(&severities, name, &stale(name)),
@@ -300,13 +335,14 @@ impl Results<'_> {
     }
 
     /// Mean degradation over all faults.
-    fn mean(&self, faults: usize) -> ByChannel<Estimate> {
+    fn mean(&self, faults: usize, worn: &[ScoredFault]) -> ByChannel<Estimate> {
         let mean = |name: &String| {
             let of_fault = |fault| {
                 let cells = self.positions(fault).map(|at| &self.scored[at].stale);
                 cells.collect::<Vec<&Scored>>()
             };
-            mean_degradation(name, (0..faults).map(of_fault), self.baseline)
+            let worn = worn.iter().map(|fault| fault.cells.iter().collect());
+            mean_degradation(name, (0..faults).map(of_fault).chain(worn), self.baseline)
         };
         let names = self.baseline.names();
         names.map(|name| (name.clone(), mean(name))).collect()

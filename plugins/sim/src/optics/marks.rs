@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use super::band::Band;
 use super::disc::{Disc, DiscSpec};
 use super::raster::Raster;
-use crate::parameters::Wear;
+use crate::parameters::GelWear;
 use crate::random::{Purpose, Random, Stream};
 use taceva_core::whole_size;
 
@@ -32,7 +32,7 @@ pub(super) struct Marks {
 impl Marks {
     /// Marks of `unit` on a field of `field_mm`. A length of 1 mm at the middle is `per_mm` in the unit of `raster`.
     pub(super) fn new(
-        wear: Option<&Wear>,
+        wear: Option<&GelWear>,
         field_mm: [f64; 2],
         unit: u32,
         raster: &Raster,

@@ -94,6 +94,38 @@ impl GelFault {
         }
     }
 
+    /// Cause and appearance, in one line.
+    pub const fn title(self) -> &'static str {
+        match self {
+            GelFault::Softening => "a softer gel",
+            GelFault::Hardening => "a harder gel",
+            GelFault::Temperature => "a warmer sensor: a softer gel under weaker lamps",
+            GelFault::Friction => "less friction",
+            GelFault::Shift => "a gel that moved in its housing",
+            GelFault::Thickness => "a thinner gel",
+            GelFault::Gloss => "a glossier coating",
+            GelFault::Scratches => "bright scratches that move with the gel",
+            GelFault::Tear => "a dark tear that moves with the gel",
+            GelFault::Dust => "dark dust that moves with the gel",
+        }
+    }
+
+    /// Meaning and unit of the parameter.
+    pub const fn parameter(self) -> &'static str {
+        match self {
+            GelFault::Softening => "share of the stiffness that is lost",
+            GelFault::Hardening => "stiffness that is added, share of the stiffness before",
+            GelFault::Temperature => "warming, K",
+            GelFault::Friction => "share of the friction that is lost",
+            GelFault::Shift => "shift along x, mm",
+            GelFault::Thickness => "share of the thickness that is lost",
+            GelFault::Gloss => "directed light that is added, share of that before",
+            GelFault::Scratches => "number of scratches",
+            GelFault::Tear => "radius, share of the width",
+            GelFault::Dust => "number of specks",
+        }
+    }
+
     /// Finds a fault by its name.
     pub fn from_name(name: &str) -> Option<GelFault> {
         GelFault::ALL.into_iter().find(|fault| fault.name() == name)

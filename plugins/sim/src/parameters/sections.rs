@@ -166,7 +166,7 @@ section! {
 
 section! {
     /// Wear of the gel. A new gel has no such section.
-    Wear, "wear", {
+    GelWear, "wear", {
         /// Shift of the gel in its housing along x; along y, half of it.
         shift_mm: "mm", 0.0 ..= 5.0;
         /// Relative gain of the light that the coating reflects in one direction.
@@ -180,7 +180,7 @@ section! {
     }
 }
 
-impl Wear {
+impl GelWear {
     /// Shift of the gel along x and y, mm.
     pub fn shift_xy_mm(&self) -> [f64; 2] {
         [self.shift_mm, 0.5 * self.shift_mm]

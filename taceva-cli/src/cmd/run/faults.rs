@@ -1,21 +1,26 @@
 //! Faults of the pictures of a run, tested after its studies with their own models.
 
+use std::collections::BTreeSet;
 use std::fs;
 
 use anyhow::Context as _;
-use taceva_acquire::{PlannedScene, PlannedStudy};
+use taceva_acquire::{PlannedScene, PlannedStudy, Workshop};
 use taceva_core::{Field, counted, shown};
 use taceva_dataset::Dataset;
-use taceva_protocol::SceneProblem;
+use taceva_drivers::Drivers;
+use taceva_protocol::{Cancel, PlannedPress, SceneProblem};
 use taceva_report::FaultResult;
 use taceva_results::EvaluationReport;
-use taceva_stress::{StressReport, StressRequest, select, stress_unseen};
+use taceva_sim::GelFault;
+use taceva_stress::{
+    SkippedFault, StressReport, StressRequest, WornFault, WornGel, select, stress_unseen,
+};
 use taceva_study::{FinishedStudy, FittedStudy, RunFolder};
 
 use super::Context;
 use crate::args::Format;
 use crate::cmd::scene::tested_presses;
-use crate::output;
+use crate::{output, progress};
 
 /// Reason why a study without predictions has no errors to test.
 const NO_PREDICTIONS: &str =
@@ -27,16 +32,38 @@ pub(super) struct Tested {
     pub(super) faults: Vec<Option<FaultResult>>,
 }
 
-/// Refuses unknown faults under `[stress]` of a scene, before any press.
-pub(in crate::cmd) fn check(planned: &PlannedScene) -> anyhow::Result<()> {
+/// Refuses unknown faults under `[stress]` of a scene, and faults of a gel that is not simulated, before any press.
+pub(in crate::cmd) fn check(planned: &PlannedScene, drivers: &Drivers) -> anyhow::Result<()> {
     let wanted = planned.scene.stress.iter();
     for fault in wanted.flat_map(|stress| stress.faults.iter().flatten()) {
-        if let Err(error) = select(std::slice::from_ref(&fault.value)) {
-            let problem = SceneProblem::Contradiction(error.to_string());
-            return Err(planned.text.error(fault.at(), problem).into());
+        let refused = |words: String| {
+            let problem = SceneProblem::Contradiction(words);
+            anyhow::Error::from(planned.text.error(fault.at(), problem))
+        };
+        let Some(of_gel) = gel_fault(&fault.value) else {
+            select(std::slice::from_ref(&fault.value))
+                .map_err(|error| refused(error.to_string()))?;
+            continue;
+        };
+        let mut studies = planned.studies.iter();
+        let unknown = studies.find(|study| {
+            let worn = study.worn(of_gel.name(), 1, &BTreeSet::new(), drivers);
+            worn.is_none()
+        });
+        if let Some(study) = unknown {
+            return Err(refused(format!(
+                "fault `{}`: only the bench knows its gel, and the sensor of study `{}` is not simulated; remove it from `faults`",
+                of_gel.name(),
+                shown(&study.plan.name)
+            )));
         }
     }
     Ok(())
+}
+
+/// Fault of a gel called `name`.
+fn gel_fault(name: &str) -> Option<GelFault> {
+    GelFault::from_name(name.trim())
 }
 
 /// Prints the cost of the faults of a scene: pictures that are decoded once more.
@@ -44,18 +71,31 @@ pub(in crate::cmd) fn check(planned: &PlannedScene) -> anyhow::Result<()> {
 /// # Errors
 /// If a fault is unknown.
 pub(in crate::cmd) fn print_cost(planned: &PlannedScene, context: &Context) -> anyhow::Result<()> {
-    let Some(request) = request(planned) else {
+    let Some(Wanted { request, gels }) = Wanted::of(planned) else {
         return Ok(());
     };
-    let faults = counted(select(&request.faults)?.len(), "fault");
+    let pictured = match request.faults.is_empty() {
+        true => 0,
+        false => select(&request.faults)?.len(),
+    };
+    let faults = counted(pictured, "fault");
     let severities = by_severity(request.severities.len());
     for study in &planned.studies {
         let name = shown(&study.plan.name);
         let words = match pictures(study) {
             None => format!("not tested: {NO_PREDICTIONS}"),
-            Some(pictures) => format!(
-                "{faults} of {severities} on {pictures}, each decoded once more; nothing is pressed or fitted for them"
-            ),
+            Some(pictures) => {
+                let again = gels.len() * request.severities.len() * tested(study).len();
+                let again = match again {
+                    0 => "nothing is pressed or fitted for them".to_owned(),
+                    count => format!(
+                        "{} again on worn gels, for {}; nothing is fitted",
+                        counted(count, "press"),
+                        counted(gels.len(), "fault")
+                    ),
+                };
+                format!("{faults} of {severities} on {pictures}, each decoded once more; {again}")
+            }
         };
         context.say(format_args!("faults: {name}: {words}"));
     }
@@ -76,7 +116,7 @@ fn pictures(study: &PlannedStudy) -> Option<String> {
     if !is_predicted {
         return None;
     }
-    let presses = tested_presses(plan).unwrap_or_default();
+    let presses = tested(study);
     let pictures = presses.iter().filter(|planned| planned.frames);
     let pictures: usize = pictures.map(|planned| planned.press.samples()).sum();
     Some(match pictures {
@@ -85,36 +125,65 @@ fn pictures(study: &PlannedStudy) -> Option<String> {
     })
 }
 
-/// Faults and severities of the scene; `None` without `[stress]`.
-fn request(planned: &PlannedScene) -> Option<StressRequest> {
-    let stress = planned.scene.stress.as_ref()?;
-    let usual = StressRequest::default();
-    let faults = stress.faults.as_ref().map(|faults| {
-        let names = faults.iter().map(|fault| fault.value.clone());
-        names.collect()
-    });
-    Some(StressRequest {
-        faults: faults.unwrap_or(usual.faults),
-        severities: stress.severities(),
-        draws: stress.draws(),
-        seed: planned.scene.seed,
-        by: usual.by,
-        part: None,
-    })
+/// Planned presses of the test part; empty if they are not known before the run.
+fn tested(study: &PlannedStudy) -> Vec<&PlannedPress> {
+    tested_presses(&study.plan).unwrap_or_default()
 }
 
-/// Tests each of `studies` with the faults of its scene, and writes the errors to `stress/N-NAME.json` in `folder`. A study that cannot be tested has
-/// a note with the reason in its report.
+/// Faults of a scene.
+struct Wanted {
+    /// Faults of pictures; without a name if only gels are tested.
+    request: StressRequest,
+    gels: Vec<GelFault>,
+}
+
+impl Wanted {
+    /// Faults and severities of the scene; `None` without `[stress]`.
+    fn of(planned: &PlannedScene) -> Option<Wanted> {
+        let stress = planned.scene.stress.as_ref()?;
+        let usual = StressRequest::default();
+        let names = stress.faults.as_ref().map(|faults| {
+            let names = faults.iter().map(|fault| fault.value.clone());
+            names.collect()
+        });
+        let names: Vec<String> = names.unwrap_or(usual.faults);
+        let gels = names.iter().filter_map(|name| gel_fault(name)).collect();
+        let pictures = names.into_iter().filter(|name| gel_fault(name).is_none());
+        Some(Wanted {
+            request: StressRequest {
+                faults: pictures.collect(),
+                severities: stress.severities(),
+                draws: stress.draws(),
+                seed: planned.scene.seed,
+                by: usual.by,
+                part: None,
+            },
+            gels,
+        })
+    }
+}
+
+/// Run whose studies are tested.
+pub(super) struct TestedRun<'a> {
+    pub(super) planned: &'a PlannedScene,
+    pub(super) folder: &'a RunFolder,
+    pub(super) workshop: Workshop<'a>,
+    pub(super) context: &'a Context,
+}
+
+/// Tests each of `studies` with the faults of its scene, and writes the errors to `stress/N-NAME.json` in the folder of the run. A study that cannot be
+/// tested has a note with the reason in its report.
 ///
 /// # Errors
-/// If a picture cannot be read, or a file cannot be written.
-pub(super) fn test(
-    planned: &PlannedScene,
-    folder: &RunFolder,
-    studies: Vec<FinishedStudy>,
-    context: &Context,
-) -> anyhow::Result<Tested> {
-    let request = request(planned);
+/// If a picture cannot be read, a press on a worn gel fails, or a file cannot be written.
+pub(super) fn test(run: &TestedRun<'_>, studies: Vec<FinishedStudy>) -> anyhow::Result<Tested> {
+    let TestedRun {
+        planned,
+        folder,
+        context,
+        ..
+    } = *run;
+    let wanted = Wanted::of(planned);
     let mut tested = Tested {
         reports: Vec::new(),
         faults: Vec::new(),
@@ -129,8 +198,8 @@ pub(super) fn test(
         let name = &planned.studies[number].plan.name;
         let mut faults = None;
         let mut notes = Vec::new();
-        if let Some(request) = &request {
-            match of_study(&dataset, fitted, request, context)? {
+        if let Some(wanted) = &wanted {
+            match of_study(run, number, &dataset, fitted, wanted)? {
                 Ok(found) => faults = Some(write(&found, folder, number, name)?),
                 Err(reason) => notes.push(format!("faults are not tested: {reason}")),
             }
@@ -147,20 +216,77 @@ pub(super) fn test(
 
 /// Errors of a study with faults, or the reason why it cannot be tested.
 fn of_study(
+    run: &TestedRun<'_>,
+    number: usize,
     dataset: &Dataset,
     fitted: Option<FittedStudy>,
-    request: &StressRequest,
-    context: &Context,
+    wanted: &Wanted,
 ) -> anyhow::Result<Result<StressReport, String>> {
     let Some(FittedStudy { model, unseen, .. }) = fitted else {
         return Ok(Err(NO_PREDICTIONS.to_owned()));
     };
-    let work = context.work(None);
-    match stress_unseen(dataset, &model, unseen, request, work) {
+    let names = dataset.table().samples();
+    let presses = unseen.rows.iter().map(|row| {
+        let sample = names[*row].as_str();
+        let press = sample.split_once('/').map_or(sample, |(press, _)| press);
+        press.to_owned()
+    });
+    let presses: BTreeSet<String> = presses.collect();
+    let severities = &wanted.request.severities;
+    let worn = wanted.gels.iter();
+    let worn = worn.map(|fault| press_worn(run, number, *fault, severities, &presses));
+    let worn: Vec<WornFault> = worn.collect::<anyhow::Result<_>>()?;
+    let work = run.context.work(None);
+    match stress_unseen(dataset, &model, unseen, &wanted.request, &worn, work) {
         Ok(found) => Ok(Ok(found)),
         Err(error) if error.is_usage() => Ok(Err(error.to_string())),
         Err(error) => Err(error.into()),
     }
+}
+
+/// Presses the test part of study `number` again on gels with `fault`, into folders beside the errors of the study. A severity that the gel cannot have is
+/// skipped.
+fn press_worn(
+    run: &TestedRun<'_>,
+    number: usize,
+    fault: GelFault,
+    severities: &[u8],
+    presses: &BTreeSet<String>,
+) -> anyhow::Result<WornFault> {
+    let study = &run.planned.studies[number];
+    let folder = run.folder.stress(number, &study.plan.name);
+    let folder = folder.with_extension("");
+    fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", shown(&folder)))?;
+    let progress = run.workshop.progress;
+    let mut gels = Vec::new();
+    let mut skipped = Vec::new();
+    for &severity in severities {
+        let worn = study.worn(fault.name(), severity, presses, run.workshop.drivers);
+        let worn = worn.context("a sensor that is not simulated has no fault of its gel")?;
+        let path = folder.join(format!("{}-{severity}", fault.name()));
+        progress.begin("press", Some(worn.plan.presses.len() as u64));
+        let dataset = worn.acquire(&path, run.workshop, &Cancel::new());
+        progress.end();
+        match dataset {
+            Ok(dataset) => gels.push(WornGel {
+                severity,
+                parameter: fault.amount(severity),
+                dataset,
+            }),
+            Err(error) if progress::is_stopped() => return Err(error.into()),
+            Err(error) => skipped.push(SkippedFault {
+                fault: fault.name().to_owned(),
+                reason: format!("severity {severity}: {error}"),
+            }),
+        }
+    }
+    Ok(WornFault {
+        id: fault.name().to_owned(),
+        title: fault.title().to_owned(),
+        parameter: fault.parameter().to_owned(),
+        severities: gels,
+        skipped,
+    })
 }
 
 /// Writes the errors of study `number`, and returns them as others read them.

@@ -25,8 +25,9 @@ fn written(bench: &Bench, folder: &str) -> Vec<Value> {
     let Ok(entries) = fs::read_dir(bench.path(folder).join("stress")) else {
         return Vec::new();
     };
-    let files = entries.map(|entry| {
-        let text = fs::read_to_string(entry.expect("readable").path()).expect("reads");
+    let paths = entries.map(|entry| entry.expect("readable").path());
+    let files = paths.filter(|path| path.is_file()).map(|path| {
+        let text = fs::read_to_string(path).expect("reads");
         serde_json::from_str(&text).expect("JSON")
     });
     files.collect()
@@ -106,4 +107,56 @@ fn a_misspelt_fault_of_a_scene_is_refused_before_any_press() {
     );
     bench.refused("plan worn.toml", 3, "did you mean `defocus`?");
     assert!(!bench.path("runs").exists());
+}
+
+#[test]
+fn a_worn_gel_is_pressed_again_and_its_force_and_pictures_change_together() {
+    let bench = Bench::new();
+    let gels =
+        "stress = { faults = [\"gel_softening\", \"gel_dust\", \"tear\"], severities = [1, 5] }\n";
+    bench.write("worn.toml", &scene(gels));
+    let ran = bench.run("run worn.toml --out worn");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    assert!(
+        ran.err.contains("again on worn gels, for 2 faults"),
+        "{}",
+        ran.err
+    );
+    let found = written(&bench, "worn");
+    let faults = &found[0];
+    crate::schema::check("stress", faults);
+    assert_eq!(faults["list"]["name"], "tear,gel_softening,gel_dust");
+    for fault in 1..3 {
+        let severities = faults["faults"][fault]["severities"].as_array();
+        let severities = severities.expect("severities");
+        assert_eq!(severities.len(), 2, "{faults}");
+        assert_eq!(severities[1]["severity"], 5);
+        assert!(
+            severities[1]["stale"]["Fz"]["mae"]["value"].is_number(),
+            "{faults}"
+        );
+    }
+    let softest = &faults["faults"][1]["severities"][1];
+    assert_eq!(softest["parameter"], 0.4);
+    assert!(
+        softest["stimulus"]
+            .as_f64()
+            .is_some_and(|change| change > 0.0),
+        "{softest}"
+    );
+}
+
+#[test]
+fn a_fault_of_a_gel_is_refused_for_a_recording() {
+    let bench = Bench::new();
+    bench.record("monday", 24);
+    bench.write(
+        "real.toml",
+        "scene_version = 1\nname = \"real\"\nsensor = { dataset = \"monday\" }\nmodel = { name = \"ridge\", set = { size = \"8x8\" } }\nstress = { faults = [\"temperature\"] }\n",
+    );
+    bench.refused(
+        "run real.toml",
+        3,
+        "line 5: fault `temperature`: only the bench knows its gel",
+    );
 }

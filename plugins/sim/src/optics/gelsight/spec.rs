@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::lamp::LampSpec;
-use crate::parameters::{Layer, Markers, Parameters, Wear};
+use crate::parameters::{GelWear, Layer, Markers, Parameters};
 
 /// A coated flat gel under coloured lamps.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,7 +31,7 @@ pub struct GelsightSpec {
     /// Width and height of the field.
     pub field_mm: [f64; 2],
     /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less of all directions (free).
-    pub wear: Option<Wear>,
+    pub wear: Option<GelWear>,
 }
 
 /// Grid of dark discs on the gel's surface.

@@ -1,7 +1,7 @@
 //! Parameters of a clear block with a lattice.
 
 use crate::optics::contrast::grating_contrast;
-use crate::parameters::{Lattice, Layer, Parameters, Wear};
+use crate::parameters::{GelWear, Lattice, Layer, Parameters};
 
 /// A clear block with a printed lattice in three layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,7 +33,7 @@ pub struct MagictacSpec {
     /// Width and height of the field.
     pub field_mm: [f64; 2],
     /// Wear of the block, if any.
-    pub wear: Option<Wear>,
+    pub wear: Option<GelWear>,
 }
 
 impl MagictacSpec {

@@ -2,7 +2,7 @@
 
 use crate::elastic::shell;
 use crate::optics::contrast::grating_contrast;
-use crate::parameters::{Dome, Parameters, Wear};
+use crate::parameters::{Dome, GelWear, Parameters};
 
 /// A clear dome with markers in its skin, seen from inside by a wide lens.
 ///
@@ -44,7 +44,7 @@ pub struct VitactipSpec {
     /// Diameter of the visible field, along x and y.
     pub field_mm: [f64; 2],
     /// Wear of the skin, if any. A glossier skin reflects more of the ball (free).
-    pub wear: Option<Wear>,
+    pub wear: Option<GelWear>,
 }
 
 impl VitactipSpec {
