@@ -2,6 +2,7 @@
 
 pub(super) mod bench;
 pub(super) mod faults;
+mod plugin_fault;
 mod stages;
 
 use std::ffi::OsStr;
@@ -31,6 +32,14 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     scene::check_metrics(&planned)?;
     check_models(&planned, &models)?;
     faults::check(&planned, &drivers)?;
+    let estimators = match planned.scene.faults.is_empty() {
+        true => Vec::new(),
+        false => {
+            let host = context.plugins(Some(Path::new(&args.scene.scene)))?;
+            host.models()
+        }
+    };
+    faults::plugin_faults(&planned, &estimators)?;
     let attended = Attended::open(args, &planned.scene.name)?;
     if attended.operator().is_none() {
         planned.check_unattended(&drivers)?;
@@ -104,6 +113,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         stages::write(cache, &folder, context)?;
     }
     let tested = faults::TestedRun {
+        estimators: &estimators,
         planned: &planned,
         folder: &folder,
         workshop,
@@ -131,7 +141,10 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     })?;
     context.say(format_args!("reports are in {}", shown(&folder.reports())));
     context.say(format_args!("look at    {}", shown(&page)));
-    Ok(exit::DONE)
+    Ok(match tested.has_failed {
+        true => exit::DEVICE,
+        false => exit::DONE,
+    })
 }
 
 /// Command line that resumes the run in `path`.

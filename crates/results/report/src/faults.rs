@@ -37,6 +37,8 @@ pub struct FaultResult {
     mean: BTreeMap<String, Estimate>,
     unnoticed: Option<Vec<Unnoticed>>,
     skipped: Vec<Skipped>,
+    #[serde(default)]
+    failed: Vec<Skipped>,
     notes: Vec<String>,
 }
 

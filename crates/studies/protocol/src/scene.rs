@@ -20,7 +20,7 @@ pub use counts::{
 pub use depth_origin::DepthOrigin;
 pub use devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
-pub use stress::StressSpec;
+pub use stress::{PluginFaultSpec, StressSpec};
 pub use study::Study;
 
 pub(crate) use boards::spacings;
@@ -74,6 +74,8 @@ pub struct Scene {
     pub report: ReportSpec,
     /// Faults of the pictures; `None` if the run tests none.
     pub stress: Option<StressSpec>,
+    /// Faults of pictures that plugins make.
+    pub faults: Vec<PluginFaultSpec>,
     pub(crate) text: Text,
 }
 

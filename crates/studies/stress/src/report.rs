@@ -53,6 +53,9 @@ pub struct StressReport {
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
+    /// Faults of plugins that failed, with reasons.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failed: Vec<SkippedFault>,
     /// Limitations of the numbers, as sentences.
     pub notes: Vec<String>,
     /// Origin of the numbers.

@@ -11,10 +11,12 @@ use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
 use crate::faults::{FAULTS, LIST, LIST_VERSION};
 use crate::findings::{breaks_at, recovers, unnoticed};
+use crate::foreign::PictureFault;
 use crate::notes::notes;
 use crate::pass::{Cell, CellPredictions, UNTOUCHED, predictions};
 use crate::report::{
-    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, StressReport,
+    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
+    StressReport,
 };
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
@@ -39,11 +41,11 @@ pub fn stress(
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let setup = Setup::new(dataset, model, request)?;
-    measure(dataset, model, setup, Gels::new(request, &[]), work)
+    measure(dataset, model, setup, request, OtherFaults::default(), work)
 }
 
 /// Same as [`stress`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
-/// Faults of the gel in `worn` come after those of the pictures; without a name in `request.faults`, they are the only ones.
+/// The faults in `others` come after those of `request`; without a name in `request.faults`, they are the only ones.
 ///
 /// # Errors
 /// Errors of [`stress`].
@@ -52,31 +54,34 @@ pub fn stress_unseen(
     model: &Model,
     target: Target,
     request: &StressRequest,
-    worn: &[WornFault],
+    others: OtherFaults<'_>,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
-    let setup = Setup::of_target(dataset, model, target, request, !worn.is_empty())?;
-    measure(dataset, model, setup, Gels::new(request, worn), work)
+    let has_others = !others.worn.is_empty() || !others.foreign.is_empty();
+    let setup = Setup::of_target(dataset, model, target, request, has_others)?;
+    measure(dataset, model, setup, request, others, work)
 }
 
-/// Faults of the pictures, and of gels.
-#[derive(Clone, Copy)]
-struct Gels<'a> {
-    request: &'a StressRequest,
-    worn: &'a [WornFault],
-}
-
-impl<'a> Gels<'a> {
-    fn new(request: &'a StressRequest, worn: &'a [WornFault]) -> Gels<'a> {
-        Gels { request, worn }
-    }
+/// Faults that the crate does not make itself. Callers build it as a literal; it has no further fields.
+///
+/// ```
+/// let none = taceva_stress::OtherFaults::default();
+/// assert!(none.worn.is_empty() && none.foreign.is_empty());
+/// ```
+#[derive(Clone, Copy, Default)]
+pub struct OtherFaults<'a> {
+    /// Faults of gels.
+    pub worn: &'a [WornFault],
+    /// Faults of pictures that plugins make.
+    pub foreign: &'a [&'a dyn PictureFault],
 }
 
 fn measure(
     dataset: &Dataset,
     model: &Model,
     setup: Setup,
-    Gels { request, worn }: Gels<'_>,
+    request: &StressRequest,
+    others: OtherFaults<'_>,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let scale = Scale::of(dataset, &setup.samples.rows)?;
@@ -112,17 +117,27 @@ fn measure(
         clean: &clean,
         scale: &scale,
     };
-    let worn_scores = worn.iter().map(|fault| new.beside(fault, work));
-    let worn_scores: Vec<ScoredFault> = worn_scores.collect::<Result<_, EvaluateError>>()?;
+    let other_scores = others.worn.iter().map(|fault| new.beside(fault, work));
+    let mut other_scores: Vec<ScoredFault> = other_scores.collect::<Result<_, EvaluateError>>()?;
+    let mut failed = Vec::new();
+    for fault in others.foreign {
+        match new.foreign(*fault, &request.severities, work)? {
+            Ok(scores) => other_scores.push(scores),
+            Err(reason) => failed.push(SkippedFault {
+                fault: fault.name().to_owned(),
+                reason,
+            }),
+        }
+    }
     let mut faults: Vec<FaultReport> = (0..setup.faults.len())
         .map(|fault| results.of_fault(fault, setup.faults[fault], &levels[fault]))
         .collect();
-    let mean = results.mean(setup.faults.len(), &worn_scores);
+    let mean = results.mean(setup.faults.len(), &other_scores);
     let subject = subject_of(dataset);
-    let decoded = worn_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded;
+    let decoded = other_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded;
     let provenance = setup.samples.provenance(dataset, model, decoded)?;
     let mut skipped = setup.skipped;
-    for of in worn_scores {
+    for of in other_scores {
         faults.push(of.report);
         skipped.extend(of.skipped);
     }
@@ -131,7 +146,7 @@ fn measure(
         not_measured: not_measured([subject.source.as_str()]),
         subject,
         by: request.by,
-        list: list(&setup.faults, request, worn),
+        list: list(&setup.faults, request, others),
         seed: request.seed,
         draws: request.draws,
         samples: setup.samples.rows.len(),
@@ -145,6 +160,7 @@ fn measure(
         notes: notes(&setup.faults, request, &baseline, setup.samples.rows.len()),
         faults,
         skipped,
+        failed,
         provenance,
     })
 }
@@ -203,12 +219,15 @@ fn cells(
 }
 
 /// Name and digest of the faults with their severities.
-fn list(faults: &[&'static Fault], request: &StressRequest, worn: &[WornFault]) -> FaultList {
-    let ids = faults.iter().map(|fault| fault.id);
-    let ids = ids.chain(worn.iter().map(|fault| fault.id.as_str()));
+fn list(faults: &[&'static Fault], request: &StressRequest, others: OtherFaults<'_>) -> FaultList {
+    let known = faults.iter().map(|fault| fault.id);
+    let worn = others.worn.iter().map(|fault| fault.id.as_str());
+    let foreign = others.foreign.iter().map(|fault| fault.name());
+    let ids = known.chain(worn).chain(foreign);
     let ids: Vec<&str> = ids.collect();
     let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
-    let is_whole = faults.len() == FAULTS.len() && worn.is_empty() && request.severities.len() == 5;
+    let is_whole =
+        ids.len() == FAULTS.len() && faults.len() == FAULTS.len() && request.severities.len() == 5;
     let mut text = format!(
         "{LIST_VERSION}\n{:?}\n{}\n{}\n",
         request.by,
@@ -335,14 +354,14 @@ impl Results<'_> {
     }
 
     /// Mean degradation over all faults.
-    fn mean(&self, faults: usize, worn: &[ScoredFault]) -> ByChannel<Estimate> {
+    fn mean(&self, faults: usize, others: &[ScoredFault]) -> ByChannel<Estimate> {
         let mean = |name: &String| {
             let of_fault = |fault| {
                 let cells = self.positions(fault).map(|at| &self.scored[at].stale);
                 cells.collect::<Vec<&Scored>>()
             };
-            let worn = worn.iter().map(|fault| fault.cells.iter().collect());
-            mean_degradation(name, (0..faults).map(of_fault).chain(worn), self.baseline)
+            let others = others.iter().map(|fault| fault.cells.iter().collect());
+            mean_degradation(name, (0..faults).map(of_fault).chain(others), self.baseline)
         };
         let names = self.baseline.names();
         names.map(|name| (name.clone(), mean(name))).collect()

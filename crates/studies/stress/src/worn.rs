@@ -119,16 +119,21 @@ impl NewGel<'_> {
         }
         let decoded = 2 * (self.rows.len() * cells.len()) as u64;
         Ok(ScoredFault {
-            report: self.report(fault, severities, &cells),
+            report: self.report(
+                [&fault.id, &fault.title, &fault.parameter],
+                severities,
+                &cells,
+            ),
             cells,
             skipped,
             decoded,
         })
     }
 
-    fn report(
+    /// Numbers of a fault with this name, title and parameter.
+    pub(crate) fn report(
         &self,
-        fault: &WornFault,
+        [id, title, parameter]: [&str; 3],
         severities: Vec<SeverityReport>,
         cells: &[Scored],
     ) -> FaultReport {
@@ -148,9 +153,9 @@ impl NewGel<'_> {
         let breaks = names.iter();
         let breaks = breaks.map(|name| ((*name).clone(), breaks_at(&severities, name.as_str())));
         FaultReport {
-            id: fault.id.clone(),
-            title: fault.title.clone(),
-            parameter: fault.parameter.clone(),
+            id: id.to_owned(),
+            title: title.to_owned(),
+            parameter: parameter.to_owned(),
             note: None,
             mean: by_channel(&mean),
             recovers: by_channel(&recovered),
@@ -219,15 +224,20 @@ impl NewGel<'_> {
 
     /// True if the check of untouched pictures finds the fault.
     fn is_noticed(&self, worn: &Dataset) -> Result<bool, EvaluateError> {
+        let after = worn.reference()?;
+        Ok(after.is_some_and(|after| self.differs(&after)))
+    }
+
+    /// True if the check of untouched pictures finds that `after` differs from the reference.
+    pub(crate) fn differs(&self, after: &Frame) -> bool {
         let before = self.scale.untouched.as_ref();
-        let before = before.filter(|_| self.scale.is_reference);
-        let (Some(before), Some(after)) = (before, worn.reference()?) else {
-            return Ok(false);
+        let Some(before) = before.filter(|_| self.scale.is_reference) else {
+            return false;
         };
         let tiles = |frame: &Frame| FrameFacts::of(frame, None).tiles;
         let pressed: Vec<Tiles> = self.scale.pressed.iter().map(tiles).collect();
         let pressed: Vec<&Tiles> = pressed.iter().collect();
-        let change = RestChange::of(&tiles(before), &tiles(&after), &pressed);
-        Ok(change.is_some_and(|change| change.is_overall() || change.is_local()))
+        let change = RestChange::of(&tiles(before), &tiles(after), &pressed);
+        change.is_some_and(|change| change.is_overall() || change.is_local())
     }
 }

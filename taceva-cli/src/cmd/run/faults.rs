@@ -2,10 +2,11 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::sync::Arc;
 
 use anyhow::Context as _;
 use taceva_acquire::{PlannedScene, PlannedStudy, Workshop};
-use taceva_core::{Field, counted, shown};
+use taceva_core::{EstimatorFactory, Field, counted, shown, suggestion};
 use taceva_dataset::Dataset;
 use taceva_drivers::Drivers;
 use taceva_protocol::{Cancel, PlannedPress, SceneProblem};
@@ -13,14 +14,16 @@ use taceva_report::FaultResult;
 use taceva_results::EvaluationReport;
 use taceva_sim::GelFault;
 use taceva_stress::{
-    SkippedFault, StressReport, StressRequest, WornFault, WornGel, select, stress_unseen,
+    OtherFaults, PictureFault, SkippedFault, StressReport, StressRequest, WornFault, WornGel,
+    select, stress_unseen,
 };
 use taceva_study::{FinishedStudy, FittedStudy, RunFolder};
 
 use super::Context;
+use super::plugin_fault::PluginFault;
 use crate::args::Format;
 use crate::cmd::scene::tested_presses;
-use crate::{output, progress};
+use crate::{output, progress, stderr};
 
 /// Reason why a study without predictions has no errors to test.
 const NO_PREDICTIONS: &str =
@@ -30,6 +33,8 @@ const NO_PREDICTIONS: &str =
 pub(super) struct Tested {
     pub(super) reports: Vec<EvaluationReport>,
     pub(super) faults: Vec<Option<FaultResult>>,
+    /// True if a fault of a plugin failed.
+    pub(super) has_failed: bool,
 }
 
 /// Refuses unknown faults under `[stress]` of a scene, and faults of a gel that is not simulated, before any press.
@@ -165,6 +170,8 @@ impl Wanted {
 
 /// Run whose studies are tested.
 pub(super) struct TestedRun<'a> {
+    /// Estimators of plugins, which make faults of pictures.
+    pub(super) estimators: &'a [Arc<dyn EstimatorFactory>],
     pub(super) planned: &'a PlannedScene,
     pub(super) folder: &'a RunFolder,
     pub(super) workshop: Workshop<'a>,
@@ -187,6 +194,7 @@ pub(super) fn test(run: &TestedRun<'_>, studies: Vec<FinishedStudy>) -> anyhow::
     let mut tested = Tested {
         reports: Vec::new(),
         faults: Vec::new(),
+        has_failed: false,
     };
     for (number, study) in studies.into_iter().enumerate() {
         let FinishedStudy {
@@ -200,7 +208,18 @@ pub(super) fn test(run: &TestedRun<'_>, studies: Vec<FinishedStudy>) -> anyhow::
         let mut notes = Vec::new();
         if let Some(wanted) = &wanted {
             match of_study(run, number, &dataset, fitted, wanted)? {
-                Ok(found) => faults = Some(write(&found, folder, number, name)?),
+                Ok(found) => {
+                    for failed in &found.failed {
+                        tested.has_failed = true;
+                        stderr::say(format_args!(
+                            "{}: fault {} failed: {}",
+                            shown(name),
+                            shown(&failed.fault),
+                            shown(&failed.reason)
+                        ));
+                    }
+                    faults = Some(write(&found, folder, number, name)?);
+                }
                 Err(reason) => notes.push(format!("faults are not tested: {reason}")),
             }
         }
@@ -237,11 +256,53 @@ fn of_study(
     let worn = worn.map(|fault| press_worn(run, number, *fault, severities, &presses));
     let worn: Vec<WornFault> = worn.collect::<anyhow::Result<_>>()?;
     let work = run.context.work(None);
-    match stress_unseen(dataset, &model, unseen, &wanted.request, &worn, work) {
+    let foreign = plugin_faults(run.planned, run.estimators)?;
+    let foreign: Vec<&dyn PictureFault> = foreign
+        .iter()
+        .map(|fault| fault as &dyn PictureFault)
+        .collect();
+    let others = OtherFaults {
+        worn: &worn,
+        foreign: &foreign,
+    };
+    match stress_unseen(dataset, &model, unseen, &wanted.request, others, work) {
         Ok(found) => Ok(Ok(found)),
         Err(error) if error.is_usage() => Ok(Err(error.to_string())),
         Err(error) => Err(error.into()),
     }
+}
+
+/// Faults of the pictures of a scene that plugins make.
+///
+/// # Errors
+/// For a plugin that was not found.
+pub(super) fn plugin_faults(
+    planned: &PlannedScene,
+    estimators: &[Arc<dyn EstimatorFactory>],
+) -> anyhow::Result<Vec<PluginFault>> {
+    let faults = planned.scene.faults.iter().map(|fault| {
+        let key = fault.plugin.value.as_str();
+        let mut known = estimators.iter();
+        let found = known.find(|known| known.key().as_str() == key);
+        let Some(estimator) = found else {
+            let keys = estimators.iter().map(|known| known.key().as_str());
+            let keys: Vec<&str> = keys.collect();
+            let words = format!(
+                "`{}`: no estimator of a plugin, {}; `taceva plugin list` shows what is installed",
+                shown(key),
+                match keys.is_empty() {
+                    true => "none is installed".to_owned(),
+                    false => suggestion(key, &keys),
+                }
+            );
+            let problem = SceneProblem::Contradiction(words);
+            return Err(planned.text.error(fault.plugin.at(), problem).into());
+        };
+        let name = fault.name.value.clone();
+        let seed = planned.scene.seed;
+        Ok(PluginFault::new(name, Arc::clone(estimator), seed))
+    });
+    faults.collect()
 }
 
 /// Presses the test part of study `number` again on gels with `fault`, into folders beside the errors of the study. A severity that the gel cannot have is

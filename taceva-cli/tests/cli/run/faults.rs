@@ -160,3 +160,12 @@ fn a_fault_of_a_gel_is_refused_for_a_recording() {
         "line 5: fault `temperature`: only the bench knows its gel",
     );
 }
+
+#[test]
+fn a_fault_of_a_plugin_that_is_not_installed_is_refused_before_any_press() {
+    let bench = Bench::new();
+    let fault = "[[fault]]\nname = \"fog\"\nplugin = \"org.example.fogged-lens/fog\"\n";
+    bench.write("worn.toml", &format!("{}{fault}", scene(STRESS)));
+    bench.refused("run worn.toml", 3, "no estimator of a plugin");
+    assert!(!bench.path("runs").exists());
+}

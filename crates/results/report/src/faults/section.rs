@@ -36,6 +36,7 @@ fn entry(result: &FaultResult, name: &str, number: usize) -> Markup {
         p { strong { (name) } ": mean degradation over all faults: " (means(result)) "." } "\n"
         @if let Some(words) = unnoticed(result) { p { (words) } "\n" }
         ul { @for fault in &result.faults { li { (fault.id) ": " (skill_end(fault, result)) "." } "\n" } }
+        @for of in &result.failed { p.note { "Failed: " (of.fault) ": " (of.reason) "." } "\n" }
         @for words in own.chain(skipped) { p.note { (words) "." } "\n" }
         @for words in &result.notes { p.note { (words) } "\n" }
     }

@@ -38,6 +38,7 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
     check.protocol(&written.protocol)?;
     check.report(&written.report)?;
     check.stress(written.stress.as_ref())?;
+    check.plugin_faults(&written)?;
     let studies = check.studies(&written)?;
     Ok(Scene {
         name: written.name.value,
@@ -48,6 +49,7 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
         protocol: written.protocol,
         report: written.report,
         stress: written.stress,
+        faults: written.fault,
         text,
     })
 }

@@ -37,6 +37,33 @@ pub struct StressSpec {
     pub seeds: Option<Setting<u32>>,
 }
 
+/// Fault of pictures that a plugin makes.
+///
+/// The tables `[[fault]]` of a scene set them; others only read them.
+///
+/// ```
+/// use taceva_protocol::Scene;
+/// let text = r#"
+/// scene_version = 1
+/// name = "fog"
+/// sensor = { dataset = "monday" }
+/// stress = {}
+/// fault = [{ name = "fog", plugin = "org.example.fogged-lens/fog" }]
+/// "#;
+/// let scene = Scene::parse("fog.toml", text)?;
+/// assert_eq!(scene.faults[0].name.value, "fog");
+/// # Ok::<(), taceva_protocol::SceneError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, expecting = "a table with `name` and `plugin`")]
+#[non_exhaustive]
+pub struct PluginFaultSpec {
+    /// Name of the fault in results.
+    pub name: Setting<String>,
+    /// Key of the estimator of a plugin, such as `org.example.fogged-lens/fog`.
+    pub plugin: Setting<String>,
+}
+
 impl StressSpec {
     /// The highest severity.
     pub const MOST: u32 = 5;

@@ -7,7 +7,7 @@ use crate::limit_spec::LimitSpec;
 use crate::scene::counts::Protocol;
 use crate::scene::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 use crate::scene::metrics::{MetricsSpec, ReportSpec};
-use crate::scene::stress::StressSpec;
+use crate::scene::stress::{PluginFaultSpec, StressSpec};
 use crate::text::Setting;
 
 #[derive(Deserialize)]
@@ -34,6 +34,8 @@ pub(super) struct WrittenScene {
     #[serde(default)]
     pub(super) report: ReportSpec,
     pub(super) stress: Option<StressSpec>,
+    #[serde(default)]
+    pub(super) fault: Vec<PluginFaultSpec>,
     #[serde(default)]
     pub(super) study: Vec<Setting<WrittenStudy>>,
 }

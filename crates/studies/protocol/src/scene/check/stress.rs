@@ -1,5 +1,6 @@
 //! Checks of the faults of a scene. The program that knows the faults checks their names.
 
+use super::document::WrittenScene;
 use super::{Check, Checked};
 use crate::scene::stress::StressSpec;
 
@@ -37,5 +38,27 @@ impl Check<'_> {
             Some(seeds) => self.count("seeds", seeds, 1, u64::from(StressSpec::DRAWS)),
             None => Ok(()),
         }
+    }
+
+    /// Checks the faults of plugins: valid and distinct names, and a table `[stress]` that tests them.
+    pub(super) fn plugin_faults(&self, written: &WrittenScene) -> Checked {
+        for (number, fault) in written.fault.iter().enumerate() {
+            self.name("a fault", &fault.name)?;
+            let mut before = written.fault[..number].iter();
+            if before.any(|before| before.name == fault.name) {
+                let problem = format!(
+                    "two faults are called `{}`, expected different names",
+                    fault.name.value
+                );
+                return self.contradiction(fault.name.at(), &problem);
+            }
+            if written.stress.is_none() {
+                return self.contradiction(
+                    fault.name.at(),
+                    "[[fault]] without [stress], which tests it: add a table [stress]",
+                );
+            }
+        }
+        Ok(())
     }
 }

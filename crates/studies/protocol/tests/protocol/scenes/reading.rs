@@ -276,6 +276,14 @@ fn faults_of_a_scene_have_ascending_severities_and_some_draws() {
 }
 
 #[test]
+fn faults_of_plugins_have_distinct_names_and_a_table_that_tests_them() {
+    let fault = "[[fault]]\nname = \"fog\"\nplugin = \"org.example/fog\"\n";
+    assert!(with(fault).contains("[[fault]] without [stress]"));
+    let twice = with(&format!("{fault}{fault}[stress]\n"));
+    assert!(twice.contains("two faults are called `fog`"), "{twice}");
+}
+
+#[test]
 fn an_unknown_driver_is_answered_with_the_nearest_of_its_kind() {
     let scene =
         Scene::parse("s.toml", &GOOD.replace("sim/robot", "sim/robto:speed=2")).expect("reads");
