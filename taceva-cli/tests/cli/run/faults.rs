@@ -169,3 +169,25 @@ fn a_fault_of_a_plugin_that_is_not_installed_is_refused_before_any_press() {
     bench.refused("run worn.toml", 3, "no estimator of a plugin");
     assert!(!bench.path("runs").exists());
 }
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_fault_of_a_plugin_is_tested_beside_the_others() {
+    let bench = Bench::new();
+    bench.make_example("estimator", "fogged-lens");
+    let fault = "[[fault]]\nname = \"fog\"\nplugin = \"org.example.fogged-lens/fog\"\n";
+    bench.write("worn.toml", &format!("{}{fault}", scene(STRESS)));
+    let ran = bench.run("run worn.toml --out worn --plugin-dir fogged-lens");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    let found = written(&bench, "worn");
+    let faults = &found[0];
+    crate::schema::check("stress", faults);
+    assert_eq!(faults["list"]["name"], "sensor_noise,tear,fog");
+    let fog = &faults["faults"][2];
+    let stimulus = |at: usize| {
+        fog["severities"][at]["stimulus"]
+            .as_f64()
+            .expect("a number")
+    };
+    assert!(0.0 < stimulus(0) && stimulus(0) < stimulus(1), "{fog}");
+}
