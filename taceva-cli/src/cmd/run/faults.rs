@@ -280,7 +280,8 @@ pub(super) fn plugin_faults(
     planned: &PlannedScene,
     estimators: &[Arc<dyn EstimatorFactory>],
 ) -> anyhow::Result<Vec<PluginFault>> {
-    let faults = planned.scene.faults.iter().map(|fault| {
+    let faults = planned.scene.faults.iter();
+    let faults = faults.map(|fault| -> anyhow::Result<PluginFault> {
         let key = fault.plugin.value.as_str();
         let mut known = estimators.iter();
         let found = known.find(|known| known.key().as_str() == key);

@@ -66,7 +66,7 @@ impl PictureFault for PluginFault {
         self.is_started.store(true, Ordering::Relaxed);
         let numbers = answer.map_err(|error| error.to_string())?;
         let words = numbers.iter().map(|number| rounded(*number, scale));
-        let bytes = match info.format.bytes_per_sample() {
+        let bytes: Vec<u8> = match info.format.bytes_per_sample() {
             1 => words.map(|word| word.to_le_bytes()[0]).collect(),
             _ => words.flat_map(u16::to_le_bytes).collect(),
         };
