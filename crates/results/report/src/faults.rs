@@ -1,8 +1,5 @@
 //! Errors with faults: results of `taceva stress`, and of `[stress]` in a scene.
 
-mod figure;
-mod section;
-
 use std::collections::BTreeMap;
 
 use serde::Deserialize;
@@ -10,8 +7,8 @@ use taceva_core::shown;
 use taceva_metrics::{Standing, plane_of};
 use taceva_results::{ResultsError, Subject};
 
-pub(crate) use section::section;
-
+/// Placeholder of results for a fault that ends the skill at no severity.
+pub(crate) const NEVER: u8 = 6;
 /// Schema of the results.
 const SCHEMA: &str = "taceva.stress/1";
 
@@ -24,22 +21,22 @@ const SCHEMA: &str = "taceva.stress/1";
 /// ```
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct FaultResult {
-    schema: String,
+    pub(crate) schema: String,
     pub(crate) subject: Subject,
-    not_measured: Option<String>,
-    by: String,
+    pub(crate) not_measured: Option<String>,
+    pub(crate) by: String,
     pub(crate) list: FaultList,
-    seed: u64,
-    samples: u64,
-    clean: BTreeMap<String, CleanScore>,
-    faults: Vec<FaultScores>,
+    pub(crate) seed: u64,
+    pub(crate) samples: u64,
+    pub(crate) clean: BTreeMap<String, CleanScore>,
+    pub(crate) faults: Vec<FaultScores>,
     #[serde(rename = "mD")]
-    mean: BTreeMap<String, Estimate>,
-    unnoticed: Option<Vec<Unnoticed>>,
-    skipped: Vec<Skipped>,
+    pub(crate) mean: BTreeMap<String, Estimate>,
+    pub(crate) unnoticed: Option<Vec<Unnoticed>>,
+    pub(crate) skipped: Vec<Skipped>,
     #[serde(default)]
-    failed: Vec<Skipped>,
-    notes: Vec<String>,
+    pub(crate) failed: Vec<Skipped>,
+    pub(crate) notes: Vec<String>,
 }
 
 /// List of faults and severities. Results of different lists are not compared.
@@ -50,52 +47,52 @@ pub(crate) struct FaultList {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-struct Estimate {
-    value: Option<f64>,
-    ci95: Option<[f64; 2]>,
+pub(crate) struct Estimate {
+    pub(crate) value: Option<f64>,
+    pub(crate) ci95: Option<[f64; 2]>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-struct CleanScore {
-    skill: Estimate,
+pub(crate) struct CleanScore {
+    pub(crate) skill: Estimate,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-struct FaultScores {
-    id: String,
-    note: Option<String>,
-    severities: Vec<SeverityScores>,
-    unreached: Vec<Unreached>,
-    breaks_at: BTreeMap<String, Option<u8>>,
+pub(crate) struct FaultScores {
+    pub(crate) id: String,
+    pub(crate) note: Option<String>,
+    pub(crate) severities: Vec<SeverityScores>,
+    pub(crate) unreached: Vec<Unreached>,
+    pub(crate) breaks_at: BTreeMap<String, Option<u8>>,
 }
 
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-struct SeverityScores {
-    severity: u8,
-    stale: BTreeMap<String, CellScore>,
+pub(crate) struct SeverityScores {
+    pub(crate) severity: u8,
+    pub(crate) stale: BTreeMap<String, CellScore>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-struct CellScore {
-    degradation: Estimate,
+pub(crate) struct CellScore {
+    pub(crate) degradation: Estimate,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
-struct Unreached {
-    severity: u8,
+pub(crate) struct Unreached {
+    pub(crate) severity: u8,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-struct Unnoticed {
-    fault: String,
-    severity: u8,
-    channel: String,
+pub(crate) struct Unnoticed {
+    pub(crate) fault: String,
+    pub(crate) severity: u8,
+    pub(crate) channel: String,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
-struct Skipped {
-    fault: String,
-    reason: String,
+pub(crate) struct Skipped {
+    pub(crate) fault: String,
+    pub(crate) reason: String,
 }
 
 impl FaultResult {
@@ -152,7 +149,7 @@ impl FaultResult {
     }
 
     /// Names of planes, and of channels that are not an axis of a plane.
-    fn main_channels(&self) -> Vec<&str> {
+    pub(crate) fn main_channels(&self) -> Vec<&str> {
         main_channels(&self.clean)
     }
 }

@@ -3,6 +3,7 @@
 mod comparison;
 mod data_address;
 mod document;
+mod faults;
 mod figures;
 mod glance;
 mod groups;
@@ -32,7 +33,6 @@ pub(crate) use triple::cards as triples;
 use maud::{Markup, html};
 use taceva_core::counted;
 
-use crate::faults;
 use crate::figures::figures as all_figures;
 use crate::markup::{fold, folded_glossary};
 use crate::results::Study;

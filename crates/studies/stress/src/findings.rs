@@ -6,6 +6,10 @@ use crate::estimate::{Estimate, Undefined};
 use crate::report::{CellScore, FaultReport, SeverityReport, Unnoticed};
 use crate::severity::NEVER;
 
+/// Stimulus below which a fault hardly changes the pictures.
+pub(crate) const LOW: f64 = 0.05;
+/// Check of untouched pictures.
+pub(crate) const CHANGED_REST: &str = "TAC034";
 /// Degradation from which an error counts as doubled.
 const DOUBLE: f64 = 2.0;
 

@@ -7,11 +7,11 @@ use taceva_dataset::Pass;
 use taceva_evaluate::{EvaluateError, Work, model_extractor};
 use taceva_models::Extractor;
 
+use crate::findings::{CHANGED_REST, LOW};
 use crate::pass::{Predictor, UNTOUCHED};
 use crate::report::SeverityReport;
 use crate::scale::difference;
 use crate::setup::compares;
-use crate::study::{CHANGED_REST, LOW};
 use crate::worn::{NewGel, ScoredFault};
 
 /// A fault of pictures that a plugin makes.

@@ -10,7 +10,7 @@ use taceva_results::not_measured;
 use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
 use crate::faults::{FAULTS, LIST, LIST_VERSION};
-use crate::findings::{breaks_at, recovers, unnoticed};
+use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
 use crate::foreign::PictureFault;
 use crate::notes::notes;
 use crate::pass::{Cell, CellPredictions, UNTOUCHED, predictions};
@@ -24,11 +24,6 @@ use crate::setup::{Setup, StressRequest, compares};
 use crate::severity::{By, Levels, Reference};
 use crate::stress::{Stress, draw_seeds};
 use crate::worn::{NewGel, ScoredFault, WornFault};
-
-/// Stimulus below which a fault hardly changes the pictures.
-pub(crate) const LOW: f64 = 0.05;
-/// Check of untouched pictures.
-pub(crate) const CHANGED_REST: &str = "TAC034";
 
 /// Errors of `model` on the pictures of `dataset` with faults. Nothing is fitted.
 ///

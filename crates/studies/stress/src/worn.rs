@@ -9,13 +9,12 @@ use taceva_evaluate::{EvaluateError, Work, model_extractor};
 use taceva_models::Model;
 
 use crate::estimate::{Estimate, Undefined};
-use crate::findings::{breaks_at, recovers};
+use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers};
 use crate::pass::Predictor;
 use crate::report::{ByChannel, CleanScore, FaultReport, SeverityReport, SkippedFault};
 use crate::scale::{Scale, difference};
 use crate::score::{Scored, Scorer, degradation};
 use crate::setup::compares;
-use crate::study::{CHANGED_REST, LOW};
 
 /// A fault of a gel, with a recording of the same presses for each severity. A bench that knows its gel makes it; others only read it.
 #[derive(Debug)]

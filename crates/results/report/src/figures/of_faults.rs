@@ -1,17 +1,14 @@
 //! Grid of a result: faults by severity.
 
-use super::{FaultResult, FaultScores};
+use super::fault_grid::{FaultGrid, FaultPanel, FaultRow, fault_grid};
+use crate::faults::{FaultResult, FaultScores, NEVER};
 use crate::figure::Figure;
-use crate::figures::{FaultGrid, FaultPanel, FaultRow, fault_grid};
-
-/// Placeholder of results for a fault that ends the skill at no severity.
-pub(super) const NEVER: u8 = 6;
 
 impl FaultResult {
     /// Figure with a panel for each main channel: growth of the error by fault and severity.
     pub fn figure(&self) -> Figure {
         let panels = self.main_channels().into_iter().map(|channel| {
-            let tested = self.faults.iter().map(|fault| fault.row(channel));
+            let tested = self.faults.iter().map(|fault| row(fault, channel));
             let skipped = self.skipped.iter().map(|skipped| FaultRow {
                 fault: skipped.fault.clone(),
                 degradation: [None; 5],
@@ -45,20 +42,19 @@ impl FaultResult {
     }
 }
 
-impl FaultScores {
-    fn row(&self, channel: &str) -> FaultRow {
-        let degradation = |severity: u8| {
-            let mut tested = self.severities.iter();
-            let tested = tested.find(|of| of.severity == severity)?;
-            tested.stale.get(channel)?.degradation.value
-        };
-        let is_unreached = |severity: u8| self.unreached.iter().any(|of| of.severity == severity);
-        let ends = self.breaks_at.get(channel).copied().flatten();
-        FaultRow {
-            fault: self.id.clone(),
-            degradation: [1, 2, 3, 4, 5].map(degradation),
-            skipped: [1, 2, 3, 4, 5].map(is_unreached),
-            skill_ends: ends.filter(|severity| *severity < NEVER),
-        }
+/// Row of one fault for a channel.
+fn row(fault: &FaultScores, channel: &str) -> FaultRow {
+    let degradation = |severity: u8| {
+        let mut tested = fault.severities.iter();
+        let tested = tested.find(|of| of.severity == severity)?;
+        tested.stale.get(channel)?.degradation.value
+    };
+    let is_unreached = |severity: u8| fault.unreached.iter().any(|of| of.severity == severity);
+    let ends = fault.breaks_at.get(channel).copied().flatten();
+    FaultRow {
+        fault: fault.id.clone(),
+        degradation: [1, 2, 3, 4, 5].map(degradation),
+        skipped: [1, 2, 3, 4, 5].map(is_unreached),
+        skill_ends: ends.filter(|severity| *severity < NEVER),
     }
 }

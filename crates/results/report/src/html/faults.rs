@@ -2,15 +2,14 @@
 
 use maud::{Markup, html};
 
-use super::figure::NEVER;
-use super::{FaultResult, FaultScores};
-use crate::html::drawn;
+use super::drawn;
+use crate::faults::{FaultResult, FaultScores, NEVER};
 use crate::names::{listed, names};
 use crate::number::FormattedValue;
 use crate::results::Study;
 
 /// Section with the faults of each sensor; `None` if no sensor was tested with faults.
-pub(crate) fn section(studies: &[Study]) -> Option<Markup> {
+pub(super) fn section(studies: &[Study]) -> Option<Markup> {
     let named = (1_usize..).zip(studies.iter().zip(names(studies)));
     let entries = named.filter_map(|(number, (study, name))| {
         let result = study.faults.as_ref()?;
