@@ -83,8 +83,7 @@ pub(super) fn describe(
             .changes_facts(),
         ArgSpec::whole("severity", 1, 5)
             .default(ArgValue::Whole(1))
-            .help("severity of the fault")
-            .changes_facts(),
+            .help("severity of the fault"),
         ArgSpec::flag("quiet").default(ArgValue::Flag(false)).help(
             "disables noise, drift and relaxation, so output depends only on the pose of the tip",
         ),
