@@ -14,6 +14,7 @@ mod evaluate;
 mod inventory;
 mod metrics;
 mod metrology;
+mod monitor;
 mod plugin;
 mod python_model;
 mod record;
@@ -44,6 +45,8 @@ mod _taceva {
     use super::metrics::{Sums, channel_order, unit_of};
     #[pymodule_export]
     use super::metrology::metrology;
+    #[pymodule_export]
+    use super::monitor::PictureMonitor;
     #[pymodule_export]
     use super::plugin::{Deadline, Interrupted, Training};
     #[pymodule_export]

@@ -171,7 +171,7 @@ pub(crate) fn record(
 }
 
 /// Format of one frame of `[rows, height, width, samples]` or `[height, width, samples]`.
-fn frame_info(pixels: &Pixels) -> PyResult<FrameInfo> {
+pub(crate) fn frame_info(pixels: &Pixels) -> PyResult<FrameInfo> {
     let [height, width, samples] = pixels.frame_shape();
     let format = match (samples, pixels.is_deep()) {
         (1, false) => PixelFormat::Gray8,

@@ -23,6 +23,7 @@ mod gel;
 mod gelsight;
 mod luma;
 mod magictac;
+mod marks;
 mod noise;
 mod raster;
 mod readout;

@@ -5,6 +5,7 @@
 
 mod digest;
 mod error;
+mod gel_fault;
 mod model;
 mod outline;
 mod quiet;
@@ -14,12 +15,13 @@ mod sections;
 
 pub use digest::ParameterDigest;
 pub use error::{ParameterError, ParameterErrorKind};
+pub use gel_fault::GelFault;
 pub use model::Model;
 pub use outline::Outline;
 pub use section::{Entry, Origin};
 pub use sections::{
-    Camera, Dome, Gratings, Lattice, Layer, Markers, Material, Probing, Robot, Search, Surface,
-    Transducer, Variation,
+    Camera, Dome, GelWear, Gratings, Lattice, Layer, Markers, Material, Probing, Robot, Search,
+    Surface, Transducer, Variation,
 };
 
 use read::Document;
@@ -63,6 +65,8 @@ pub struct Parameters {
     pub markers: Option<Markers>,
     /// Layers of a printed lattice, if any.
     pub lattice: Option<Lattice>,
+    /// Wear of the gel; `None` for a new gel.
+    pub wear: Option<GelWear>,
     /// Blur and contrast of gratings.
     pub gratings: Gratings,
     /// Robot that moves the indenter.
@@ -97,6 +101,7 @@ impl Parameters {
         let camera = document.required()?;
         let markers = document.optional()?;
         let lattice = document.optional()?;
+        let wear: Option<GelWear> = document.optional()?;
         let gratings = document.required()?;
         let robot = document.required()?;
         let search = document.required()?;
@@ -113,6 +118,7 @@ impl Parameters {
             camera,
             markers,
             lattice,
+            wear,
             gratings,
             robot,
             search,
@@ -131,6 +137,11 @@ impl Parameters {
     /// Digest of the parameters, 32 bytes. Equal values, units and origins give equal digests for any layout of the file.
     pub fn digest(&self) -> &ParameterDigest {
         &self.digest
+    }
+
+    /// Shift of the gel in its housing along x and y, mm.
+    pub fn shift_mm(&self) -> [f64; 2] {
+        self.wear.map_or([0.0; 2], |wear| wear.shift_xy_mm())
     }
 
     /// Rejects values that are in range but contradict each other.

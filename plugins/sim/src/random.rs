@@ -48,6 +48,8 @@ pub enum Purpose {
     Buckling,
     /// Pose of a grating.
     GratingPose,
+    /// Marks of wear on a unit's gel.
+    Wear,
 }
 
 /// All random numbers of one seed.

@@ -19,6 +19,8 @@ pub struct Unit {
     stiffness_sd: f64,
     relief: Option<Relief>,
     surface: Surface,
+    /// Shift of the gel in its housing.
+    shift_mm: [f64; 2],
 }
 
 /// Surface of a flat gel, without load.
@@ -73,6 +75,7 @@ impl Unit {
             stiffness_sd: variation.stiffness,
             relief,
             surface: parameters.surface,
+            shift_mm: parameters.shift_mm(),
         }
     }
 
@@ -83,12 +86,14 @@ impl Unit {
 
     /// Stiffness at a place relative to the nominal stiffness, above 0.
     pub fn stiffness(&self, place_mm: [f64; 2]) -> f64 {
+        let place_mm = self.on_gel(place_mm);
         let smooth = 1.0 + self.stiffness_sd * self.stiffness.at(place_mm);
         self.modulus_ratio * smooth.max(0.1) * self.edge(place_mm)
     }
 
     /// Height of the surface at a place above the ideal surface; negative if it sags.
     pub fn height_mm(&self, place_mm: [f64; 2]) -> f64 {
+        let place_mm = self.on_gel(place_mm);
         let Some(relief) = &self.relief else {
             return 0.0;
         };
@@ -110,6 +115,11 @@ impl Unit {
         }
         let blisters = relief.blisters.iter().map(|one| one.height_mm.max(0.0));
         relief.gap_mm.abs() * Waves::GREATEST + blisters.sum::<f64>() + ROUNDING_MM
+    }
+
+    /// Place on the gel at a place of the rig.
+    fn on_gel(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        [x - self.shift_mm[0], y - self.shift_mm[1]]
     }
 
     /// Edge softening: 1 inside, lower towards the free edge.

@@ -20,6 +20,7 @@ from taceva._function_score import score_function
 from taceva._inventory import FoundPlugin, metrics, models, plugins
 from taceva._metrics import SIX, TactileMetrics, score, score_tables
 from taceva._metrology import Budget, CalibrationCurve, GaugeStudy, budget, curve, gauge
+from taceva._monitor import Alarm, Monitor
 from taceva._onnx import OnnxModel, onnx
 from taceva._record import from_arrays, import_recording
 from taceva._result import Interval, Result, Score, load
@@ -30,6 +31,7 @@ __version__: str = _version()
 
 __all__ = [
     "SIX",
+    "Alarm",
     "Budget",
     "CalibrationCurve",
     "Comparison",
@@ -40,6 +42,7 @@ __all__ = [
     "GaugeStudy",
     "Interval",
     "ModelError",
+    "Monitor",
     "OnnxModel",
     "Result",
     "Rows",

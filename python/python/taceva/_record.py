@@ -112,7 +112,7 @@ def from_arrays(
     listed = listed if order is None else [listed[at] for at in order]
     if np.isinf(table).any():
         raise ValueError("labels: an infinite number; expected finite numbers, and NaN for an absent label")
-    pictures = None if frames is None else _pixels(frames, 3)
+    pictures = None if frames is None else pixels(frames, 3)
     _taceva.record(
         os.fspath(path),
         {
@@ -130,7 +130,7 @@ def from_arrays(
         None if times is None else [float(time) for time in numbers(times, "times").tolist()],
         {} if scenes is None else {"scene": [str(scene) for scene in scenes]},
         pictures,
-        None if reference is None else _pixels(reference, 2),
+        None if reference is None else pixels(reference, 2),
         bar(),
     )
     return Dataset(path)
@@ -167,7 +167,7 @@ def import_recording(
     return Dataset(out)
 
 
-def _pixels(frames: Any, gray_axes: int) -> Any:
+def pixels(frames: Any, gray_axes: int) -> Any:
     """Return frames with an axis of samples, in native byte order and C order."""
     if hasattr(frames, "detach") and hasattr(frames, "cpu"):
         frames = frames.detach().cpu()

@@ -29,7 +29,7 @@ pub(crate) fn run(args: &Choose) -> anyhow::Result<u8> {
     };
     let choice = match args.results.is_empty() {
         true => choose(&candidates(args.catalogue.as_deref())?, &needs),
-        false => choose_results(&results::read_all(&args.results)?, &needs),
+        false => choose_results(&results::read_all_with_faults(&args.results)?, &needs),
     };
     let table = choice.table();
     match args.output.format {

@@ -7,7 +7,7 @@ use taceva_acquire::PlannedScene;
 use taceva_drivers::{Drivers, Selector};
 use taceva_host::PluginHost;
 
-use super::{Context, scene};
+use super::{Context, run, scene};
 use crate::args::PlanArgs;
 use crate::{exit, output, report, stderr};
 
@@ -17,7 +17,9 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let host = context.plugins(Some(Path::new(&args.scene.scene)))?;
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let planned = scene::planned(&args.scene, &drivers)?;
+    run::faults::check(&planned, &drivers)?;
     scene::print_cost(&planned, Path::new("."), context)?;
+    run::faults::print_cost(&planned, context)?;
     scene::print_rigs(&planned, &drivers, context);
     scene::warn_of_few_points(&planned, context);
     output::write_as(to.format, to.path.as_deref(), |out| {

@@ -42,6 +42,7 @@ pub(crate) fn run(args: &ReportArgs, context: &Context) -> anyhow::Result<u8> {
         false => of_channels(reports, &args.channels),
     };
     let drawn = Page::of(&title(&args.result, &reports), &reports)?;
+    let drawn = drawn.with_faults(results::faults_of(&args.result, reports.len())?);
     std::fs::create_dir_all(&folder)?;
     let page = drawn.write_files(&folder, &args.figure.style(), context)?;
     if let Some(Like::Taceva) = args.like {

@@ -1,5 +1,6 @@
 //! Reads existing results.
 
+mod faults;
 mod samples;
 
 use std::collections::BTreeSet;
@@ -17,6 +18,7 @@ use super::Usage;
 use crate::args::{Format, Output};
 use crate::output;
 
+pub(super) use faults::{faults_of, read_all_with_faults};
 pub(super) use samples::source_of;
 
 /// Name of the file with all results in the folder of a run.

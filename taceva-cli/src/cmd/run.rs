@@ -1,6 +1,8 @@
 //! `taceva run`.
 
 pub(super) mod bench;
+pub(super) mod faults;
+mod plugin_fault;
 mod stages;
 
 use std::ffi::OsStr;
@@ -29,6 +31,15 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     let planned = scene::to_run(args, &drivers)?;
     scene::check_metrics(&planned)?;
     check_models(&planned, &models)?;
+    faults::check(&planned, &drivers)?;
+    let estimators = match planned.scene.faults.is_empty() {
+        true => Vec::new(),
+        false => {
+            let host = context.plugins(Some(Path::new(&args.scene.scene)))?;
+            host.models()
+        }
+    };
+    faults::plugin_faults(&planned, &estimators)?;
     let attended = Attended::open(args, &planned.scene.name)?;
     if attended.operator().is_none() {
         planned.check_unattended(&drivers)?;
@@ -53,6 +64,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         .clone()
         .unwrap_or_else(|| RunFolder::numbered(Path::new(RUNS), &planned.scene.name, existing));
     scene::print_cost(&planned, &path, context)?;
+    faults::print_cost(&planned, context)?;
     scene::print_rigs(&planned, &drivers, context);
     scene::warn_of_few_points(&planned, context);
     let _held = planned.hold_rigs()?;
@@ -78,15 +90,15 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         cache: cache.as_ref(),
         jobs: context.jobs,
     };
-    let reports = run_scene(&planned, &folder, setup);
-    attended.ended(&match &reports {
+    let studies = run_scene(&planned, &folder, setup);
+    attended.ended(&match &studies {
         Ok(_) => "finished: writing the report".to_owned(),
         Err(_) if progress::is_stopped() => {
             "stopped; the terminal shows the command that continues the run".to_owned()
         }
         Err(error) => error.to_string(),
     });
-    let mut reports = reports.with_context(|| match progress::is_stopped() {
+    let studies = studies.with_context(|| match progress::is_stopped() {
         true => format!(
             "stopped; continue with: {}",
             resumption(args, &path, context)
@@ -100,11 +112,21 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     if let Some(cache) = &cache {
         stages::write(cache, &folder, context)?;
     }
+    let tested = faults::TestedRun {
+        estimators: &estimators,
+        planned: &planned,
+        folder: &folder,
+        workshop,
+        context,
+    };
+    let tested = faults::test(&tested, studies)?;
+    let mut reports = tested.reports;
     reports
         .iter_mut()
         .try_for_each(super::attachments::note_samples)?;
     write_files(&planned, &folder, &reports, &formats)?;
     let drawn = report::page::Page::of(&planned.scene.name, &reports)?;
+    let drawn = drawn.with_faults(tested.faults);
     let page = drawn.write_files(folder.path(), &args.figure.style(), context)?;
     if planned.scene.report.like.is_some() {
         drawn.write_like_taceva(folder.path(), &args.figure.style(), context)?;
@@ -119,7 +141,10 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     })?;
     context.say(format_args!("reports are in {}", shown(&folder.reports())));
     context.say(format_args!("look at    {}", shown(&page)));
-    Ok(exit::DONE)
+    Ok(match tested.has_failed {
+        true => exit::DEVICE,
+        false => exit::DONE,
+    })
 }
 
 /// Command line that resumes the run in `path`.

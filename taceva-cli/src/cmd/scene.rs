@@ -9,7 +9,7 @@ use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
 use taceva_protocol::{
-    BuiltinScene, PhaseKind, Plan, PlanReason, RigLimits, Subject, calm_threshold_n,
+    BuiltinScene, PhaseKind, Plan, PlanReason, PlannedPress, RigLimits, Subject, calm_threshold_n,
 };
 
 use super::{Context, Usage};
@@ -189,18 +189,25 @@ fn tested_points(plan: &Plan) -> Option<usize> {
     if !is_fitted || !metrics.any(|metric| metric.phase == PhaseKind::Calibration) {
         return None;
     }
-    let presses = plan.presses_of(PhaseKind::Calibration);
-    let points: Vec<String> = presses.map(|planned| planned.press.point_id()).collect();
+    let presses = tested_presses(plan)?;
+    let points = presses.iter().map(|planned| planned.press.point_id());
+    Some(points.collect::<BTreeSet<String>>().len())
+}
+
+/// Presses of the test part of a fit; `None` if they cannot be divided. Their number does not depend on the seed.
+pub(super) fn tested_presses(plan: &Plan) -> Option<Vec<&PlannedPress>> {
+    let presses: Vec<&PlannedPress> = plan.presses_of(PhaseKind::Calibration).collect();
+    let points = presses.iter().map(|planned| planned.press.point_id());
+    let points: Vec<String> = points.collect();
     let input = SplitInput {
         rows: points.len(),
         points: Some(&points),
         ..SplitInput::default()
     };
-    // The number does not depend on the seed; a run refuses what cannot be divided.
+    // A run refuses what cannot be divided.
     let split = "by-point".parse::<SplitSpec>().ok()?;
     let split = split.assign(&input, 0).ok()?;
-    let tested: BTreeSet<&String> = split.test.iter().map(|row| &points[*row]).collect();
-    Some(tested.len())
+    Some(split.test.iter().map(|row| presses[*row]).collect())
 }
 
 /// Text of the scene `named`. A file with this name has priority over a built-in scene.

@@ -5,11 +5,12 @@ use std::path::Path;
 use anyhow::Context as _;
 use taceva_core::shown;
 use taceva_evaluate::DataPart;
+use taceva_report::FaultResult;
 use taceva_stress::{By, StressRequest, severities, stress, stress_plan};
 
 use super::{Context, Usage, open_seen, results};
 use crate::args::{Format, Stress, StressBy, StressPart};
-use crate::report::stress::{grid, numbers, table};
+use crate::report::stress::{numbers, table};
 use crate::{exit, output};
 
 /// Refuses a model that is not a file: nothing is fitted here.
@@ -59,7 +60,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     let json = serde_json::to_string_pretty(&found)?;
     results::write(&written, &args.output, || format!("{json}\n"))?;
     if let Some(path) = &args.svg {
-        let figure = grid(&found);
+        let figure = FaultResult::read(&json)?.figure();
         output::write(Some(path), |out| out.write_all(figure.svg().as_bytes()))?;
     }
     Ok(exit::DONE)

@@ -9,8 +9,8 @@ use taceva_core::shown;
 use anyhow::Context as _;
 use taceva_dataset::Dataset;
 use taceva_report::{
-    Figure, FigureStyle, Layout, Picture, ReportPage, ScoreTable, Study, Triple, device_table,
-    figures_for, paper_form, picks, study_figures, undrawn,
+    FaultResult, Figure, FigureStyle, Layout, Picture, ReportPage, ScoreTable, Study, Triple,
+    device_table, figures_for, paper_form, picks, study_figures, undrawn,
 };
 use taceva_results::{EvaluationReport, not_measured};
 
@@ -51,6 +51,14 @@ impl Page {
             page.take_pictures(at, report)?;
         }
         Ok(page)
+    }
+
+    /// Adds the errors with faults, one for each study in order.
+    pub(crate) fn with_faults(mut self, faults: Vec<Option<FaultResult>>) -> Page {
+        for (study, faults) in self.studies.iter_mut().zip(faults) {
+            study.faults = faults;
+        }
+        self
     }
 
     fn take_pictures(&mut self, at: usize, report: &EvaluationReport) -> anyhow::Result<()> {

@@ -1,16 +1,13 @@
 //! Tables of errors with faults.
 
-mod grid;
 mod numbers;
 
 use taceva_core::counted;
-use taceva_metrics::plane_of;
-use taceva_report::{Cell, Column, FormattedValue, Table};
+use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
 use taceva_stress::{
-    By, ByChannel, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined,
+    By, Estimate, FaultReport, GEL_FAULTS, NEVER, StressReport, TARGETS, Undefined,
 };
 
-pub(crate) use self::grid::grid;
 pub(crate) use self::numbers::numbers;
 
 /// Table for readers with one row for each fault and severity: ratios of the error with the fault to the error without.
@@ -28,7 +25,7 @@ pub(crate) fn table(report: &StressReport) -> Table {
     for fault in &report.faults {
         for of in &fault.severities {
             let mut cells = vec![
-                Cell::text(fault.id),
+                Cell::text(fault.id.as_str()),
                 Cell::Number(of.severity.to_string()),
                 Cell::Number(short(of.parameter)),
                 Cell::Number(of.stimulus.map_or_else(|| "–".to_owned(), short)),
@@ -105,7 +102,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }
     notes.extend(missed_targets(report));
     notes.extend(report.faults.iter().filter_map(|fault| {
-        let words = fault.note?;
+        let words = fault.note.as_ref()?;
         Some(format!("{}: {words}.", fault.id))
     }));
     if report.untouched != "reference" {
@@ -130,7 +127,10 @@ fn missed_targets(report: &StressReport) -> Option<String> {
     if report.by == By::Parameter {
         return None;
     }
-    let cells = report.faults.iter().flat_map(|fault| {
+    // Faults of a gel have parameters of their own and no target.
+    let of_pictures = report.faults.iter();
+    let of_pictures = of_pictures.filter(|fault| !GEL_FAULTS.contains(&fault.id.as_str()));
+    let cells = of_pictures.flat_map(|fault| {
         let severities = fault.severities.iter();
         severities.filter_map(move |of| {
             let target = TARGETS[usize::from(of.severity) - 1];
@@ -246,16 +246,6 @@ fn by_channel(channels: &[&str], words: impl Fn(&str) -> Option<String>) -> Stri
         .iter()
         .filter_map(|name| Some(format!("{name} {}", words(name)?)));
     known.collect::<Vec<String>>().join(", ")
-}
-
-/// Names of planes, and of channels that are not an axis of a plane.
-pub(super) fn main_channels<T>(of: &ByChannel<T>) -> Vec<&str> {
-    let names = of.keys().map(String::as_str);
-    let is_main = |name: &&str| {
-        let plane = plane_of(name);
-        plane.is_none_or(|plane| !of.contains_key(plane))
-    };
-    names.filter(is_main).collect()
 }
 
 /// Number with four digits.

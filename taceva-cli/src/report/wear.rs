@@ -1,10 +1,10 @@
 //! Tables of errors over the life of a gel.
 
 use taceva_metrics::elementary::exponential;
-use taceva_report::{Cell, Column, Table};
+use taceva_report::{Cell, Column, Table, main_channels};
 use taceva_stress::{ChannelWear, Estimate, GelWear, WearBy, WearReport};
 
-use super::stress::{cell, main_channels, phrase, short};
+use super::stress::{cell, phrase, short};
 
 const NONE: &str = "–";
 

@@ -1,5 +1,6 @@
 //! A scene, end to end on the simulated bench: scores, and a folder that survives any interruption.
 
+mod faults;
 mod limits;
 mod overrides;
 mod recorded;

@@ -179,3 +179,28 @@ fn wrong_faults_severities_models_and_seen_samples_are_refused_by_name() {
     }
     bench.refused("stress nowhere --model m.taceva", 3, "nowhere");
 }
+
+#[test]
+fn a_choice_for_a_rugged_sensor_reads_results_with_faults_and_names_untested_sensors() {
+    let bench = bench();
+    bench.ok(
+        "stress unseen --model m.taceva --faults dust --by parameter --format json --out s.json -q",
+    );
+    bench.ok("evaluate unseen --model m.taceva --format json --out e.json -q");
+    let untested = bench.json("choose e.json --need rugged");
+    assert_eq!(untested["unknown"].as_array().map(Vec::len), Some(1));
+    for words in [
+        "choose s.json --need rugged",
+        "choose e.json s.json --need rugged",
+    ] {
+        let choice = bench.json(words);
+        let lists = ["ranked", "open", "dropped", "barred", "unplaced", "apart"];
+        let counts = lists.map(|list| choice[list].as_array().map_or(0, Vec::len));
+        assert_eq!(counts.iter().sum::<usize>(), 1, "{words}: {choice}");
+        assert_eq!(
+            choice["unknown"].as_array().map(Vec::len),
+            Some(0),
+            "{choice}"
+        );
+    }
+}

@@ -1,6 +1,7 @@
 //! Chooses a sensor for a task: hard needs exclude sensors, soft needs rank them, and each step shows its numbers.
 
 mod evidence;
+mod faults;
 mod need;
 mod other;
 mod place;
@@ -33,7 +34,7 @@ pub struct Choice {
     pub barred: Vec<Dropped>,
     /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
-    /// Sensors of a catalogue that meet the hard needs but have no rank, because their samples or definitions differ from those of other sensors.
+    /// Sensors that meet the hard needs but have no rank, because their samples, definitions or faults differ from those of other sensors.
     pub apart: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
@@ -167,6 +168,9 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
         }
     }
     choice.apart = samples::take_apart(&mut remaining, needs);
+    choice
+        .apart
+        .extend(faults::take_apart(&mut remaining, needs));
     choice.ranked = remaining
         .iter()
         .map(|sensor| candidate(sensor, &remaining, needs))

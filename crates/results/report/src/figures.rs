@@ -9,6 +9,7 @@ mod levels;
 mod lighting;
 mod loops;
 mod models;
+mod of_faults;
 mod of_study;
 mod overlay;
 mod predictions;
@@ -21,7 +22,6 @@ mod spatial;
 mod thin;
 mod undrawn;
 
-pub use fault_grid::{FaultGrid, FaultPanel, FaultRow, fault_grid};
 pub use models::model_bench;
 pub use of_study::{StudyFigures, study_figures};
 pub use race::{Race, RacePoint, race};

@@ -3,6 +3,7 @@
 mod comparison;
 mod data_address;
 mod document;
+mod faults;
 mod figures;
 mod glance;
 mod groups;
@@ -102,6 +103,9 @@ pub fn report(report: &ReportPage<'_>) -> String {
         let title = "The samples predicted worst and best";
         let section = fold("samples-all", title, &counted(count, "sample"), &section);
         document.section("samples", "Samples", section);
+    }
+    if let Some(section) = faults::section(studies) {
+        document.section("faults", "Faults", section);
     }
     document.section("methods", "Methods", methods::section(studies, &table));
     document.section("details", "Details", details(studies, &table));

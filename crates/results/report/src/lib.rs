@@ -12,6 +12,7 @@ mod curve;
 mod depth_zero;
 mod devices;
 mod escape;
+mod faults;
 mod figure;
 mod figures;
 mod gauge;
@@ -53,10 +54,10 @@ pub use curve::{CURVE_SCHEMA, CalibrationCurve, CurveAxis, CurveFigure, CurveReq
 pub use depth_zero::depth_zero_figure;
 pub use devices::device_table;
 pub use escape::{latex as escape_latex, markdown as escape_markdown, terminal as escape_terminal};
+pub use faults::{FaultResult, main_channels};
 pub use figure::{DARK, Figure, FigureStyle, LIGHT, SERIES, STYLE};
 pub use figures::{
-    FaultGrid, FaultPanel, FaultRow, Race, RacePoint, StudyFigures, fault_grid, figures,
-    figures_for, model_bench, race, study_figures, undrawn,
+    Race, RacePoint, StudyFigures, figures, figures_for, model_bench, race, study_figures, undrawn,
 };
 pub use gauge::{ChannelGauge, GaugeColumns, GaugeStudies};
 pub use html::{Pick, Picture, ReportPage, Triple, picks, report};

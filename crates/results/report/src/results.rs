@@ -24,6 +24,8 @@ use taceva_results::{
     Score, Skip,
 };
 
+use crate::faults::FaultResult;
+
 /// Text in the method of an interval that leaves out groups of the split.
 pub(crate) const BY_GROUP: &str = " by group";
 /// Definition of published numbers whose source states none.
@@ -62,6 +64,8 @@ pub struct Study {
     pub over_seeds: Option<OverSeeds>,
     /// Samples of the result; `None` if unavailable, and figures of samples are then omitted.
     pub samples: Option<Samples>,
+    /// Errors with faults of the pictures; `None` if no fault was tested.
+    pub faults: Option<FaultResult>,
 }
 
 /// Model, samples and presses behind a result.
@@ -139,6 +143,7 @@ impl From<EvaluationReport> for Study {
             notes: report.provenance.notes,
             over_seeds: report.over_seeds,
             samples: report.samples,
+            faults: None,
         }
     }
 }
@@ -159,6 +164,19 @@ impl Study {
     pub fn read(text: &str) -> Result<Vec<Study>, ResultsError> {
         let reports = taceva_results::read(text)?;
         Ok(reports.into_iter().map(Study::from).collect())
+    }
+
+    /// Study without scores, for the result of `taceva stress` alone.
+    pub fn of_faults(faults: FaultResult) -> Study {
+        let subject = faults.subject.clone();
+        Study {
+            sensor: subject.sensor,
+            serial: subject.serial,
+            gel: subject.gel,
+            source: subject.source,
+            faults: Some(faults),
+            ..Study::default()
+        }
     }
 
     /// Score of a metric and a channel or plane.

@@ -3,6 +3,7 @@
 mod overrides;
 mod rig;
 mod text;
+mod worn;
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

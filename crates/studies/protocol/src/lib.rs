@@ -42,8 +42,9 @@ pub use run::{
 };
 pub use scene::{
     BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, GratingClassifier, Gratings,
-    Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec, Protocol,
-    Repeatability, ReportSpec, Scene, SensorSpec, Spatial, Study, SurfaceMap,
+    Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec,
+    PluginFaultSpec, Protocol, Repeatability, ReportSpec, Scene, SensorSpec, Spatial, StressSpec,
+    Study, SurfaceMap,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

@@ -8,6 +8,7 @@ mod counts;
 mod depth_origin;
 mod devices;
 mod metrics;
+mod stress;
 mod study;
 
 pub use builtin::BuiltinScene;
@@ -19,6 +20,7 @@ pub use counts::{
 pub use depth_origin::DepthOrigin;
 pub use devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
+pub use stress::{PluginFaultSpec, StressSpec};
 pub use study::Study;
 
 pub(crate) use boards::spacings;
@@ -70,6 +72,10 @@ pub struct Scene {
     pub protocol: Protocol,
     /// Formats and files of the report.
     pub report: ReportSpec,
+    /// Faults of the pictures; `None` if the run tests none.
+    pub stress: Option<StressSpec>,
+    /// Faults of pictures that plugins make.
+    pub faults: Vec<PluginFaultSpec>,
     pub(crate) text: Text,
 }
 

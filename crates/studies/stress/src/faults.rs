@@ -22,6 +22,19 @@ use crate::fault::Fault;
 pub const LIST: &str = "gel-12";
 /// Another name of the list of all faults.
 const ALL: &str = "all";
+/// Faults of a gel, which no picture can show: force and picture change together.
+pub const GEL_FAULTS: [&str; 10] = [
+    "gel_softening",
+    "gel_hardening",
+    "temperature",
+    "friction",
+    "gel_shift",
+    "thickness",
+    "coating_gloss",
+    "gel_scratches",
+    "gel_tear",
+    "gel_dust",
+];
 /// Version of the list. Scores by lists of different versions are not compared.
 pub(crate) const LIST_VERSION: u32 = 1;
 
@@ -51,6 +64,11 @@ pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
     let known: Vec<&str> = [LIST].into_iter().chain(ids).collect();
     let is_all = |name: &str| name == ALL || name == LIST;
     let is_known = |name: &str| is_all(name) || known.contains(&name);
+    if let Some(gel) = names.iter().find(|name| GEL_FAULTS.contains(name)) {
+        return Err(EvaluateError::Request(format!(
+            "fault `{gel}`: only the bench knows its gel; name it under [stress] of a scene with a simulated sensor"
+        )));
+    }
     if let Some(unknown) = names.iter().find(|name| !is_known(name)) {
         return Err(EvaluateError::Request(format!(
             "fault `{}`: unknown, {}",

@@ -6,6 +6,10 @@ use crate::estimate::{Estimate, Undefined};
 use crate::report::{CellScore, FaultReport, SeverityReport, Unnoticed};
 use crate::severity::NEVER;
 
+/// Stimulus below which a fault hardly changes the pictures.
+pub(crate) const LOW: f64 = 0.05;
+/// Check of untouched pictures.
+pub(crate) const CHANGED_REST: &str = "TAC034";
 /// Degradation from which an error counts as doubled.
 const DOUBLE: f64 = 2.0;
 
@@ -58,7 +62,7 @@ pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
             };
             let doubled = of.stale.iter().filter(move |(_, score)| is_doubled(score));
             doubled.map(move |(channel, _)| Unnoticed {
-                fault: fault.id,
+                fault: fault.id.clone(),
                 severity: of.severity,
                 channel: channel.clone(),
             })

@@ -5,6 +5,7 @@ mod estimate;
 mod fault;
 mod faults;
 mod findings;
+mod foreign;
 mod monitor;
 mod notes;
 mod pass;
@@ -18,10 +19,12 @@ mod severity;
 mod stress;
 mod study;
 mod wear;
+mod worn;
 
 pub use estimate::{Estimate, Undefined};
 pub use fault::{Fault, Scope};
-pub use faults::{FAULTS, LIST, select};
+pub use faults::{FAULTS, GEL_FAULTS, LIST, select};
+pub use foreign::PictureFault;
 pub use monitor::{Alarm, Change, Monitor, watch};
 pub use report::{
     ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
@@ -30,8 +33,9 @@ pub use report::{
 pub use setup::{StressRequest, stress_plan};
 pub use severity::{By, NEVER, TARGETS, Unreached, severities};
 pub use stress::Stress;
-pub use study::stress;
+pub use study::{OtherFaults, stress, stress_unseen};
 pub use wear::{
     ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearBy, WearDifference, WearReport,
     WearRequest, wear,
 };
+pub use worn::{WornFault, WornGel};

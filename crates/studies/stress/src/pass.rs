@@ -100,15 +100,19 @@ struct Row {
 }
 
 /// A model with its features of the recording.
-struct Predictor<'a> {
-    model: &'a Model,
+pub(crate) struct Predictor<'a> {
+    pub(crate) model: &'a Model,
     /// `None` for a model whose predictions depend on no feature.
-    clean: Option<Extractor>,
+    pub(crate) clean: Option<Extractor>,
 }
 
 impl Predictor<'_> {
     /// Unclamped predictions of one picture, always made alone, so that other pictures cannot change a bit.
-    fn of(&self, frame: &Frame, extractor: Option<&Extractor>) -> Result<Vec<f64>, EvaluateError> {
+    pub(crate) fn of(
+        &self,
+        frame: &Frame,
+        extractor: Option<&Extractor>,
+    ) -> Result<Vec<f64>, EvaluateError> {
         let features = match extractor {
             Some(extractor) => extractor.extract_all([frame])?,
             None => blank(self.model.card().features.shape(), 1)?,

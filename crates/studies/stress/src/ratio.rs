@@ -123,6 +123,10 @@ fn interval(value: f64, terms: &[Term<'_>], clean: &Errors) -> Result<[f64; 2], 
     if clusters.len() < LEAST_CLUSTERS {
         return Err(Undefined::TooFewClusters);
     }
+    let is_alike = |term: &Term<'_>| term.errors.clusters() == Some(clusters.len());
+    if !terms.iter().all(is_alike) {
+        return Err(Undefined::NoInterval);
+    }
     let count = clusters.len() as f64;
     let moved = |left: usize| {
         let baseline = clean.change(left);

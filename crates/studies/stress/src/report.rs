@@ -53,6 +53,9 @@ pub struct StressReport {
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
+    /// Faults of plugins that failed, with reasons.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub failed: Vec<SkippedFault>,
     /// Limitations of the numbers, as sentences.
     pub notes: Vec<String>,
     /// Origin of the numbers.
@@ -98,13 +101,13 @@ pub struct CellScore {
 #[derive(Clone, Debug, Serialize)]
 pub struct FaultReport {
     /// Name of the fault.
-    pub id: &'static str,
+    pub id: String,
     /// Cause and appearance.
-    pub title: &'static str,
+    pub title: String,
     /// Meaning and unit of the parameter.
-    pub parameter: &'static str,
+    pub parameter: String,
     /// Limitation of the numbers, for readers.
-    pub note: Option<&'static str>,
+    pub note: Option<String>,
     /// Severities that were tested.
     pub severities: Vec<SeverityReport>,
     /// Severities that the fault cannot have on this sensor.
@@ -141,7 +144,7 @@ pub struct SeverityReport {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unnoticed {
     /// Name of the fault.
-    pub fault: &'static str,
+    pub fault: String,
     /// The severity.
     pub severity: u8,
     /// Channel or plane of the error.
@@ -152,7 +155,7 @@ pub struct Unnoticed {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct SkippedFault {
     /// Name of the fault.
-    pub fault: &'static str,
+    pub fault: String,
     /// Reason for the skip.
-    pub reason: &'static str,
+    pub reason: String,
 }

@@ -21,39 +21,43 @@ impl Unseen {
         model: &Model,
         part: Option<DataPart>,
     ) -> Result<Unseen, EvaluateError> {
-        let refused = |words: String| Err(EvaluateError::Request(words));
-        if !dataset.recordings().is_empty() {
-            return refused("several recordings: expected one, because each has its own untouched picture; test them one by one".to_owned());
-        }
-        if model.reads_features() && !model.reads_frames() {
-            return refused("the model reads signals, expected a model that reads pictures: fit such a model by `taceva fit --set input=frame`".to_owned());
-        }
-        dataset.require_view()?;
-        if dataset.header().frames.is_none() {
-            return refused("the recording has no pictures, expected some, because faults and wear change pictures".to_owned());
-        }
+        require_pictures(dataset, model)?;
         let target = Target::new(dataset, model, part)?;
         let is_fitted = target
             .divided
             .as_ref()
             .is_some_and(|divided| !divided.rows(DataPart::Train).is_empty());
         if is_fitted && target.part != DataPart::Test {
-            return refused(format!(
+            return Err(EvaluateError::Request(format!(
                 "part `{}`: the model was fitted on these samples, so its errors without a fault are too small; use --part test, or another \
                  recording",
                 target.part.name()
-            ));
+            )));
         }
+        Unseen::with_pictures(dataset, target)
+    }
+
+    /// Samples of `target`, which the caller knows to be unseen.
+    pub(crate) fn of_target(
+        dataset: &Dataset,
+        model: &Model,
+        target: Target,
+    ) -> Result<Unseen, EvaluateError> {
+        require_pictures(dataset, model)?;
+        Unseen::with_pictures(dataset, target)
+    }
+
+    fn with_pictures(dataset: &Dataset, target: Target) -> Result<Unseen, EvaluateError> {
         let need = Need {
             frame: true,
             labels: None,
         };
         let rows = usable(dataset, &target.rows, need);
         if rows.is_empty() {
-            return refused(format!(
+            return Err(EvaluateError::Request(format!(
                 "the part `{}` has no sample with a picture",
                 target.part.name()
-            ));
+            )));
         }
         Ok(Unseen { target, rows })
     }
@@ -80,5 +84,27 @@ impl Unseen {
             frames_decoded: decoded + self.rows.len() as u64,
             ..provenance_of(dataset)
         })
+    }
+}
+
+/// Refuses recordings without pictures of one sensor, and models that read none.
+fn require_pictures(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
+    let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
+    if !dataset.recordings().is_empty() {
+        return refused(
+            "several recordings: expected one, because each has its own untouched picture; test them one by one",
+        );
+    }
+    if model.reads_features() && !model.reads_frames() {
+        return refused(
+            "the model reads signals, expected a model that reads pictures: fit such a model by `taceva fit --set input=frame`",
+        );
+    }
+    dataset.require_view()?;
+    match dataset.header().frames {
+        Some(_) => Ok(()),
+        None => refused(
+            "the recording has no pictures, expected some, because faults and wear change pictures",
+        ),
     }
 }

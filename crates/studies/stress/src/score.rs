@@ -105,6 +105,33 @@ impl<'a> Scorer<'a> {
         })
     }
 
+    /// Scorer of the same samples on a worn gel, at `rows` of `worn`.
+    pub(crate) fn of_worn<'w>(
+        &'w self,
+        worn: &'w Dataset,
+        rows: &'w [usize],
+    ) -> Result<Scorer<'w>, EvaluateError> {
+        if self.groups.is_some() {
+            return Err(EvaluateError::Request(
+                "faults of the gel: the samples are divided by groups, expected contact points"
+                    .to_owned(),
+            ));
+        }
+        let truth = self.plan.channels().iter();
+        let truth = truth.map(|channel| taceva_evaluate::truth(worn, channel, rows));
+        Ok(Scorer {
+            dataset: worn,
+            rows,
+            plan: self.plan.clone(),
+            positions: self.positions.clone(),
+            width: self.width,
+            truth: truth.collect::<Result<Vec<Column>, _>>()?,
+            groups: None,
+            clusters: self.clusters.clone(),
+            jobs: self.jobs,
+        })
+    }
+
     /// Scores of `predictions`.
     ///
     /// # Shapes

@@ -2,7 +2,7 @@
 
 use taceva_core::{counted, shown};
 use taceva_dataset::Dataset;
-use taceva_evaluate::{DataPart, EvaluateError, Plan, subject_of};
+use taceva_evaluate::{DataPart, EvaluateError, Plan, Target, subject_of};
 use taceva_models::Model;
 use taceva_results::not_measured;
 
@@ -44,6 +44,25 @@ impl Default for StressRequest {
     }
 }
 
+impl StressRequest {
+    /// The wanted faults, if severities and draws are valid.
+    fn checked(&self) -> Result<Vec<&'static Fault>, EvaluateError> {
+        let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
+        let chosen = select(&self.faults)?;
+        let severities = &self.severities;
+        if severities.is_empty()
+            || !severities.iter().all(|of| (1..=5).contains(of))
+            || !severities.is_sorted_by(|one, next| one < next)
+        {
+            return refused("severities: expected some numbers from 1 to 5, ascending");
+        }
+        if self.draws == 0 {
+            return refused("draws: found 0, expected at least 1");
+        }
+        Ok(chosen)
+    }
+}
+
 /// Samples and faults of a test, checked before any picture is read.
 pub(crate) struct Setup {
     pub(crate) samples: Unseen,
@@ -57,33 +76,42 @@ impl Setup {
         model: &Model,
         request: &StressRequest,
     ) -> Result<Setup, EvaluateError> {
-        let refused = |words: String| Err(EvaluateError::Request(words));
         require_testable(dataset, model)?;
-        let chosen = select(&request.faults)?;
-        let severities = &request.severities;
-        if severities.is_empty()
-            || !severities.iter().all(|of| (1..=5).contains(of))
-            || !severities.is_sorted_by(|one, next| one < next)
-        {
-            return refused("severities: expected some numbers from 1 to 5, ascending".to_owned());
-        }
-        if request.draws == 0 {
-            return refused("draws: found 0, expected at least 1".to_owned());
-        }
+        let chosen = request.checked()?;
         let samples = Unseen::of(dataset, model, request.part)?;
+        Ok(Setup::with(samples, chosen, request))
+    }
+
+    /// Setup for the samples of `target`, which the caller knows to be unseen.
+    pub(crate) fn of_target(
+        dataset: &Dataset,
+        model: &Model,
+        target: Target,
+        request: &StressRequest,
+        has_worn: bool,
+    ) -> Result<Setup, EvaluateError> {
+        let chosen = match request.faults.is_empty() && has_worn {
+            true => Vec::new(),
+            false => request.checked()?,
+        };
+        let samples = Unseen::of_target(dataset, model, target)?;
+        Ok(Setup::with(samples, chosen, request))
+    }
+
+    fn with(samples: Unseen, chosen: Vec<&'static Fault>, request: &StressRequest) -> Setup {
         let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
             let stress = Stress::new(fault, 0.0, request.seed);
             !stress.repeats() || samples.rows.len() > 1
         });
         let skipped = orderless.into_iter().map(|fault| SkippedFault {
-            fault: fault.id,
-            reason: "the only scored picture has no previous picture",
+            fault: fault.id.to_owned(),
+            reason: "the only scored picture has no previous picture".to_owned(),
         });
-        Ok(Setup {
+        Setup {
             skipped: skipped.collect(),
             samples,
             faults,
-        })
+        }
     }
 }
 

@@ -3,29 +3,27 @@
 use taceva_check::{FrameFacts, RestChange, Tiles};
 use taceva_core::Frame;
 use taceva_dataset::{Dataset, Digest};
-use taceva_evaluate::{EvaluateError, Work, subject_of};
+use taceva_evaluate::{EvaluateError, Target, Work, subject_of};
 use taceva_models::Model;
 use taceva_results::not_measured;
 
 use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
 use crate::faults::{FAULTS, LIST, LIST_VERSION};
-use crate::findings::{breaks_at, recovers, unnoticed};
+use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
+use crate::foreign::PictureFault;
 use crate::notes::notes;
 use crate::pass::{Cell, CellPredictions, UNTOUCHED, predictions};
 use crate::report::{
-    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, StressReport,
+    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
+    StressReport,
 };
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest, compares};
 use crate::severity::{By, Levels, Reference};
 use crate::stress::{Stress, draw_seeds};
-
-/// Stimulus below which a fault hardly changes the pictures.
-const LOW: f64 = 0.05;
-/// Check of untouched pictures.
-const CHANGED_REST: &str = "TAC034";
+use crate::worn::{NewGel, ScoredFault, WornFault};
 
 /// Errors of `model` on the pictures of `dataset` with faults. Nothing is fitted.
 ///
@@ -38,6 +36,49 @@ pub fn stress(
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let setup = Setup::new(dataset, model, request)?;
+    measure(dataset, model, setup, request, OtherFaults::default(), work)
+}
+
+/// Same as [`stress`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
+/// The faults in `others` come after those of `request`; without a name in `request.faults`, they are the only ones.
+///
+/// # Errors
+/// Errors of [`stress`].
+pub fn stress_unseen(
+    dataset: &Dataset,
+    model: &Model,
+    target: Target,
+    request: &StressRequest,
+    others: OtherFaults<'_>,
+    work: Work<'_>,
+) -> Result<StressReport, EvaluateError> {
+    let has_others = !others.worn.is_empty() || !others.foreign.is_empty();
+    let setup = Setup::of_target(dataset, model, target, request, has_others)?;
+    measure(dataset, model, setup, request, others, work)
+}
+
+/// Faults that the crate does not make itself. Callers build it as a literal; it has no further fields.
+///
+/// ```
+/// let none = taceva_stress::OtherFaults::default();
+/// assert!(none.worn.is_empty() && none.foreign.is_empty());
+/// ```
+#[derive(Clone, Copy, Default)]
+pub struct OtherFaults<'a> {
+    /// Faults of gels.
+    pub worn: &'a [WornFault],
+    /// Faults of pictures that plugins make.
+    pub foreign: &'a [&'a dyn PictureFault],
+}
+
+fn measure(
+    dataset: &Dataset,
+    model: &Model,
+    setup: Setup,
+    request: &StressRequest,
+    others: OtherFaults<'_>,
+    work: Work<'_>,
+) -> Result<StressReport, EvaluateError> {
     let scale = Scale::of(dataset, &setup.samples.rows)?;
     let levels = levels(&setup, &scale, request)?;
     let cells = cells(&setup, &scale, &levels, model, request);
@@ -62,18 +103,45 @@ pub fn stress(
         baseline: &baseline,
         rows: setup.samples.rows.len(),
     };
-    let faults: Vec<FaultReport> = (0..setup.faults.len())
+    let new = NewGel {
+        dataset,
+        model,
+        rows: &setup.samples.rows,
+        scorer: &scorer,
+        baseline: &baseline,
+        clean: &clean,
+        scale: &scale,
+    };
+    let other_scores = others.worn.iter().map(|fault| new.beside(fault, work));
+    let mut other_scores: Vec<ScoredFault> = other_scores.collect::<Result<_, EvaluateError>>()?;
+    let mut failed = Vec::new();
+    for fault in others.foreign {
+        match new.foreign(*fault, &request.severities, work)? {
+            Ok(scores) => other_scores.push(scores),
+            Err(reason) => failed.push(SkippedFault {
+                fault: fault.name().to_owned(),
+                reason,
+            }),
+        }
+    }
+    let mut faults: Vec<FaultReport> = (0..setup.faults.len())
         .map(|fault| results.of_fault(fault, setup.faults[fault], &levels[fault]))
         .collect();
-    let mean = results.mean(setup.faults.len());
+    let mean = results.mean(setup.faults.len(), &other_scores);
     let subject = subject_of(dataset);
-    let provenance = setup.samples.provenance(dataset, model, scale.decoded)?;
+    let decoded = other_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded;
+    let provenance = setup.samples.provenance(dataset, model, decoded)?;
+    let mut skipped = setup.skipped;
+    for of in other_scores {
+        faults.push(of.report);
+        skipped.extend(of.skipped);
+    }
     Ok(StressReport {
         schema: STRESS_SCHEMA,
         not_measured: not_measured([subject.source.as_str()]),
         subject,
         by: request.by,
-        list: list(&setup.faults, request),
+        list: list(&setup.faults, request, others),
         seed: request.seed,
         draws: request.draws,
         samples: setup.samples.rows.len(),
@@ -86,7 +154,8 @@ pub fn stress(
         unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
         notes: notes(&setup.faults, request, &baseline, setup.samples.rows.len()),
         faults,
-        skipped: setup.skipped,
+        skipped,
+        failed,
         provenance,
     })
 }
@@ -98,7 +167,7 @@ fn levels(
     request: &StressRequest,
 ) -> Result<Vec<Levels>, EvaluateError> {
     let faults = setup.faults.iter();
-    if request.by == By::Parameter {
+    if request.by == By::Parameter || setup.faults.is_empty() {
         let levels = faults.map(|fault| Levels::by_parameter(fault, &request.severities));
         return Ok(levels.collect());
     }
@@ -145,10 +214,15 @@ fn cells(
 }
 
 /// Name and digest of the faults with their severities.
-fn list(faults: &[&'static Fault], request: &StressRequest) -> FaultList {
-    let ids: Vec<&str> = faults.iter().map(|fault| fault.id).collect();
+fn list(faults: &[&'static Fault], request: &StressRequest, others: OtherFaults<'_>) -> FaultList {
+    let known = faults.iter().map(|fault| fault.id);
+    let worn = others.worn.iter().map(|fault| fault.id.as_str());
+    let foreign = others.foreign.iter().map(|fault| fault.name());
+    let ids = known.chain(worn).chain(foreign);
+    let ids: Vec<&str> = ids.collect();
     let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
-    let is_whole = faults.len() == FAULTS.len() && request.severities.len() == 5;
+    let is_whole =
+        ids.len() == FAULTS.len() && faults.len() == FAULTS.len() && request.severities.len() == 5;
     let mut text = format!(
         "{LIST_VERSION}\n{:?}\n{}\n{}\n",
         request.by,
@@ -215,10 +289,10 @@ impl Results<'_> {
         };
         let has_fresh = scored.iter().all(|cell| cell.fresh.is_some()) && !scored.is_empty();
         FaultReport {
-            id: of.id,
-            title: of.title,
-            parameter: of.parameter,
-            note: of.note,
+            id: of.id.to_owned(),
+            title: of.title.to_owned(),
+            parameter: of.parameter.to_owned(),
+            note: of.note.map(str::to_owned),
             mean: by_channel(&stale),
             recovers: by_channel(&|name: &str| match has_fresh {
                 true => recovers(&severities, name, &stale(name)),
@@ -275,13 +349,14 @@ impl Results<'_> {
     }
 
     /// Mean degradation over all faults.
-    fn mean(&self, faults: usize) -> ByChannel<Estimate> {
+    fn mean(&self, faults: usize, others: &[ScoredFault]) -> ByChannel<Estimate> {
         let mean = |name: &String| {
             let of_fault = |fault| {
                 let cells = self.positions(fault).map(|at| &self.scored[at].stale);
                 cells.collect::<Vec<&Scored>>()
             };
-            mean_degradation(name, (0..faults).map(of_fault), self.baseline)
+            let others = others.iter().map(|fault| fault.cells.iter().collect());
+            mean_degradation(name, (0..faults).map(of_fault).chain(others), self.baseline)
         };
         let names = self.baseline.names();
         names.map(|name| (name.clone(), mean(name))).collect()

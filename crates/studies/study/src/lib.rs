@@ -3,11 +3,13 @@
 pub mod bench;
 mod classifier;
 mod error;
+mod finished;
 mod models;
 mod run;
 mod settings;
 mod stage;
 
 pub use error::StudyError;
+pub use finished::{FinishedStudy, FittedStudy};
 pub use models::check_models;
 pub use run::{Existing, RunFolder, RunSetup, acquire_scene, run_scene};

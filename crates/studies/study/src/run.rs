@@ -12,9 +12,9 @@ use taceva_dataset::Dataset;
 use taceva_evaluate::{Cache, CachedStage, Key, StudyCache, Work};
 use taceva_models::Models;
 use taceva_protocol::{Cancel, StopCause};
-use taceva_results::EvaluationReport;
 
 use crate::error::StudyError;
+use crate::finished::FinishedStudy;
 use crate::models::check_models;
 use crate::stage::{RunContext, assess};
 pub use folder::{Existing, RunFolder};
@@ -32,7 +32,7 @@ pub struct RunSetup<'a> {
     pub jobs: NonZeroUsize,
 }
 
-/// Records the presses of `scene` in `folder`, with several studies at a time, and returns the reports of its studies in order.
+/// Records the presses of `scene` in `folder`, with several studies at a time, and returns its finished studies in order.
 ///
 /// Reports do not depend on `jobs`, on interruptions of the run, or on the content of a cache.
 ///
@@ -43,7 +43,7 @@ pub fn run_scene(
     scene: &PlannedScene,
     folder: &RunFolder,
     setup: RunSetup<'_>,
-) -> Result<Vec<EvaluationReport>, StudyError> {
+) -> Result<Vec<FinishedStudy>, StudyError> {
     check_models(scene, setup.models)?;
     let datasets = acquire_scene(scene, folder, setup)?;
     let work = Work {
@@ -52,7 +52,7 @@ pub fn run_scene(
         // Also caches features, so that other model settings need no decoding.
         cache: setup.cache,
     };
-    let studies = scene.studies.iter().zip(&datasets);
+    let studies = scene.studies.iter().zip(datasets);
     let assessed = studies.enumerate().map(|(number, (study, dataset))| {
         let model = folder.model(number, &study.plan.name);
         let keeps_models = scene.scene.report.keeps_models();

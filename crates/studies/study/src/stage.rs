@@ -28,22 +28,24 @@ use taceva_evaluate::{
     add_predictions, model_provenance, over_seeds as scores_over_seeds, protocol_words,
     provenance_of, samples_of, subject_of,
 };
-use taceva_results::{EvaluationReport, Provenance};
+use taceva_results::Provenance;
 
 use crate::error::StudyError;
+use crate::finished::{FinishedStudy, FittedStudy};
 use crate::models::{classifier, fit_request, model_file};
 pub(crate) use context::RunContext;
 use gratings::PredictedSpacings;
 use phase_rows::{PhaseRows, seen};
 use score::{Scores, StudyScores, score};
 
-/// Evaluates the recording `dataset` of `study`, and returns the report.
+/// Evaluates `recording` of `study`, and returns it with the report and the model.
 pub(crate) fn assess(
     scene: &PlannedScene,
     study: &PlannedStudy,
-    dataset: &Dataset,
+    recording: Dataset,
     context: RunContext<'_>,
-) -> Result<EvaluationReport, StudyError> {
+) -> Result<FinishedStudy, StudyError> {
+    let dataset = &recording;
     let phase_rows = PhaseRows::new(study, dataset);
     let first = scene.seeds.first().copied();
     let learnt = Learnt::new(scene, study, dataset, &phase_rows, context, first)?;
@@ -176,7 +178,13 @@ pub(crate) fn assess(
         ..Context::new(subject, provenance)
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
-    Ok(taceva_evaluate::assess(rows, beyond, context)?.report)
+    let report = taceva_evaluate::assess(rows, beyond, context)?.report;
+    let fitted = learnt.map(|learnt| learnt.into_fitted(dataset, &phase_rows));
+    Ok(FinishedStudy {
+        report,
+        fitted,
+        dataset: recording,
+    })
 }
 
 /// Writes the state of a group of rows, for the bundles of the run.
@@ -264,6 +272,31 @@ impl Learnt {
             divided: Some(divided),
             frames_decoded,
         }))
+    }
+
+    /// The model with the calibration samples that it has not seen.
+    fn into_fitted(self, dataset: &Dataset, phase_rows: &PhaseRows<'_>) -> FittedStudy {
+        let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
+        let mut rows = phase_rows.rows(PhaseKind::Calibration);
+        rows.retain(|row| seen.binary_search(row).is_err());
+        let need = Need {
+            frame: true,
+            labels: None,
+        };
+        let usable = usable(dataset, &rows, need);
+        let part = match self.divided {
+            Some(_) => DataPart::Test,
+            None => DataPart::All,
+        };
+        FittedStudy {
+            model: self.model,
+            unseen: Target {
+                part,
+                left_out: rows.len() - usable.len(),
+                rows: usable,
+                divided: self.divided,
+            },
+        }
     }
 
     /// Predictions of all rows that a metric reads, except the rows of the fit.

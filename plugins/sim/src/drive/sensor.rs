@@ -2,7 +2,7 @@
 
 mod description;
 
-use self::description::{bits, default_reduction, describe, frame, key, reduced, reduction};
+use self::description::{bits, default_reduction, describe, fault, frame, key, reduced, reduction};
 
 use std::time::Duration;
 
@@ -47,6 +47,12 @@ impl SensorFactory {
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());
+        let worn = fault(args).map(|(fault, severity)| {
+            let worn = Parameters::worn_table(table, fault, severity);
+            worn.map_err(|error| format!("`{}` of severity {severity}: {error}", fault.name()))
+        });
+        let worn = worn.transpose()?;
+        let table = worn.as_deref().unwrap_or(table);
         let parameters = match args.flag("quiet") {
             true => Parameters::parse_quiet(table),
             false => Parameters::parse(table),

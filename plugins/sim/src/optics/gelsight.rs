@@ -14,6 +14,7 @@ use self::lamp::{CHUNK, Caster, Lamp, Slopes};
 use super::band::Band;
 use super::disc::{Disc, DiscSpec};
 use super::error::OpticsError;
+use super::marks::Marks;
 use super::raster::Raster;
 use super::relief::{Relief, Window};
 use super::stimulus::Stimulus;
@@ -31,6 +32,8 @@ pub(super) struct Gelsight {
     touch: Touch,
     dent: Dent,
     markers: Vec<[f32; 2]>,
+    /// Present places of the marks of wear.
+    worn: Vec<[f32; 2]>,
 }
 
 /// Constant data of all frames.
@@ -49,6 +52,9 @@ struct Scene {
     background: Vec<f32>,
     disc: Option<Disc>,
     markers: Vec<[f32; 2]>,
+    marks: Marks,
+    /// Places of the marks on the untouched gel.
+    worn: Vec<[f32; 2]>,
 }
 
 /// Object that touches the gel in this frame.
@@ -67,6 +73,7 @@ impl Gelsight {
             touch: Touch::Nothing,
             dent: Dent::default(),
             markers: scene.markers.clone(),
+            worn: scene.worn.clone(),
             scene: Arc::new(scene),
         }
     }
@@ -74,6 +81,7 @@ impl Gelsight {
     pub(super) fn pose(&mut self, view: &View) -> Result<(), OpticsError> {
         let scene = &self.scene;
         self.markers.copy_from_slice(&scene.markers);
+        self.worn.copy_from_slice(&scene.worn);
         self.touch = match view.stimulus {
             Stimulus::Nothing => Touch::Nothing,
             Stimulus::Ball(contact) if !contact.touches() => Touch::Nothing,
@@ -84,7 +92,7 @@ impl Gelsight {
                 self.dent
                     .take(&load, &self.profile, spec.blur_mm, spec.shadow);
                 let field = Field::new(&self.profile, &load);
-                for place in &mut self.markers {
+                for place in self.markers.iter_mut().chain(&mut self.worn) {
                     let [x, y] = *place;
                     let [along_x, along_y, _] = field.at(x, y);
                     *place = [x + along_x, y + along_y];
@@ -120,6 +128,7 @@ impl Gelsight {
                 disc.stamp(&scene.raster, *x, *y, band);
             }
         }
+        scene.marks.stamp(&self.worn, &scene.raster, band);
     }
 
     #[inline(always)]
@@ -153,6 +162,10 @@ impl Scene {
             .collect();
         let coating = texture::smooth_noise(&random.stream(Purpose::Texture, 0), 0, 6.0);
         let coating = Texture::new(TEXEL_MM, &[coating]);
+        let wear = spec.wear.as_ref();
+        let shift = wear.map_or([0.0; 2], |wear| wear.shift_xy_mm());
+        let marks = Marks::new(wear, spec.field_mm, unit, &raster, 1.0);
+        let [shift_x, shift_y] = shift.map(narrow);
         let mut scene = Scene {
             raster,
             spec: spec.clone(),
@@ -165,7 +178,7 @@ impl Scene {
             reflectance: (0..raster.height)
                 .flat_map(|row| (0..raster.width).map(move |column| (column, row)))
                 .map(|(column, row)| {
-                    let uneven = coating.at(raster.x(column), raster.y(row))[0];
+                    let uneven = coating.at(raster.x(column) - shift_x, raster.y(row) - shift_y)[0];
                     1.0 + narrow(spec.coating_spread) * uneven
                 })
                 .collect(),
@@ -181,7 +194,9 @@ impl Scene {
             }),
             markers: spec
                 .markers
-                .map_or_else(Vec::new, |grid| places(&grid, &random)),
+                .map_or_else(Vec::new, |grid| places(&grid, &random, shift)),
+            worn: marks.places_mm.iter().map(|at| at.map(narrow)).collect(),
+            marks,
         };
         let mut background = vec![0.0; raster.width * raster.height * 3];
         let mut band = Band {
@@ -261,7 +276,7 @@ const TEXEL_MM: f64 = 0.18;
 const MARKER_EDGE_MM: f64 = 0.045;
 
 /// Places of the markers of a unit.
-fn places(grid: &MarkerGrid, random: &Random) -> Vec<[f32; 2]> {
+fn places(grid: &MarkerGrid, random: &Random, shift_mm: [f64; 2]) -> Vec<[f32; 2]> {
     let jitter = random.stream(Purpose::MarkerJitter, 0);
     let [columns, rows] = grid.count;
     let middle = |number: u16, count: u16| f64::from(number) - 0.5 * (f64::from(count) - 1.0);
@@ -271,8 +286,14 @@ fn places(grid: &MarkerGrid, random: &Random) -> Vec<[f32; 2]> {
         .map(|((column, row), number)| {
             let [x, y] = [middle(column, columns), middle(row, rows)];
             [
-                narrow(x * grid.pitch_mm + grid.jitter_mm * jitter.normal(2 * number)),
-                narrow(y * grid.pitch_mm + grid.jitter_mm * jitter.normal(2 * number + 1)),
+                narrow(
+                    x * grid.pitch_mm + grid.jitter_mm * jitter.normal(2 * number) + shift_mm[0],
+                ),
+                narrow(
+                    y * grid.pitch_mm
+                        + grid.jitter_mm * jitter.normal(2 * number + 1)
+                        + shift_mm[1],
+                ),
             ]
         })
         .collect()

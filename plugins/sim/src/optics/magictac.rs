@@ -14,13 +14,14 @@ use self::shift::{Moved, Shift};
 use super::ambient::AmbientLight;
 use super::band::Band;
 use super::error::OpticsError;
+use super::marks::Marks;
 use super::raster::Raster;
 use super::relief::{Relief, Window};
 use super::simd::Lanes;
 use super::stimulus::Stimulus;
 use super::texture::Texture;
 use super::view::View;
-use crate::displacement::{Profile, Tables};
+use crate::displacement::{Field, Load, Profile, Tables};
 use crate::number::narrow;
 use crate::random::{Purpose, Random};
 
@@ -34,6 +35,8 @@ pub(super) struct Magictac {
     shift: Shift,
     /// Offset of this press in the buckling pattern.
     buckling: [f32; 2],
+    /// Present places of the marks of wear.
+    worn: Vec<[f32; 2]>,
 }
 
 /// Constant data of all frames.
@@ -49,6 +52,11 @@ struct Scene {
     gloss: f32,
     /// Light of the lamps at each pixel: red, green and blue.
     glow: Vec<[f32; 3]>,
+    /// Shift of the block in its housing.
+    shift: [f32; 2],
+    marks: Marks,
+    /// Places of the marks on the untouched block.
+    worn: Vec<[f32; 2]>,
 }
 
 /// Untouched block in one scene of light.
@@ -78,17 +86,22 @@ impl Magictac {
             touch: Touch::Nothing,
             shift: Shift::default(),
             buckling: [0.0; 2],
+            worn: scene.worn.clone(),
             scene: Arc::new(scene),
         }
     }
 
     pub(super) fn pose(&mut self, view: &View, random: &Random) -> Result<(), OpticsError> {
         let scene = &*self.scene;
+        self.worn.copy_from_slice(&scene.worn);
         self.touch = match view.stimulus {
             Stimulus::Nothing => Touch::Nothing,
             Stimulus::Ball(contact) if !contact.touches() => Touch::Nothing,
             Stimulus::Ball(contact) => {
                 let load = contact.load();
+                if !self.worn.is_empty() {
+                    scene.displace(&load, &mut self.worn);
+                }
                 for (tables, profile) in scene.tables.iter().zip(&mut self.profiles) {
                     tables.profile(&load, profile);
                 }
@@ -123,6 +136,8 @@ impl Magictac {
             Touch::Ball => self.paint_ball(band),
             Touch::Board(relief) => self.paint_board(relief, band),
         }
+        let scene = &*self.scene;
+        scene.marks.stamp(&self.worn, &scene.raster, band);
     }
 
     /// Renders a ball. The lattice moves smoothly, so that its shift is computed for every second pixel of a row and interpolated for the others.
@@ -256,6 +271,9 @@ impl Scene {
             spec,
             &Random::new(u64::from(unit)).stream(Purpose::LampGain, 0),
         );
+        let wear = spec.wear.as_ref();
+        let marks = Marks::new(wear, spec.field_mm, unit, &raster, 1.0);
+        let shift = wear.map_or([0.0; 2], |wear| wear.shift_xy_mm());
         Scene {
             raster,
             spec: spec.clone(),
@@ -268,12 +286,28 @@ impl Scene {
             refraction: narrow(spec.refraction_mm),
             gloss: narrow(spec.gloss),
             glow: field(&raster, |x, y| glow.at(x, y)),
+            shift: shift.map(narrow),
+            worn: marks.places_mm.iter().map(|at| at.map(narrow)).collect(),
+            marks,
+        }
+    }
+
+    /// Moves `places` with the surface under `load`.
+    fn displace(&self, load: &Load, places: &mut [[f32; 2]]) {
+        let mut profile = Profile::new();
+        Tables::shared(self.spec.thickness_mm, 0.0).profile(load, &mut profile);
+        let field = Field::new(&profile, load);
+        for place in places {
+            let [x, y] = *place;
+            let [along_x, along_y, _] = field.at(x, y);
+            *place = [x + along_x, y + along_y];
         }
     }
 
     /// Relative change of the light by lattice and surface at `x`, `y`, for red, green and blue, around 0.
     #[inline(always)]
     fn pattern(&self, moved: &Moved, x: f32, y: f32) -> [f32; 4] {
+        let [x, y] = [x - self.shift[0], y - self.shift[1]];
         let [slope_x, slope_y] = [moved.x.to_array()[3], moved.y.to_array()[3]];
         let seen = |at: f32, moved: Lanes, slope: f32| {
             Lanes::splat(at - self.refraction * slope).minus(moved)

@@ -15,6 +15,7 @@ use super::ambient::AmbientLight;
 use super::band::Band;
 use super::disc::{Disc, DiscSpec};
 use super::error::OpticsError;
+use super::marks::Marks;
 use super::raster::Raster;
 use super::relief::{Relief, Window};
 use super::stimulus::{Board, Stimulus};
@@ -32,6 +33,8 @@ pub(super) struct Vitactip {
     touch: Touch,
     /// Places of the markers in the picture.
     markers: Vec<[f32; 2]>,
+    /// Places of the marks of wear in the picture.
+    worn: Vec<[f32; 2]>,
 }
 
 /// Constant data of all frames.
@@ -47,6 +50,10 @@ struct Scene {
     /// Places of the markers on the untouched dome, in mm from its centre; then their places in the picture.
     markers: Vec<[f64; 3]>,
     seen: Vec<[f32; 2]>,
+    marks: Marks,
+    /// Places of the marks on the untouched dome, then in the picture.
+    worn: Vec<[f64; 3]>,
+    worn_seen: Vec<[f32; 2]>,
 }
 
 /// Untouched dome in one scene of light, without markers.
@@ -85,6 +92,7 @@ impl Vitactip {
             lighting: Arc::new(Lighting::new(&scene, AmbientLight::Normal)),
             touch: Touch::Nothing,
             markers: scene.seen.clone(),
+            worn: scene.worn_seen.clone(),
             scene: Arc::new(scene),
         }
     }
@@ -100,12 +108,15 @@ impl Vitactip {
             },
         };
         if let (Touch::Ball(_), Stimulus::Ball(contact)) = (&self.touch, view.stimulus) {
-            for (place, marker) in self.markers.iter_mut().zip(&scene.markers) {
+            let markers = self.markers.iter_mut().zip(&scene.markers);
+            let marks = self.worn.iter_mut().zip(&scene.worn);
+            for (place, marker) in markers.chain(marks) {
                 let displaced = dome::displaced(*marker, &contact, &scene.dimple, &scene.spec);
                 *place = scene.lens.project(displaced).map(narrow);
             }
         } else {
             self.markers.copy_from_slice(&scene.seen);
+            self.worn.copy_from_slice(&scene.worn_seen);
         }
         if self.lighting.scene != view.light {
             self.lighting = Arc::new(Lighting::new(scene, view.light));
@@ -128,6 +139,7 @@ impl Vitactip {
         for [x, y] in &self.markers {
             scene.disc.stamp(&scene.raster, *x, *y, band);
         }
+        scene.marks.stamp(&self.worn, &scene.raster, band);
     }
 }
 
@@ -141,6 +153,11 @@ impl Scene {
             darkness: spec.marker_darkness,
             edge: EDGE,
         };
+        let wear = spec.wear.as_ref();
+        let apex = [0.0, 0.0, spec.dome_radius_mm];
+        let marks = Marks::new(wear, spec.field_mm, unit, &raster, lens.scale(apex));
+        let on_dome = |[x, y]: &[f64; 2]| on_dome([*x, *y], spec.dome_radius_mm);
+        let worn: Vec<[f64; 3]> = marks.places_mm.iter().map(on_dome).collect();
         let gain = random.stream(Purpose::LampGain, 0).normal(0);
         let gain = 1.0 + spec.lamp_gain_spread * gain;
         let unevenness = texture::smooth_noise(&random.stream(Purpose::Texture, 0), 0, 3.0);
@@ -162,6 +179,12 @@ impl Scene {
                 .map(|marker| lens.project(*marker).map(narrow))
                 .collect(),
             markers,
+            worn_seen: worn
+                .iter()
+                .map(|mark| lens.project(*mark).map(narrow))
+                .collect(),
+            worn,
+            marks,
         }
     }
 
@@ -255,6 +278,8 @@ fn outline_edge(raster: &Raster) -> f64 {
 fn places(spec: &VitactipSpec, random: &Random) -> Vec<[f64; 3]> {
     let jitter = random.stream(Purpose::MarkerJitter, 0);
     let rings = spec.rings;
+    let wear = spec.wear.as_ref();
+    let shift = wear.map_or([0.0; 2], |wear| wear.shift_xy_mm());
     let cells = (-rings..=rings).flat_map(|q| (-rings..=rings).map(move |t| (q, t)));
     cells
         .filter(|(q, t)| (q + t).abs() <= rings)
@@ -265,10 +290,14 @@ fn places(spec: &VitactipSpec, random: &Random) -> Vec<[f64; 3]> {
             let y = spec.marker_pitch_mm * (0.75_f64.sqrt() * t);
             let x = x + spec.marker_jitter_mm * jitter.normal(2 * number);
             let y = y + spec.marker_jitter_mm * jitter.normal(2 * number + 1);
-            let radius = spec.dome_radius_mm;
-            [x, y, (radius * radius - x * x - y * y).max(0.0).sqrt()]
+            on_dome([x + shift[0], y + shift[1]], spec.dome_radius_mm)
         })
         .collect()
+}
+
+/// Point of a dome of `radius` at `x`, `y`.
+fn on_dome([x, y]: [f64; 2], radius: f64) -> [f64; 3] {
+    [x, y, (radius * radius - x * x - y * y).max(0.0).sqrt()]
 }
 
 /// A field of light over the frame.

@@ -165,6 +165,29 @@ section! {
 }
 
 section! {
+    /// Wear of the gel. A new gel has no such section.
+    GelWear, "wear", {
+        /// Shift of the gel in its housing along x; along y, half of it.
+        shift_mm: "mm", 0.0 ..= 5.0;
+        /// Relative gain of the light that the coating reflects in one direction.
+        gloss: "1", 0.0 ..= 3.0;
+        /// Number of bright scratches.
+        scratches: "1", 0.0 ..= 500.0;
+        /// Radius of a dark tear; 0 for none.
+        tear_radius_mm: "mm", 0.0 ..= 100.0;
+        /// Number of dark specks of dust.
+        dust: "1", 0.0 ..= 500.0;
+    }
+}
+
+impl GelWear {
+    /// Shift of the gel along x and y, mm.
+    pub fn shift_xy_mm(&self) -> [f64; 2] {
+        [self.shift_mm, 0.5 * self.shift_mm]
+    }
+}
+
+section! {
     /// Blur and contrast of gratings.
     Gratings, "gratings", {
         /// Standard deviation of the blur between relief and camera.

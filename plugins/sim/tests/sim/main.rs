@@ -4,6 +4,7 @@ mod bench;
 mod conformance;
 mod devices;
 mod figures;
+mod gel_faults;
 mod parameters;
 mod pictures;
 mod run;

@@ -8,3 +8,4 @@
 mod camera;
 mod gels;
 mod support;
+mod worn;

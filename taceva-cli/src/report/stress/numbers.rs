@@ -34,7 +34,7 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
     }
     for fault in &report.faults {
         let whole = Place {
-            fault: fault.id,
+            fault: &fault.id,
             ..Place::default()
         };
         for (channel, mean) in &fault.mean {
@@ -48,12 +48,12 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
             rows.push(&whole, channel, "breaks_at", &severity, "1");
         }
         for of in &fault.severities {
-            rows.push_check(fault.id, of);
+            rows.push_check(&fault.id, of);
             let sides = [("stale", Some(&of.stale)), ("fresh", of.fresh.as_ref())];
             for (untouched, scores) in sides {
                 for (channel, score) in scores.into_iter().flatten() {
                     let place = Place {
-                        fault: fault.id,
+                        fault: &fault.id,
                         strength: Some(Strength::of(of)),
                         untouched,
                     };
@@ -62,7 +62,7 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
             }
         }
         for of in &fault.unreached {
-            rows.push_unreached(fault.id, of);
+            rows.push_unreached(&fault.id, of);
         }
     }
     rows.push_notes();
@@ -168,9 +168,9 @@ impl<'a> Rows<'a> {
             .iter()
             .map(|words| ("", "note", words.as_str()));
         let own = report.faults.iter();
-        let own = own.filter_map(|fault| Some((fault.id, "note", fault.note?)));
+        let own = own.filter_map(|fault| Some((fault.id.as_str(), "note", fault.note.as_deref()?)));
         let skipped = report.skipped.iter();
-        let skipped = skipped.map(|of| (of.fault, "skipped", of.reason));
+        let skipped = skipped.map(|of| (of.fault.as_str(), "skipped", of.reason.as_str()));
         for (fault, quantity, words) in whole.chain(own).chain(skipped) {
             let place = Place {
                 fault,

@@ -8,6 +8,7 @@ use super::bundle_row::{Measured, Origin};
 use super::facts::{Limits, Size};
 use super::offer::{Availability, Price, Way};
 use super::published::{Missing, Published, Source};
+use crate::faults::FaultResult;
 
 /// Catalogue entry of a sensor, or of a study of sensors.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -61,6 +62,9 @@ pub struct Sensor {
     /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
+    /// Errors with faults of the pictures; `None` if no fault was tested.
+    #[serde(skip)]
+    pub faults: Option<FaultResult>,
     /// Unpublished numbers, each with the reason.
     #[serde(default)]
     pub missing: Vec<Missing>,

@@ -60,6 +60,7 @@ impl Sensor {
             unknown: Vec::new(),
             simulated: Vec::new(),
             samples: study.made.samples_digest.clone(),
+            faults: study.faults.clone(),
             missing: Vec::new(),
             reported: BTreeMap::new(),
             applications: BTreeMap::new(),
@@ -103,6 +104,7 @@ impl Sensor {
             notes: vec!["published numbers, not measured with this program".to_owned()],
             over_seeds: None,
             samples: None,
+            faults: None,
         }
     }
 

@@ -18,6 +18,10 @@ pub enum Property {
     Spatial(&'static str),
     /// Share of line or dot gratings for which the error of the predicted spacing is at most 0.05 mm.
     Resolution(&'static str),
+    /// Mean degradation of the error of a channel over the faults of a list, as a ratio.
+    Degradation(&'static str),
+    /// Mean over the faults of a list of the severity at which the skill of a channel ends, 1 to 6.
+    SkillEnd(&'static str),
     /// Indentation per normal force, in mm/N.
     Sensitivity,
     /// Uniformity of the sensitivity over the surface, as a ratio.
@@ -67,6 +71,11 @@ impl Property {
             | Property::FieldOfView
             | Property::Thickness
             | Property::GelThickness => result(),
+            Property::Degradation(channel) => {
+                let (value, _) = sensor.faults.as_ref()?.degradation(channel)?;
+                Some(value)
+            }
+            Property::SkillEnd(channel) => sensor.faults.as_ref()?.skill_end(channel),
             Property::Size => size?.greatest_mm(),
             Property::Width => size?.middle_mm(),
             Property::Price(currency) => Some(sensor.price_in(currency)?.amount),
@@ -100,7 +109,9 @@ impl Property {
             Property::FieldOfView => Some(("intrinsic", "field_of_view")),
             Property::Thickness => Some(("intrinsic", "thickness")),
             Property::GelThickness => Some(("gel_thickness", "gel")),
-            Property::Size
+            Property::Degradation(_)
+            | Property::SkillEnd(_)
+            | Property::Size
             | Property::Width
             | Property::Price(_)
             | Property::Bought
@@ -112,12 +123,20 @@ impl Property {
 
     /// 95 % interval of the number of `sensor`, if any.
     pub fn interval(self, sensor: &Sensor) -> Option<[f64; 2]> {
+        if let Property::Degradation(channel) = self {
+            let (_, interval) = sensor.faults.as_ref()?.degradation(channel)?;
+            return interval;
+        }
         let (metric, channel) = self.score()?;
         sensor.result(metric, channel)?.interval
     }
 
     /// Standing of the number of `sensor`. Properties other than scores always count.
     pub fn standing(self, sensor: &Sensor) -> Standing {
+        if let Property::Degradation(channel) | Property::SkillEnd(channel) = self {
+            let faults = sensor.faults.as_ref();
+            return faults.map_or(Standing::Counts, |faults| faults.standing(channel));
+        }
         let score = self.score();
         let result = score.and_then(|(metric, channel)| sensor.result(metric, channel));
         result.map_or(Standing::Counts, |result| result.standing)
@@ -141,12 +160,14 @@ impl Property {
             Property::Error(_)
             | Property::Repeatability(_)
             | Property::Spatial(_)
+            | Property::Degradation(_)
             | Property::Thickness
             | Property::GelThickness
             | Property::Size
             | Property::Width
             | Property::Price(_) => Better::Lower,
             Property::Resolution(_)
+            | Property::SkillEnd(_)
             | Property::Sensitivity
             | Property::Uniformity
             | Property::FrameRate
@@ -181,6 +202,8 @@ impl Property {
             Property::GreatestForce => "N",
             Property::Price(currency) => currency,
             Property::Resolution(_)
+            | Property::Degradation(_)
+            | Property::SkillEnd(_)
             | Property::Uniformity
             | Property::Bought
             | Property::Opaque => "",
@@ -226,6 +249,10 @@ impl fmt::Display for Property {
             Property::Spatial(channel) => write!(f, "spatial robustness of {channel}"),
             Property::Resolution(kind) => {
                 write!(f, "share of {kind} gratings predicted to within 0.05 mm")
+            }
+            Property::Degradation(channel) => write!(f, "mean degradation of {channel} by faults"),
+            Property::SkillEnd(channel) => {
+                write!(f, "mean severity at which the skill of {channel} ends")
             }
             Property::Sensitivity => f.write_str("sensitivity"),
             Property::Uniformity => f.write_str("uniformity"),

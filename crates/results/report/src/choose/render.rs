@@ -15,7 +15,8 @@ use crate::table::{Column, Direction, Table};
 /// Schema of a choice as JSON. 1.1: `open` lists sensors with an unknown number for a hard need. 1.2: each step states the better direction. 1.3:
 /// place and tie of each ranked sensor. 1.4: intervals, and significant differences. 1.5: sensors with limits from the catalogue. 1.6: `unplaced`
 /// lists sensors without a number for a ranking need. 1.7: `other_definitions` lists sensors with numbers of another definition only, and each step
-/// names the part or the goods of its number. 1.8: `apart` lists sensors of a catalogue that were measured on other samples.
+/// names the part or the goods of its number. 1.8: `apart` lists sensors that were measured on other samples
+/// or with other faults.
 pub const CHOICE_SCHEMA: &str = "taceva.choice/1.8";
 
 /// Greatest number of names in a sentence.
@@ -186,7 +187,7 @@ impl Choice {
             [] if !self.apart.is_empty() => {
                 let names: Vec<String> = self.apart.iter().map(|of| of.name.clone()).collect();
                 format!(
-                    "No sensor is ranked: {} were measured on different samples or by different definitions",
+                    "No sensor is ranked: {} were measured on different samples, by different definitions or with different faults",
                     first(&names)
                 )
             }
@@ -199,7 +200,7 @@ impl Choice {
             }
             [best] if !self.apart.is_empty() => {
                 format!(
-                    "{} alone is ranked; others were measured on other samples",
+                    "{} alone is ranked; others were measured on other samples or with other faults",
                     best.name
                 )
             }

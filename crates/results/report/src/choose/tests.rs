@@ -1,7 +1,9 @@
 //! Tests of choices among the catalogue and among results.
 
 use super::*;
+use crate::Study;
 use crate::catalogue;
+use crate::faults::tests::{drawn, without_skill};
 
 /// Names of the four sensors of the study, ranked for `needs`.
 fn ranked(needs: &str) -> Vec<String> {
@@ -101,6 +103,48 @@ fn what_a_real_sensor_stands_is_not_known_of_a_simulated_one_and_said_to_be_of_t
         .retain(|score| score.metric != "repeatability");
     let unknown = "Not ranked, no known repeatability of Pz: MagicTac.";
     assert!(text(&measured).contains(unknown), "{}", text(&measured));
+}
+
+#[test]
+fn rugged_ranks_by_degradation_and_the_end_of_skill_and_names_untested_sensors() {
+    let needs = Need::parse("rugged").expect("a need");
+    let study = |name: &str, list: &str, mean: f64| Study::of_faults(drawn(name, list, mean));
+    let untested = Study {
+        sensor: "plain".to_owned(),
+        ..Study::default()
+    };
+    let studies = [
+        study("weak", "gel-12", 8.0),
+        study("strong", "gel-12", 2.0),
+        study("other", "tear", 1.1),
+        untested,
+    ];
+    let choice = choose_results(&studies, &needs);
+    let names: Vec<&str> = choice.ranked.iter().map(|of| of.name.as_str()).collect();
+    assert_eq!(names, ["strong", "weak"]);
+    let steps = &choice.ranked[0].steps;
+    assert_eq!(steps[0].value, Some(2.0));
+    assert!(steps[0].interval.is_some());
+    assert_eq!(
+        steps[1].value,
+        Some(3.0),
+        "the severity at which skill ends"
+    );
+    let [apart] = choice.apart.as_slice() else {
+        panic!("{:?}", choice.apart);
+    };
+    assert_eq!(apart.name, "other");
+    assert!(apart.reason.contains("its faults are `tear`"), "{apart:?}");
+    assert_eq!(choice.unknown, ["plain"]);
+}
+
+#[test]
+fn faults_of_a_model_without_skill_rank_no_sensor() {
+    let needs = Need::parse("rugged").expect("a need");
+    let studies = [Study::of_faults(without_skill("constant"))];
+    let choice = choose_results(&studies, &needs);
+    assert!(choice.ranked.is_empty(), "{choice:?}");
+    assert_eq!(choice.barred[0].name, "constant");
 }
 
 #[test]

@@ -114,6 +114,11 @@ pub(super) const WORDS: &[Word] = &[
         bounds: &[],
         ranks: &[Property::Repeatability("Pz"), Property::Repeatability("Fz")],
     },
+    Word {
+        names: &["rugged", "robust to faults"],
+        bounds: &[],
+        ranks: &[Property::Degradation("Fz"), Property::SkillEnd("Fz")],
+    },
 ];
 
 /// Quantity that a need can bound.

@@ -13,40 +13,44 @@ const MOST: f64 = 100.0;
 const LEFT: f64 = 118.0;
 const ABOVE: f64 = 52.0;
 const CELL: [f64; 2] = [66.0, 22.0];
+/// Lines of a hatched cell.
+const HATCHES: u32 = 6;
 
 /// Errors with faults, beside those without.
 #[derive(Clone, Debug)]
-pub struct FaultGrid {
+pub(crate) struct FaultGrid {
     /// Title of the figure.
-    pub title: String,
+    pub(crate) title: String,
     /// Caption: recording, model, conditions.
-    pub caption: String,
+    pub(crate) caption: String,
     /// A panel for each channel.
-    pub panels: Vec<FaultPanel>,
+    pub(crate) panels: Vec<FaultPanel>,
 }
 
 /// Errors of one channel.
 #[derive(Clone, Debug)]
-pub struct FaultPanel {
+pub(crate) struct FaultPanel {
     /// Name of the channel.
-    pub channel: String,
+    pub(crate) channel: String,
     /// Faults, from above.
-    pub rows: Vec<FaultRow>,
+    pub(crate) rows: Vec<FaultRow>,
 }
 
 /// Errors with one fault.
 #[derive(Clone, Debug)]
-pub struct FaultRow {
+pub(crate) struct FaultRow {
     /// Name of the fault.
-    pub fault: String,
+    pub(crate) fault: String,
     /// Degradation at severities 1 to 5; `None` for a severity that was not tested, or without a ratio.
-    pub degradation: [Option<f64>; 5],
+    pub(crate) degradation: [Option<f64>; 5],
+    /// True for each severity of 1 to 5 that was skipped: the fault cannot have it, or the recording lacks what the fault needs.
+    pub(crate) skipped: [bool; 5],
     /// First severity without skill.
-    pub skill_ends: Option<u8>,
+    pub(crate) skill_ends: Option<u8>,
 }
 
 /// Draws a panel for each channel, one below the other.
-pub fn fault_grid(grid: &FaultGrid) -> Figure {
+pub(crate) fn fault_grid(grid: &FaultGrid) -> Figure {
     let heights = grid.panels.iter().map(height);
     let width = LEFT + SEVERITIES as f64 * CELL[0] + 12.0;
     let mut canvas = Canvas::new(width, heights.sum::<f64>().max(ABOVE));
@@ -57,7 +61,7 @@ pub fn fault_grid(grid: &FaultGrid) -> Figure {
     }
     let channels: Vec<String> = grid.panels.iter().map(|of| of.channel.clone()).collect();
     let caption = format!(
-        "{} Numbers: error with the fault, divided by the error without it. A bar marks the first severity without skill; – means not tested.",
+        "{} Numbers: error with the fault, divided by the error without it. A bar marks the first severity without skill; hatched means skipped, – means not tested.",
         grid.caption
     );
     Figure {
@@ -95,13 +99,17 @@ fn draw(panel: &FaultPanel, top: f64, canvas: &mut Canvas) {
         for (column, ratio) in of.degradation.iter().enumerate() {
             let x = LEFT + column as f64 * width;
             let middle = [x + width / 2.0, base];
+            let cell = format!("{}, severity {}", of.fault, column + 1);
+            let place = [x + 1.0, y + 1.0, width - 2.0, height - 2.0];
             let Some(ratio) = ratio else {
-                canvas.label(Label::new(middle, "–", Anchor::Middle));
+                match of.skipped[column] {
+                    true => hatch(place, format!("{cell}: skipped"), canvas),
+                    false => canvas.label(Label::new(middle, "–", Anchor::Middle)),
+                }
                 continue;
             };
             let number = significant(*ratio);
-            let words = format!("{}, severity {}: {number}", of.fault, column + 1);
-            let place = [x + 1.0, y + 1.0, width - 2.0, height - 2.0];
+            let words = format!("{cell}: {number}");
             canvas.fill(place, Ink::Rgb(diverging(share(*ratio))), words);
             canvas.cell_label(Label::new(middle, number, Anchor::Middle));
         }
@@ -113,6 +121,18 @@ fn draw(panel: &FaultPanel, top: f64, canvas: &mut Canvas) {
             };
             canvas.line([x, y], [x, y + height], bar);
         }
+    }
+}
+
+/// Fills `place` (left, top, width and height) with slanted lines and the tooltip `words`.
+fn hatch(place: [f64; 4], words: String, canvas: &mut Canvas) {
+    let [left, top, width, height] = place;
+    canvas.fill(place, Ink::Paper, words);
+    let step = (width - height) / f64::from(HATCHES - 1);
+    for line in 0..HATCHES {
+        let x = left + f64::from(line) * step;
+        let stroke = Stroke::thin(Ink::Grid);
+        canvas.line([x, top + height], [x + height, top], stroke);
     }
 }
 
@@ -133,6 +153,7 @@ mod tests {
         let row = |fault: &str, degradation| FaultRow {
             fault: fault.to_owned(),
             degradation,
+            skipped: [false, false, false, false, true],
             skill_ends: Some(3),
         };
         let drawn = fault_grid(&FaultGrid {
@@ -151,11 +172,12 @@ mod tests {
             "tear, severity 1: 1",
             "tear, severity 2: 4",
             "tear, severity 3: 100",
+            "tear, severity 5: skipped",
         ] {
             assert!(svg.contains(title), "{title} in {svg}");
         }
         let absent = svg.matches(">–<").count();
-        assert_eq!(absent, 7, "{svg}");
+        assert_eq!(absent, 5, "{svg}");
         assert!(share(1.0).abs() < 1e-12 && (share(1000.0) - 1.0).abs() < 1e-12);
         assert!(share(0.0) < 0.0 && share(0.5) < 0.0);
     }

@@ -69,6 +69,18 @@ impl RigSpec {
         }
     }
 
+    /// The same devices with `fault` of `severity` of the simulated gel.
+    pub(crate) fn worn(&self, fault: &str, severity: u8) -> RigSpec {
+        let worn = |selector: String| {
+            let separator = if selector.contains(':') { ';' } else { ':' };
+            format!("{selector}{separator}fault={fault};severity={severity}")
+        };
+        RigSpec {
+            sensor: self.sensor.clone().map(|sensor| sensor.map(worn)),
+            ..self.clone()
+        }
+    }
+
     /// Descriptors of the devices.
     pub(crate) fn info(&self, study: &Study, drivers: &Drivers) -> Result<RigInfo, Refused> {
         let units = study.units();

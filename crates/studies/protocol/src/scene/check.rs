@@ -3,6 +3,7 @@
 mod document;
 mod protocol;
 mod recording;
+mod stress;
 mod study;
 
 use taceva_core::shown;
@@ -36,6 +37,8 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
     check.metrics(&written.metrics)?;
     check.protocol(&written.protocol)?;
     check.report(&written.report)?;
+    check.stress(written.stress.as_ref())?;
+    check.plugin_faults(&written)?;
     let studies = check.studies(&written)?;
     Ok(Scene {
         name: written.name.value,
@@ -45,6 +48,8 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
         metrics: written.metrics,
         protocol: written.protocol,
         report: written.report,
+        stress: written.stress,
+        faults: written.fault,
         text,
     })
 }

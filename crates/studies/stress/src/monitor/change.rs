@@ -25,6 +25,22 @@ pub enum Change {
 }
 
 impl Change {
+    /// Name of the change, one word.
+    ///
+    /// ```
+    /// assert_eq!(taceva_stress::Change::Brightness.name(), "brightness");
+    /// ```
+    pub fn name(self) -> &'static str {
+        match self {
+            Change::Reference => "reference",
+            Change::Brightness => "brightness",
+            Change::Pattern => "pattern",
+            Change::Detail => "detail",
+            Change::Repeats => "repeats",
+            Change::Contact => "contact",
+        }
+    }
+
     /// Action that mends the change.
     pub fn remedy(self) -> &'static str {
         match self {

@@ -3,6 +3,7 @@
 mod bad_input;
 mod bench_monitor;
 mod drawing;
+mod foreign;
 mod golden;
 mod monitor;
 mod pictures;

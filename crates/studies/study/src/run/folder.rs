@@ -13,7 +13,7 @@ use taceva_models::Checkpoints;
 use taceva_acquire::PlannedScene;
 use taceva_evaluate::{MODELS, PLANS, RECORDINGS, STATES};
 
-use super::layout::{FIGURES, REPORTS, SCENE, STAGES};
+use super::layout::{FIGURES, REPORTS, SCENE, STAGES, STRESS};
 use crate::error::StudyError;
 
 /// Policy for a run folder that already exists.
@@ -66,7 +66,7 @@ impl RunFolder {
         let (is_run, is_there) = (path.join(PLANS).exists(), path.exists());
         match existing {
             Existing::Resume if folder.is_begun(scene)? => {
-                for written in ["", REPORTS, FIGURES, RECORDINGS, STATES, MODELS] {
+                for written in ["", REPORTS, FIGURES, RECORDINGS, STATES, MODELS, STRESS] {
                     clear_leftovers(&path.join(written));
                 }
                 return Ok(folder);
@@ -122,6 +122,12 @@ impl RunFolder {
     pub fn report(&self, number: usize, study: &str, extension: &str) -> PathBuf {
         let name = format!("{}-{}.{extension}", number + 1, slug(study));
         self.reports().join(name)
+    }
+
+    /// File of the errors with faults of study `number`, counted from 0, for a scene with `[stress]`.
+    pub fn stress(&self, number: usize, study: &str) -> PathBuf {
+        let name = format!("{}-{}.json", number + 1, slug(study));
+        self.path.join(STRESS).join(name)
     }
 
     /// Checkpoint of a long training of study `number`, counted from 0.

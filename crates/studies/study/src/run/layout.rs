@@ -6,5 +6,7 @@ pub(super) const SCENE: &str = "scene.toml";
 pub(super) const REPORTS: &str = "reports";
 /// Folder of the figures.
 pub(super) const FIGURES: &str = "figures";
+/// Folder of the errors with faults.
+pub(super) const STRESS: &str = "stress";
 /// List of the stages and whether each was reused from the cache.
 pub(super) const STAGES: &str = "stages.json";

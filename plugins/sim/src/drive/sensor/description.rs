@@ -8,7 +8,7 @@ use taceva_core::{
 use crate::drive::error::rig_argument;
 use crate::drive::lighting::scenes;
 use crate::optics::{Bits, OpticsSpec};
-use crate::parameters::{Body, Model, Outline, Parameters};
+use crate::parameters::{Body, GelFault, Model, Outline, Parameters};
 
 /// Key of the driver of a model.
 pub(super) fn key(model: Model) -> DriverKey {
@@ -77,6 +77,13 @@ pub(super) fn describe(
             .optional()
             .help("full text of a parameter table that replaces the built-in one")
             .changes_facts(),
+        ArgSpec::choice("fault", GelFault::ALL.map(GelFault::name))
+            .optional()
+            .help("fault of the gel, which changes force and picture together")
+            .changes_facts(),
+        ArgSpec::whole("severity", 1, 5)
+            .default(ArgValue::Whole(1))
+            .help("severity of the fault"),
         ArgSpec::flag("quiet").default(ArgValue::Flag(false)).help(
             "disables noise, drift and relaxation, so output depends only on the pose of the tip",
         ),
@@ -102,6 +109,13 @@ pub(super) fn reduction(args: &Args, parameters: &Parameters) -> u32 {
 pub(super) fn default_reduction(parameters: &Parameters) -> u32 {
     let [width, height] = OpticsSpec::new(parameters).native;
     (width.max(height) / LONGER_SIDE).clamp(1, 64)
+}
+
+/// Fault of the gel that `args` request, with its severity.
+pub(super) fn fault(args: &Args) -> Option<(GelFault, u8)> {
+    let name = args.get("fault").and_then(ArgValue::as_text)?;
+    let severity = u8::try_from(args.whole("severity")).unwrap_or(1);
+    Some((GelFault::from_name(name)?, severity))
 }
 
 /// Size of a reduced frame, pixels.

@@ -3,7 +3,7 @@
 use std::f64::consts::FRAC_PI_4;
 
 use super::lamp::LampSpec;
-use crate::parameters::{Layer, Markers, Parameters};
+use crate::parameters::{GelWear, Layer, Markers, Parameters};
 
 /// A coated flat gel under coloured lamps.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +28,10 @@ pub struct GelsightSpec {
     pub blur_mm: f64,
     /// Markers, if there are any.
     pub markers: Option<MarkerGrid>,
+    /// Width and height of the field.
+    pub field_mm: [f64; 2],
+    /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less of all directions (free).
+    pub wear: Option<GelWear>,
 }
 
 /// Grid of dark discs on the gel's surface.
@@ -51,10 +55,11 @@ impl GelsightSpec {
         let markers = parameters.markers.as_ref().map(MarkerGrid::new);
         let taken = markers.map_or(0.0, |grid| grid.light_taken(parameters));
         let brightness = parameters.camera.mean_gray / (NOMINAL_GRAY * (1.0 - taken));
+        let gloss = parameters.wear.map_or(0.0, |wear| wear.gloss);
         let lamp = |x: f64, y: f64, along: [f64; 2], colour: [f64; 3]| LampSpec {
             middle_mm: [x, y, 3.5],
             half_length_mm: along,
-            colour_dn: colour.map(|dn| dn * brightness),
+            colour_dn: colour.map(|dn| dn * brightness * (1.0 + gloss)),
         };
         let surface = &parameters.surface;
         // Lamp positions beside the picture, for any picture size.
@@ -69,12 +74,14 @@ impl GelsightSpec {
                 lamp(0.0, end, [3.0, 0.0], [17.0, 63.0, 63.0]),
             ],
             lamp_reach_mm: 14.0,
-            ambient_dn: [28.0, 38.0, 40.0].map(|dn| dn * brightness),
+            ambient_dn: [28.0, 38.0, 40.0].map(|dn| dn * brightness * (1.0 - gloss).max(0.0)),
             lamp_gain_spread: 0.02,
             coating_spread: 0.01,
             shadow: 0.35,
             blur_mm: parameters.gratings.blur_mm,
             markers,
+            field_mm: [surface.width_mm, surface.height_mm],
+            wear: parameters.wear,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! Parameters of a clear block with a lattice.
 
 use crate::optics::contrast::grating_contrast;
-use crate::parameters::{Lattice, Layer, Parameters};
+use crate::parameters::{GelWear, Lattice, Layer, Parameters};
 
 /// A clear block with a printed lattice in three layers.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,6 +30,10 @@ pub struct MagictacSpec {
     pub blur_mm: f64,
     /// Standard deviation of the lamps' gains between units (free).
     pub lamp_gain_spread: f64,
+    /// Width and height of the field.
+    pub field_mm: [f64; 2],
+    /// Wear of the block, if any.
+    pub wear: Option<GelWear>,
 }
 
 impl MagictacSpec {
@@ -50,13 +54,15 @@ impl MagictacSpec {
             pitch_mm: lattice.pitch_mm,
             contrast: [0.12, 0.16],
             refraction_mm: 0.35,
-            gloss: 1.2,
+            gloss: 1.2 * (1.0 + parameters.wear.map_or(0.0, |wear| wear.gloss)),
             wetting: 0.10,
             buckling: lattice.buckling,
             glow_dn: [130.0, 55.0].map(|dn| dn * brightness),
             grating_contrast: grating_contrast(parameters),
             blur_mm: parameters.gratings.blur_mm,
             lamp_gain_spread: 0.02,
+            field_mm: [parameters.surface.width_mm, parameters.surface.height_mm],
+            wear: parameters.wear,
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::elastic::shell;
 use crate::optics::contrast::grating_contrast;
-use crate::parameters::{Dome, Parameters};
+use crate::parameters::{Dome, GelWear, Parameters};
 
 /// A clear dome with markers in its skin, seen from inside by a wide lens.
 ///
@@ -41,6 +41,10 @@ pub struct VitactipSpec {
     pub blur_mm: f64,
     /// Standard deviation of the lamps' gain between units (free).
     pub lamp_gain_spread: f64,
+    /// Diameter of the visible field, along x and y.
+    pub field_mm: [f64; 2],
+    /// Wear of the skin, if any. A glossier skin reflects more of the ball (free).
+    pub wear: Option<GelWear>,
 }
 
 impl VitactipSpec {
@@ -49,6 +53,7 @@ impl VitactipSpec {
         let markers = parameters.markers.as_ref();
         let camera_distance_mm = 2.5 * dome.radius_mm;
         let rim_angle = libm::atan2(dome.radius_mm, camera_distance_mm - dome.radius_mm);
+        let gloss = parameters.wear.map_or(0.0, |wear| wear.gloss);
         let diameter_mm = markers.map_or(0.0, |markers| markers.diameter_mm);
         VitactipSpec {
             dome_radius_mm: dome.radius_mm,
@@ -63,10 +68,12 @@ impl VitactipSpec {
             skin_dn: 1.34 * parameters.camera.mean_gray / NOMINAL_GRAY,
             surroundings_dn: 3.5 * parameters.camera.mean_gray / NOMINAL_GRAY,
             unevenness: 0.03,
-            ball_glow: [0.5, 0.6],
+            ball_glow: [0.5, 0.6].map(|glow| glow * (1.0 + gloss)),
             grating_contrast: grating_contrast(parameters),
             blur_mm: parameters.gratings.blur_mm,
             lamp_gain_spread: 0.02,
+            field_mm: [parameters.surface.width_mm, parameters.surface.height_mm],
+            wear: parameters.wear,
         }
     }
 

@@ -7,6 +7,7 @@ use crate::limit_spec::LimitSpec;
 use crate::scene::counts::Protocol;
 use crate::scene::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 use crate::scene::metrics::{MetricsSpec, ReportSpec};
+use crate::scene::stress::{PluginFaultSpec, StressSpec};
 use crate::text::Setting;
 
 #[derive(Deserialize)]
@@ -32,6 +33,9 @@ pub(super) struct WrittenScene {
     pub(super) protocol: Protocol,
     #[serde(default)]
     pub(super) report: ReportSpec,
+    pub(super) stress: Option<StressSpec>,
+    #[serde(default)]
+    pub(super) fault: Vec<PluginFaultSpec>,
     #[serde(default)]
     pub(super) study: Vec<Setting<WrittenStudy>>,
 }

@@ -257,6 +257,33 @@ fn an_unknown_report_format_is_answered_with_what_there_is() {
 }
 
 #[test]
+fn faults_of_a_scene_have_ascending_severities_and_some_draws() {
+    for (written, expected) in [
+        ("severities = [1, 6]", "`severities` is 6"),
+        (
+            "severities = [3, 1]",
+            "severity 1 after 3, expected ascending",
+        ),
+        ("severities = [\"high\"]", "line 10"),
+        ("severities = []", "remove it to test all severities"),
+        ("faults = []", "remove it to test all faults"),
+        ("seeds = 0", "`seeds` is 0"),
+        ("fault = [\"tear\"]", "did you mean `faults`?"),
+    ] {
+        let error = with(&format!("[stress]\n{written}"));
+        assert!(error.contains(expected), "{written}: {error}");
+    }
+}
+
+#[test]
+fn faults_of_plugins_have_distinct_names_and_a_table_that_tests_them() {
+    let fault = "[[fault]]\nname = \"fog\"\nplugin = \"org.example/fog\"\n";
+    assert!(with(fault).contains("[[fault]] without [stress]"));
+    let twice = with(&format!("{fault}{fault}[stress]\n"));
+    assert!(twice.contains("two faults are called `fog`"), "{twice}");
+}
+
+#[test]
 fn an_unknown_driver_is_answered_with_the_nearest_of_its_kind() {
     let scene =
         Scene::parse("s.toml", &GOOD.replace("sim/robot", "sim/robto:speed=2")).expect("reads");

@@ -1,0 +1,85 @@
+//! Tests of results with faults, as pages and choices read them.
+
+use serde_json::{Value, json};
+
+use super::FaultResult;
+use crate::{ReportPage, Study, report};
+
+/// Result of the sensor `sensor` over the faults of `list`, with a mean degradation of Fz of `mean`.
+pub(crate) fn drawn(sensor: &str, list: &str, mean: f64) -> FaultResult {
+    FaultResult::read(&written(sensor, list, mean).to_string()).expect("a result")
+}
+
+/// Result of a model that predicts a constant.
+pub(crate) fn without_skill(sensor: &str) -> FaultResult {
+    let mut result = written(sensor, "tear", 1.0);
+    result["clean"]["Fz"]["skill"] = json!({"value": 0.0, "ci95": [0.0, 0.0], "reason": null});
+    FaultResult::read(&result.to_string()).expect("a result")
+}
+
+/// The same as JSON.
+fn written(sensor: &str, list: &str, mean: f64) -> Value {
+    let estimate =
+        |value: f64| json!({"value": value, "ci95": [value - 0.1, value + 0.1], "reason": null});
+    let cell = |severity: u8, value: f64| json!({"severity": severity, "stale": {"Fz": {"degradation": estimate(value)}}});
+    json!({
+        "schema": "taceva.stress/1",
+        "subject": {"sensor": sensor, "serial": "1", "gel": "1", "source": "recorded"},
+        "not_measured": null, "by": "stimulus",
+        "list": {"name": list, "digest": list},
+        "seed": 1, "samples": 12,
+        "clean": {"Fz": {"skill": estimate(0.9)}},
+        "faults": [{
+            "id": "tear", "note": "it lies still", "severities": [cell(1, 1.5), cell(3, 40.0)],
+            "unreached": [{"severity": 5}], "breaks_at": {"Fz": 3}
+        }],
+        "mD": {"Fz": estimate(mean)},
+        "unnoticed": [{"fault": "tear", "severity": 3, "channel": "Fz"}],
+        "skipped": [{"fault": "stale_frames", "reason": "no previous picture"}],
+        "notes": ["one draw of places"]
+    })
+}
+
+#[test]
+fn a_page_has_a_section_on_faults_with_grid_hatching_and_unnoticed_faults() {
+    let study = Study::of_faults(drawn("gel", "tear", 4.0));
+    let studies = [study];
+    let page = report(&ReportPage {
+        title: "worn",
+        studies: &studies,
+        pictures: &[],
+        triples: &[],
+    });
+    for words in [
+        "<h2 id=\"h-faults\">Faults</h2>",
+        "id=\"figure-faults-1\"",
+        "tear, severity 3: 40",
+        "tear, severity 5: skipped",
+        "stale_frames, severity 1: skipped",
+        "by fault, severity and channel: tear 3 Fz.",
+        "skill of Fz is no longer shown at severity 3",
+        "Skipped: stale_frames: no previous picture.",
+    ] {
+        assert!(page.contains(words), "{words} in {page}");
+    }
+    let without = report(&ReportPage {
+        title: "worn",
+        studies: &[Study::default()],
+        pictures: &[],
+        triples: &[],
+    });
+    assert!(!without.contains("h-faults"));
+}
+
+#[test]
+fn another_schema_is_refused_and_not_taken_for_faults() {
+    let mut other = written("gel", "tear", 4.0);
+    other["schema"] = json!("taceva.stress/2");
+    let text = other.to_string();
+    assert!(!FaultResult::is_in(&text));
+    let error = FaultResult::read(&text).expect_err("another schema");
+    assert_eq!(
+        error.to_string(),
+        "schema: expected `taceva.stress/1`, found `taceva.stress/2`"
+    );
+}

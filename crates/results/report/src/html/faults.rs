@@ -1,0 +1,82 @@
+//! Section of a page on faults.
+
+use maud::{Markup, html};
+
+use super::drawn;
+use crate::faults::{FaultResult, FaultScores, NEVER};
+use crate::names::{listed, names};
+use crate::number::FormattedValue;
+use crate::results::Study;
+
+/// Section with the faults of each sensor; `None` if no sensor was tested with faults.
+pub(super) fn section(studies: &[Study]) -> Option<Markup> {
+    let named = (1_usize..).zip(studies.iter().zip(names(studies)));
+    let entries = named.filter_map(|(number, (study, name))| {
+        let result = study.faults.as_ref()?;
+        Some(entry(result, &name, number))
+    });
+    let entries: Vec<Markup> = entries.collect();
+    let body = html! {
+        p { "Errors of the same presses with faults of their pictures. The model was not fitted again." } "\n"
+        @for entry in &entries { (entry) }
+    };
+    (!entries.is_empty()).then_some(body)
+}
+
+fn entry(result: &FaultResult, name: &str, number: usize) -> Markup {
+    let mut figure = result.figure();
+    figure.id = format!("faults-{number}");
+    let own = result.faults.iter();
+    let own = own.filter_map(|fault| Some(format!("{}: {}", fault.id, fault.note.as_ref()?)));
+    let skipped = result.skipped.iter();
+    let skipped = skipped.map(|of| format!("Skipped: {}: {}", of.fault, of.reason));
+    html! {
+        (drawn(&figure))
+        p { strong { (name) } ": mean degradation over all faults: " (means(result)) "." } "\n"
+        @if let Some(words) = unnoticed(result) { p { (words) } "\n" }
+        ul { @for fault in &result.faults { li { (fault.id) ": " (skill_end(fault, result)) "." } "\n" } }
+        @for of in &result.failed { p.note { "Failed: " (of.fault) ": " (of.reason) "." } "\n" }
+        @for words in own.chain(skipped) { p.note { (words) "." } "\n" }
+        @for words in &result.notes { p.note { (words) } "\n" }
+    }
+}
+
+/// Mean degradation of each main channel: `Fz 3.2 (2.1 … 4.9)`.
+fn means(result: &FaultResult) -> String {
+    let known = result.main_channels().into_iter().map(|channel| {
+        let mean = result.degradation(channel);
+        let mean = mean.map(|(value, ends)| FormattedValue::number(value, ends).phrase(""));
+        format!("{channel} {}", mean.unwrap_or_else(|| "unknown".to_owned()))
+    });
+    known.collect::<Vec<_>>().join(", ")
+}
+
+/// Sentence on errors that at least double while no check finds the fault; `None` if the recording has no untouched picture for the check.
+fn unnoticed(result: &FaultResult) -> Option<String> {
+    let main = result.main_channels();
+    let hidden = result.unnoticed.as_ref()?.iter();
+    let hidden = hidden.filter(|of| main.contains(&of.channel.as_str()));
+    let hidden = hidden.map(|of| format!("{} {} {}", of.fault, of.severity, of.channel));
+    let hidden: Vec<String> = hidden.collect();
+    Some(match hidden.is_empty() {
+        true => "Every fault that at least doubles an error is found by the check of untouched pictures (TAC034).".to_owned(),
+        false => format!(
+            "At least doubled, and not found by the check of untouched pictures (TAC034), by fault, severity and channel: {}.",
+            listed(&hidden)
+        ),
+    })
+}
+
+/// First tested severity of `fault` without shown skill, by channel.
+fn skill_end(fault: &FaultScores, result: &FaultResult) -> String {
+    let channels = result.main_channels().into_iter();
+    let ends = channels.filter_map(|channel| {
+        let end = match fault.breaks_at.get(channel)? {
+            None => "is unknown".to_owned(),
+            Some(NEVER) => "stays at every tested severity".to_owned(),
+            Some(severity) => format!("is no longer shown at severity {severity}"),
+        };
+        Some(format!("skill of {channel} {end}"))
+    });
+    ends.collect::<Vec<_>>().join(", ")
+}

@@ -1,0 +1,105 @@
+//! Faults of pictures that plugins make.
+
+use taceva_core::{Frame, FrameInfo};
+use taceva_evaluate::Target;
+use taceva_stress::{By, OtherFaults, PictureFault, StressReport, StressRequest, stress_unseen};
+
+use crate::drawing::{WORK, unseen};
+
+/// Answer of a fault to each picture.
+enum Answer {
+    /// The picture, with each number less by ten times the severity.
+    Darker,
+    /// A picture of one pixel.
+    Small,
+    /// No picture.
+    Failure,
+}
+
+struct Drawn(&'static str, Answer);
+
+impl PictureFault for Drawn {
+    fn name(&self) -> &str {
+        self.0
+    }
+
+    fn apply(&self, frame: &Frame, severity: u8, _sample: &str) -> Result<Frame, String> {
+        let info = frame.info();
+        let made = match self.1 {
+            Answer::Darker => {
+                let bytes = frame.bytes().iter();
+                let bytes = bytes.map(|byte| byte.saturating_sub(10 * severity));
+                Frame::new(info, bytes.collect())
+            }
+            Answer::Small => {
+                let info = FrameInfo {
+                    width: 1,
+                    height: 1,
+                    ..info
+                };
+                let bytes = vec![0; info.byte_len().expect("small")];
+                Frame::new(info, bytes)
+            }
+            Answer::Failure => return Err("NaN at sample 3".to_owned()),
+        };
+        made.map_err(|error| error.to_string())
+    }
+}
+
+fn tested(faults: &[&dyn PictureFault], pictures: &[&str]) -> StressReport {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (dataset, model) = unseen(folder.path());
+    let target = Target::of(&dataset, None, None, true).expect("samples");
+    let request = StressRequest {
+        faults: pictures.iter().map(|name| (*name).to_owned()).collect(),
+        severities: vec![1, 5],
+        by: By::Parameter,
+        ..StressRequest::default()
+    };
+    let others = OtherFaults {
+        foreign: faults,
+        ..OtherFaults::default()
+    };
+    stress_unseen(&dataset, &model, target, &request, others, WORK).expect("tested")
+}
+
+#[test]
+fn a_fault_of_a_plugin_stands_beside_those_of_the_list() {
+    let darker = Drawn("darker", Answer::Darker);
+    let report = tested(&[&darker], &["exposure_low"]);
+    assert_eq!(report.list.name, "exposure_low,darker");
+    assert!(report.failed.is_empty());
+    let own = &report.faults[1];
+    assert_eq!(own.id, "darker");
+    let stimuli: Vec<f64> = own.severities.iter().filter_map(|of| of.stimulus).collect();
+    assert!(stimuli.len() == 2 && stimuli[0] < stimuli[1], "{stimuli:?}");
+    assert!(
+        own.mean.values().all(|mean| mean.value.is_some()),
+        "{own:?}"
+    );
+    let alone = tested(&[&darker], &[]);
+    assert_eq!(alone.list.name, "darker");
+    assert_ne!(alone.list.digest, report.list.digest);
+}
+
+#[test]
+fn a_fault_that_fails_is_named_and_the_others_go_on() {
+    let small = Drawn("small", Answer::Small);
+    let failure = Drawn("failure", Answer::Failure);
+    let darker = Drawn("darker", Answer::Darker);
+    let report = tested(&[&small, &failure, &darker], &[]);
+    let tested: Vec<&str> = report
+        .faults
+        .iter()
+        .map(|fault| fault.id.as_str())
+        .collect();
+    assert_eq!(tested, ["darker"]);
+    let failed: Vec<&str> = report.failed.iter().map(|of| of.fault.as_str()).collect();
+    assert_eq!(failed, ["small", "failure"]);
+    assert!(
+        report.failed[0].reason.contains("expected the same size"),
+        "{:?}",
+        report.failed
+    );
+    assert_eq!(report.failed[1].reason, "NaN at sample 3");
+}
