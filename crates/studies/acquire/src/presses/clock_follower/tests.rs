@@ -51,7 +51,9 @@ impl Session {
         }
         Errors {
             last_s: *errors.last().expect("frames"),
-            greatest_s: errors.iter().fold(0.0_f64, |most, error| most.max(error.abs())),
+            greatest_s: errors
+                .iter()
+                .fold(0.0_f64, |most, error| most.max(error.abs())),
         }
     }
 
