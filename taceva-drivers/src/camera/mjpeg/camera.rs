@@ -190,6 +190,10 @@ impl Sensor for Camera {
         Ok(())
     }
 
+    fn is_stamped_by_host(&self) -> bool {
+        self.clock.is_none()
+    }
+
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         Some(Arc::clone(&self.pictures) as Arc<dyn Interrupt>)
     }
