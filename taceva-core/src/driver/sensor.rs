@@ -88,6 +88,12 @@ pub trait Sensor: Send {
         BTreeMap::new()
     }
 
+    /// True if this machine stamps the frames: on arrival, or by its kernel. The drift of any other clock is subtracted from the stamps. A plugin does not
+    /// pass this on.
+    fn is_stamped_by_host(&self) -> bool {
+        false
+    }
+
     /// Settable light around this sensor; `None` if the sensor has none.
     fn lighting(&mut self) -> Option<&mut dyn Lighting> {
         None

@@ -32,6 +32,7 @@ pub(crate) fn differences(
             own.traceability.len() == other.traceability.len()
                 && (own.traceability.iter()).all(|one| other.traceability.contains(one)),
         ),
+        ("devices", own.devices == other.devices),
         ("model", other.model.is_none() || own.model == other.model),
         ("split", other.split.is_none() || own.split == other.split),
         ("part", other.part.is_none() || own.part == other.part),

@@ -37,7 +37,7 @@ fn the_zero_of_depths_is_a_source_with_its_file_and_counts_once() {
     bench.refused(
         "budget both.toml --results r.json",
         3,
-        "both.toml: line 6, `from`: `zero_u_mm` is inside `error.within` (line 9); remove one of them",
+        "both.toml: line 5, `from`: `zero_u_mm` is inside `error.within` (line 8); remove one of them",
     );
     let template = bench.ok("budget --template r.json --channel Pz");
     let comment = "# zero_u_mm: measured, and inside `error.within`";

@@ -236,6 +236,7 @@ fn inputs_and_settings_that_the_results_rename_differ_from_the_state() {
     change_results(&bench, |results| {
         results["provenance"]["tables"]["truth"] = format!("sha256:{}", "0".repeat(64)).into();
         results["subject"]["sensor"] = "Another".into();
+        results["provenance"]["devices"] = serde_json::json!({"force_rate_hz": "500"});
     });
     relist(&bench, "b", of_another_version);
     let found = verified(&bench, "b", 1);
@@ -245,7 +246,10 @@ fn inputs_and_settings_that_the_results_rename_differ_from_the_state() {
         .filter_map(|other| other["part"].as_str())
         .collect();
     // Edited JSON has another order of variants, which differs too.
-    assert_eq!(parts.get(..2), Some(["subject", "tables"].as_slice()));
+    assert_eq!(
+        parts.get(..3),
+        Some(["subject", "tables", "devices"].as_slice())
+    );
     let remarks = found["remarks"].to_string();
     assert!(remarks.contains("Edited: results, "), "{remarks}");
 }

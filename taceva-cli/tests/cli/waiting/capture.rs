@@ -95,16 +95,15 @@ fn a_capture_keeps_the_certificate_of_its_rig_file() {
 fn the_drift_of_a_clock_of_a_camera_is_recorded_with_its_uncertainty() {
     let emulated = Emulated::new();
     let bench = Bench::new();
-    let sensor = emulated.drifting_sensor(800.0);
-    bench.ok(&format!("capture drifting --sensor {sensor} --for 20s -q"));
+    // Far above what delays of frames on a busy machine look like: 2 s in 10 s.
+    let sensor = emulated.drifting_sensor(200_000.0);
+    bench.ok(&format!("capture drifting --sensor {sensor} --for 10s -q"));
     let dataset = Dataset::open(&bench.path("drifting")).expect("whole");
     let settings = &dataset.header().settings;
     let [ppm, u_ppm] = ["sensor_clock_drift_ppm", "sensor_clock_drift_u_ppm"]
         .map(|name| settings[name].parse::<f64>().expect("a number"));
-    // Frames are drawn and encoded while others compile.
-    let allowed_ppm = (4.0 * u_ppm).max(250.0);
-    assert!((ppm - 800.0).abs() < allowed_ppm, "{ppm} ± {u_ppm}");
-    assert!(u_ppm > 0.0 && u_ppm < 300.0, "{ppm} ± {u_ppm}");
+    assert!((ppm - 200_000.0).abs() < 60_000.0, "{ppm} ± {u_ppm}");
+    assert!(u_ppm > 0.0 && u_ppm < 60_000.0, "{ppm} ± {u_ppm}");
     let shown = bench.ok("show drifting");
     assert!(shown.contains("sensor_clock_drift_ppm"), "{shown}");
 }

@@ -128,7 +128,6 @@ impl Sensor for Camera {
         if self.pictures.has_ended() {
             // Reconnect to a camera that was lost.
             self.pictures.begin_again();
-            self.clock.iter_mut().for_each(CameraClock::begin_again);
             match connected(&self.url, &self.pictures) {
                 Ok(stream) => self.stream = stream,
                 Err(error) => {
@@ -170,7 +169,13 @@ impl Sensor for Camera {
             )
         })?;
         let began = match &mut self.clock {
-            Some(clock) => clock.place(stamped_s(&seen.what)?, seen.what.began),
+            Some(clock) => {
+                let placed = clock.place(stamped_s(&seen.what)?, seen.what.began);
+                placed.ok_or_else(|| {
+                    let why = "the clock of the server stepped by more than 10 s, expected one that never steps: start this command again";
+                    failed(ErrorKind::DeviceFault, CAPTURE, why)
+                })?
+            }
             None => seen.what.began,
         };
         self.given = Some(seen.what.bytes);
@@ -188,6 +193,10 @@ impl Sensor for Camera {
     fn stop(&mut self) -> Result<(), DriverError> {
         self.is_running = false;
         Ok(())
+    }
+
+    fn is_stamped_by_host(&self) -> bool {
+        self.clock.is_none()
     }
 
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {

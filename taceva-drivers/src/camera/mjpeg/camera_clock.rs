@@ -4,21 +4,31 @@ use std::time::Duration;
 
 /// Number of pictures after which the place of the clock on this machine's clock is fixed. A drift remains in the stamps.
 const PICTURES: u32 = 32;
+/// Greatest change between two pictures of the time from the stamp to the arrival, s. A greater one is a step of the server's clock, or its restart.
+const STEP_S: f64 = 10.0;
 
 /// Place of a server's clock on the monotonic clock of this machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CameraClock {
     /// Least time from a server's stamp to the arrival, s; `None` before the first picture. Delays only add to it.
     behind_s: Option<f64>,
+    /// The same time of the last placed picture.
+    newest_s: Option<f64>,
     pictures: u32,
     /// Last returned time, s.
     last_s: f64,
 }
 
 impl CameraClock {
-    /// Time of a picture on the monotonic clock. The server stamped it by `stamped_s`, s, and it arrived at `arrived`.
-    pub(super) fn place(&mut self, stamped_s: f64, arrived: Duration) -> Duration {
+    /// Time of a picture on the monotonic clock; `None` after a step of the server's clock. The server stamped the picture by `stamped_s`, s, and it arrived at
+    /// `arrived`.
+    pub(super) fn place(&mut self, stamped_s: f64, arrived: Duration) -> Option<Duration> {
         let behind_s = arrived.as_secs_f64() - stamped_s;
+        let newest_s = *self.newest_s.get_or_insert(behind_s);
+        if (behind_s - newest_s).abs() > STEP_S {
+            return None;
+        }
+        self.newest_s = Some(behind_s);
         let behind_s = match self.behind_s {
             Some(least_s) if self.pictures >= PICTURES => least_s,
             Some(least_s) => least_s.min(behind_s),
@@ -28,12 +38,7 @@ impl CameraClock {
         self.pictures = self.pictures.saturating_add(1);
         // A smaller offset must not put a picture before the last one.
         self.last_s = self.last_s.max(stamped_s + behind_s);
-        Duration::try_from_secs_f64(self.last_s).unwrap_or(arrived)
-    }
-
-    /// Forgets the place of the clock of a server that is connected again.
-    pub(super) fn begin_again(&mut self) {
-        *self = CameraClock::default();
+        Some(Duration::try_from_secs_f64(self.last_s).unwrap_or(arrived))
     }
 }
 
@@ -44,7 +49,8 @@ mod tests {
     /// Place of a picture stamped by `stamped_s` that arrived at `arrived_s`, s.
     fn placed(clock: &mut CameraClock, stamped_s: f64, arrived_s: f64) -> f64 {
         let arrived = Duration::from_secs_f64(arrived_s);
-        clock.place(stamped_s, arrived).as_secs_f64()
+        let placed = clock.place(stamped_s, arrived);
+        placed.expect("no step").as_secs_f64()
     }
 
     #[test]
@@ -76,8 +82,15 @@ mod tests {
             (drifted_s - 0.01 * 0.04 * 999.0).abs() < 0.02,
             "{drifted_s}"
         );
-        clock.begin_again();
-        let again_s = placed(&mut clock, 7.0, 60.0);
-        assert!((again_s - 60.0).abs() < 1e-9, "{again_s}");
+    }
+
+    #[test]
+    fn a_clock_that_stepped_or_began_again_places_no_picture_until_it_fits_again() {
+        let mut clock = CameraClock::default();
+        assert!((placed(&mut clock, 500.0, 10.0) - 10.0).abs() < 1e-9);
+        for stamped_s in [7.0, 530.0] {
+            assert_eq!(clock.place(stamped_s, Duration::from_secs(15)), None);
+        }
+        assert!((placed(&mut clock, 520.0, 30.0) - 30.0).abs() < 1e-9);
     }
 }

@@ -219,6 +219,10 @@ impl Sensor for LocalCamera {
         Ok(())
     }
 
+    fn is_stamped_by_host(&self) -> bool {
+        true
+    }
+
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         Some(Arc::clone(&self.pictures) as Arc<dyn Interrupt>)
     }

@@ -80,6 +80,8 @@ fn stamps_of_a_server_keep_its_drift_and_one_that_writes_none_is_refused() {
     // A clock that is twice as fast.
     let url = camera.drifting_url(1e6);
     let mut sensor = started(&format!("{url};clock=server"));
+    assert!(!sensor.is_stamped_by_host());
+    assert!(started(&url).is_stamped_by_host());
     let stamps: Vec<Stamp> = (0..60)
         .map(|_| frame(&mut sensor).expect("a frame").1)
         .collect();

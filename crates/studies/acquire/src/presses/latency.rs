@@ -254,8 +254,10 @@ impl Sensor for Late<dyn Sensor> {
         let taken = self.device.capture(into, deadline);
         let stamp = self.checked("capture a frame", asked, taken, |stamp| *stamp)?;
         let followed = match &mut self.follower {
-            Some(follower) => follower.follow(stamp, MonotonicClock.now_s()),
-            None => stamp,
+            Some(follower) if !self.device.is_stamped_by_host() => {
+                follower.follow(stamp, MonotonicClock.now_s())
+            }
+            _ => stamp,
         };
         Ok(self.true_stamp(followed))
     }
