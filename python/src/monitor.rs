@@ -88,8 +88,8 @@ impl PictureMonitor {
         self.locked().missing()
     }
 
-    /// Least stimulus of brightness, pattern and detail that is found; `None` while pictures are missing.
-    fn smallest(&self) -> Option<[f64; 3]> {
+    /// Least stimulus of brightness, pattern, detail and single lines that is found; `None` while pictures are missing.
+    fn smallest(&self) -> Option<[f64; 4]> {
         self.locked().smallest()
     }
 

@@ -32,7 +32,7 @@ def test_a_change_of_light_raises_one_alarm_with_its_remedy() -> None:
     monitor = learnt()
     assert monitor.missing == 0
     smallest = monitor.smallest
-    assert smallest is not None and set(smallest) == {"brightness", "pattern", "detail"}
+    assert smallest is not None and set(smallest) == {"brightness", "pattern", "detail", "lines"}
     alarms = [alarm for picture in pictures(30, 112, 2) for alarm in monitor.untouched(picture)]
     assert [alarm.change for alarm in alarms] == ["brightness"]
     assert 250 < alarms[0].picture <= 280

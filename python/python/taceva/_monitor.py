@@ -15,7 +15,7 @@ from taceva._record import pixels
 class Alarm:
     """A change that a `Monitor` found. Its text is the line that ``taceva watch`` prints."""
 
-    #: ``reference``, ``brightness``, ``pattern``, ``detail``, ``repeats`` or ``contact``.
+    #: ``reference``, ``brightness``, ``pattern``, ``detail``, ``lines``, ``repeats`` or ``contact``.
     change: str
     #: Number of the picture, from 1, among all untouched pictures, or among all pictures of contact.
     picture: int
@@ -93,7 +93,7 @@ class Monitor:
     def smallest(self) -> dict[str, float] | None:
         """Least change that is found, relative to the change by contact; ``None`` while pictures are missing."""
         found = self._inner.smallest()
-        return None if found is None else dict(zip(("brightness", "pattern", "detail"), found, strict=True))
+        return None if found is None else dict(zip(("brightness", "pattern", "detail", "lines"), found, strict=True))
 
     @property
     def found(self) -> tuple[str, ...]:

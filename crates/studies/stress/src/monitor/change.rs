@@ -36,6 +36,7 @@ impl Change {
             Change::Brightness => "brightness",
             Change::Pattern => "pattern",
             Change::Detail => "detail",
+            Change::Lines => "lines",
             Change::Repeats => "repeats",
             Change::Contact => "contact",
         }
