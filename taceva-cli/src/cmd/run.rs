@@ -119,7 +119,13 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
         workshop,
         context,
     };
-    let tested = faults::test(&tested, studies)?;
+    let tested = faults::test(&tested, studies).with_context(|| match progress::is_stopped() {
+        true => format!(
+            "stopped; continue with: {}",
+            resumption(args, &path, context)
+        ),
+        false => format!("run in {}", shown(&path)),
+    })?;
     let mut reports = tested.reports;
     reports
         .iter_mut()

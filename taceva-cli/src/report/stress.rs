@@ -4,9 +4,7 @@ mod numbers;
 
 use taceva_core::counted;
 use taceva_report::{Cell, Column, FormattedValue, Table, main_channels};
-use taceva_stress::{
-    By, Estimate, FaultReport, GEL_FAULTS, NEVER, StressReport, TARGETS, Undefined,
-};
+use taceva_stress::{By, Estimate, FaultReport, NEVER, StressReport, TARGETS, Undefined};
 
 pub(crate) use self::numbers::numbers;
 
@@ -127,10 +125,7 @@ fn missed_targets(report: &StressReport) -> Option<String> {
     if report.by == By::Parameter {
         return None;
     }
-    // Faults of a gel have parameters of their own and no target.
-    let of_pictures = report.faults.iter();
-    let of_pictures = of_pictures.filter(|fault| !GEL_FAULTS.contains(&fault.id.as_str()));
-    let cells = of_pictures.flat_map(|fault| {
+    let cells = report.faults.iter().flat_map(|fault| {
         let severities = fault.severities.iter();
         severities.filter_map(move |of| {
             let target = TARGETS[usize::from(of.severity) - 1];

@@ -148,6 +148,25 @@ impl FaultResult {
         }
     }
 
+    /// Digest of the list with the tested severities. Means over other faults or severities are not compared.
+    pub(crate) fn basis(&self) -> String {
+        let tested = self.faults.iter().flat_map(|fault| {
+            let severities = fault.severities.iter();
+            severities.map(move |of| format!(",{} {}", fault.id, of.severity))
+        });
+        self.list.digest.clone() + &tested.collect::<String>()
+    }
+
+    /// Wanted faults without scores, with the severity if it is known: `tear 5`.
+    pub(crate) fn untested(&self) -> Vec<String> {
+        let unreached = self.faults.iter().flat_map(|fault| {
+            let unreached = fault.unreached.iter();
+            unreached.map(move |of| format!("{} {}", fault.id, of.severity))
+        });
+        let others = self.skipped.iter().chain(&self.failed);
+        unreached.chain(others.map(|of| of.fault.clone())).collect()
+    }
+
     /// Names of planes, and of channels that are not an axis of a plane.
     pub(crate) fn main_channels(&self) -> Vec<&str> {
         main_channels(&self.clean)

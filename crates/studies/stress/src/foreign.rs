@@ -1,7 +1,5 @@
 //! Faults of pictures that a plugin makes.
 
-use std::sync::{Mutex, PoisonError};
-
 use taceva_core::{Frame, Input};
 use taceva_dataset::Pass;
 use taceva_evaluate::{EvaluateError, Work, model_extractor};
@@ -27,6 +25,9 @@ use crate::worn::{NewGel, ScoredFault};
 ///     fn name(&self) -> &str {
 ///         "nothing"
 ///     }
+///     fn key(&self) -> &str {
+///         "org.example/nothing"
+///     }
 ///     fn apply(&self, frame: &Frame, _severity: u8, _sample: &str) -> Result<Frame, String> {
 ///         Ok(frame.clone())
 ///     }
@@ -36,6 +37,9 @@ use crate::worn::{NewGel, ScoredFault};
 pub trait PictureFault: Sync {
     /// Name of the fault.
     fn name(&self) -> &str;
+
+    /// Key of the fault. Scores of faults with different keys are not compared.
+    fn key(&self) -> &str;
 
     /// The picture `frame` of `sample` with the fault of `severity`, from 1 to 5: of the same size and format.
     ///
@@ -47,9 +51,9 @@ pub trait PictureFault: Sync {
 /// One severity of a fault.
 struct Cell {
     severity: u8,
-    /// The untouched picture with the fault; `None` without a reference.
-    rest: Option<Frame>,
-    /// Features beside that picture; `None` if the model reads none.
+    /// True if the check of untouched pictures finds the fault.
+    is_noticed: bool,
+    /// Features beside the untouched picture with the fault; `None` if there is none, or the model reads none.
     fresh: Option<Extractor>,
 }
 
@@ -89,13 +93,16 @@ impl NewGel<'_> {
             let fresh = fresh.transpose()?;
             let change = own.changes / self.rows.len() as f64;
             let stimulus = self.scale.contact.map(|contact| change / contact);
-            let is_noticed = cell.rest.as_ref().is_some_and(|rest| self.differs(rest));
             reports.push(SeverityReport {
                 severity: cell.severity,
                 parameter: f64::from(cell.severity),
                 stimulus,
                 low_stimulus: stimulus.is_some_and(|stimulus| stimulus < LOW),
-                check: is_noticed.then_some(CHANGED_REST).into_iter().collect(),
+                check: cell
+                    .is_noticed
+                    .then_some(CHANGED_REST)
+                    .into_iter()
+                    .collect(),
                 stale: stale.beside(self.baseline, self.clean),
                 fresh: fresh.map(|fresh| fresh.beside(self.baseline, self.clean)),
             });
@@ -112,18 +119,29 @@ impl NewGel<'_> {
 
     fn cell(&self, fault: &dyn PictureFault, severity: u8) -> Result<Cell, String> {
         let reference = self.scale.untouched.as_ref();
-        let reference = reference.filter(|_| self.scale.is_reference);
-        let rest = reference.map(|frame| changed(fault, frame, severity, UNTOUCHED));
-        let rest = rest.transpose()?;
-        let fresh = rest.as_ref().filter(|_| compares(self.model));
-        let fresh = fresh.and_then(|rest| {
-            let extractor = self.model.extractor(rest.info(), Some(Input::from(rest)));
+        let Some(reference) = reference.filter(|_| self.scale.is_reference) else {
+            return Ok(Cell {
+                severity,
+                is_noticed: false,
+                fresh: None,
+            });
+        };
+        let rest = changed(fault, reference, severity, UNTOUCHED)?;
+        // The pictures of contact have the fault too.
+        let pressed = self.scale.pressed.iter().enumerate();
+        let pressed = pressed.map(|(number, frame)| {
+            let sample = format!("pressed {number}");
+            changed(fault, frame, severity, &sample)
+        });
+        let pressed: Vec<Frame> = pressed.collect::<Result<_, String>>()?;
+        let fresh = compares(self.model).then(|| {
+            let extractor = self.model.extractor(rest.info(), Some(Input::from(&rest)));
             extractor.ok()
         });
         Ok(Cell {
             severity,
-            rest,
-            fresh,
+            is_noticed: self.differs(&rest, &pressed),
+            fresh: fresh.flatten(),
         })
     }
 
@@ -141,24 +159,16 @@ impl NewGel<'_> {
             clean: clean.transpose()?,
         };
         let samples = self.dataset.table().samples();
-        let failure: Mutex<Option<String>> = Mutex::new(None);
-        let failed = || failure.lock().unwrap_or_else(PoisonError::into_inner);
         let mut all = vec![Numbers::default(); cells.len()];
-        self.dataset.map_frames(
+        let mut failure: Option<String> = None;
+        let passed = self.dataset.map_frames(
             Pass::new(self.rows, work.jobs, work.progress),
-            |row, frame| -> Result<Vec<Numbers>, EvaluateError> {
+            |row, frame| -> Result<Result<Vec<Numbers>, String>, EvaluateError> {
                 let mut numbers = Vec::new();
                 for cell in cells {
-                    // After a failure the plugin is not asked again.
-                    if failed().is_some() {
-                        return Ok(numbers);
-                    }
                     let faulty = match changed(fault, &frame, cell.severity, &samples[row]) {
                         Ok(faulty) => faulty,
-                        Err(reason) => {
-                            failed().get_or_insert(reason);
-                            return Ok(numbers);
-                        }
+                        Err(reason) => return Ok(Err(reason)),
                     };
                     let fresh = cell.fresh.as_ref();
                     let fresh = fresh.map(|fresh| predictor.of(&faulty, Some(fresh)));
@@ -168,10 +178,14 @@ impl NewGel<'_> {
                         changes: difference(&faulty, &frame),
                     });
                 }
-                Ok(numbers)
+                Ok(Ok(numbers))
             },
             |_, found| {
-                let found: Vec<Numbers> = found?;
+                // The first failure in the order of the rows ends the pass.
+                let found: Vec<Numbers> = found?.map_err(|reason| {
+                    failure = Some(reason.clone());
+                    reason
+                })?;
                 for (all, own) in all.iter_mut().zip(found) {
                     all.stale.extend(own.stale);
                     all.fresh.extend(own.fresh);
@@ -179,9 +193,12 @@ impl NewGel<'_> {
                 }
                 Ok(())
             },
-        )?;
-        let failure = failure.into_inner().unwrap_or_else(PoisonError::into_inner);
-        Ok(failure.map_or(Ok(all), Err))
+        );
+        if let Some(reason) = failure {
+            return Ok(Err(reason));
+        }
+        passed?;
+        Ok(Ok(all))
     }
 }
 

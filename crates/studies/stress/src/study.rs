@@ -232,6 +232,9 @@ fn list(faults: &[&'static Fault], request: &StressRequest, others: OtherFaults<
     if request.draws > 1 {
         text.push_str(&format!("{} draws\n", request.draws));
     }
+    for fault in others.foreign {
+        text.push_str(&format!("{} is {}\n", fault.name(), fault.key()));
+    }
     FaultList {
         name: match is_whole {
             true => format!("{LIST}/{LIST_VERSION}"),

@@ -83,6 +83,7 @@ impl NewGel<'_> {
         let mut severities = Vec::new();
         let mut cells = Vec::new();
         let mut skipped = fault.skipped.clone();
+        let mut decoded = 0;
         for worn in &fault.severities {
             let Some(rows) = self.rows_of(&worn.dataset) else {
                 let samples = counted(self.rows.len(), "sample");
@@ -100,6 +101,8 @@ impl NewGel<'_> {
             let stale = scorer.score(&found.stale)?;
             let fresh = (!found.fresh.is_empty()).then(|| scorer.score(&found.fresh));
             let fresh = fresh.transpose()?;
+            let (is_noticed, looked_at) = self.is_noticed(&worn.dataset, &rows)?;
+            decoded += 2 * self.rows.len() as u64 + looked_at;
             let change = found.changes / self.rows.len() as f64;
             let stimulus = self.scale.contact.map(|contact| change / contact);
             severities.push(SeverityReport {
@@ -107,16 +110,12 @@ impl NewGel<'_> {
                 parameter: worn.parameter,
                 stimulus,
                 low_stimulus: stimulus.is_some_and(|stimulus| stimulus < LOW),
-                check: match self.is_noticed(&worn.dataset)? {
-                    true => vec![CHANGED_REST],
-                    false => Vec::new(),
-                },
+                check: is_noticed.then_some(CHANGED_REST).into_iter().collect(),
                 stale: stale.beside(self.baseline, self.clean),
                 fresh: fresh.map(|fresh| fresh.beside(self.baseline, self.clean)),
             });
             cells.push(stale);
         }
-        let decoded = 2 * (self.rows.len() * cells.len()) as u64;
         Ok(ScoredFault {
             report: self.report(
                 [&fault.id, &fault.title, &fault.parameter],
@@ -221,20 +220,22 @@ impl NewGel<'_> {
         Ok(all)
     }
 
-    /// True if the check of untouched pictures finds the fault.
-    fn is_noticed(&self, worn: &Dataset) -> Result<bool, EvaluateError> {
-        let after = worn.reference()?;
-        Ok(after.is_some_and(|after| self.differs(&after)))
+    /// True if the check of untouched pictures finds the fault, and the number of pictures decoded for it.
+    fn is_noticed(&self, worn: &Dataset, rows: &[usize]) -> Result<(bool, u64), EvaluateError> {
+        let after = Scale::of(worn, rows)?;
+        let rest = after.untouched.filter(|_| after.is_reference);
+        let is_noticed = rest.is_some_and(|rest| self.differs(&rest, &after.pressed));
+        Ok((is_noticed, after.decoded))
     }
 
-    /// True if the check of untouched pictures finds that `after` differs from the reference.
-    pub(crate) fn differs(&self, after: &Frame) -> bool {
+    /// True if the check of untouched pictures finds that `after` differs from the reference, beside the change from `after` to the `pressed` pictures.
+    pub(crate) fn differs(&self, after: &Frame, pressed: &[Frame]) -> bool {
         let before = self.scale.untouched.as_ref();
         let Some(before) = before.filter(|_| self.scale.is_reference) else {
             return false;
         };
         let tiles = |frame: &Frame| FrameFacts::of(frame, None).tiles;
-        let pressed: Vec<Tiles> = self.scale.pressed.iter().map(tiles).collect();
+        let pressed: Vec<Tiles> = pressed.iter().map(tiles).collect();
         let pressed: Vec<&Tiles> = pressed.iter().collect();
         let change = RestChange::of(&tiles(before), &tiles(after), &pressed);
         change.is_some_and(|change| change.is_overall() || change.is_local())

@@ -152,7 +152,9 @@ impl Wanted {
             names.collect()
         });
         let names: Vec<String> = names.unwrap_or(usual.faults);
-        let gels = names.iter().filter_map(|name| gel_fault(name)).collect();
+        // Each once and in one order, so that lists of the same faults are equal.
+        let is_named = |gel: &GelFault| names.iter().any(|name| gel_fault(name) == Some(*gel));
+        let gels = GelFault::ALL.into_iter().filter(is_named).collect();
         let pictures = names.into_iter().filter(|name| gel_fault(name).is_none());
         Some(Wanted {
             request: StressRequest {
@@ -223,6 +225,10 @@ pub(super) fn test(run: &TestedRun<'_>, studies: Vec<FinishedStudy>) -> anyhow::
                 Err(reason) => notes.push(format!("faults are not tested: {reason}")),
             }
         }
+        if faults.is_none() {
+            // A run that goes on with another [stress] may have left some.
+            drop(fs::remove_file(folder.stress(number, name)));
+        }
         for note in &notes {
             context.say(format_args!("{}: {note}", shown(name)));
         }
@@ -275,13 +281,22 @@ fn of_study(
 /// Faults of the pictures of a scene that plugins make.
 ///
 /// # Errors
-/// For a plugin that was not found.
+/// For a plugin that was not found, and for the name of another fault.
 pub(super) fn plugin_faults(
     planned: &PlannedScene,
     estimators: &[Arc<dyn EstimatorFactory>],
 ) -> anyhow::Result<Vec<PluginFault>> {
     let faults = planned.scene.faults.iter();
     let faults = faults.map(|fault| -> anyhow::Result<PluginFault> {
+        let name = &fault.name.value;
+        if gel_fault(name).is_some() || select(std::slice::from_ref(name)).is_ok() {
+            let words = format!(
+                "`{}`: a fault of the program has this name, expected another",
+                shown(name)
+            );
+            let problem = SceneProblem::Contradiction(words);
+            return Err(planned.text.error(fault.name.at(), problem).into());
+        }
         let key = fault.plugin.value.as_str();
         let mut known = estimators.iter();
         let found = known.find(|known| known.key().as_str() == key);
@@ -299,9 +314,8 @@ pub(super) fn plugin_faults(
             let problem = SceneProblem::Contradiction(words);
             return Err(planned.text.error(fault.plugin.at(), problem).into());
         };
-        let name = fault.name.value.clone();
         let seed = planned.scene.seed;
-        Ok(PluginFault::new(name, Arc::clone(estimator), seed))
+        Ok(PluginFault::new(name.clone(), Arc::clone(estimator), seed))
     });
     faults.collect()
 }

@@ -38,6 +38,10 @@ impl PictureFault for PluginFault {
         &self.name
     }
 
+    fn key(&self) -> &str {
+        self.estimator.key().as_str()
+    }
+
     fn apply(&self, frame: &Frame, severity: u8, sample: &str) -> Result<Frame, String> {
         let info = frame.info();
         let scale = info.format.full_scale();

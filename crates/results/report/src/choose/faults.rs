@@ -1,32 +1,32 @@
-//! Sensors that meet the needs but have no rank, because they were tested with other faults.
+//! Sensors that meet the needs but have no rank, because they were tested with other faults or severities.
 
 use super::{Dropped, Need, Property};
 use crate::catalogue::Sensor;
-use crate::faults::FaultList;
+use crate::faults::FaultResult;
+use crate::names::listed;
 
-/// Removes sensors from `remaining` and returns them, if a need ranks by faults and the lists of faults differ. The list that most sensors have
-/// stays; of several, that of the first sensor.
+/// Removes sensors from `remaining` and returns them, if a need ranks by faults and the tested faults or severities differ. The faults that most
+/// sensors have stay; of several, those of the first sensor.
 pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dropped> {
     let mut ranks = needs.iter().flat_map(|need| &need.ranks);
     let ranks_by_faults =
         ranks.any(|property| matches!(property, Property::Degradation(_) | Property::SkillEnd(_)));
-    let lists: Vec<&FaultList> = remaining.iter().filter_map(list).collect();
-    let count = |list: &FaultList| {
-        let same = lists.iter().filter(|other| other.digest == list.digest);
-        same.count()
-    };
+    let results: Vec<&FaultResult> = remaining.iter().filter_map(result).collect();
+    let bases: Vec<String> = results.iter().map(|of| of.basis()).collect();
+    let count = |basis: &String| bases.iter().filter(|other| *other == basis).count();
     // Reversed, because of equal counts the last is taken.
-    let most = lists.iter().copied().rev().max_by_key(|list| count(list));
-    let Some(kept) = most.filter(|_| ranks_by_faults) else {
+    let tested = results.iter().zip(&bases).rev();
+    let most = tested.max_by_key(|(_, basis)| count(basis));
+    let Some((kept, basis)) = most.filter(|_| ranks_by_faults) else {
         return Vec::new();
     };
     let mut apart = Vec::new();
-    remaining.retain(|sensor| match list(sensor) {
-        Some(own) if own.digest != kept.digest => {
+    remaining.retain(|sensor| match result(sensor) {
+        Some(own) if own.basis() != *basis => {
             apart.push(Dropped {
                 name: sensor.name.clone(),
                 reason: format!(
-                    "its faults are {}, and ranked sensors have {}: run `taceva stress` with the same --faults, --severity, --by and --draws",
+                    "its faults are {}, and ranked sensors have {}: run `taceva stress` with the same --faults, --severity, --by and --draws, and with severities that each sensor reaches",
                     shown(own),
                     shown(kept)
                 ),
@@ -38,12 +38,17 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
     apart
 }
 
-fn list<'a>(sensor: &&'a Sensor) -> Option<&'a FaultList> {
-    Some(&sensor.faults.as_ref()?.list)
+fn result<'a>(sensor: &&'a Sensor) -> Option<&'a FaultResult> {
+    sensor.faults.as_ref()
 }
 
-/// Name of the list with the start of its digest, because lists of other severities have the same name.
-fn shown(list: &FaultList) -> String {
+/// Name of the list with the start of its digest, because lists of other severities have the same name, and what was not tested.
+fn shown(result: &FaultResult) -> String {
+    let list = &result.list;
     let digest: String = list.digest.chars().take(8).collect();
-    format!("`{}` ({digest})", taceva_core::shown(&list.name))
+    let list = format!("`{}` ({digest})", taceva_core::shown(&list.name));
+    match result.untested().as_slice() {
+        [] => list,
+        untested => format!("{list} without {}", taceva_core::shown(&listed(untested))),
+    }
 }

@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::FaultResult;
-use crate::{ReportPage, Study, report};
+use crate::{Need, ReportPage, Study, choose_results, report};
 
 /// Result of the sensor `sensor` over the faults of `list`, with a mean degradation of Fz of `mean`.
 pub(crate) fn drawn(sensor: &str, list: &str, mean: f64) -> FaultResult {
@@ -69,6 +69,20 @@ fn a_page_has_a_section_on_faults_with_grid_hatching_and_unnoticed_faults() {
         triples: &[],
     });
     assert!(!without.contains("h-faults"));
+}
+
+#[test]
+fn a_sensor_with_fewer_tested_severities_is_not_ranked_against_others() {
+    let mut fewer = written("fewer", "tear", 1.2);
+    let severities = fewer["faults"][0]["severities"].as_array_mut();
+    severities.expect("a list").pop();
+    let fewer = FaultResult::read(&fewer.to_string()).expect("a result");
+    let [weak, strong] = [drawn("weak", "tear", 4.0), drawn("strong", "tear", 2.0)];
+    let studies = [fewer, weak, strong].map(Study::of_faults);
+    let choice = choose_results(&studies, &Need::parse("rugged").expect("a need"));
+    let ranked: Vec<&str> = choice.ranked.iter().map(|of| of.name.as_str()).collect();
+    assert_eq!(ranked, ["strong", "weak"]);
+    assert_eq!(choice.apart[0].name, "fewer");
 }
 
 #[test]

@@ -16,6 +16,12 @@ fn refused(dataset: &Dataset, model: &Model, request: &StressRequest) -> String 
 }
 
 #[test]
+fn faults_of_a_gel_have_the_names_of_the_bench() {
+    let names = taceva_sim::GelFault::ALL.map(taceva_sim::GelFault::name);
+    assert_eq!(taceva_stress::GEL_FAULTS, names);
+}
+
+#[test]
 fn a_misspelt_fault_is_refused_with_the_nearest_name() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());

@@ -23,6 +23,10 @@ impl PictureFault for Drawn {
         self.0
     }
 
+    fn key(&self) -> &str {
+        "org.example/drawn"
+    }
+
     fn apply(&self, frame: &Frame, severity: u8, _sample: &str) -> Result<Frame, String> {
         let info = frame.info();
         let made = match self.1 {
@@ -80,6 +84,11 @@ fn a_fault_of_a_plugin_stands_beside_those_of_the_list() {
     let alone = tested(&[&darker], &[]);
     assert_eq!(alone.list.name, "darker");
     assert_ne!(alone.list.digest, report.list.digest);
+    // A fault of a plugin is another one than a fault of the list with its name.
+    let named = tested(&[&Drawn("dust", Answer::Darker)], &[]);
+    let listed = tested(&[], &["dust"]);
+    assert_eq!(named.list.name, listed.list.name);
+    assert_ne!(named.list.digest, listed.list.digest);
 }
 
 #[test]
