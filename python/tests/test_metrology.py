@@ -140,7 +140,7 @@ def test_a_study_refuses_by_row_column_and_parameter(tmp_path: Path) -> None:
     with pytest.raises(ValueError, match="readings"):
         study(part=np.zeros(90, int))
     two = table | {"Fz": table["length"], "Fx": table["length"]}
-    with pytest.raises(ValueError, match="channel: F., F.; expected one, as channel='F.'"):
+    with pytest.raises(ValueError, match="channel has several values: F., F.; expected one, such as channel='F.'"):
         taceva.gauge(two, part="part", by="appraiser", trial="trial")
     path = tmp_path / "study.csv"
     path.write_text("Fz,part,by,trial\n0.1,a,u,1\nmany,a,u,2\n")
@@ -208,7 +208,7 @@ def test_a_budget_refuses_by_line_key_and_parameter() -> None:
         taceva.budget({"measurand": "Fz", "at": ["1 N"], "source": [{"name": "places", "from": "error.between"}]})
     with pytest.raises(ValueError, match="^at `1`|^at 1"):
         taceva.budget({"measurand": "Fz", "at": ["1 N"], "source": [lamp]}, at="1")
-    with pytest.raises(ValueError, match="at: 1.0 N, 2.0 N; expected one, as at='1.0 N'"):
+    with pytest.raises(ValueError, match="at has several values: 1.0 N, 2.0 N; expected one, such as at='1.0 N'"):
         taceva.budget({"measurand": "Fz", "at": ["1 N", "2 N"], "source": [lamp]}, draws=0)
     with pytest.raises(TypeError, match="expected a text, a number, a list or a mapping"):
         taceva.budget({"measurand": "Fz", "at": ["1 N"], "source": [{"name": "lamp", "u": object()}]})

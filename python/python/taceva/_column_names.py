@@ -134,7 +134,7 @@ def _of_xarray(table: Any, name: str) -> NamedColumns | None:
     if hasattr(table, "data_vars"):
         dims = list(dict.fromkeys(dim for column in table.data_vars.values() for dim in column.dims))
         if len(dims) != 1:
-            raise ValueError(f"{name}: a Dataset of the dimensions {dims}, expected one dimension, that of the rows")
+            raise ValueError(f"{name}: the Dataset has the dimensions {dims}, expected only the dimension of the rows")
         columns = {str(key): np.asarray(column.values) for key, column in table.data_vars.items()}
         return _with_rows(table, dims[0], columns)
     if table.ndim == 1:

@@ -139,7 +139,7 @@ def _ending(name: str, work: Callable[[], Any]) -> Any:
     """Return the result of ``work``, which runs the model ``name``. A recursion that is too deep becomes an error of that model."""
     depth = _DEPTH.get()
     if depth >= _DEEPEST:
-        raise RecursionError(f"{depth} evaluations of models are nested")
+        raise RecursionError(f"models call evaluate inside evaluate: {depth} levels deep, expected fewer than {_DEEPEST}")
     token = _DEPTH.set(depth + 1)
     try:
         return work()

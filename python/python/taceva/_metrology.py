@@ -497,7 +497,7 @@ def _made(kind: Callable[[Mapping[str, Any]], _Made], words: list[str], own: Map
         several = [json.loads(document) for document in found["documents"]]
         unit = f" {several[0]['unit']}" if key == "at" else ""
         known = ", ".join(f"{one[key]}{unit}" for one in several)
-        raise ValueError(f"{key}: {known}; expected one, as {key}={f'{several[0][key]}{unit}'!r}")
+        raise ValueError(f"{key} has several values: {known}; expected one, such as {key}={f'{several[0][key]}{unit}'!r}")
     return kind(found)
 
 

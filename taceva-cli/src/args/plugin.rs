@@ -204,13 +204,13 @@ pub(crate) struct PluginPack {
     pub(crate) force: bool,
 }
 
-/// A plugin runs in its own process, which has access only to needs of its manifest that the user allows. This command writes to the user's
-/// settings, `~/.config/taceva/config.toml`, and keeps everything else in that file.
+/// A plugin runs in its own process, with access only to resources that its manifest lists under `needs` and the user allows. This command
+/// writes to the user's settings, `~/.config/taceva/config.toml`, and keeps everything else in that file.
 ///
 /// usb, camera, hid           devices on USB, cameras (/dev/video*), scales and pedals (/dev/hidraw*)
 /// serial:/dev/ttyUSB*        serial ports; `*` stands for anything but `/`
 /// device:/dev/spidev0.0      another character device
-/// tcp:10.0.0.5:502           connections to one machine and port; `tcp:10.0.0.*:502` to all of a network
+/// tcp:10.0.0.5:502           connections to one machine and port; `tcp:10.0.0.*:502` to every machine of a network
 /// udp:10.0.0.5:49152         messages to and from a machine
 /// listen:5025                a TCP port on which the plugin waits for connections
 /// read:/run/scale            a file, or every file in a folder, read-only

@@ -128,7 +128,7 @@ fn a_weight_needs_a_mass_with_its_unit_and_a_person_at_a_terminal() {
         let expected = "expected a mass in mg, g or kg, such as 100g, up to 100kg";
         bench.refused(&format!("rig check lab.toml --weight {mass}"), 2, expected);
     }
-    let expected = "a person hangs the weight: start `taceva rig check --weight` from a terminal";
+    let expected = "--weight asks a person to hang the weight on the transducer: start `taceva rig check --weight` from a terminal";
     bench.refused("rig check lab.toml --weight 0.1kg", 2, expected);
 }
 

@@ -40,7 +40,7 @@ impl Taxels {
         self.info
     }
 
-    /// Writes the values of `signals` in the unit of the signals. The caller must check the grid.
+    /// Writes the values of `signals`, minus the mean signals without contact if they are subtracted. The caller must check the grid.
     pub(super) fn write(&self, signals: &Signals, into: &mut [f32]) {
         into.copy_from_slice(signals.values());
         if let Some(rest) = &self.rest {

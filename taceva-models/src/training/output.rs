@@ -1,4 +1,4 @@
-//! Checks of predictions, and conversion of scaled predictions to units.
+//! Checks of predictions, and conversion of scaled predictions to the units of their channels.
 
 use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError};
 

@@ -33,7 +33,7 @@ pub struct ArrayError {
 /// use taceva_arrays::Problem;
 ///
 /// let problem = Problem::Rows { asked: 3..9, rows: 5 };
-/// assert_eq!(problem.to_string(), "no rows 3 to 9: there are 5, counted from 0");
+/// assert_eq!(problem.to_string(), "rows 3 to 9 were requested, but the array has 5 rows, counted from 0");
 /// ```
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -99,7 +99,7 @@ pub enum Problem {
         there: String,
     },
     /// Rows beyond the end of the array.
-    #[error("no rows {} to {}: there are {rows}, counted from 0", asked.start, asked.end)]
+    #[error("rows {} to {} were requested, but the array has {rows} rows, counted from 0", asked.start, asked.end)]
     Rows {
         /// Requested rows, end exclusive.
         asked: Range<u64>,

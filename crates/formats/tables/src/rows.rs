@@ -20,7 +20,7 @@ pub(crate) fn check_sorted(
     match sorted.last() {
         Some(last) if *last >= rows => Err(source.mismatch(
             name,
-            format!("no row {last}: there are {rows}, counted from 0"),
+            format!("row {last} was requested, but there are {rows} rows, counted from 0"),
         )),
         _ => Ok(()),
     }

@@ -62,7 +62,7 @@ pub enum VideoError {
     },
     /// The clip has no frame with the requested index.
     #[error(
-        "{}: no frame {index}: there are {frames}, counted from 0",
+        "{}: frame {index} was requested, but there are {frames} frames, counted from 0",
         shown(path)
     )]
     NoFrame {

@@ -218,7 +218,7 @@ impl Preset {
     }
 }
 
-/// File of an unreadable form, with the command that converts it.
+/// Message that a file has an unsupported format, with the command that converts it; `None` if the folder has no such file.
 fn unread(folder: &SourceFolder) -> Option<String> {
     let entries = std::fs::read_dir(folder.path()).ok()?.flatten();
     let mut names: Vec<String> = entries

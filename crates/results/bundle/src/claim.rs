@@ -95,7 +95,7 @@ impl Claim {
         }
     }
 
-    /// The same claim with the number that stands in `report`, if there is one.
+    /// Same claim with the value, interval and definition from `report`; unchanged if `report` lacks the score.
     pub(crate) fn as_in(&self, report: &EvaluationReport) -> Claim {
         let score = self.score_in(&report.scores);
         let variant = self.variant.as_deref();

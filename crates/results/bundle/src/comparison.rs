@@ -1,4 +1,4 @@
-//! Two bundles side by side: claims and definitions that differ, and whether they are of the same samples.
+//! Comparison of two bundles: claims and definitions that differ, and a check that both use the same samples.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -35,7 +35,7 @@ pub struct BundleComparison {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ClaimDifference {
-    /// Study of the results, from 0.
+    /// Index of the study in the results, from 0.
     pub study: usize,
     /// Metric, variant and channel: `mae of Fz`.
     pub claim: String,
@@ -51,7 +51,7 @@ pub struct ClaimDifference {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct DefinitionDifference {
-    /// Study of the results, from 0.
+    /// Index of the study in the results, from 0.
     pub study: usize,
     /// Metric, variant and channel: `mae of Fz`.
     pub claim: String,
@@ -59,7 +59,7 @@ pub struct DefinitionDifference {
     pub definitions: [String; 2],
 }
 
-/// Compares the manifests of two bundles. Neither is verified.
+/// Compares the manifests of two bundles without verifying the bundles.
 ///
 /// # Errors
 /// [`BundleError::Damaged`] for a bundle whose manifest cannot be read; [`BundleError::File`] if it cannot be opened.

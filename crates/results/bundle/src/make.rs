@@ -250,14 +250,14 @@ fn sensors(inputs: &Inputs) -> String {
     names.join(", ")
 }
 
-/// Remarks for the maker on words that redaction cannot change.
+/// Remarks for the author of the bundle: its badge, its pictures, and words that redaction cannot change.
 fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<String> {
     let mut notes: Vec<String> = badge_of(&inputs.reports).into_iter().collect();
     let frames = written.files.iter().filter(|file| file.role == FRAMES_ROLE);
     let sizes: Vec<u64> = frames.map(|file| file.size).collect();
     if !sizes.is_empty() {
         notes.push(format!(
-            "{FRAMES}/ has {} of {} bytes: the pictures behind predictions, and every label of their recordings",
+            "{FRAMES}/ has {} ({} bytes): the pictures of all predicted samples, and all labels of their recordings",
             counted(sizes.len() as u64, "file"),
             sizes.iter().sum::<u64>()
         ));
@@ -270,7 +270,7 @@ fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<
         let serials: Vec<&str> = serials.filter(|serial| *serial != "unknown").collect();
         if !serials.is_empty() {
             notes.push(format!(
-                "results, states and headers of datasets are sealed and stay as they are: they name the unit {}",
+                "--redact does not change results, states and dataset headers, which are sealed: they contain the serial numbers {}",
                 serials.join(", ")
             ));
         }
@@ -292,7 +292,7 @@ fn notes(inputs: &Inputs, request: &BundleRequest, written: &Writer<'_>) -> Vec<
         let (_, count) = redacted(&text, &request.redactions);
         if count > 0 {
             notes.push(format!(
-                "{} stays as it was sealed or scored, with {} that --redact replaces in texts",
+                "--redact does not change {}, which is sealed or was scored: it contains {} to redact",
                 file.path,
                 counted(count, "word")
             ));

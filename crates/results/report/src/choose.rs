@@ -281,7 +281,7 @@ fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     unproven.next()
 }
 
-/// Properties of soft needs for which the number of `sensor` is unknown, as text; `None` if all are known.
+/// Properties in soft needs whose value is unknown for `sensor`, as text; `None` if all values are known.
 fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let ranks = needs.iter().flat_map(|need| &need.ranks);
     let unknown = ranks.filter(|property| property.of(sensor).is_none());

@@ -1,4 +1,4 @@
-//! Devices that made the recordings of results: each fact as the recording states it, for the methods paragraph and for a table.
+//! Devices of the recordings behind results: facts from the recording, for the methods paragraph and for a table.
 
 use std::collections::BTreeMap;
 
@@ -17,7 +17,7 @@ pub(crate) struct Device {
 /// Kind of a device.
 pub(crate) struct DeviceKind {
     instrument: Instrument,
-    /// Beginning of the names of its settings.
+    /// Prefix of the names of its settings.
     prefix: &'static str,
     pub(crate) name: &'static str,
     /// Its work in a recording, as a predicate.
@@ -44,7 +44,7 @@ impl DeviceFact {
     }
 }
 
-/// Devices that make the labels and the frames.
+/// Devices that record the labels and the frames.
 static KINDS: [DeviceKind; 3] = [
     DeviceKind {
         instrument: Instrument::Force,
@@ -66,7 +66,7 @@ static KINDS: [DeviceKind; 3] = [
     },
 ];
 
-/// Setting that identifies the rig file, which is no fact of a device.
+/// Setting with the path of the rig file. It is not a fact of a device.
 const RIG_FILE: &str = "rig_file";
 
 /// Devices of the measured recording of `study` that have a known fact. A simulated recording has no devices.

@@ -88,7 +88,7 @@ impl ScoreTable {
         ScoreTable::answered(studies, request, compare(studies, request).answers)
     }
 
-    /// Same as [`compared`](ScoreTable::compared), with the `answers` of a comparison of `studies` by `request`.
+    /// Same as [`compared`](ScoreTable::compared), but uses `answers` from an earlier comparison of `studies` by `request`.
     pub fn answered(
         studies: &[Study],
         request: &CompareRequest,

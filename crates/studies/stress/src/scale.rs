@@ -12,7 +12,7 @@ const PRESSED: f64 = 0.5;
 /// Untouched picture, and the change of pictures by contact.
 ///
 /// # Units
-/// Changes are shares of full scale, means over all numbers of a picture.
+/// A change is a mean over all numbers of a picture, as a share of full scale.
 pub(crate) struct Scale {
     /// The untouched picture; without a reference, the picture with the least load.
     pub(crate) untouched: Option<Frame>,
@@ -29,7 +29,7 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// The scale of `rows` of `dataset`, which have pictures. Decodes at most [`PICTURES`] of them, and the untouched picture.
+    /// Scale of `rows`, which must have pictures. Decodes at most [`PICTURES`] of them, and the untouched picture.
     pub(crate) fn of(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
         let loads = Loads::of(dataset, rows);
         let picked = loads.picked();
@@ -62,7 +62,7 @@ impl Scale {
         })
     }
 
-    /// The untouched picture alone, without the change by contact. Decodes at most one picture beside it.
+    /// Reads the untouched picture and leaves the change by contact unknown. Without a reference, decodes the picture with the least load.
     pub(crate) fn untouched(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
         let reference = dataset.reference()?;
         let is_reference = reference.is_some();
@@ -113,7 +113,7 @@ fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     (count > 0.0).then_some(sum / count)
 }
 
-/// A row with its contact.
+/// A row, with the flag that the gel is in contact.
 pub(crate) struct Touch {
     pub(crate) row: usize,
     pub(crate) is_contact: bool,

@@ -41,9 +41,10 @@ pub(crate) fn table(loaded: &[Loaded<'_>], list: &TaskList, channels: &[String])
             }
         }
     }
-    table.note("Each pair is two tasks that differ only in this setting, on their test parts; a negative difference is a smaller error. A \
-        model is listed with the settings that only it has. A channel with several units has no row. The interval assumes independent \
-        pairs. Pairs of one recording are only partly independent, so it describes this sweep alone. It is not used for choices.");
+    table.note("Each pair has two tasks that differ only in this setting. Their errors on test parts are compared; a negative difference means \
+        a smaller error. The name of a model includes the settings that other models do not share. A channel with several units has no row. \
+        The interval assumes independent pairs. Pairs from one recording are partly dependent, so the interval is valid for this sweep \
+        only. A sweep does not choose models by this table.");
     table
 }
 

@@ -13,7 +13,7 @@ pub(super) fn run(args: &RigCheckArgs, mass_g: f64, context: &Context) -> anyhow
     super::check_replaceable(&args.rig)?;
     let Some(mut terminal) = operator::terminal(None) else {
         return Err(Usage::error(
-            "a person hangs the weight: start `taceva rig check --weight` from a terminal",
+            "--weight asks a person to hang the weight on the transducer: start `taceva rig check --weight` from a terminal",
         ));
     };
     let _held = HeldRigs::of_file(&rig)?;

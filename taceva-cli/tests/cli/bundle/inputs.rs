@@ -322,7 +322,7 @@ fn texts_are_redacted_and_counted() {
         "bundle marked.json --state marked.state --truth truth.csv --pred pred.csv --draft --redact paths --out c",
     );
     assert_eq!(ran.code, 0, "{}", ran.err);
-    let words = "tables/truth.csv stays as it was sealed or scored, with 1 word";
+    let words = "--redact does not change tables/truth.csv, which is sealed or was scored: it contains 1 word";
     assert!(ran.err.contains(words), "{}", ran.err);
     bench.write("notes.toml", "");
     bench.refused(

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use super::page::{PAGE, Page, PageError};
 use crate::text::shown;
 
-/// Settings of a box, as its page states them.
+/// Settings of a box from its configuration page.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Setup {
     /// Model of the box; the next field is the serial number of the calibrated transducer. Empty if the page lacks them.
@@ -15,7 +15,7 @@ pub(super) struct Setup {
     tool: Option<[f64; 6]>,
     /// Units of the displacement and of the rotation.
     tool_units: [String; 2],
-    /// Number of the low pass, 0 for no low pass; `None` if the page states no number.
+    /// Number of the low-pass filter, 0 for no filter; `None` if the page states no number.
     filter: Option<f64>,
     /// Configured rate of records, Hz; `internal_hz` is the rate of the measurement.
     rate_hz: Option<f64>,
@@ -24,7 +24,7 @@ pub(super) struct Setup {
     ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias.
     is_biased: Option<bool>,
-    /// Messages about unreadable entries, or about a low pass that the page lacks.
+    /// Messages about unreadable entries, or about a low-pass filter that the page does not state.
     unread: Vec<String>,
 }
 
@@ -47,7 +47,7 @@ pub(super) struct Expected {
     pub(super) force_max_n: Option<f64>,
 }
 
-/// Cutoffs of the low passes of a Net F/T box by their number, from 1, Hz.
+/// Cutoff frequencies of the low-pass filters of a Net F/T box, Hz, in the order of their numbers from 1.
 const CUTOFFS_HZ: [f64; 12] = [
     838.0, 326.0, 152.0, 73.0, 35.0, 18.0, 8.0, 5.0, 1_500.0, 2_000.0, 2_500.0, 3_000.0,
 ];
@@ -55,8 +55,8 @@ const CUTOFFS_HZ: [f64; 12] = [
 const EQUAL: f64 = 0.01;
 
 impl Setup {
-    /// Reads the settings from `page`, whose force unit is `force_unit_n`, N. An unreadable entry counts as absent. Unreadable entries and an absent low pass
-    /// are warnings.
+    /// Reads the settings from `page`, whose force unit is `force_unit_n`, N. An unreadable entry counts as absent. Unreadable entries and an absent
+    /// low-pass filter are warnings.
     ///
     /// # Errors
     /// [`PageError::Entry`] for an unreadable tool frame, which decides the axes.
@@ -228,14 +228,14 @@ fn is_near(one: f64, other: f64) -> bool {
     (one - other).abs() <= EQUAL * other.abs()
 }
 
-/// Cutoff of the low pass `filter`, Hz; `None` for an unknown number.
+/// Cutoff frequency of the low-pass filter `filter`, Hz; `None` for an unknown number.
 fn cutoff_hz(filter: f64) -> Option<f64> {
     let numbered = (1_u8..).zip(CUTOFFS_HZ);
     let mut found = numbered.filter(|(number, _)| (f64::from(*number) - filter).abs() < 0.5);
     found.next().map(|(_, cutoff_hz)| cutoff_hz)
 }
 
-/// Delay of a low pass of first order at low frequencies, ms: 1 / (2π·cutoff).
+/// Delay of a first-order low-pass filter at low frequencies, ms: 1 / (2π·cutoff).
 fn delay_ms(cutoff_hz: f64) -> f64 {
     1e3 / (std::f64::consts::TAU * cutoff_hz)
 }

@@ -20,7 +20,7 @@ use crate::pair::Paired;
 pub struct PairSpec {
     /// Streams to sum.
     pub streams: Streams,
-    /// Least |y| of a sample in the gated sMAPE, in the channel's unit; `None` without a gated sum.
+    /// Minimum |y| of a sample in the gated sMAPE, in the channel's unit; `None` without a gated sum.
     pub gate: Option<f64>,
 }
 

@@ -36,7 +36,7 @@ impl ParquetTable {
         let found = Found::new(&self.source, &self.columns, name)?;
         if rows.end > self.rows {
             let problem = format!(
-                "no row {}: there are {}, counted from 0",
+                "row {} was requested, but there are {} rows, counted from 0",
                 rows.end - 1,
                 self.rows
             );

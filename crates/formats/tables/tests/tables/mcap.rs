@@ -318,7 +318,7 @@ fn what_is_not_there_is_named_with_what_is() {
         let visited = depth.visit_pictures::<TableError>("data", rows, &mut |_, _| Ok(()));
         visited.expect_err("wrong").to_string()
     };
-    assert!(visit(&[3]).contains("no row 3: there are 3, counted from 0"));
+    assert!(visit(&[3]).contains("row 3 was requested, but there are 3 rows, counted from 0"));
     assert!(visit(&[1, 0]).contains("rows must ascend"));
 }
 

@@ -171,7 +171,9 @@ fn what_is_not_there_is_named_with_what_is() {
     };
     assert!(visit("t", &[0]).contains("holds no bytes"));
     assert!(visit("png", &[3, 2]).contains("row 2 is requested after row 3"));
-    assert!(visit("png", &[24]).contains("no row 24: there are 24, counted from 0"));
+    assert!(
+        visit("png", &[24]).contains("row 24 was requested, but there are 24 rows, counted from 0")
+    );
 }
 
 #[test]

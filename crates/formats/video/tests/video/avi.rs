@@ -47,7 +47,9 @@ fn a_frame_beyond_the_clip_says_how_many_there_are() {
         let error = clip.visit(sorted, Colours::Luma, &mut |_, _| Ok::<(), String>(()));
         error.expect_err("refused").to_string()
     };
-    assert!(visit(&[0, 8]).contains("no frame 8: there are 8, counted from 0"));
+    assert!(
+        visit(&[0, 8]).contains("frame 8 was requested, but there are 8 frames, counted from 0")
+    );
     assert!(visit(&[3, 3]).contains("frame 3 is requested after frame 3"));
     let stopped = clip.visit(&[0, 1], Colours::Luma, &mut |index, _| match index {
         0 => Err("enough"),

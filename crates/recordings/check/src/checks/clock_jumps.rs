@@ -141,7 +141,7 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
     Some(evidence.found(Severity::Warning, message, &rows))
 }
 
-/// Finds a stream of Unix times that goes back by an hour, and never otherwise.
+/// Finds a stream of Unix times whose only backward steps are one hour long.
 fn set_back(evidence: &Evidence<'_>) -> Option<Found> {
     if !matches!(evidence.header.clock, Clock::Unix) {
         return None;

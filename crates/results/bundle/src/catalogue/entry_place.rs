@@ -75,7 +75,7 @@ impl EntryPlace {
         let slug = Sensor::slug_of(name);
         if let Some(other) = entries.iter().find(|entry| entry.path == entry_path(&slug)) {
             return refused(format!(
-                "the sensor `{}`: its file {} holds `{}`; expected an entry of that name",
+                "the sensor `{}`: its file {} belongs to the sensor `{}`, because both names give one file name; expected another name",
                 shown(name),
                 other.path,
                 shown(&other.sensor.name)

@@ -76,7 +76,7 @@ pub struct Decision {
     pub freedom: Option<f64>,
     /// Coverage factor of the expanded uncertainty; `None` if the uncertainty is unknown.
     pub coverage_factor: Option<f64>,
-    /// Expanded uncertainty at the coverage of the rule, in the unit of the value; to first order on a logarithmic scale.
+    /// Expanded uncertainty at the coverage of the rule, in the unit of the value. A linear approximation if the scale is logarithmic.
     pub expanded_uncertainty: Option<f64>,
     /// Limits of the tolerance.
     pub limits: Limits,

@@ -36,7 +36,7 @@ pub enum ConformityError {
     },
     /// A setting that belongs to another rule.
     #[error(
-        "`{setting}` with rule = \"{}\": expected it with rule = \"{expected}\" alone; remove one of the two",
+        "`{setting}` belongs to rule = \"{expected}\", but the rule is \"{}\": remove the setting, or change the rule",
         shown(.rule)
     )]
     BothRules {

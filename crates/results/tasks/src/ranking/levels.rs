@@ -71,7 +71,7 @@ pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(ratio(halves, 2 * pairs))
 }
 
-/// Sum over the different scores, greatest first, of the precision down to each score times the recall that it adds. `levels` ascend.
+/// Average precision: the sum over all levels of the precision at a level times the recall that it adds. `levels` ascend.
 pub(crate) fn average_precision(levels: &[Level]) -> Result<f64, Undefined> {
     let positive = positives(levels)?;
     let mut above = Sides::default();
@@ -89,7 +89,7 @@ pub(crate) fn average_precision(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(sum_over(terms.iter().copied(), positive))
 }
 
-/// [`average_precision`] with a rounding at each level, for rankings without one of many clusters.
+/// Same as [`average_precision`], but faster, because each term is rounded. For the rankings of a jackknife, each without one cluster.
 pub(crate) fn average_precision_of_rest(levels: &[Level]) -> Result<f64, Undefined> {
     let positive = positives(levels)?;
     let mut above = Sides::default();
@@ -104,7 +104,7 @@ pub(crate) fn average_precision_of_rest(levels: &[Level]) -> Result<f64, Undefin
     Ok(sum / positive as f64)
 }
 
-/// Number of positive samples, or the reason that there is none.
+/// Number of positive samples. Undefined if there are none.
 fn positives(levels: &[Level]) -> Result<u64, Undefined> {
     let sides = Sides::of(levels);
     match (sides.n(), sides.positive) {

@@ -243,7 +243,8 @@ pub(super) fn rows_in(
     };
     if columns.is_empty() {
         return refuse(
-            "no column of it names frames, as `frame_id` or `header.frame_id` does".to_owned(),
+            "no column names coordinate frames, expected one such as `frame_id` or `header.frame_id`; remove `frame_id` from the map if the table has one frame"
+                .to_owned(),
         );
     }
     let mut rows = BTreeSet::new();

@@ -7,7 +7,7 @@ use taceva_dataset::internal::listed;
 use taceva_dataset::{Row, Task, TaskKind, TaskLabel};
 
 impl MappedTable<'_> {
-    /// Labels of all tasks in a row, whose ids and attributes are those of `read`.
+    /// Labels of all tasks in row `row`. `read` has the ids and attributes of this row.
     pub(super) fn labels_of_tasks(
         &self,
         row: usize,
@@ -33,7 +33,7 @@ impl MappedTable<'_> {
         labels.collect()
     }
 
-    /// Class in a cell that contains a name, a position, or, if one of two classes is positive, `true` or `false`.
+    /// Class in a cell that contains a name or a position. If one of two classes is positive, the cell may also contain `true` or `false`.
     fn class_of_task(
         &self,
         row: usize,
@@ -122,7 +122,7 @@ impl MappedTable<'_> {
     }
 }
 
-/// Position of the class that `true` or `false` means: the positive class or the other one, unless a class has this name. `None` for other cells.
+/// Position of the class for a cell `true` (the positive class) or `false` (the other class), unless a class has this name. `None` for other cells.
 fn position_of_truth(cell: &str, task: &Task) -> Option<usize> {
     let is_true = cell.eq_ignore_ascii_case("true");
     if !is_true && !cell.eq_ignore_ascii_case("false") {

@@ -202,7 +202,7 @@ fn settings_outside_their_range_are_refused_by_place_and_expectation() {
         ),
         (
             "rule = \"guarded\"\nr = 1.0\np_conformity = 0.95",
-            "[decision]: `p_conformity` with rule = \"guarded\": expected it with rule = \"probability\" alone; remove one of the two",
+            "[decision]: `p_conformity` belongs to rule = \"probability\", but the rule is \"guarded\": remove the setting, or change the rule",
         ),
         (
             "rule = \"gaurded\"",

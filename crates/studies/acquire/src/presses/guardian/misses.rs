@@ -2,23 +2,23 @@
 
 use super::turn::{Cause, Late, Turn};
 
-/// Most lines about single misses. A busy machine may have hundreds.
+/// Maximum number of lines about single misses. A busy machine may have hundreds of misses.
 const MOST_LINES: u32 = 10;
-/// Time after which a stale reading without a late turn is the device's, s. A late turn may end after another thread found its reading stale.
+/// Wait before a stale reading is attributed to the device, s. Until then, a late turn of the guard may still explain it.
 const SETTLED_S: f64 = 0.2;
 
-/// Counts of a session.
+/// Numbers of misses of a session, by cause.
 #[derive(Debug, Default)]
 pub(super) struct Misses {
     kernel: u64,
     program: u64,
     device: u64,
     unknown: u64,
-    /// Number of lines so far.
+    /// Number of misses so far. Only the first `MOST_LINES` get a line of their own.
     lines: u32,
     /// End of the last late turn, s.
     last_late_s: Option<f64>,
-    /// Stale reading without a cause yet.
+    /// Stale reading whose cause is not yet known.
     stale: Option<Stale>,
 }
 
@@ -29,7 +29,8 @@ struct Stale {
 }
 
 impl Misses {
-    /// Counts a late turn of the guard of a signal, by a thread with a scheduling policy. Returns its line, if there were few.
+    /// Counts a late turn of the guard of `signal`, whose thread has the scheduling policy `policy`. Returns a line for the log unless there were
+    /// more than `MOST_LINES`.
     pub(super) fn turn(
         &mut self,
         signal: &str,
@@ -66,7 +67,7 @@ impl Misses {
         }
     }
 
-    /// Counts a stale reading that no late turn explains. Returns its line, if there were few.
+    /// Counts a stale reading that no late turn explains. Returns a line for the log unless there were more than `MOST_LINES`.
     pub(super) fn settle(&mut self, now_s: f64) -> Option<String> {
         let stale = self
             .stale
