@@ -1,6 +1,7 @@
 //! Scores of tasks of two tables.
 
 mod input;
+mod states;
 
 use std::fmt::Write as _;
 
