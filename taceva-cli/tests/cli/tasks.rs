@@ -1,5 +1,6 @@
 //! Scores of tasks of two tables.
 
+mod compared;
 mod input;
 mod states;
 

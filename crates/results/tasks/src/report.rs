@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use crate::score::TaskScore;
 
-/// Schema of a report of tasks.
-pub const TASKS_SCHEMA: &str = "taceva.tasks/1";
+/// Schema of a report of tasks. 1.1: method, standard error and degrees of freedom of each interval.
+pub const TASKS_SCHEMA: &str = "taceva.tasks/1.1";
 
 /// Scores of the tasks of two tables.
 ///
