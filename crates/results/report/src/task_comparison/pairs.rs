@@ -19,10 +19,9 @@ pub(super) fn difference(subjects: Sides<Subject<'_>>, seed: u64) -> Result<Diff
         ));
     }
     let parts = |side: Subject<'_>| {
-        parts(side).ok_or_else(|| {
+        parts(side).map_err(|reason| {
             format!(
-                "{between} have the same labels, but {} is not compared cluster by cluster, because {} has no state with it: name states, or write \
-                 NAME.state beside NAME.json with --state-out",
+                "{between} have the same labels, but {} is compared by the intervals of both: {} {reason}",
                 side.score.named(),
                 side.result.name
             )
@@ -45,19 +44,26 @@ pub(super) fn difference(subjects: Sides<Subject<'_>>, seed: u64) -> Result<Diff
     })
 }
 
-/// Part of the score for each cluster; `None` without a state, or for a score that is undefined without a cluster.
-fn parts(side: Subject<'_>) -> Option<ClusterSums> {
+/// Part of the score for each cluster, or the reason why it has none.
+fn parts(side: Subject<'_>) -> Result<ClusterSums, &'static str> {
+    const SOME_CLUSTERS: &str = "has clusters without a part in it";
     let left_out = &side.score.left_out;
-    let value = side.score.estimate.value?;
-    if left_out.is_empty() || left_out.len() != side.task.clusters.len() {
-        return None;
+    let value = side.score.estimate.value.ok_or(SOME_CLUSTERS)?;
+    if side.task.clusters.is_empty() {
+        return Err(
+            "has no state: name states, or write NAME.state beside NAME.json with --state-out",
+        );
+    }
+    if left_out.len() != side.task.clusters.len() {
+        return Err(SOME_CLUSTERS);
     }
     let all: f64 = left_out.iter().map(|part| part.count as f64).sum();
     let parts = left_out.iter().map(|part| {
         let without = part.value.ok()?;
         Some(all * value - (all - part.count as f64) * without)
     });
-    let parts: Vec<f64> = parts.collect::<Option<_>>()?;
+    let parts: Option<Vec<f64>> = parts.collect();
+    let parts = parts.ok_or(SOME_CLUSTERS)?;
     let shift = value - parts.iter().sum::<f64>() / all;
     let clusters = side.task.clusters.iter().zip(left_out).zip(parts);
     let sums = clusters.map(|((name, of), part)| {
@@ -66,5 +72,5 @@ fn parts(side: Subject<'_>) -> Option<ClusterSums> {
         sum.n += of.count;
         (name.clone(), sum)
     });
-    Some(sums.collect())
+    Ok(sums.collect())
 }
