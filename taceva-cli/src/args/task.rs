@@ -2,6 +2,7 @@
 
 use clap::Args;
 use taceva_evaluate::TaskSpec;
+use taceva_tasks::PublicProgram;
 
 /// Options that concern channels, which tasks do not have.
 const OF_CHANNELS: [&str; 12] = [
@@ -36,4 +37,8 @@ pub(crate) struct TaskArgs {
     /// Predict the positive class from the Nth positive frame in a row on, as NAME=N; may be repeated
     #[arg(id = "debounce", long, value_name = "NAME=N", requires = "task")]
     pub(crate) debounces: Vec<String>,
+    /// Print the numbers of a public program too, each beside the right one with the reason for the difference: sparsh, touch-and-go, normalflow or
+    /// objectfolder
+    #[arg(id = "as", long = "as", value_name = "PROGRAM", requires = "task")]
+    pub(crate) program: Option<PublicProgram>,
 }

@@ -2,6 +2,7 @@
 
 mod compared;
 mod input;
+mod public_programs;
 mod states;
 
 use std::fmt::Write as _;

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::public_number::PublicNumber;
 use crate::score::TaskScore;
 
 /// Schema of a report of tasks. 1.1: method, standard error and degrees of freedom of each interval.
@@ -80,6 +81,9 @@ pub struct TaskScores {
     pub scores: Vec<TaskScore>,
     /// Counts above 0 of true and predicted classes.
     pub confusion: Vec<ConfusionCount>,
+    /// Numbers as a public program computes them, if requested.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub as_published: Vec<PublicNumber>,
 }
 
 /// Number of samples of one class that are predicted as one class.
@@ -112,6 +116,7 @@ impl TaskScores {
             notes: Vec::new(),
             scores: Vec::new(),
             confusion: Vec::new(),
+            as_published: Vec::new(),
         }
     }
 

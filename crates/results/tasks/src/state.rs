@@ -9,7 +9,7 @@ use crate::classes::Classes;
 use crate::error::TaskError;
 use crate::events::EventState;
 use crate::names::same;
-use crate::pose::PoseState;
+use crate::pose::{EulerErrors, PoseState};
 use crate::probabilities::Probabilities;
 use crate::ranking::Ranking;
 use crate::report::TaskScores;
@@ -65,6 +65,8 @@ pub struct TaskState {
     pub events: Option<EventState>,
     /// Errors of poses.
     pub pose: Option<PoseState>,
+    /// Differences of Euler angles, for public programs.
+    pub euler: Option<EulerErrors>,
 }
 
 impl TaskState {
@@ -88,6 +90,7 @@ impl TaskState {
             places: None,
             events: None,
             pose: None,
+            euler: None,
         }
     }
 
@@ -144,6 +147,8 @@ impl TaskState {
             EventState::merge,
         )?;
         self.pose = both("poses", self.pose, other.pose, PoseState::merge)?;
+        let eulers = |ours: EulerErrors, theirs| Ok(ours.merge(&theirs));
+        self.euler = both("Euler angles", self.euler, other.euler, eulers)?;
         Ok(self)
     }
 

@@ -26,7 +26,13 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     let mut states = task_states(&request)?;
     let sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
     states.sources.extend(sources);
-    task_scores::write(&states, &args.output, state_out.as_deref())?;
+    let state_out = state_out.as_deref();
+    match args.task.program {
+        Some(program) => {
+            task_scores::write_as_published(program, &states, &args.output, state_out)?;
+        }
+        None => task_scores::write(&states, &args.output, state_out)?,
+    }
     Ok(exit::DONE)
 }
 

@@ -1,5 +1,6 @@
 //! Scores of tasks beside exact fractions and beside those of other libraries.
 
+mod as_published;
 mod cases;
 mod classes;
 mod coverage;

@@ -3,7 +3,7 @@
 use taceva_core::shown;
 use taceva_import::CsvTable;
 use taceva_tasks::TaskState;
-use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
+use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
 
 use super::{Clusters, TaskSpec, TaskTables, empty};
 use crate::error::EvaluateError;
@@ -77,6 +77,7 @@ pub(super) fn state(
     let truth = PoseColumns::of(&tables.truth, &task.name)?;
     let prediction = PoseColumns::of(&tables.prediction, &task.name)?;
     let mut state = PoseState::new(definition(task)?);
+    let mut euler = EulerErrors::default();
     let mut left_out = 0;
     for pair in &tables.pairs {
         let Some(true_pose) = truth.pose(pair.truth)? else {
@@ -91,10 +92,12 @@ pub(super) fn state(
             return Err(refused.into());
         };
         state.push(clusters.cell(*pair)?, &true_pose, &predicted);
+        euler.push(&true_pose, &predicted);
     }
     let mut of_task = empty(task, clusters);
     of_task.unlabelled = left_out;
     of_task.pose = Some(state);
+    of_task.euler = Some(euler);
     Ok(of_task)
 }
 
