@@ -118,7 +118,7 @@ impl TaskState {
         )?;
         self.check_sequences(&other)?;
         self.notes = joined(self.notes, other.notes);
-        self.unlabelled += other.unlabelled;
+        self.unlabelled = self.unlabelled.saturating_add(other.unlabelled);
         self.is_sequence |= other.is_sequence;
         self.classes = both("classes", self.classes, other.classes, Classes::merge)?;
         let rankings = |ours: Ranking, theirs| Ok(ours.merge(theirs));

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::rigid::Pose;
 use super::rotation::Rotation;
+use crate::error::TaskError;
 use crate::totals::Totals;
 use crate::vector::{degrees, length};
 
@@ -30,8 +31,16 @@ const TURN: f64 = 360.0;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(transparent)]
+#[serde(try_from = "Totals<6, 1>")]
 pub struct EulerErrors(Totals<6, 1>);
+
+impl TryFrom<Totals<6, 1>> for EulerErrors {
+    type Error = TaskError;
+    fn try_from(totals: Totals<6, 1>) -> Result<EulerErrors, TaskError> {
+        TaskError::checked_count(0, totals.counts[0])?;
+        Ok(EulerErrors(totals))
+    }
+}
 
 impl EulerErrors {
     /// Adds a true and a predicted pose.

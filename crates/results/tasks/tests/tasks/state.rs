@@ -1,6 +1,6 @@
 //! States of whole tasks, and their merges.
 
-use taceva_tasks::pose::{Pose, PoseState, PoseTask};
+use taceva_tasks::pose::{EulerErrors, Pose, PoseState, PoseTask};
 use taceva_tasks::{Classes, Ranking, TaskError, TaskState};
 
 /// State of one clip with two samples.
@@ -96,4 +96,18 @@ fn poses_without_points_have_no_distances_of_points() {
             .any(|score| score.metric == "pose_rotation")
     );
     assert_eq!(scores.clusters, ["a"]);
+}
+
+#[test]
+fn a_stored_number_of_angles_that_no_poses_give_is_refused() {
+    let mut euler = EulerErrors::default();
+    euler.push(&Pose::ZERO, &Pose::ZERO);
+    let mut state = TaskState::new("moved", "pose", "clip");
+    state.euler = Some(euler);
+    let mut stored = serde_json::to_value(&state).expect("JSON");
+    let read: TaskState = serde_json::from_value(stored.clone()).expect("a state");
+    assert_eq!(read, state);
+    stored["euler"][1][0] = (1_u64 << 60).into();
+    let refused = serde_json::from_value::<TaskState>(stored).expect_err("too many poses");
+    assert!(refused.to_string().contains("2^53"), "{refused}");
 }
