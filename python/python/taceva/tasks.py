@@ -284,7 +284,8 @@ def compare(
 
 def _stored(results: Sequence[Any], folder: Path) -> tuple[list[str], dict[str, str]]:
     """Return paths of states, and words for those that the user never sees."""
-    paths, own = [], {}
+    paths: list[str] = []
+    own: dict[str, str] = {}
     for at, result in enumerate(results, start=1):
         if isinstance(result, (str, os.PathLike)):
             paths.append(os.path.abspath(result))
@@ -330,7 +331,7 @@ def _labels(given: Any, name: str) -> list[str]:
     >>> _labels([0, 1.0, None, "slip", np.bool_(True), float("nan")], "truth")
     ['0', '1', '', 'slip', 'True', '']
     """
-    found = np.asarray(given, dtype=None if hasattr(given, "dtype") else object)
+    found: npt.NDArray[Any] = np.asarray(given) if hasattr(given, "dtype") else np.asarray(given, dtype=object)
     if found.ndim != 1:
         raise ValueError(f"{name} has the shape {list(found.shape)}, expected one label per row")
     require_rows(found, name)
