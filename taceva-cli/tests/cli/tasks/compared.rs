@@ -173,6 +173,13 @@ fn a_model_that_a_constant_equals_is_not_ranked() {
         words.contains("b: not shown to be better than the best constant prediction, 0.75"),
         "{words}"
     );
+    // A limit on such a score is not decided.
+    let limit = "[[limit]]\nmetric = \"f1\"\nchannel = \"slip\"\nunit = \"1\"\nleast = 0.5\n";
+    bench.write("limits.toml", &format!("limits_version = 2\n{limit}"));
+    let ran = bench.run("accept b.json --limits limits.toml --format json -q");
+    let acceptance: Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(acceptance["findings"][0]["verdict"], "undecided");
+    assert_eq!(ran.code, 1, "{}", ran.err);
 }
 
 /// Predictions of slip in every frame.
