@@ -74,7 +74,7 @@ fn two_models_of_the_same_labels_are_compared_stroke_by_stroke() {
     );
     let difference = f1["difference"]["value"].as_f64().expect("a number");
     assert!(
-        (difference - (264.0 / 276.0 - 216.0 / 252.0)).abs() < 1e-12,
+        (difference - (264.0 / 276.0 - 216.0 / 252.0)).abs() < 1e-9,
         "{f1:#}"
     );
     assert!(f1["difference"]["p_holm"].as_f64() > f1["difference"]["p"].as_f64());
@@ -161,8 +161,8 @@ fn scores_of_other_definitions_are_not_ranked() {
 #[test]
 fn a_model_that_a_constant_equals_is_not_ranked() {
     let bench = two();
-    // A slip in each frame of most strokes: no better than to predict slips alone.
-    bench.write("b.csv", &bench_table_of_slips());
+    // The constant prediction itself.
+    bench.write("b.csv", &slips_alone());
     bench.ok(
         "score --truth truth.csv --pred b.csv --task slip=outcome:positive=slip:names=no_slip|slip --cluster stroke --format json --out b.json \
          --state-out b.state --force -q",
@@ -183,7 +183,7 @@ fn a_model_that_a_constant_equals_is_not_ranked() {
 }
 
 /// Predictions of slip in every frame.
-fn bench_table_of_slips() -> String {
+fn slips_alone() -> String {
     let rows = (0..STROKES * FRAMES).map(|id| format!("{id},slip\n"));
     format!("id,slip\n{}", rows.collect::<String>())
 }
