@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 
 from intervals import Undefined, mean, square_sum
-from study import Rows, by_channel, channels, score, scored
+from study import Rows, by_channel, score, scored
 
 GATE, EPS = 0.02, 1e-8
 KINDS = {"mae": "positive", "rmse": "positive", "bias": "any", "r2": "below one", "smape": "below two", "smape_gated": "below two"}

@@ -7,7 +7,7 @@ import numpy as np
 
 from accuracy import squares
 from distributions import Z, critical_factor, detection_factor
-from intervals import Undefined, attempt, deviation, jackknife, known, mean, number
+from intervals import Undefined, attempt, deviation, jackknife, mean, number
 from study import Rows, by_channel, channels, score
 
 GATE, LIGHT, KNOWN = 0.02, 0.2, 3.29

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from intervals import Undefined, attempt, known, mean, number, of_error, standard_error
+from intervals import Undefined, attempt, mean, number, of_error, standard_error
 from study import Rows, by_channel, channels, score
 
 REFERENCE, LOW = "normal", 0.05

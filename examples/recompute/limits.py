@@ -8,7 +8,7 @@ import numpy as np
 from accuracy import slope
 from distributions import Z, chi_squared_quantile, noncentral_t_quantile, student_above, student_quantile, tolerance_factor
 from intervals import Undefined, attempt, known, mean, number, of_components, square_sum
-from study import Rows, by_channel, channels, mean_of_axes, score, whole
+from study import Rows, by_channel, mean_of_axes, score, whole
 
 SHARE = CONFIDENCE = 0.95
 LEVEL, WITHIN, LEAST_OF_LEVEL = 0.1, 0.05, 5
