@@ -52,7 +52,7 @@ pub use error::EvaluateError;
 pub use evaluate::{
     Asked, Behind, CLASSIFIERS, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows,
     ModelChoice, evaluate, evaluate_plan, evaluate_task, fold_divisions, score, scored_by_default,
-    task_division,
+    scored_of_task, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
