@@ -1,6 +1,8 @@
 //! Scores of tasks of two tables.
 
+mod compared;
 mod input;
+mod states;
 
 use std::fmt::Write as _;
 

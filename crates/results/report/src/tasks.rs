@@ -77,7 +77,7 @@ pub fn task_numbers(report: &TaskReport) -> Table {
             let ends = estimate.interval.ends();
             table.push([
                 Cell::text(task.name.as_str()),
-                Cell::text(task.kind),
+                Cell::text(task.kind.as_str()),
                 Cell::text(score.metric),
                 Cell::text(score.variant.clone().unwrap_or_default()),
                 Cell::exact(estimate.value.ok()),

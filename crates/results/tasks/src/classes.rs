@@ -168,6 +168,11 @@ impl Classes {
         self.n
     }
 
+    /// Names of the clusters with samples, in order.
+    pub fn clusters(&self) -> impl Iterator<Item = &str> {
+        self.clusters.names()
+    }
+
     /// Adds a sample of `cluster` by the names of both classes.
     ///
     /// # Errors
@@ -252,7 +257,11 @@ impl Classes {
     /// [`TaskError::OtherDefinition`] if names, the positive class or the rule differ.
     pub fn merge(mut self, other: Classes) -> Result<Classes, TaskError> {
         self.names.check_same(&other.names)?;
-        same("rule", self.rule.clone(), other.rule)?;
+        let [ours, theirs] = [&self.rule, &other.rule].map(|rule| match rule.as_str() {
+            "" => "none".to_owned(),
+            rule => rule.to_owned(),
+        });
+        same("rule", ours, theirs)?;
         self.n += other.n;
         self.clusters.merge(other.clusters, |ours, theirs| {
             for (cell, count) in theirs {

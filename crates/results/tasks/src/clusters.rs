@@ -26,6 +26,11 @@ impl<T> ByCluster<T> {
         self.0.into_iter()
     }
 
+    /// Names of all clusters, in order.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+
     /// Sums of all clusters, to be changed.
     pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.0.values_mut()

@@ -35,6 +35,7 @@ mod sensor_facts;
 mod skill;
 mod state_file;
 mod subject;
+mod task_state_file;
 mod validation;
 mod work;
 
@@ -80,11 +81,12 @@ pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, TaskRequest,
-    TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks,
+    TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks, task_states,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
 pub use taceva_import::CsvTable;
+pub use task_state_file::{TASK_STATE_SCHEMA, TaskStates, merge_task_states};
 pub use validation::fit_validated;
 pub use work::Work;

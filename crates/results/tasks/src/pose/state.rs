@@ -198,6 +198,11 @@ impl PoseState {
         add_errors(&mut self.still, truth, &Pose::ZERO);
     }
 
+    /// Names of the clusters with poses, in order.
+    pub fn clusters(&self) -> impl Iterator<Item = &str> {
+        self.clusters.names()
+    }
+
     /// Both states as one.
     ///
     /// # Errors

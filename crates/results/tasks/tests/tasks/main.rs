@@ -15,5 +15,6 @@ mod ranking;
 mod refused;
 mod shape;
 mod simulated;
+mod state;
 mod stored;
 mod top_k;

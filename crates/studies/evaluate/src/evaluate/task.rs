@@ -2,14 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_core::{Field, counted, shown};
+use taceva_core::{Field, shown};
 use taceva_dataset::{Dataset, Task, TaskKind};
 use taceva_tasks::events::{EventRule, EventState, Frame};
-use taceva_tasks::{Classes, TaskError, TaskReport, TaskScore, TaskScores};
+use taceva_tasks::{Classes, TaskError, TaskState};
 
 use super::{EvaluateRequest, ModelChoice, evaluate};
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
+use crate::task_state_file::TaskStates;
 use crate::work::Work;
 
 /// Models that predict one of the labels of the training part.
@@ -53,7 +54,7 @@ pub fn evaluate_task(
     name: &str,
     fit: FitRequest,
     work: Work<'_>,
-) -> Result<TaskReport, EvaluateError> {
+) -> Result<TaskStates, EvaluateError> {
     let of_task = dataset.of_task(name)?;
     let own = dataset.tasks().iter().map(|own| own.task());
     let task = own.clone().find(|task| task.name == name);
@@ -112,33 +113,28 @@ pub fn evaluate_task(
         let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
         frames.entry(cluster).or_default().push(frame);
     }
-    let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
-        .of_classes(&classes);
-    scores.notes.push(format!("model {model}, split {split}"));
-    scores
-        .notes
-        .extend(of_one_cluster(dataset, task, &clusters));
+    let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
+    state.notes.push(format!("model {model}, split {split}"));
+    state.notes.extend(of_one_cluster(dataset, task, &clusters));
     let labelled = own_labels(dataset, name);
-    let left_out = dataset.table().rows() - labelled;
-    if left_out > 0 {
-        let words = format!("{} without a label, left out", counted(left_out, "row"));
-        scores.notes.push(words);
-    }
+    state.unlabelled = (dataset.table().rows() - labelled) as u64;
     if classes.n() != labelled as u64 {
         let scored = classes.n();
         let words = format!(
             "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
         );
-        scores.notes.push(words);
+        state.notes.push(words);
     }
+    state.classes = Some(classes);
     if task.kind == TaskKind::Event {
-        scores.scores.extend(onsets(frames, task)?);
+        state.events = Some(onsets(frames, task)?);
+        state.is_sequence = true;
     }
-    let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), "by their row of the dataset");
-    report.tables = [("dataset".to_owned(), dataset.digest().to_string())].into();
-    report.sources = vec![evaluated.subject.source];
-    report.tasks.push(scores);
-    Ok(report)
+    let digest = [("dataset".to_owned(), dataset.digest().to_string())];
+    let mut states = TaskStates::new("by their row of the dataset".to_owned(), digest.into());
+    states.sources.insert(evaluated.subject.source);
+    states.tasks.push(state);
+    Ok(states)
 }
 
 /// Number of rows with a label of the task called `name`.
@@ -171,11 +167,8 @@ fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -
     words.collect()
 }
 
-/// Scores of the onsets of an event, in the order of time within each cluster.
-fn onsets(
-    clusters: BTreeMap<&str, Vec<Frame>>,
-    task: &Task,
-) -> Result<Vec<TaskScore>, EvaluateError> {
+/// State of the onsets of an event, in the order of time within each cluster.
+fn onsets(clusters: BTreeMap<&str, Vec<Frame>>, task: &Task) -> Result<EventState, EvaluateError> {
     let mut state = EventState::new(EventRule::default());
     for (cluster, mut frames) in clusters {
         let time = |frame: &Frame| frame.time_s.unwrap_or_default();
@@ -184,7 +177,7 @@ fn onsets(
             EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
         })?;
     }
-    Ok(state.scores())
+    Ok(state)
 }
 
 fn check_model(fit: &FitRequest, task: &Task) -> Result<(), EvaluateError> {
