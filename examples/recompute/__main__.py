@@ -128,9 +128,14 @@ def main():
     comparison = Comparison()
     # Sections beside the studies have no rule here, so their numbers count as not recomputed.
     comparison.compare({key: part for key, part in results.items() if key != "studies"}, {})
-    for at, study in enumerate(studies(run, results, plans)):
-        print(f"{study.results['subject']['sensor']}: {len(study.ids)} samples", file=sys.stderr)
-        comparison.compare(results["studies"][at], recomputed(study), ("studies", at))
+    try:
+        for at, study in enumerate(studies(run, results, plans)):
+            print(f"{study.results['subject']['sensor']}: {len(study.ids)} samples", file=sys.stderr)
+            comparison.compare(results["studies"][at], recomputed(study), ("studies", at))
+    except AssertionError as error:
+        # The files of the run contradict each other.
+        print(error)
+        return 1
     counts = comparison.counts
     total = sum(1 for _ in leaves(results))
     print(f"numbers        {total} in {run / 'results.json'}")

@@ -11,7 +11,7 @@ from hull import contains, hull
 from intervals import Undefined, attempt, deviation, jackknife, known, mean, number, of_components, square_sum
 from study import Rows, by_channel, channels, every, score, scored, whole
 
-GATE, BINS, MAP, WINDOW, FEW = 0.02, 100, 20, 5, 5
+GATE, MAP, FEW = 0.02, 20, 5
 
 
 def binned(keys, values):
@@ -49,7 +49,7 @@ def node(function):
 def surface(study, metric, _, given):
     """Compliance Pz / Fz, its map, and how uniform it is over the surface."""
     rows = Rows(study, metric, predicted=False)
-    n_min, ddof = int(given["parameters"]["n_min"]), int(given["parameters"]["ddof"])
+    bins, n_min, ddof = (int(given["parameters"][name]) for name in ("bins", "n_min", "ddof"))
     depth, force = rows.truth("Pz"), rows.truth("Fz")
     have = ~np.isnan(depth) & ~np.isnan(force)
     gated = have & ((force < GATE) | (depth <= 0))
@@ -57,14 +57,14 @@ def surface(study, metric, _, given):
     compliance = np.full(len(ok), math.nan)
     compliance[ok] = depth[ok] / force[ok]
     normal = ok & (np.abs(rows.truth("Fx")) < GATE) & (np.abs(rows.truth("Fy")) < GATE)
-    places = [study.cell(x, y, MAP) if of and not math.isnan(x + y) else () for x, y, of in zip(rows.truth("Px"), rows.truth("Py"), ok)]
-    cell = np.array([place[0] * MAP + place[1] if place else -1 for place in places])
+    places = [study.cell(x, y, bins) if of and not math.isnan(x + y) else () for x, y, of in zip(rows.truth("Px"), rows.truth("Py"), ok)]
+    cell = np.array([place[0] * bins + place[1] if place else -1 for place in places])
     on_map = cell >= 0
     cells = binned(cell[on_map], compliance[on_map])
     used = sum(len(of) >= n_min for of in cells)
     counts = {"gated": int(gated.sum()), "outside": places.count(None), "bins_used": used}
     if metric == "sensitivity":
-        return sensitivity(study, rows, (depth, force, compliance), ok, normal, cell, counts, n_min)
+        return sensitivity(study, rows, (depth, force, compliance), ok, normal, cell, counts, bins, n_min)
 
     def numbers(kept):
         spreads = [
@@ -86,7 +86,7 @@ def surface(study, metric, _, given):
     return score(nodes, int(on_map.sum()), counts)
 
 
-def sensitivity(study, rows, columns, ok, normal, cell, counts, n_min):
+def sensitivity(study, rows, columns, ok, normal, cell, counts, bins, n_min):
     depth, force, compliance = columns
 
     def numbers(kept):
@@ -101,13 +101,13 @@ def sensitivity(study, rows, columns, ok, normal, cell, counts, n_min):
     found = collections.defaultdict(list)
     for key, value in zip(cell.tolist(), compliance.tolist()):
         if key >= 0:
-            found[divmod(key, MAP)].append(value)
-    return score(nodes, int(ok.sum()), counts, map=map_of(study, found, n_min))
+            found[divmod(key, bins)].append(value)
+    return score(nodes, int(ok.sum()), counts, map=map_of(study, found, bins, n_min))
 
 
-def map_of(study, found, n_min=1):
-    x, y = study.edges(MAP)
-    places = [[found.get((row, column), []) for column in range(MAP)] for row in range(MAP)]
+def map_of(study, found, bins, n_min=1):
+    x, y = study.edges(bins)
+    places = [[found.get((row, column), []) for column in range(bins)] for row in range(bins)]
     values = [[mean(of) if len(of) >= max(n_min, 1) else None for of in line] for line in places]
     return {"x_mm": x, "y_mm": y, "values": values, "counts": [[len(of) for of in line] for line in places]}
 
@@ -115,7 +115,7 @@ def map_of(study, found, n_min=1):
 def r_spatial(study, metric, label, given):
     """Deviation of the mean absolute error between rings and between levels of depth."""
     rows = Rows(study, metric)
-    n_min, ddof = int(given["parameters"]["n_min"]), int(given["parameters"]["ddof"])
+    steps, n_min, ddof, window = (int(given["parameters"][name]) for name in ("bins", "n_min", "ddof", "window"))
     ring, level = (np.full(len(rows.rows), -1) for _ in range(2))
     outside = np.zeros(len(rows.rows), bool)
     for row, place in enumerate(zip(*(rows.truth(axis) for axis in ("Px", "Py", "Pz")))):
@@ -126,15 +126,15 @@ def r_spatial(study, metric, label, given):
         if square > study.reach**2 or not 0 <= z <= study.depth_max:
             outside[row] = True
             continue
-        ring[row] = min(math.isqrt(BINS * BINS * square) // study.reach, BINS - 1)
-        level[row] = min(z * BINS // study.depth_max, BINS - 1)
+        ring[row] = min(math.isqrt(steps * steps * square) // study.reach, steps - 1)
+        level[row] = min(z * steps // study.depth_max, steps - 1)
     names = channels(label)
     error = {channel: np.abs(rows.truth(channel) - rows.predicted(channel, free=True)) for channel in names}
     ok = {channel: (ring >= 0) & ~np.isnan(error[channel]) for channel in names}
 
     def smooth(bins):
         means = [mean(of) for of in bins if len(of) >= n_min]
-        reach = WINDOW // 2
+        reach = window // 2
         if not means:
             raise Undefined("no bin")
         return deviation([mean(means[max(0, at - reach) : at + reach + 1]) for at in range(len(means))], ddof)
@@ -178,9 +178,9 @@ def r_spatial(study, metric, label, given):
     of, kept = error[label], ok[label]
     counts, arrays = {"outside": int((outside & ~np.isnan(of)).sum())}, {}
     for name, keys, extent in (("distance", ring, study.reach), ("depth", level, study.depth_max)):
-        bins = [of[kept & (keys == key)] for key in range(BINS)]
+        bins = [of[kept & (keys == key)] for key in range(steps)]
         counts[f"bins_{name}"] = sum(len(values) >= max(n_min, 1) for values in bins)
-        middles = [(2 * key + 1) * (extent / 1e6) / (2 * BINS) for key in range(BINS)]
+        middles = [(2 * key + 1) * (extent / 1e6) / (2 * steps) for key in range(steps)]
         means = [mean(values) if len(values) >= max(n_min, 1) else None for values in bins]
         arrays[name] = {"x": middles, "values": means, "counts": [len(values) for values in bins]}
     return score(nodes, n, counts, **arrays)
@@ -243,7 +243,7 @@ def hysteresis(study, metric, *_):
         if place:
             found[place].append(of["value"])
     counts = {"points_valid": len(valid), "points_total": len(presses)}
-    return score(nodes, int(ok.sum()), counts, map=map_of(study, found))
+    return score(nodes, int(ok.sum()), counts, map=map_of(study, found, MAP))
 
 
 def registration(moving, fixed):

@@ -57,7 +57,8 @@ class Study:
         self.results, self.seed = results, seed
         self.header = tomllib.loads((run / "recordings" / name / "dataset.toml").read_text())
         table = pyarrow.parquet.read_table(run / "recordings" / name / "samples.parquet")
-        labels = {column: table[column].to_pylist() for column in table.column_names}
+        labels = collections.defaultdict(lambda: [None] * table.num_rows)
+        labels |= {column: table[column].to_pylist() for column in table.column_names}
         self.ids = labels["sample"]
         self.points = [point or "" for point in labels["point_id"]]
         self.units, self.scenes, self.branches, self.kinds = (labels[key] for key in ("unit_id", "scene", "phase", "kind"))
@@ -75,7 +76,7 @@ class Study:
         assert len(rows) == len(self.ids) and all(sample in rows for sample in self.ids), f"{path}: other samples than the recording"
         rows = [rows[sample] for sample in self.ids]
         for channel, labels in self.truth.items():
-            assert np.array_equal(labels, numbers(row[channel] for row in rows), equal_nan=True), f"{path}: other labels of {channel}"
+            assert np.array_equal(labels, numbers(row.get(channel) for row in rows), equal_nan=True), f"{path}: other labels of {channel}"
 
         def column(name):
             return numbers(row.get(name) for row in rows)
@@ -85,6 +86,7 @@ class Study:
         # The second column is absent if no prediction was clipped.
         self.free = {channel: self.bounded[channel] if np.isnan(free[channel]).all() else free[channel] for channel in CHANNELS}
         self.spacing_predicted = column("spacing_predicted_mm")
+        self.has_predictions = not all(np.isnan(column).all() for column in (*self.bounded.values(), self.spacing_predicted))
         self.is_predicted = ~np.isnan(np.array(list(self.bounded.values()))).all(axis=0)
         self.words = [row["protocol"].split() for row in rows]
 
@@ -112,7 +114,8 @@ class Study:
 
     def rows(self, metric, predicted=True):
         """Rows that a metric reads."""
-        rows = self.of_phase[self.phase_of[metric]]
+        # A plan that does not ask for the skill of its predictions gets it on their phase.
+        rows = self.of_phase[self.phase_of.get(metric, "calibration")]
         return [row for row in rows if self.is_predicted[row]] if predicted else rows
 
     def cell(self, x, y, count):
@@ -156,6 +159,9 @@ class Study:
         return [[row for row in calibration if part_of[self.points[row]] == part] for part in range(3)]
 
     def means_of_training(self):
+        if "split" not in self.results["provenance"]:
+            self.parts = None
+            return {}
         self.parts = self.split()
         train, _, test = self.parts
         predicted = [row for row in self.of_phase["calibration"] if self.is_predicted[row]]
@@ -163,15 +169,18 @@ class Study:
         return {channel: float(sum(Fraction(float(self.truth[channel][row])) for row in train) / len(train)) for channel in CHANNELS}
 
     def provenance(self):
-        train, validation, test = map(len, self.parts)
-        left_out = len(self.ids) - train - validation - test
-        # The seed of the split is that of the plans, and the model was trained on the samples that the split gives.
-        return {
+        """Numbers behind the scores. The seed of the split is that of the plans."""
+        frames = self.header.get("frames", {}).get("count", 0)
+        found = {
             "seed": self.seed,
-            "samples": {"left_out": left_out, "test": test, "train": train, "validation": validation},
             "presses": {digest: self.header["presses"] for digest in self.results["provenance"]["presses"]},
-            "frames_decoded": self.header["frames"]["count"],
+            "frames_decoded": frames if self.has_predictions else 0,
         }
+        if self.parts:
+            counts = dict(zip(("train", "validation", "test"), map(len, self.parts)))
+            left_out = len(self.ids) - sum(counts.values())
+            found["samples"] = counts | ({"left_out": left_out} if left_out else {})
+        return found
 
 
 class Rows:

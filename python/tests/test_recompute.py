@@ -110,3 +110,13 @@ def test_a_changed_prediction_changes_the_scores_that_read_it(run: Path, tmp_pat
     assert code == 1, text
     assert "differing: studies.0.metrics.noise_equivalent_force.Fz.value" in text
     assert "metrics.sensitivity" not in text
+
+
+def test_labels_that_the_table_of_samples_states_otherwise_than_the_recording_are_refused(run: Path, tmp_path: Path) -> None:
+    changed = copied(run, tmp_path / "run")
+    (table,) = (changed / "reports").glob("*.samples.csv")
+    text = table.read_text()
+    press = next(line for line in text.splitlines() if ",calibration," in line)
+    table.write_text(text.replace(press, press.replace(",calibration,", ",idle,"), 1))
+    code, said = recomputed(changed)
+    assert code == 1 and "plans.json has the phases ['calibration'], the table of samples ['idle']" in said, said
