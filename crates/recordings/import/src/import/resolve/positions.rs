@@ -5,8 +5,8 @@ use crate::foreign::ForeignTable;
 use crate::import::map::{ImportMap, SignalsFrom};
 use taceva_dataset::internal::listed;
 
-/// `map` with the names of the taxel columns, if it names them by position: `1..64` of a text table whose header has none of these names. Positions count from
-/// 0, as in a table without a header. `None` for names.
+/// `map` with names of taxel columns, if it has positions instead: `1..64` of a text table without these names. Positions count from 0, as in a table
+/// without a header. `None` for names.
 ///
 /// # Errors
 /// A table with too few columns.
