@@ -110,7 +110,9 @@ pub(crate) fn task_scores(
     }
     let states = py.detach(|| task_states(&request));
     let mut states = states.map_err(|error| study_error(&error))?;
-    states.sources.insert(source);
+    if states.sources.is_empty() {
+        states.sources.insert(source);
+    }
     documents(&states)
 }
 

@@ -198,7 +198,7 @@ def score_tables(
     threshold, debounce
         Rules by the name of the task: ``threshold={"slip": 0.4}``.
     source
-        Origin of the samples, such as ``"recorded"`` or ``"simulated"``.
+        Origin of the samples of a truth without a column ``source``, such as ``"recorded"`` or ``"simulated"``.
 
     Raises
     ------

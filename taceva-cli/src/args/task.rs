@@ -25,7 +25,8 @@ const OF_CHANNELS: [&str; 12] = [
 pub(crate) struct TaskArgs {
     /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome or pose; may be repeated. The
     /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
-    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG
+    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG. Refused beside it, as options of channels: --units, --periods, --allow-invalid,
+    /// --shard, --metrics, --independent, --sensor, --html, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]

@@ -53,7 +53,7 @@ pub use error::EvaluateError;
 pub use evaluate::{
     Asked, Behind, CLASSIFIERS, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows,
     ModelChoice, evaluate, evaluate_plan, evaluate_task, fold_divisions, score, scored_by_default,
-    task_division,
+    scored_of_task, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
@@ -81,7 +81,8 @@ pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, TaskRequest,
-    TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks, task_states,
+    TaskRule, TaskSpec, UNKNOWN_ORIGIN, read_table, recount_tables, score_in_one_pass, score_tasks,
+    stated_origins, task_states,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use taceva_core::shown;
-use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, read_table, task_states};
+use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, task_states};
 
 use super::super::{Context, Usage, origin, task_scores};
 use crate::args::Score;
@@ -24,8 +24,9 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         cluster: args.task.cluster.clone(),
     };
     let mut states = task_states(&request)?;
-    let sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
-    states.sources.extend(sources);
+    if states.sources.is_empty() {
+        states.sources.insert(origin::beside(&args.truth)?);
+    }
     let state_out = state_out.as_deref();
     match args.task.program {
         Some(program) => {

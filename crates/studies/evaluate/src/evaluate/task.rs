@@ -12,6 +12,7 @@ use crate::error::EvaluateError;
 use crate::fit::FitRequest;
 use crate::task_state_file::TaskStates;
 use crate::work::Work;
+use taceva_results::Samples;
 
 /// Models that predict one of the labels of the training part.
 pub const CLASSIFIERS: [&str; 2] = ["lda", "linfa/logistic"];
@@ -60,81 +61,119 @@ pub fn evaluate_task(
     let task = own.clone().find(|task| task.name == name);
     let task = task.expect("`of_task` found the task");
     check_model(&fit, task)?;
-    let split = match &fit.split {
+    let split = split_of(dataset, task, fit.split.as_deref())?;
+    let by = format!("model {}, split {split}", fit.model.name());
+    let evaluated = evaluate(&of_task, &request_of(fit, split), work)?.report;
+    let samples = evaluated.samples.expect("an evaluation keeps its samples");
+    let clusters = dataset.clusters_of(task);
+    let predicted = Predicted::of(dataset, task, &clusters, &samples)?;
+    let digest = [("dataset".to_owned(), dataset.digest().to_string())];
+    let mut states = TaskStates::new("by their row of the dataset".to_owned(), digest.into());
+    states.sources.insert(evaluated.subject.source);
+    states.tasks.push(predicted.state(dataset, task, by)?);
+    Ok(states)
+}
+
+/// The stated split, or the division of the task.
+fn split_of(dataset: &Dataset, task: &Task, stated: Option<&str>) -> Result<String, EvaluateError> {
+    match stated {
         Some(split) => {
             check_split(split, task)?;
-            split.clone()
+            Ok(split.to_owned())
         }
-        None => task_division(dataset, task)?,
-    };
-    let model = fit.model.name().to_owned();
-    let fit = FitRequest {
-        channels: Vec::new(),
-        split: Some(split.clone()),
-        ..fit
-    };
-    let request = EvaluateRequest {
-        model: ModelChoice::Fit(fit),
+        None => task_division(dataset, task),
+    }
+}
+
+/// Evaluation that predicts the classes of the test part. Its own metric is not read.
+fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
+    EvaluateRequest {
+        model: ModelChoice::Fit(FitRequest {
+            channels: Vec::new(),
+            split: Some(split),
+            ..fit
+        }),
         metrics: vec!["mae".to_owned()],
         part: None,
         sensor: None,
         is_independent: false,
-    };
-    let evaluated = evaluate(&of_task, &request, work)?.report;
-    let samples = evaluated.samples.expect("an evaluation keeps its samples");
-    let clusters = dataset.clusters_of(task);
-    let names = dataset.table().samples().iter();
-    let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
-    let mut classes = Classes::new(
-        task.names.iter().map(String::as_str),
-        task.positive.as_deref(),
-    )
-    .map_err(|error| refused(task, &error))?;
-    let channel = samples.channel(name).expect("the channel of the task");
-    let times = dataset.table().t_s();
-    let positive = task.positive.as_deref();
-    let positive = task.names.iter().position(|name| positive == Some(name));
-    let mut frames: BTreeMap<&str, Vec<Frame>> = BTreeMap::new();
-    for row in 0..samples.rows() {
-        let Some([truth, predicted]) = channel.pair(row) else {
-            continue;
+    }
+}
+
+/// Predicted samples of a task, with the cluster of every row of the dataset.
+struct Predicted<'a> {
+    clusters: &'a [Option<String>],
+    classes: Classes,
+    /// Frames of each cluster, with the positive class as the event.
+    frames: BTreeMap<&'a str, Vec<Frame>>,
+}
+
+impl<'a> Predicted<'a> {
+    fn of(
+        dataset: &Dataset,
+        task: &Task,
+        clusters: &'a [Option<String>],
+        samples: &Samples,
+    ) -> Result<Predicted<'a>, EvaluateError> {
+        let names = dataset.table().samples().iter();
+        let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
+        let positive = task.positive.as_deref();
+        let classes = Classes::new(task.names.iter().map(String::as_str), positive);
+        let mut found = Predicted {
+            clusters,
+            classes: classes.map_err(|error| refused(task, &error))?,
+            frames: BTreeMap::new(),
         };
-        let sample = samples
-            .word("sample", row)
-            .and_then(|sample| rows.get(sample).copied());
-        let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
-        let (row, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
-        let [truth, predicted] = [position(truth, task)?, position(predicted, task)?];
-        classes
-            .push_positions(cluster, &[truth], &[predicted])
-            .map_err(|error| refused(task, &error))?;
+        let positive = task.names.iter().position(|name| positive == Some(name));
         let is_event = |class: u32| positive == Some(class as usize);
-        let score = f64::from(u8::from(is_event(predicted)));
-        let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
-        frames.entry(cluster).or_default().push(frame);
+        let channel = samples
+            .channel(&task.name)
+            .expect("the channel of the task");
+        let times = dataset.table().t_s();
+        for row in 0..samples.rows() {
+            let Some([truth, predicted]) = channel.pair(row) else {
+                continue;
+            };
+            let sample = samples
+                .word("sample", row)
+                .and_then(|sample| rows.get(sample).copied());
+            let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
+            let (row, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
+            let [truth, predicted] = [position(truth, task)?, position(predicted, task)?];
+            found
+                .classes
+                .push_positions(cluster, &[truth], &[predicted])
+                .map_err(|error| refused(task, &error))?;
+            let score = f64::from(u8::from(is_event(predicted)));
+            let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
+            found.frames.entry(cluster).or_default().push(frame);
+        }
+        Ok(found)
     }
-    let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
-    state.notes.push(format!("model {model}, split {split}"));
-    state.notes.extend(of_one_cluster(dataset, task, &clusters));
-    let labelled = own_labels(dataset, name);
-    state.unlabelled = (dataset.table().rows() - labelled) as u64;
-    if classes.n() != labelled as u64 {
-        let scored = classes.n();
-        let words = format!(
-            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
-        );
-        state.notes.push(words);
+
+    /// State of the task; `by` names the model and the split.
+    fn state(self, dataset: &Dataset, task: &Task, by: String) -> Result<TaskState, EvaluateError> {
+        let (name, kind) = (task.name.as_str(), task.kind.name());
+        let mut state = TaskState::new(name, kind, task.cluster.as_str());
+        state.notes.push(by);
+        state
+            .notes
+            .extend(of_one_cluster(dataset, task, self.clusters));
+        let labelled = own_labels(dataset, name);
+        state.unlabelled = (dataset.table().rows() - labelled) as u64;
+        let scored = self.classes.n();
+        if scored != labelled as u64 {
+            state.notes.push(format!(
+                "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
+            ));
+        }
+        state.classes = Some(self.classes);
+        if task.kind == TaskKind::Event {
+            state.events = Some(onsets(self.frames, task)?);
+            state.is_sequence = true;
+        }
+        Ok(state)
     }
-    state.classes = Some(classes);
-    if task.kind == TaskKind::Event {
-        state.events = Some(onsets(frames, task)?);
-        state.is_sequence = true;
-    }
-    let digest = [("dataset".to_owned(), dataset.digest().to_string())];
-    let mut states = TaskStates::new("by their row of the dataset".to_owned(), digest.into());
-    states.sources.insert(evaluated.subject.source);
-    states.tasks.push(state);
-    Ok(states)
 }
 
 /// Number of rows with a label of the task called `name`.

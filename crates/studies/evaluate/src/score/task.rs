@@ -17,6 +17,7 @@ use taceva_tasks::{TaskReport, TaskState};
 
 use super::ScoreRequest;
 use super::agreement::Matching;
+use super::origins::stated_origins;
 use super::row_key::{KEY_NAMES, RowKeys};
 use super::tables::{self, Pairing};
 use crate::error::EvaluateError;
@@ -104,6 +105,9 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     let digests = [("truth", of_truth), ("prediction", of_prediction)];
     let digests = digests.map(|(role, digest)| (role.to_owned(), digest.to_string()));
     let mut states = TaskStates::new(matching.by.to_string(), digests.into());
+    states
+        .sources
+        .extend(stated_origins(&truth)?.unwrap_or_default());
     let tables = TaskTables {
         truth,
         prediction,

@@ -58,7 +58,7 @@ pub(super) fn state(
     state.notes.extend(names.note());
     state.unlabelled = left_out as u64;
     state.is_sequence = rule.is_some_and(|rule| rule.debounce.is_some());
-    let with_scores = ScoreColumns::of(&tables.prediction, task, &names)?;
+    let with_scores = ScoreColumns::of(tables, task, &names)?;
     if let Some(columns) = with_scores {
         of_scores(&mut state, &rows, &columns, &names, task).map_err(refused)?;
     }
@@ -77,7 +77,7 @@ fn rows<'a>(
     is_by_threshold: bool,
 ) -> Result<(Vec<ClassRow<'a>>, usize), EvaluateError> {
     let of_truth = ClassColumn::of(&tables.truth, &task.name, names)?;
-    let columns = ScoreColumns::of(&tables.prediction, task, names)?;
+    let columns = ScoreColumns::of(tables, task, names)?;
     let of_prediction = match &columns {
         _ if is_by_threshold => None,
         Some(_) if !tables.prediction.has(&task.name) => None,
@@ -145,6 +145,7 @@ fn apply(
     };
     let negative = 1 - positive;
     if let Some(threshold) = rule.threshold {
+        check_threshold(threshold, rows, positive).map_err(refused)?;
         for row in rows.iter_mut() {
             let Some(score) = ScoreColumns::of_class(&row.scores, positive) else {
                 return Err(refused(format!(
@@ -164,6 +165,22 @@ fn apply(
         events::debounce(rows, positive, negative, rule);
     }
     Ok(())
+}
+
+/// Refuses a threshold that no probability can cross. Log-odds have scores beyond 0 to 1, and take any threshold.
+fn check_threshold(threshold: f64, rows: &[ClassRow<'_>], positive: u32) -> Result<(), String> {
+    let scores = rows.iter();
+    let scores = scores.filter_map(|row| ScoreColumns::of_class(&row.scores, positive));
+    let scores: Vec<f64> = scores.collect();
+    let range = 0.0..=1.0;
+    let are_probabilities = !scores.is_empty() && scores.iter().all(|score| range.contains(score));
+    match are_probabilities && !range.contains(&threshold) {
+        false => Ok(()),
+        true => Err(format!(
+            "the threshold {threshold} is outside 0 to 1, but all scores of the positive class are within 0 to 1, so every row would get \
+             the same class: state a threshold from 0 to 1"
+        )),
+    }
 }
 
 /// Adds the states of ranks, probabilities and places of classes.
