@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::counted;
 
 use crate::classes::Classes;
+use crate::depth::DepthState;
 use crate::error::TaskError;
 use crate::events::EventState;
 use crate::names::same;
@@ -67,6 +68,8 @@ pub struct TaskState {
     pub pose: Option<PoseState>,
     /// Differences of Euler angles, for public programs.
     pub euler: Option<EulerErrors>,
+    /// Errors of depth maps.
+    pub depth: Option<DepthState>,
 }
 
 impl TaskState {
@@ -91,16 +94,18 @@ impl TaskState {
             events: None,
             pose: None,
             euler: None,
+            depth: None,
         }
     }
 
     /// Names of the clusters with samples, in order.
     #[must_use]
     pub fn clusters(&self) -> Vec<&str> {
-        match (&self.classes, &self.pose) {
-            (Some(classes), _) => classes.clusters().collect(),
-            (None, Some(pose)) => pose.clusters().collect(),
-            (None, None) => Vec::new(),
+        match (&self.classes, &self.pose, &self.depth) {
+            (Some(classes), _, _) => classes.clusters().collect(),
+            (None, Some(pose), _) => pose.clusters().collect(),
+            (None, None, Some(depth)) => depth.clusters().collect(),
+            (None, None, None) => Vec::new(),
         }
     }
 
@@ -149,6 +154,7 @@ impl TaskState {
         self.pose = both("poses", self.pose, other.pose, PoseState::merge)?;
         let eulers = |ours: EulerErrors, theirs| Ok(ours.merge(&theirs));
         self.euler = both("Euler angles", self.euler, other.euler, eulers)?;
+        self.depth = both("depth maps", self.depth, other.depth, DepthState::merge)?;
         Ok(self)
     }
 
@@ -185,6 +191,9 @@ impl TaskState {
                 .notes
                 .push(format!("{rows} without a label, left out"));
         }
+        scores
+            .notes
+            .extend(self.depth.iter().flat_map(remarks_on_maps));
         let all = &mut scores.scores;
         all.extend(self.ranking.iter().flat_map(Ranking::scores));
         all.extend(self.probabilities.iter().flat_map(Probabilities::scores));
@@ -199,8 +208,28 @@ impl TaskState {
         all.extend(
             of_poses.filter(|score| score.estimate.value.err() != Some(Undefined::NoPoints)),
         );
+        all.extend(self.depth.iter().flat_map(DepthState::scores));
         scores
     }
+}
+
+/// Remarks on depth maps that limit the scores.
+fn remarks_on_maps(state: &DepthState) -> Vec<String> {
+    let pixel = "without a pixel that is valid in truth and prediction, left out";
+    let contact = "without contact in truth and prediction, left out of contact_iou";
+    let remark = |count: u64, noun: &str, words: &str| {
+        (count > 0).then(|| format!("{} {words}", counted(count, noun)))
+    };
+    let remarks = [
+        remark(state.maps_without_pixel(), "map", pixel),
+        remark(state.maps_without_contact(), "map", contact),
+        remark(
+            state.negative_pixels(),
+            "valid pixel",
+            "with a negative depth, kept",
+        ),
+    ];
+    remarks.into_iter().flatten().collect()
 }
 
 /// Both parts as one; a part that only one state has is refused.

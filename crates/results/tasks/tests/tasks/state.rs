@@ -1,5 +1,6 @@
 //! States of whole tasks, and their merges.
 
+use taceva_tasks::depth::{DepthMap, DepthState, DepthTask};
 use taceva_tasks::pose::{EulerErrors, Pose, PoseState, PoseTask};
 use taceva_tasks::{Classes, Ranking, TaskError, TaskState};
 
@@ -110,4 +111,27 @@ fn a_stored_number_of_angles_that_no_poses_give_is_refused() {
     stored["euler"][1][0] = (1_u64 << 60).into();
     let refused = serde_json::from_value::<TaskState>(stored).expect_err("too many poses");
     assert!(refused.to_string().contains("2^53"), "{refused}");
+}
+
+#[test]
+fn maps_of_two_parts_have_the_scores_of_all_and_their_counts_in_words() {
+    let part = |press: &str, mm: [f64; 2]| {
+        let map = |mm: [f64; 2]| DepthMap::new(1, 2, mm.to_vec()).expect("a map");
+        let mut maps = DepthState::new(DepthTask::default());
+        maps.push(press, 1, &map([0.5, 0.5]), &map(mm))
+            .expect("one size");
+        let mut state = TaskState::new("shape", "depth", "press");
+        state.depth = Some(maps);
+        state
+    };
+    let both = part("a", [0.5, 0.25]).merge(part("b", [-0.5, 0.5]));
+    let scores = both.expect("one task").scores();
+    let mae = scores
+        .scores
+        .iter()
+        .find(|score| score.metric == "depth_mae" && score.variant.is_none());
+    // (0 + 0.25 + 1 + 0) / 4.
+    assert_eq!(mae.expect("maps").estimate.value, Ok(0.3125));
+    assert_eq!(scores.clusters, ["a", "b"]);
+    assert_eq!(scores.notes, ["1 valid pixel with a negative depth, kept"]);
 }
