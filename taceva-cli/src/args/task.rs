@@ -23,9 +23,10 @@ const OF_CHANNELS: [&str; 13] = [
 /// Tasks to score in the place of channels.
 #[derive(Debug, Args)]
 pub(crate) struct TaskArgs {
-    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome or pose; may be repeated. The
+    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be repeated. The
     /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
-    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG
+    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; the truth of NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions
+    /// are an array of maps (.npy, .npz, .h5)
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]

@@ -1,5 +1,6 @@
 //! Scores of tasks of two tables.
 
+mod depth;
 mod input;
 
 use std::fmt::Write as _;

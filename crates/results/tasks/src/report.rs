@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::evidence::TaskEvidence;
 use crate::score::TaskScore;
 
 /// Schema of a report of tasks.
@@ -63,11 +64,11 @@ impl TaskReport {
 pub struct TaskScores {
     /// Name of the task.
     pub name: String,
-    /// Kind of the task: `class`, `event`, `outcome` or `pose`.
+    /// Kind of the task: `class`, `event`, `outcome`, `pose`, `place` or `depth`.
     pub kind: &'static str,
     /// Column with the clusters.
     pub cluster: String,
-    /// Classes in their order; empty for a pose.
+    /// Classes in their order; empty for a kind without classes.
     pub names: Vec<String>,
     /// Class that F1, precision and recall describe.
     pub positive: Option<String>,
@@ -77,6 +78,9 @@ pub struct TaskScores {
     pub scores: Vec<TaskScore>,
     /// Counts above 0 of true and predicted classes.
     pub confusion: Vec<ConfusionCount>,
+    /// Content of the page of the task besides the scores.
+    #[serde(skip)]
+    pub evidence: TaskEvidence,
 }
 
 /// Number of samples of one class that are predicted as one class.
@@ -108,6 +112,7 @@ impl TaskScores {
             notes: Vec::new(),
             scores: Vec::new(),
             confusion: Vec::new(),
+            evidence: TaskEvidence::default(),
         }
     }
 

@@ -23,7 +23,10 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         cluster: args.task.cluster.clone(),
     };
     let mut report = score_tasks(&request)?;
-    report.sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
+    // The truth of depth maps is a dataset, which states its origin.
+    if report.sources.is_empty() {
+        report.sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
+    }
     task_scores::write(&report, &args.output)?;
     Ok(exit::DONE)
 }

@@ -3,8 +3,9 @@
 use taceva_core::shown;
 use taceva_import::CsvTable;
 use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
-use taceva_tasks::{TaskScores, Undefined};
+use taceva_tasks::{TaskScores, Undefined, WorstSample};
 
+use super::place::distance_mm;
 use super::{Clusters, TaskSpec, TaskTables, empty, unlabelled};
 use crate::error::EvaluateError;
 
@@ -77,6 +78,7 @@ pub(super) fn scores(
     let truth = PoseColumns::of(&tables.truth, &task.name)?;
     let prediction = PoseColumns::of(&tables.prediction, &task.name)?;
     let mut state = PoseState::new(definition(task)?);
+    let mut scores = empty(task, clusters);
     let mut left_out = 0;
     for pair in &tables.pairs {
         let Some(true_pose) = truth.pose(pair.truth)? else {
@@ -90,9 +92,13 @@ pub(super) fn scores(
                 .refuse(pair.prediction, prediction.columns[0], expected);
             return Err(refused.into());
         };
-        state.push(clusters.cell(*pair)?, &true_pose, &predicted);
+        let cluster = clusters.cell(*pair)?;
+        state.push(cluster, &true_pose, &predicted);
+        let error = distance_mm(&true_pose, &predicted);
+        let sample = format!("row {}", pair.truth + 1);
+        let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
+        scores.evidence.add_worst(worst);
     }
-    let mut scores = empty(task, clusters);
     scores.notes.extend(unlabelled(left_out));
     let found = state.scores().into_iter();
     // No column has the points of an object.
