@@ -35,6 +35,9 @@ const FILES: &[(&str, &str)] = files![
     "fota",
     "rosbag",
     "diffusion-zarr",
+    "touch-and-go",
+    "feeling-of-success",
+    "objectfolder-benchmark",
 ];
 
 /// Header of the preset section, which follows the map.

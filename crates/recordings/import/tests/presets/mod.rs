@@ -27,7 +27,7 @@ struct Expected {
 }
 
 /// Torques are stored in N·mm, positions in mm.
-const EXPECTED: [Expected; 14] = [
+const EXPECTED: [Expected; 17] = [
     Expected {
         preset: "bristol",
         rows: 3,
@@ -193,6 +193,50 @@ const EXPECTED: [Expected; 14] = [
         pictures: &[0, 1, 2],
         point: Some("0"),
         attributes: &[("episode", 1, "0"), ("episode", 2, "1")],
+        time: None,
+    },
+    Expected {
+        preset: "touch-and-go",
+        rows: 4,
+        channels: &[],
+        numbers: &[],
+        // The list of test pictures comes first.
+        pictures: &[0, 2, 1, 3],
+        point: Some("20220516_190814"),
+        attributes: &[
+            ("clip", 1, "20220517_192217"),
+            ("task.material", 0, "14"),
+            ("task.material", 3, "4"),
+            ("source_table", 2, "train.txt"),
+        ],
+        time: None,
+    },
+    Expected {
+        preset: "feeling-of-success",
+        rows: 3,
+        channels: &[],
+        numbers: &[],
+        pictures: &[0, 1, 2],
+        point: Some("000:0"),
+        attributes: &[
+            ("task.held", 0, "held"),
+            ("task.held", 1, "lost"),
+            ("file", 2, "001"),
+        ],
+        time: None,
+    },
+    Expected {
+        preset: "objectfolder-benchmark",
+        rows: 3,
+        channels: &[],
+        numbers: &[],
+        pictures: &[0, 1, 2],
+        point: Some("1:0"),
+        attributes: &[
+            ("task.material", 1, "3"),
+            ("task.material", 2, "6"),
+            ("object", 2, "2"),
+        ],
         time: None,
     },
 ];
