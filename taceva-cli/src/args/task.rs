@@ -4,7 +4,7 @@ use clap::Args;
 use taceva_evaluate::TaskSpec;
 
 /// Options that concern channels, which tasks do not have.
-const OF_CHANNELS: [&str; 13] = [
+const OF_CHANNELS: [&str; 12] = [
     "units",
     "periods",
     "allow_invalid",
@@ -13,7 +13,6 @@ const OF_CHANNELS: [&str; 13] = [
     "independent",
     "sensor",
     "state_out",
-    "html",
     "figures",
     "samples_out",
     "table",

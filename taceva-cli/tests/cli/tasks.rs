@@ -2,6 +2,7 @@
 
 mod depth;
 mod input;
+mod page;
 
 use std::fmt::Write as _;
 

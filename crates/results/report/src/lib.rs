@@ -29,6 +29,7 @@ mod spread;
 mod table;
 mod tables_page;
 mod tasks;
+mod tasks_page;
 mod tie;
 mod training;
 mod variables;
@@ -73,3 +74,4 @@ pub use table::{
 };
 pub use tables_page::{PagePart, PageSection, TablesPage};
 pub use tasks::{task_numbers, task_table};
+pub use tasks_page::task_page;

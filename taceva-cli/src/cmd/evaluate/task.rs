@@ -8,7 +8,9 @@ use crate::args::Evaluate;
 use crate::{exit, output};
 
 pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
-    output::check_all_free(&args.output.path, args.output.force)?;
+    let page = &args.scoring.page;
+    let files = args.output.path.iter().chain(&page.path);
+    output::check_all_free(files, args.output.force)?;
     check_folders(&args.datasets)?;
     let models = context.models()?;
     let dataset = open_seen(&args.datasets, &args.view, None)?;
@@ -22,5 +24,6 @@ pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Res
     let report = evaluate_task(&dataset, name, fit, context.work(cache.as_ref()))?;
     cache::note(cache.as_ref(), context);
     task_scores::write(&report, &args.output)?;
+    task_scores::write_page(&report, page, Some(&dataset))?;
     Ok(exit::DONE)
 }

@@ -11,7 +11,9 @@ use crate::args::Score;
 use crate::{exit, output};
 
 pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
-    output::check_all_free(&args.output.path, args.output.force)?;
+    let page = &args.scoring.page;
+    let files = args.output.path.iter().chain(&page.path);
+    output::check_all_free(files, args.output.force)?;
     let request = TaskRequest {
         tables: ScoreRequest {
             key: args.key.clone(),
@@ -28,6 +30,7 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         report.sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
     }
     task_scores::write(&report, &args.output)?;
+    task_scores::write_page(&report, page, None)?;
     Ok(exit::DONE)
 }
 

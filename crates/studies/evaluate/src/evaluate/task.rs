@@ -5,8 +5,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use taceva_core::{Field, counted, shown};
 use taceva_dataset::{Dataset, Task, TaskKind};
 use taceva_tasks::events::{EventRule, EventState, Frame};
-use taceva_tasks::{Classes, TaskError, TaskReport, TaskScore, TaskScores};
+use taceva_tasks::{Classes, TaskError, TaskReport, TaskScores};
 
+use super::task_errors::{self, TaskMistake};
 use super::{EvaluateRequest, ModelChoice, evaluate};
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
@@ -94,6 +95,7 @@ pub fn evaluate_task(
     let positive = task.positive.as_deref();
     let positive = task.names.iter().position(|name| positive == Some(name));
     let mut frames: BTreeMap<&str, Vec<Frame>> = BTreeMap::new();
+    let mut wrong = Vec::new();
     for row in 0..samples.rows() {
         let Some([truth, predicted]) = channel.pair(row) else {
             continue;
@@ -107,6 +109,14 @@ pub fn evaluate_task(
         classes
             .push_positions(cluster, &[truth], &[predicted])
             .map_err(|error| refused(task, &error))?;
+        if truth != predicted {
+            wrong.push(TaskMistake {
+                row,
+                cluster,
+                truth,
+                predicted,
+            });
+        }
         let is_event = |class: u32| positive == Some(class as usize);
         let score = f64::from(u8::from(is_event(predicted)));
         let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
@@ -132,8 +142,11 @@ pub fn evaluate_task(
         scores.notes.push(words);
     }
     if task.kind == TaskKind::Event {
-        scores.scores.extend(onsets(frames, task)?);
+        let onsets = onsets(frames, task)?;
+        scores.evidence.delays_s = onsets.delays_s().to_vec();
+        scores.scores.extend(onsets.scores());
     }
+    task_errors::add(&mut scores, wrong, dataset, task);
     let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), "by their row of the dataset");
     report.tables = [("dataset".to_owned(), dataset.digest().to_string())].into();
     report.sources = vec![evaluated.subject.source];
@@ -171,11 +184,8 @@ fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -
     words.collect()
 }
 
-/// Scores of the onsets of an event, in the order of time within each cluster.
-fn onsets(
-    clusters: BTreeMap<&str, Vec<Frame>>,
-    task: &Task,
-) -> Result<Vec<TaskScore>, EvaluateError> {
+/// Onsets of an event, in the order of time within each cluster.
+fn onsets(clusters: BTreeMap<&str, Vec<Frame>>, task: &Task) -> Result<EventState, EvaluateError> {
     let mut state = EventState::new(EventRule::default());
     for (cluster, mut frames) in clusters {
         let time = |frame: &Frame| frame.time_s.unwrap_or_default();
@@ -184,7 +194,7 @@ fn onsets(
             EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
         })?;
     }
-    Ok(state.scores())
+    Ok(state)
 }
 
 fn check_model(fit: &FitRequest, task: &Task) -> Result<(), EvaluateError> {

@@ -184,6 +184,8 @@ fn of_scores(
             }
         }
         scores.scores.extend(ranking.scores());
+        scores.evidence.curve = ranking.curve();
+        scores.evidence.prevalence = ranking.prevalence();
     }
     if !columns.are_all() {
         return Ok(());

@@ -88,6 +88,7 @@ pub(super) fn add(
             .push(cluster, &frames)
             .map_err(|error| of_sequence(truth, cluster, &error))?;
     }
+    scores.evidence.delays_s = state.delays_s().to_vec();
     scores.scores.extend(state.scores());
     Ok(())
 }
