@@ -11,6 +11,7 @@ import csv
 import io
 import json
 import pickle
+import struct
 import tarfile
 from pathlib import Path
 
@@ -264,6 +265,40 @@ def objectfolder_benchmark(to):
     (to / "split.json").write_text(json.dumps({"train": [["1", 0], ["1", 1]], "test": [["2", 0]]}))
 
 
+def chunk(name, content):
+    return name + struct.pack("<I", len(content)) + content + b"\0" * (len(content) % 2)
+
+
+def clip(path, numbers):
+    """Motion JPEG in AVI, with one stream and an index."""
+    pictures = [encoded(n, "JPEG") for n in numbers]
+    rate, (width, height), count = 25, picture(0).size, len(pictures)
+    head = struct.pack("<14I", 1_000_000 // rate, 0, 0, 0x10, count, 0, 1, 0, width, height, 0, 0, 0, 0)
+    stream = b"vidsMJPG" + struct.pack("<IHHIIIIIIII4H", 0, 0, 0, 0, 1, rate, 0, count, 0, 0xFFFFFFFF, 0, 0, 0, width, height)
+    form = struct.pack("<IiiHH4sIiiII", 40, width, height, 1, 24, b"MJPG", width * height * 3, 0, 0, 0, 0)
+    streams = chunk(b"LIST", b"strl" + chunk(b"strh", stream) + chunk(b"strf", form))
+    movie, index = b"movi", b""
+    for data in pictures:
+        index += b"00dc" + struct.pack("<III", 0x10, len(movie), len(data))
+        movie += chunk(b"00dc", data)
+    body = b"AVI " + chunk(b"LIST", b"hdrl" + chunk(b"avih", head) + streams) + chunk(b"LIST", movie) + chunk(b"idx1", index)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(chunk(b"RIFF", body))
+
+
+def tactile_tracking(to):
+    trial = to / "avocado1"
+    clip(trial / "gelsight.avi", range(SAMPLES))
+    # Each picture is turned about z by an angle with the cosine 0.8.
+    turn = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
+    matrices = np.zeros((SAMPLES, 4, 4))
+    for n in range(SAMPLES):
+        matrices[n, :3, :3] = np.linalg.matrix_power(turn, n)
+        matrices[n, :3, 3] = place(n)
+        matrices[n, 3, 3] = 1
+    np.save(trial / "true_start_T_currs.npy", matrices)
+
+
 def sparsh_slip(to):
     """Six presses in the layout of sparsh-force. Pictures are bright while the finger slips."""
     batch = to / "sphere/batch_1"
@@ -297,7 +332,7 @@ LAYOUTS = {
     "ycb-slide": ycb_slide, "touchd": touchd, "tacquad": tacquad, "poseit": poseit, "tool-force": tool_force, "univtac": univtac,
     "gelsight-live": gelsight_live, "fota": fota, "diffusion-zarr": diffusion_zarr,
     "touch-and-go": touch_and_go, "feeling-of-success": feeling_of_success, "objectfolder-benchmark": objectfolder_benchmark,
-    "sparsh-slip": sparsh_slip,
+    "tactile-tracking": tactile_tracking, "sparsh-slip": sparsh_slip,
 }
 
 if __name__ == "__main__":

@@ -13,7 +13,7 @@ pub use maps::{MapEntry, MapFacts};
 const PREFIX: &str = "task.";
 
 /// Parts of a pose, in the order of storage: a position in mm and a unit quaternion.
-const POSE_PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
+static POSE_PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
 /// True if the column `name` of a table contains labels of a task.
 pub fn is_task_column(name: &str) -> bool {

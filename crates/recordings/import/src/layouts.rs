@@ -38,6 +38,7 @@ const FILES: &[(&str, &str)] = files![
     "touch-and-go",
     "feeling-of-success",
     "objectfolder-benchmark",
+    "tactile-tracking",
 ];
 
 /// Header of the preset section, which follows the map.

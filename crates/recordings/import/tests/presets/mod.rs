@@ -27,7 +27,7 @@ struct Expected {
 }
 
 /// Torques are stored in N·mm, positions in mm.
-const EXPECTED: [Expected; 17] = [
+const EXPECTED: [Expected; 18] = [
     Expected {
         preset: "bristol",
         rows: 3,
@@ -237,6 +237,22 @@ const EXPECTED: [Expected; 17] = [
             ("task.material", 2, "6"),
             ("object", 2, "2"),
         ],
+        time: None,
+    },
+    Expected {
+        preset: "tactile-tracking",
+        rows: 3,
+        channels: &[],
+        // The turn of the second picture is about z, with the cosine 0.8.
+        numbers: &[
+            (1, "task.moved.x", 2000.0),
+            (2, "task.moved.y", 5000.0),
+            (0, "task.moved.qw", 1.0),
+            (1, "task.moved.qz", 0.316_227_766_016_837_94),
+        ],
+        pictures: &[0, 1, 2],
+        point: Some("avocado:1"),
+        attributes: &[("object", 0, "avocado")],
         time: None,
     },
 ];

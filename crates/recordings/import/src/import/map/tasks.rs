@@ -25,7 +25,7 @@ const SOURCE_TABLE: &str = "source_table";
 /// Task with its source.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TaskMap {
-    /// Definition, with one source column for classes and files of depth maps, three for places, and seven for poses.
+    /// Definition, with one source column for classes and files of depth maps, three for places, and seven or, with a rotation matrix, twelve for poses.
     pub(crate) task: Task,
     /// Units of the positions x, y, z of a pose or a place; empty for other tasks.
     pub(crate) units: Vec<SourceUnit>,
@@ -62,7 +62,15 @@ pub(super) struct WrittenTask {
 enum WrittenFrom {
     Column(ColumnName),
     Pose(WrittenPose),
+    Matrix(WrittenMatrix),
     Place(WrittenPlace),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenMatrix {
+    t: [ColumnName; 3],
+    m: [ColumnName; 9],
 }
 
 #[derive(Deserialize)]
@@ -308,14 +316,19 @@ impl Check<'_> {
     ) -> Result<TaskMap, DatasetError> {
         let is_class = written.names.is_some() || written.positive.is_some();
         let columns = match written.from {
-            Some(WrittenFrom::Pose(columns)) if !is_class => columns,
+            Some(WrittenFrom::Pose(WrittenPose { t, q })) if !is_class => {
+                t.into_iter().chain(q).collect::<Vec<_>>()
+            }
+            Some(WrittenFrom::Matrix(WrittenMatrix { t, m })) if !is_class => {
+                t.into_iter().chain(m).collect()
+            }
             _ => {
                 let problem = "a pose has `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`, and neither `names` nor \
                     `positive`";
                 return Err(self.at(offset, problem));
             }
         };
-        let columns = columns.t.into_iter().chain(columns.q);
+        let columns = columns.into_iter();
         task.from = columns.map(ColumnName::into_name).collect();
         let units = self.units_of_positions(written.unit.as_ref(), &task.name, offset)?;
         task.over = written.over;

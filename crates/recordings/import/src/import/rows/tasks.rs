@@ -1,6 +1,6 @@
 //! Labels of tasks in a row: positions of classes, poses, places, and files of depth maps.
 
-use super::MappedTable;
+use super::{MappedTable, rotation_matrix};
 use crate::error::{ImportError, table_error};
 use crate::import::map::{TaskMap, no_name};
 use taceva_dataset::internal::listed;
@@ -74,7 +74,7 @@ impl MappedTable<'_> {
         (!name.is_empty()).then(|| (name, self.table.place(row, column)))
     }
 
-    /// Pose in seven cells, or place in three; `None` if all of them are empty.
+    /// Pose in seven cells, or twelve with a rotation matrix, or place in three; `None` if all of them are empty.
     fn numbers(
         &self,
         row: usize,
@@ -102,6 +102,7 @@ impl MappedTable<'_> {
                     *column,
                     match map.task.kind {
                         TaskKind::Place => "empty, expected all three numbers of a place",
+                        _ if columns.len() == 12 => "empty, expected all twelve numbers of a pose",
                         _ => "empty, expected all seven numbers of a pose",
                     },
                 ));
@@ -109,6 +110,20 @@ impl MappedTable<'_> {
         }
         if let Ok(place) = <[f64; 3]>::try_from(numbers.as_slice()) {
             return Ok(Some(TaskLabel::Place(place)));
+        }
+        if let Ok(matrix) = <[f64; 9]>::try_from(&numbers[3..]) {
+            let turned = rotation_matrix::quaternion(matrix);
+            let turned = turned.ok_or_else(|| {
+                table_error!(
+                    self.place(row),
+                    "the matrix of [task.{}] is no rotation, expected perpendicular rows of length 1 ± 0.000001 and the determinant 1: name its \
+                     columns row by row, now {}",
+                    map.task.name,
+                    listed(&map.task.from[3..])
+                )
+            })?;
+            numbers.truncate(3);
+            numbers.extend(turned);
         }
         let Ok(pose) = <[f64; 7]>::try_from(numbers.as_slice()) else {
             return Ok(None);

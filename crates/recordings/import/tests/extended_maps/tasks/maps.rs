@@ -271,3 +271,22 @@ fn a_place_has_three_positions_in_millimetres() {
         .run(&again, NonZeroUsize::MIN, &SilentProgress);
     assert_eq!(report.expect("imported").digest, dataset.digest());
 }
+
+#[test]
+fn poses_may_have_a_rotation_matrix_and_reflections_are_refused_by_row() {
+    let table = "x,y,z,a,b,c,d,e,f,g,h,i,press\n1,2,3,-1,0,0,0,-1,0,0,0,1,a\n";
+    let map = "table = \"labels.csv\"\n[ids]\npoint_id = \"press\"\n[time]\nclock = \"unknown\"\n\
+        [task.moved]\nkind = \"pose\"\nunit = \"mm\"\n\
+        from = { t = [\"x\", \"y\", \"z\"], m = [\"a\", \"b\", \"c\", \"d\", \"e\", \"f\", \"g\", \"h\", \"i\"] }\n";
+    let folder = tempfile::tempdir().expect("a folder");
+    let lab = lab(&[("labels.csv", table)]);
+    let dataset = imported_to(lab.path(), map, &folder.path().join("set"));
+    let half_turn = TaskLabel::Pose([1.0, 2.0, 3.0, 0.0, 0.0, 1.0, 0.0]);
+    assert_eq!(dataset.tasks()[0].label(0), Some(half_turn));
+    let mirror = table.replace("-1,0,0,0,-1,0,0,0,1", "1,0,0,0,1,0,0,0,-1");
+    fs::write(lab.path().join("labels.csv"), mirror).expect("written");
+    let message = planned(lab.path(), map).expect_err("a reflection");
+    for words in ["labels.csv, line 2", "is no rotation", "the determinant 1"] {
+        assert!(message.contains(words), "{message}");
+    }
+}
