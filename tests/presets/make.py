@@ -286,17 +286,33 @@ def clip(path, numbers):
     path.write_bytes(chunk(b"RIFF", body))
 
 
+def poses(numbers):
+    """Matrices at the places of the samples. Each is turned about z from the one before by an angle with the cosine 0.8."""
+    turn = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
+    matrices = np.zeros((len(numbers), 4, 4))
+    for at, n in enumerate(numbers):
+        matrices[at, :3, :3] = np.linalg.matrix_power(turn, n)
+        matrices[at, :3, 3] = place(n)
+        matrices[at, 3, 3] = 1
+    return matrices
+
+
 def tactile_tracking(to):
     trial = to / "avocado1"
     clip(trial / "gelsight.avi", range(SAMPLES))
-    # Each picture is turned about z by an angle with the cosine 0.8.
-    turn = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
-    matrices = np.zeros((SAMPLES, 4, 4))
-    for n in range(SAMPLES):
-        matrices[n, :3, :3] = np.linalg.matrix_power(turn, n)
-        matrices[n, :3, 3] = place(n)
-        matrices[n, 3, 3] = 1
-    np.save(trial / "true_start_T_currs.npy", matrices)
+    np.save(trial / "true_start_T_currs.npy", poses(range(SAMPLES)))
+
+
+def sparsh_pose(to):
+    draw(to / "bgs/digit_index.png", 7)
+    for part, numbers in (("test", (0,)), ("train", (1, 2))):
+        sequence = {"object_poses": [[*place(n), 1, 0, 0, 0] for n in numbers]}
+        for finger, shift in (("index", 0), ("middle", 3), ("ring", 5)):
+            sequence[f"digit_{finger}"] = [encoded(n + shift) for n in numbers]
+            sequence[f"object_{finger}_rel_pose_n5"] = poses(numbers)
+        file = to / part / "sugar/bag_00.pkl"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(pickle.dumps(sequence))
 
 
 def sparsh_slip(to):
@@ -332,7 +348,8 @@ LAYOUTS = {
     "ycb-slide": ycb_slide, "touchd": touchd, "tacquad": tacquad, "poseit": poseit, "tool-force": tool_force, "univtac": univtac,
     "gelsight-live": gelsight_live, "fota": fota, "diffusion-zarr": diffusion_zarr,
     "touch-and-go": touch_and_go, "feeling-of-success": feeling_of_success, "objectfolder-benchmark": objectfolder_benchmark,
-    "tactile-tracking": tactile_tracking, "sparsh-slip": sparsh_slip,
+    "tactile-tracking": tactile_tracking, "sparsh-pose": sparsh_pose,
+    "sparsh-slip": sparsh_slip,
 }
 
 if __name__ == "__main__":

@@ -39,6 +39,7 @@ const FILES: &[(&str, &str)] = files![
     "feeling-of-success",
     "objectfolder-benchmark",
     "tactile-tracking",
+    "sparsh-pose",
 ];
 
 /// Header of the preset section, which follows the map.

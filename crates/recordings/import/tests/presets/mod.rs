@@ -27,7 +27,7 @@ struct Expected {
 }
 
 /// Torques are stored in N·mm, positions in mm.
-const EXPECTED: [Expected; 18] = [
+const EXPECTED: [Expected; 19] = [
     Expected {
         preset: "bristol",
         rows: 3,
@@ -253,6 +253,21 @@ const EXPECTED: [Expected; 18] = [
         pictures: &[0, 1, 2],
         point: Some("avocado:1"),
         attributes: &[("object", 0, "avocado")],
+        time: None,
+    },
+    Expected {
+        preset: "sparsh-pose",
+        rows: 3,
+        channels: &[],
+        numbers: &[
+            (1, "task.moved.x", 2.0),
+            (2, "task.moved.y", 5.0),
+            (0, "task.moved.qw", 1.0),
+            (1, "task.moved.qz", 0.316_227_766_016_837_94),
+        ],
+        pictures: &[0, 1, 2],
+        point: Some("test:sugar:00"),
+        attributes: &[("object", 0, "sugar"), ("part", 2, "train")],
         time: None,
     },
 ];
