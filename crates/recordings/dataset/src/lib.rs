@@ -82,7 +82,7 @@ pub mod internal {
     pub use crate::encode::encode_png;
     pub use crate::file::{check_relative, open_regular, read_capped, write_durable};
     pub use crate::header::{Mapping, Misread, add_left_out};
-    pub use crate::maps::{MapForm, MapPack, map_of_numbers, map_of_png, parts_of_map};
+    pub use crate::maps::{MapForm, MapPack, MapParts, map_of_numbers, map_of_png, parts_of_map};
     pub use crate::parallel::{all_cores, each_part, ordered_map};
     pub use crate::shell::shell_word;
     pub use crate::signals::{SignalsReader, SignalsWriter};

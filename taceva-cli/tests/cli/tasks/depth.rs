@@ -98,6 +98,37 @@ fn predictions_in_another_unit_are_converted() {
     assert_eq!(estimate(&report, "depth_rmse", None)["value"], 0.0);
 }
 
+/// Notes on predictions that equal the maps of a new dataset, and its report.
+fn scored_with_itself(bench: &Bench, maps: &[[f32; 9]]) -> serde_json::Value {
+    write_maps(bench, "lab/depth.npy", maps);
+    write_maps(bench, "maps.npy", maps);
+    bench.ok("import lab --map lab/map.toml --out set --force -q");
+    bench.json(SCORE)
+}
+
+#[test]
+fn maps_without_a_valid_pixel_and_negative_depths_are_counted() {
+    let bench = Bench::new();
+    let mut maps = presses(&bench);
+    maps[0] = [f32::NAN; 9];
+    maps[1][0] = -0.25;
+    let report = scored_with_itself(&bench, &maps);
+    let notes = report["tasks"][0]["notes"].to_string();
+    for words in [
+        "1 map without a pixel that is valid in truth and prediction, left out",
+        "1 valid pixel with a negative depth, kept",
+    ] {
+        assert!(notes.contains(words), "{words}: {notes}");
+    }
+    assert_eq!(estimate(&report, "depth_mae", None)["n"], 40);
+    let report = scored_with_itself(&bench, &[[f32::NAN; 9]; 6]);
+    let error = estimate(&report, "depth_mae", None);
+    assert!(
+        error["value"].is_null() && error["undefined"].is_string(),
+        "{error}"
+    );
+}
+
 #[test]
 fn maps_that_do_not_belong_to_the_dataset_are_refused() {
     let bench = Bench::new();
