@@ -159,7 +159,7 @@ fn presets_are_listed_written_and_named_where_a_folder_does_not_fit() {
     let bench = Bench::new();
     let list = bench.ok("import --presets");
     for part in [
-        "bristol         targets.csv",
+        "bristol                 targets.csv",
         "diffusion-zarr",
         "leaves open: ",
         "--print",
