@@ -98,7 +98,35 @@ fn predictions_in_another_unit_are_converted() {
     assert_eq!(estimate(&report, "depth_rmse", None)["value"], 0.0);
 }
 
-/// Notes on predictions that equal the maps of a new dataset, and its report.
+#[test]
+fn the_mean_map_of_a_declared_training_part_is_the_constant_to_beat() {
+    let bench = Bench::new();
+    let maps = presses(&bench);
+    let parts = ["train", "test", "test", "test", "test", "test"];
+    let rows = parts.iter().zip(0..);
+    let rows = rows.map(|(part, press)| format!("1,p{press},{part}\n"));
+    let table = format!("fz,press,part\n{}", rows.collect::<String>());
+    bench.write("lab/presses.csv", &table);
+    let map = MAP.replace("[ids]\n", "[ids]\npart = \"part\"\n");
+    bench.write("lab/map.toml", &map);
+    bench.ok("import lab --map lab/map.toml --out parts -q");
+    write_maps(&bench, "maps.npy", &maps);
+    let report = bench.json(&SCORE.replace("--truth set", "--truth parts"));
+    let greatest = estimate(&report, "depth_max", None);
+    // The only training map is 0.25 mm deep, and the deepest test map 1.5 mm.
+    assert_eq!(
+        (greatest["value"].as_f64(), greatest["of_constant"].as_f64()),
+        (Some(0.0), Some(1.25))
+    );
+    assert_eq!(estimate(&report, "depth_mae", None)["n"], 40);
+    let notes = report["tasks"][0]["notes"].to_string();
+    assert!(
+        notes.contains("the mean map of 1 sample of the training part"),
+        "{notes}"
+    );
+}
+
+/// Report on predictions that equal the maps of a new dataset.
 fn scored_with_itself(bench: &Bench, maps: &[[f32; 9]]) -> serde_json::Value {
     write_maps(bench, "lab/depth.npy", maps);
     write_maps(bench, "maps.npy", maps);

@@ -4,6 +4,7 @@ mod classes;
 mod depth;
 mod events;
 mod labels;
+mod mean_map;
 mod place;
 mod pose;
 mod rule;

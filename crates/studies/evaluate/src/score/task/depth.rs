@@ -6,9 +6,11 @@ use std::path::Path;
 use taceva_core::{SourceUnit, Unit, counted, shown};
 use taceva_dataset::{Dataset, DatasetError, Digest, Task, TaskKind};
 use taceva_import::MapsFile;
+use taceva_models::Part;
 use taceva_tasks::depth::{DepthError, DepthMap, DepthState, DepthTask};
 use taceva_tasks::{TaskReport, TaskScores, WorstSample};
 
+use super::mean_map::{mean_map, rows_of};
 use super::{TaskRequest, TaskSpec};
 use crate::error::EvaluateError;
 use crate::subject;
@@ -84,16 +86,25 @@ impl Scored<'_> {
         let task = self.task;
         let (dataset, name) = (self.dataset, task.name.as_str());
         let clusters = dataset.clusters_of(task);
+        let training = rows_of(dataset.table(), Part::Train);
+        let scored = match training.is_empty() {
+            true => (0..dataset.table().rows()).collect(),
+            false => rows_of(dataset.table(), Part::Test),
+        };
+        let definition = match mean_map(dataset, name, &training)? {
+            Some(mean) => definition.with_constant(mean),
+            None => definition,
+        };
         let mut state = DepthState::new(definition);
         let mut scores = TaskScores::new(name, task.kind.name(), task.cluster.as_str());
         let mut left_out = 0;
-        for (row, cluster) in clusters.iter().enumerate() {
+        for row in scored {
             let Some(map) = dataset.depth_map(name, row)? else {
                 left_out += 1;
                 continue;
             };
             let sample = &dataset.table().samples()[row];
-            let cluster = cluster.as_deref().ok_or_else(|| {
+            let cluster = clusters[row].as_deref().ok_or_else(|| {
                 EvaluateError::Request(format!(
                     "task `{}`: the sample `{}` has no value in the cluster column `{}`: name another with --cluster COLUMN",
                     shown(name),
@@ -123,11 +134,17 @@ impl Scored<'_> {
         }
         if state.maps() == 0 {
             return Err(EvaluateError::Request(format!(
-                "task `{}`: no sample has a depth map",
+                "task `{}`: no sample of the test part has a depth map",
                 shown(name)
             )));
         }
         scores.notes = notes(&state, left_out);
+        if !training.is_empty() {
+            scores.notes.push(format!(
+                "only the declared test part is scored, and the constant is the mean map of {} of the training part",
+                counted(training.len(), "sample")
+            ));
+        }
         scores.scores = state.scores();
         Ok(scores)
     }
