@@ -87,7 +87,7 @@ impl Scored<'_> {
         let (dataset, name) = (self.dataset, task.name.as_str());
         let clusters = dataset.clusters_of(task);
         let training = rows_of(dataset.table(), Part::Train);
-        let scored = match training.is_empty() {
+        let scored: Vec<usize> = match training.is_empty() {
             true => (0..dataset.table().rows()).collect(),
             false => rows_of(dataset.table(), Part::Test),
         };

@@ -23,7 +23,7 @@ pub(super) fn mean_map(
     let refused =
         |problem: String| EvaluateError::Request(format!("task `{}`: {problem}", shown(task)));
     let mut size = [0; 2];
-    let (mut sums, mut counts) = (Vec::new(), Vec::new());
+    let (mut sums, mut counts) = (Vec::<f64>::new(), Vec::<u32>::new());
     for row in rows {
         let Some(map) = dataset.depth_map(task, *row)? else {
             continue;
