@@ -21,7 +21,7 @@ pub(crate) mod rig;
 mod scores;
 pub(crate) mod stress;
 mod text;
-mod thumbnail;
+pub(crate) mod thumbnail;
 pub(crate) mod triple;
 pub(crate) mod verification_page;
 pub(crate) mod wear;

@@ -57,7 +57,7 @@ pub(crate) struct Evaluate {
     #[arg(
         long,
         value_name = "NAME",
-        conflicts_with_all = ["with", "metrics", "independent", "sensor", "html", "figures", "samples_out", "table", "part", "split_out", "explain"]
+        conflicts_with_all = ["with", "metrics", "independent", "sensor", "figures", "samples_out", "table", "part", "split_out", "explain"]
     )]
     pub(crate) task: Option<String>,
     #[command(flatten)]

@@ -5,7 +5,7 @@ use taceva_evaluate::TaskSpec;
 use taceva_tasks::PublicProgram;
 
 /// Options that concern channels, which tasks do not have.
-const OF_CHANNELS: [&str; 12] = [
+const OF_CHANNELS: [&str; 11] = [
     "units",
     "periods",
     "allow_invalid",
@@ -13,7 +13,6 @@ const OF_CHANNELS: [&str; 12] = [
     "metrics",
     "independent",
     "sensor",
-    "html",
     "figures",
     "samples_out",
     "table",
@@ -23,10 +22,11 @@ const OF_CHANNELS: [&str; 12] = [
 /// Tasks to score in the place of channels.
 #[derive(Debug, Args)]
 pub(crate) struct TaskArgs {
-    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome or pose; may be repeated. The
+    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be repeated. The
     /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
-    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG. Refused beside it, as options of channels: --units, --periods, --allow-invalid,
-    /// --shard, --metrics, --independent, --sensor, --html, --figures, --samples-out, --table, --explain
+    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; the truth of NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions
+    /// are an array of maps (.npy, .npz, .h5). Refused beside it, as options of channels: --units, --periods, --allow-invalid, --shard,
+    /// --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]

@@ -161,3 +161,24 @@ fn a_state_of_a_fitted_task_has_its_scores() {
     let scored = bench.json("evaluate data --task slip --no-cache --state-out slip.state");
     assert_eq!(bench.json("merge slip.state"), scored);
 }
+
+#[test]
+fn slip_of_the_force_set_of_sparsh_is_imported_by_its_preset_and_scored() {
+    let bench = Bench::new();
+    let drawn = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/presets/sparsh-slip");
+    bench.ok(&format!(
+        "import {drawn} --preset sparsh-force --out slips -q"
+    ));
+    let report = bench.json("evaluate slips --task slip --no-cache");
+    crate::schema::check("tasks", &report);
+    assert_eq!(report["tasks"][0]["positive"], "slip");
+    let f1 = estimate(&report, "f1");
+    // Six presses of four pictures, half of which slip. Pictures are bright while the finger slips.
+    assert_eq!(
+        (f1["n"].as_u64(), f1["clusters"].as_u64()),
+        (Some(24), Some(6))
+    );
+    assert_eq!(f1["of_constant"], 2.0 / 3.0);
+    let value = f1["value"].as_f64().expect("defined");
+    assert!(value > 0.8, "{report:#}");
+}

@@ -1,7 +1,9 @@
 //! Scores of tasks of two tables.
 
 mod compared;
+mod depth;
 mod input;
+mod page;
 mod public_programs;
 mod states;
 

@@ -4,6 +4,7 @@ use taceva_core::{Frame, PixelFormat};
 use taceva_dataset::{Header, Table};
 use taceva_evaluate::Divided;
 
+use crate::depth_facts::DepthFacts;
 use crate::signal_facts::SignalFacts;
 use crate::tiles::Tiles;
 use taceva_dataset::RecordedSessions;
@@ -34,6 +35,8 @@ pub struct Evidence<'a> {
     pub reference: Option<&'a FrameFacts>,
     /// Statistics of every taxel; `None` without taxels, or if no check reads signals.
     pub signals: Option<&'a SignalFacts>,
+    /// Statistics of the depth maps of each task; empty if no check reads them.
+    pub maps: &'a [DepthFacts],
     /// Rows whose pictures can be decoded although they are damaged, with a description of the damage.
     pub damaged: &'a [(usize, String)],
     /// Sessions on a real rig that made the recording; `None` without a table of sessions.

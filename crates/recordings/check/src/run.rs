@@ -6,7 +6,8 @@ use taceva_core::shown;
 use taceva_core::{Field, Progress, SkipReason, Skipped, counted};
 use taceva_dataset::{Dataset, Pass, RecordedSessions, TaskKind};
 
-use crate::checks::{ALL, blank, damaged_frames, leakage, unseen_classes};
+use crate::checks::{ALL, blank, damaged_frames, depth_maps, leakage, unseen_classes};
+use crate::depth_facts::DepthFacts;
 use crate::evidence::{Evidence, FrameFacts};
 use crate::finding::{Check, CheckReport, Finding};
 use crate::signal_facts::SignalFacts;
@@ -122,6 +123,13 @@ pub(crate) fn check_seen(
         true => SignalFacts::of(dataset, progress)?,
         false => None,
     };
+    let reads_maps = wanted
+        .iter()
+        .any(|check| check.code == depth_maps::CHECK.code);
+    let maps = match reads_maps {
+        true => DepthFacts::of_tasks(dataset, progress)?,
+        false => Vec::new(),
+    };
     let sessions = RecordedSessions::of(dataset.path());
     let tasks = dataset.tasks().iter();
     let clusters: Vec<_> = tasks.map(|own| dataset.clusters_of(own.task())).collect();
@@ -143,6 +151,7 @@ pub(crate) fn check_seen(
         frames: &frames,
         reference: reference.as_ref(),
         signals: signals.as_ref(),
+        maps: &maps,
         damaged: &damaged,
         sessions: sessions.as_ref(),
     };

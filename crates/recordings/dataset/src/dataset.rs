@@ -1,6 +1,7 @@
 //! A recording on disk, opened for reading.
 
 mod frames;
+mod maps;
 mod pass;
 mod signals;
 mod tasks;

@@ -21,6 +21,7 @@ mod tables;
 mod themes;
 mod triple;
 
+pub(crate) use data_address::address as picture_address;
 pub(crate) use document::Document;
 pub(crate) use figures::{one as drawn, radars};
 pub use picks::{Pick, picks};

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::evidence::TaskEvidence;
 use crate::public_number::PublicNumber;
 use crate::score::TaskScore;
 
@@ -64,14 +65,14 @@ impl TaskReport {
 pub struct TaskScores {
     /// Name of the task.
     pub name: String,
-    /// Kind of the task: `class`, `event`, `outcome` or `pose`.
+    /// Kind of the task: `class`, `event`, `outcome`, `pose`, `place` or `depth`.
     pub kind: String,
     /// Column with the clusters.
     pub cluster: String,
     /// Names of the clusters in order, for comparisons in pairs. Reports omit them.
     #[serde(skip)]
     pub clusters: Vec<String>,
-    /// Classes in their order; empty for a pose.
+    /// Classes in their order; empty for a kind without classes.
     pub names: Vec<String>,
     /// Class that F1, precision and recall describe.
     pub positive: Option<String>,
@@ -84,6 +85,9 @@ pub struct TaskScores {
     /// Numbers as a public program computes them, if requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub as_published: Vec<PublicNumber>,
+    /// Content of the page of the task besides the scores.
+    #[serde(skip)]
+    pub evidence: TaskEvidence,
 }
 
 /// Number of samples of one class that are predicted as one class.
@@ -117,6 +121,7 @@ impl TaskScores {
             scores: Vec::new(),
             confusion: Vec::new(),
             as_published: Vec::new(),
+            evidence: TaskEvidence::default(),
         }
     }
 

@@ -9,6 +9,7 @@ use crate::classes::Classes;
 use crate::depth::DepthState;
 use crate::error::TaskError;
 use crate::events::EventState;
+use crate::evidence::TaskEvidence;
 use crate::names::same;
 use crate::pose::{EulerErrors, PoseState};
 use crate::probabilities::Probabilities;
@@ -19,6 +20,12 @@ use crate::undefined::Undefined;
 
 /// Places of `top_k`.
 const PLACES: [u64; 2] = [2, 3];
+
+/// Kind of a task of places, whose states are poses without rotation.
+const PLACE: &str = "place";
+
+/// Scores of poses that a place has.
+const OF_PLACES: [&str; 2] = ["pose_translation", "pose_axis"];
 
 /// Sums of one task by cluster, with the definition of the task.
 ///
@@ -44,7 +51,7 @@ const PLACES: [u64; 2] = [2, 3];
 pub struct TaskState {
     /// Name of the task.
     pub name: String,
-    /// Kind of the task: `class`, `event`, `outcome` or `pose`.
+    /// Kind of the task: `class`, `event`, `outcome`, `pose`, `place` or `depth`.
     pub kind: String,
     /// Column with the clusters.
     pub cluster: String,
@@ -70,6 +77,9 @@ pub struct TaskState {
     pub euler: Option<EulerErrors>,
     /// Errors of depth maps.
     pub depth: Option<DepthState>,
+    /// Samples with the greatest errors, for pages. Files of states omit them.
+    #[serde(skip)]
+    pub evidence: TaskEvidence,
 }
 
 impl TaskState {
@@ -95,6 +105,7 @@ impl TaskState {
             pose: None,
             euler: None,
             depth: None,
+            evidence: TaskEvidence::default(),
         }
     }
 
@@ -155,6 +166,9 @@ impl TaskState {
         let eulers = |ours: EulerErrors, theirs| Ok(ours.merge(&theirs));
         self.euler = both("Euler angles", self.euler, other.euler, eulers)?;
         self.depth = both("depth maps", self.depth, other.depth, DepthState::merge)?;
+        for sample in other.evidence.worst {
+            self.evidence.add_worst(sample);
+        }
         Ok(self)
     }
 
@@ -194,6 +208,14 @@ impl TaskState {
         scores
             .notes
             .extend(self.depth.iter().flat_map(remarks_on_maps));
+        scores.evidence = self.evidence.clone();
+        if let Some(ranking) = &self.ranking {
+            scores.evidence.curve = ranking.curve();
+            scores.evidence.prevalence = ranking.prevalence();
+        }
+        if let Some(events) = &self.events {
+            scores.evidence.delays_s = events.delays_s().to_vec();
+        }
         let all = &mut scores.scores;
         all.extend(self.ranking.iter().flat_map(Ranking::scores));
         all.extend(self.probabilities.iter().flat_map(Probabilities::scores));
@@ -204,10 +226,12 @@ impl TaskState {
         }
         all.extend(self.events.iter().flat_map(EventState::scores));
         let of_poses = self.pose.iter().flat_map(PoseState::scores);
-        // A task without points of an object has no distances of points.
-        all.extend(
-            of_poses.filter(|score| score.estimate.value.err() != Some(Undefined::NoPoints)),
-        );
+        // A task without points of an object has no distances of points, and a place has no rotation.
+        let is_place = self.kind == PLACE;
+        all.extend(of_poses.filter(|score| match is_place {
+            true => OF_PLACES.contains(&score.metric),
+            false => score.estimate.value.err() != Some(Undefined::NoPoints),
+        }));
         all.extend(self.depth.iter().flat_map(DepthState::scores));
         scores
     }

@@ -10,6 +10,7 @@ mod plan;
 mod request;
 mod scores;
 mod task;
+mod task_errors;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::catalogue;

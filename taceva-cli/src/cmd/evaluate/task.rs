@@ -8,8 +8,9 @@ use crate::args::Evaluate;
 use crate::{exit, output};
 
 pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
-    let state_out = &args.scoring.state_out;
-    output::check_all_free(args.output.path.iter().chain(state_out), args.output.force)?;
+    let (state_out, page) = (&args.scoring.state_out, &args.scoring.page);
+    let files = args.output.path.iter().chain(state_out).chain(&page.path);
+    output::check_all_free(files, args.output.force)?;
     check_folders(&args.datasets)?;
     let models = context.models()?;
     let dataset = open_seen(&args.datasets, &args.view, None)?;
@@ -22,6 +23,7 @@ pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Res
     let cache = cache::of(&args.cache);
     let states = evaluate_task(&dataset, name, fit, context.work(cache.as_ref()))?;
     cache::note(cache.as_ref(), context);
-    task_scores::write(&states, &args.output, state_out.as_deref())?;
+    let report = task_scores::write(&states, &args.output, state_out.as_deref())?;
+    task_scores::write_page(&report, page, Some(&dataset))?;
     Ok(exit::DONE)
 }

@@ -11,8 +11,9 @@ use crate::args::Score;
 use crate::{exit, output};
 
 pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
-    let state_out = &args.scoring.state_out;
-    output::check_all_free(args.output.path.iter().chain(state_out), args.output.force)?;
+    let (state_out, page) = (&args.scoring.state_out, &args.scoring.page);
+    let files = args.output.path.iter().chain(state_out).chain(&page.path);
+    output::check_all_free(files, args.output.force)?;
     let request = TaskRequest {
         tables: ScoreRequest {
             key: args.key.clone(),
@@ -24,16 +25,18 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         cluster: args.task.cluster.clone(),
     };
     let mut states = task_states(&request)?;
+    // The truth of depth maps is a dataset, which states its origin.
     if states.sources.is_empty() {
         states.sources.insert(origin::beside(&args.truth)?);
     }
     let state_out = state_out.as_deref();
-    match args.task.program {
+    let report = match args.task.program {
         Some(program) => {
-            task_scores::write_as_published(program, &states, &args.output, state_out)?;
+            task_scores::write_as_published(program, &states, &args.output, state_out)?
         }
         None => task_scores::write(&states, &args.output, state_out)?,
-    }
+    };
+    task_scores::write_page(&report, page, None)?;
     Ok(exit::DONE)
 }
 

@@ -268,3 +268,44 @@ fn a_quaternion_of_another_norm_is_an_error_with_its_sample() {
         ("b", Severity::Error)
     );
 }
+
+#[test]
+fn depth_maps_without_a_valid_pixel_and_depths_in_another_unit_are_named_by_sample() {
+    let found = |unit: &str, invalid: f32| {
+        let table = "force,press\n1,a\n2,b\n";
+        let map = format!(
+            "map_version = 2\ntable = \"t.csv\"\n[columns]\nFz = {{ from = \"force\", unit = \"N\" }}\n[ids]\npoint_id = \"press\"\n\
+             [task.shape]\nkind = \"depth\"\narray = \"d.npy\"\nunit = \"{unit}\"\n[time]\nclock = \"unknown\"\n{SENSOR}"
+        );
+        let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 1, 2), }\n";
+        let length = u16::try_from(header.len()).expect("short");
+        let mut array = [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..]].concat();
+        array.extend(header.as_bytes());
+        for number in [0.0, 100.0, f32::NAN, invalid] {
+            array.extend(number.to_le_bytes());
+        }
+        let files = [("t.csv", table.as_bytes().to_vec()), ("d.npy", array)];
+        imported(&files, &map, &["TAC033"])
+    };
+    let report = found("um", f32::NAN);
+    let [finding] = only(&report, "TAC033")[..] else {
+        panic!("{:?}", report.findings);
+    };
+    assert_eq!(
+        finding.message,
+        "task `shape`: 1 of 2 depth maps have no valid pixel"
+    );
+    assert_eq!(
+        (finding.samples[0].as_str(), finding.severity),
+        ("1", Severity::Warning)
+    );
+    let report = found("mm", 0.5);
+    let [finding] = only(&report, "TAC033")[..] else {
+        panic!("{:?}", report.findings);
+    };
+    assert_eq!(
+        finding.message,
+        "task `shape`: 1 of 2 depth maps have depths above 50 mm, up to 100 mm: their unit or scale may be wrong"
+    );
+    assert!(only(&found("um", 0.5), "TAC033").is_empty());
+}

@@ -7,7 +7,7 @@ use super::union::SEPARATOR;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::table::TaskColumn;
-use crate::task::{Task, TaskKind};
+use crate::task::Task;
 
 /// Columns whose values [`Dataset::joined`] makes distinct between recordings.
 const DISTINCT: [&str; 2] = ["sample", "point_id"];
@@ -38,18 +38,17 @@ impl Dataset {
     /// A row without a label of the task has no label. The digest depends on the dataset and on the task.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for an unknown task, and for a task of poses, which has no classes.
+    /// [`DatasetError::Request`] for an unknown task, and for a kind of task without classes, such as poses.
     pub fn of_task(&self, name: &str) -> Result<Dataset, DatasetError> {
-        let own = self
-            .table
-            .task(name)
-            .ok_or_else(|| self.unknown_task(name))?;
-        if own.task().kind == TaskKind::Pose {
+        let own = self.task_called(name)?;
+        let kind = own.task().kind;
+        if !kind.has_classes() {
             return Err(DatasetError::request(
                 self.path(),
                 format!(
-                    "the task `{}` is a pose, expected a task with classes",
-                    shown(name)
+                    "the kind of the task `{}` is {}, expected a task with classes",
+                    shown(name),
+                    kind.name()
                 ),
             ));
         }
@@ -73,6 +72,12 @@ impl Dataset {
             seen: self.seen.clone(),
             ..Dataset::of(self.folder.again()?, header, table)
         })
+    }
+
+    /// Labels of the task called `name`.
+    pub(super) fn task_called(&self, name: &str) -> Result<&TaskColumn, DatasetError> {
+        let own = self.table.task(name);
+        own.ok_or_else(|| self.unknown_task(name))
     }
 
     fn unknown_task(&self, name: &str) -> DatasetError {

@@ -17,7 +17,7 @@ use crate::samples::from_parquet;
 use crate::table::{FrameEntry, Table};
 
 impl Dataset {
-    /// Reads all frames, signals and predictions, and checks their digests. Does not decode frames.
+    /// Reads all frames, depth maps, signals and predictions, and checks their digests. Does not decode frames.
     ///
     /// # Errors
     /// Errors of [`frame_bytes`](Dataset::frame_bytes), for the first file that differs from its digest.
@@ -37,6 +37,7 @@ impl Dataset {
             self.frame_bytes(entry)?;
         }
         self.verify_predictions()?;
+        self.verify_maps()?;
         self.verify_signals()
     }
 

@@ -1,10 +1,10 @@
-//! Labels of tasks, in one column for classes and in seven for poses.
+//! Labels of tasks, in one column for classes, in seven for poses, in three for places, and in two for depth maps.
 
 use taceva_core::{Channel, Channels, Column};
 
 use super::{Cells, NamedColumn, Table};
 use crate::digest::{Digest, PartsDigest};
-use crate::task::{Task, TaskKind, TaskLabel};
+use crate::task::{MapEntry, Task, TaskKind, TaskLabel};
 
 /// Labels of one task, one per row.
 ///
@@ -31,17 +31,23 @@ pub struct TaskColumn {
 #[derive(Clone, Debug, PartialEq)]
 enum TaskCells {
     Classes(Vec<Option<u32>>),
-    Poses([Vec<Option<f64>>; 7]),
+    /// One list for each number of a pose or of a place.
+    Numbers(Vec<Vec<Option<f64>>>),
+    Maps(Vec<Option<MapEntry>>),
 }
 
 impl TaskColumn {
     fn new(task: Task) -> TaskColumn {
+        let columns = task.columns();
         TaskColumn {
-            columns: task.columns(),
             cells: match task.kind {
-                TaskKind::Pose => TaskCells::Poses(Default::default()),
+                TaskKind::Pose | TaskKind::Place => {
+                    TaskCells::Numbers(vec![Vec::new(); columns.len()])
+                }
+                TaskKind::Depth => TaskCells::Maps(Vec::new()),
                 _ => TaskCells::Classes(Vec::new()),
             },
+            columns,
             task,
         }
     }
@@ -58,17 +64,16 @@ impl TaskColumn {
     pub fn label(&self, row: usize) -> Option<TaskLabel> {
         match &self.cells {
             TaskCells::Classes(classes) => classes[row].map(TaskLabel::Class),
-            TaskCells::Poses(parts) => {
-                let mut pose = [0.0; 7];
-                for (number, part) in pose.iter_mut().zip(parts) {
-                    *number = part[row]?;
-                }
-                Some(TaskLabel::Pose(pose))
+            TaskCells::Numbers(parts) => {
+                let numbers = parts.iter().map(|part| part[row]);
+                let numbers: Option<Vec<f64>> = numbers.collect();
+                TaskLabel::of_numbers(&numbers?)
             }
+            TaskCells::Maps(maps) => maps[row].map(TaskLabel::Map),
         }
     }
 
-    /// Name of the class of a row; `None` if the row has no label, and for a pose.
+    /// Name of the class of a row; `None` if the row has no label, and for a kind without classes.
     ///
     /// # Panics
     /// Panics if the row does not exist.
@@ -89,12 +94,15 @@ impl TaskColumn {
                 );
                 classes.push(Some(class));
             }
-            (TaskCells::Poses(parts), None) => parts.iter_mut().for_each(|part| part.push(None)),
-            (TaskCells::Poses(parts), Some(TaskLabel::Pose(pose))) => {
-                for (part, number) in parts.iter_mut().zip(pose) {
-                    part.push(Some(number));
-                }
+            (TaskCells::Numbers(parts), None) => parts.iter_mut().for_each(|part| part.push(None)),
+            (TaskCells::Numbers(parts), Some(TaskLabel::Pose(pose))) if parts.len() == 7 => {
+                push_each(parts, &pose);
             }
+            (TaskCells::Numbers(parts), Some(TaskLabel::Place(place))) if parts.len() == 3 => {
+                push_each(parts, &place);
+            }
+            (TaskCells::Maps(maps), None) => maps.push(None),
+            (TaskCells::Maps(maps), Some(TaskLabel::Map(entry))) => maps.push(Some(entry)),
             (_, Some(_)) => panic!("a label of the kind of `{}`", self.task.name),
         }
     }
@@ -102,7 +110,8 @@ impl TaskColumn {
     pub(super) fn named_columns(&self) -> Vec<NamedColumn<'_>> {
         let cells: Vec<Cells<'_>> = match &self.cells {
             TaskCells::Classes(classes) => vec![Cells::Class(classes, &self.task.names)],
-            TaskCells::Poses(parts) => parts.iter().map(|part| Cells::Measured(part)).collect(),
+            TaskCells::Numbers(parts) => parts.iter().map(|part| Cells::Measured(part)).collect(),
+            TaskCells::Maps(maps) => vec![Cells::MapPlace(maps), Cells::MapDigest(maps)],
         };
         let names = self.columns.iter();
         names
@@ -112,7 +121,27 @@ impl TaskColumn {
     }
 }
 
+fn push_each(parts: &mut [Vec<Option<f64>>], numbers: &[f64]) {
+    for (part, number) in parts.iter_mut().zip(numbers) {
+        part.push(Some(*number));
+    }
+}
+
 impl Table {
+    /// Sets the depth map of a row for the task called `task`.
+    ///
+    /// # Panics
+    /// Panics if the row or a task of depth maps with this name does not exist.
+    #[doc(hidden)]
+    pub fn set_map(&mut self, task: &str, row: usize, entry: MapEntry) {
+        let mut tasks = self.tasks.iter_mut();
+        let own = tasks.find(|own| own.task.name == task);
+        let Some(TaskCells::Maps(maps)) = own.map(|own| &mut own.cells) else {
+            panic!("a task of depth maps called `{task}`");
+        };
+        maps[row] = Some(entry);
+    }
+
     /// The same table, for rows with a label of each of `tasks`, which are sorted by name. The table must be empty.
     ///
     /// # Panics
@@ -166,6 +195,10 @@ impl Table {
         for own in &self.tasks {
             digest.part(own.task.definition().as_bytes());
             for column in own.named_columns() {
+                // The digest of a map beside it says more than its place.
+                if matches!(column.cells, Cells::MapPlace(_)) {
+                    continue;
+                }
                 for row in 0..self.rows() {
                     column.cells.digest(row, &mut digest);
                 }

@@ -118,6 +118,14 @@ impl ImportPlan {
             progress,
         )?;
         folders.extend(frames.folders.iter().cloned());
+        let maps = write_maps(
+            &self.maps,
+            &staged,
+            Some(&before),
+            &mut self.table,
+            progress,
+        )?;
+        folders.extend(maps);
         self.check_alike(&before, Some(&frames))?;
         let table = self.joined_table(&before);
         let signals = self.signals.as_ref();

@@ -16,5 +16,6 @@ mod reports;
 #[path = "../support/mod.rs"]
 mod support;
 mod task_comparison;
+mod task_page;
 mod values;
 mod verdicts;

@@ -7,6 +7,7 @@ use taceva_dataset::{Dataset, Task, TaskKind};
 use taceva_tasks::events::{EventRule, EventState, Frame};
 use taceva_tasks::{Classes, TaskError, TaskState};
 
+use super::task_errors::{self, TaskMistake};
 use super::{EvaluateRequest, ModelChoice, evaluate};
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
@@ -106,6 +107,8 @@ struct Predicted<'a> {
     classes: Classes,
     /// Frames of each cluster, with the positive class as the event.
     frames: BTreeMap<&'a str, Vec<Frame>>,
+    /// Samples whose predicted class is wrong.
+    wrong: Vec<TaskMistake<'a>>,
 }
 
 impl<'a> Predicted<'a> {
@@ -123,6 +126,7 @@ impl<'a> Predicted<'a> {
             clusters,
             classes: classes.map_err(|error| refused(task, &error))?,
             frames: BTreeMap::new(),
+            wrong: Vec::new(),
         };
         let positive = task.names.iter().position(|name| positive == Some(name));
         let is_event = |class: u32| positive == Some(class as usize);
@@ -144,6 +148,14 @@ impl<'a> Predicted<'a> {
                 .classes
                 .push_positions(cluster, &[truth], &[predicted])
                 .map_err(|error| refused(task, &error))?;
+            if truth != predicted {
+                found.wrong.push(TaskMistake {
+                    row,
+                    cluster,
+                    truth,
+                    predicted,
+                });
+            }
             let score = f64::from(u8::from(is_event(predicted)));
             let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
             found.frames.entry(cluster).or_default().push(frame);
@@ -172,6 +184,7 @@ impl<'a> Predicted<'a> {
             state.events = Some(onsets(self.frames, task)?);
             state.is_sequence = true;
         }
+        task_errors::add(&mut state, self.wrong, dataset, task);
         Ok(state)
     }
 }

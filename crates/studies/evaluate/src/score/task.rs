@@ -1,8 +1,11 @@
 //! Scores of tasks that another program predicted: classes, events, outcomes and changes of pose, from two tables.
 
 mod classes;
+mod depth;
 mod events;
 mod labels;
+mod mean_map;
+mod place;
 mod pose;
 mod rule;
 mod score_columns;
@@ -59,7 +62,9 @@ struct RowPair {
 /// Scores the tasks of two tables.
 ///
 /// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
-/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`.
+/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
+///
+/// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
 ///
 /// ```
 /// use taceva_evaluate::{ScoreRequest, TaskRequest, score_tasks};
@@ -90,6 +95,9 @@ pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
 /// Errors of [`score_tasks`].
 pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     check_names(request)?;
+    if let Some(task) = request.tasks.iter().find(|of| of.kind == TaskKind::Depth) {
+        return depth::states(request, task);
+    }
     tables::check_distinct(&request.tables)?;
     let [(truth, of_truth), (prediction, of_prediction)] = tables::read_both(&request.tables)?;
     tables::check_rows(&truth)?;
@@ -118,6 +126,7 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
         let rule = request.rules.get(&task.name);
         states.tasks.push(match task.kind {
             TaskKind::Pose => pose::state(&tables, &clusters, task)?,
+            TaskKind::Place => place::state(&tables, &clusters, task)?,
             _ => classes::state(&tables, &clusters, task, rule)?,
         });
     }
@@ -140,12 +149,12 @@ fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
         }
         before.push(name);
     }
-    let of_poses = request.tasks.iter().filter(|of| of.kind == TaskKind::Pose);
-    let mut poses = of_poses.map(|of| &of.name);
-    if let Some(name) = poses.find(|name| request.rules.contains_key(*name)) {
+    let mut measured = request.tasks.iter().filter(|of| !of.kind.has_classes());
+    if let Some(of) = measured.find(|of| request.rules.contains_key(&of.name)) {
         return Err(EvaluateError::Request(format!(
-            "a threshold or a debounce is given for `{}`, which is a pose: omit it",
-            shown(name)
+            "a threshold or a debounce is given for `{}`, which is a {}: omit it",
+            shown(&of.name),
+            of.kind.name()
         )));
     }
     match request

@@ -2,9 +2,10 @@
 
 use taceva_core::shown;
 use taceva_import::CsvTable;
-use taceva_tasks::TaskState;
 use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
+use taceva_tasks::{TaskState, WorstSample};
 
+use super::place::distance_mm;
 use super::{Clusters, TaskSpec, TaskTables, empty};
 use crate::error::EvaluateError;
 
@@ -78,6 +79,7 @@ pub(super) fn state(
     let prediction = PoseColumns::of(&tables.prediction, &task.name)?;
     let mut state = PoseState::new(definition(task)?);
     let mut euler = EulerErrors::default();
+    let mut of_task = empty(task, clusters);
     let mut left_out = 0;
     for pair in &tables.pairs {
         let Some(true_pose) = truth.pose(pair.truth)? else {
@@ -91,10 +93,14 @@ pub(super) fn state(
                 .refuse(pair.prediction, prediction.columns[0], expected);
             return Err(refused.into());
         };
-        state.push(clusters.cell(*pair)?, &true_pose, &predicted);
+        let cluster = clusters.cell(*pair)?;
+        state.push(cluster, &true_pose, &predicted);
         euler.push(&true_pose, &predicted);
+        let error = distance_mm(&true_pose, &predicted);
+        let sample = format!("row {}", pair.truth + 1);
+        let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
+        of_task.evidence.add_worst(worst);
     }
-    let mut of_task = empty(task, clusters);
     of_task.unlabelled = left_out;
     of_task.pose = Some(state);
     of_task.euler = Some(euler);
