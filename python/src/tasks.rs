@@ -78,6 +78,7 @@ impl AskedTask {
 
 /// Scores of the tasks of two tables. `tasks` is a JSON list of tasks, `source` the origin of the samples.
 #[pyfunction]
+#[pyo3(signature = (truth, prediction, tasks, cluster, key, source))]
 pub(crate) fn task_scores(
     py: Python<'_>,
     truth: PathBuf,
