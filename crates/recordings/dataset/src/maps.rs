@@ -22,7 +22,6 @@ const HEAD: usize = 9;
 /// Depth map of a sample, read from a dataset.
 ///
 /// ```
-/// # use taceva_core::Channels;
 /// # use taceva_dataset::{MapFacts, StoredMap};
 /// # use taceva_dataset::internal::map_of_numbers;
 /// # let bytes = map_of_numbers([1, 2], &[250.0, f64::NAN], None)?;

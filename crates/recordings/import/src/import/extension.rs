@@ -10,6 +10,7 @@ use std::path::Path;
 use taceva_core::Progress;
 
 use super::copy::{CopiedFrames, ImportReport, copy_frames};
+use super::depth_maps::write_maps;
 use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
 use crate::error::ImportError;

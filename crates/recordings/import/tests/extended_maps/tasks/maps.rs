@@ -239,6 +239,37 @@ fn maps_of_another_size_without_a_unit_or_fewer_than_rows_are_refused() {
 }
 
 #[test]
+fn a_task_of_maps_that_is_named_like_a_path_is_refused_before_a_file_is_read() {
+    let (lab, folder) = (folder_of_maps(), tempfile::tempdir().expect("a folder"));
+    let dataset = dataset_of(lab.path(), FILES, &folder.path().join("set"));
+    let header = dataset.path().join("dataset.toml");
+    let text = fs::read_to_string(&header).expect("read");
+    let (body, _) = text.split_once("\n[seal]").expect("sealed");
+    let named = body.replace("[task.shape", "[task.\"../shape\"");
+    let named = taceva_files::seal::toml_text::seal(&format!("{named}\n")).expect("TOML");
+    fs::write(&header, named).expect("written");
+    let message = Dataset::open(dataset.path())
+        .expect_err("refused")
+        .to_string();
+    assert!(
+        message.contains("the name `../shape` of a task"),
+        "{message}"
+    );
+}
+
+#[test]
+fn maps_too_large_to_be_held_are_refused_before_they_are_read() {
+    let lab = folder_of_maps();
+    let array = lab.path().join("depth.npy");
+    fs::write(&array, singles("(3, 1, 20000)", &[0.0; 60_000])).expect("written");
+    let message = refused(lab.path(), ARRAY);
+    assert!(
+        message.contains("depth maps of 1 x 20000 pixels, expected sides up to 16384"),
+        "{message}"
+    );
+}
+
+#[test]
 fn a_place_has_three_positions_in_millimetres() {
     let table = "x,y,z,press\n0.001,0,-0.5,a\n,,,b\n";
     let map = "table = \"labels.csv\"\n[ids]\npoint_id = \"press\"\n[time]\nclock = \"unknown\"\n\

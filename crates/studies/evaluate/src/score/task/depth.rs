@@ -25,6 +25,12 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
             shown(&of.name)
         )));
     }
+    if request.tables.key.is_some() {
+        return Err(EvaluateError::Request(format!(
+            "a key is given for the depth maps `{}`, which are paired in the order of the samples of the dataset: omit it",
+            shown(&of.name)
+        )));
+    }
     let (truth, prediction) = (&request.tables.truth, &request.tables.prediction);
     if !truth.is_dir() {
         return Err(EvaluateError::Tables {
@@ -89,7 +95,9 @@ impl Scored<'_> {
             true => (0..dataset.table().rows()).collect(),
             false => rows_of(dataset.table(), Part::Test),
         };
-        let definition = match mean_map(dataset, name, &training)? {
+        let mean = mean_map(dataset, name, &training)?;
+        let has_mean = mean.is_some();
+        let definition = match mean {
             Some(mean) => definition.with_constant(mean),
             None => definition,
         };
@@ -132,8 +140,12 @@ impl Scored<'_> {
         }
         if state.maps() == 0 {
             return Err(EvaluateError::Request(format!(
-                "task `{}`: no sample of the test part has a depth map",
-                shown(name)
+                "task `{}`: no sample{} has a depth map",
+                shown(name),
+                match training.is_empty() {
+                    true => "",
+                    false => " of the declared test part",
+                }
             )));
         }
         if left_out > 0 {
@@ -143,8 +155,12 @@ impl Scored<'_> {
                 .push(format!("{samples} without a depth map, left out"));
         }
         if !training.is_empty() {
+            let constant = match has_mean {
+                true => "the constant is the mean map",
+                false => "there is no constant, because no map is",
+            };
             of_task.notes.push(format!(
-                "only the declared test part is scored, and the constant is the mean map of {} of the training part",
+                "only the declared test part is scored, and {constant} of {} of the training part",
                 counted(training.len(), "sample")
             ));
         }
