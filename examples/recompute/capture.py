@@ -9,7 +9,9 @@ from hull import area
 from intervals import Undefined, wilson_of_independent
 from study import Rows, score, scored, whole
 
-GATE, TOLERANCE, WIDEST = 0.02, 0.05, 1.5
+GATE, WIDEST = 0.02, 1.5
+# Distance of two points of the curve of recognised gratings, nm.
+STEP = 50_000
 
 
 def gratings(study, metric, label, _):
@@ -19,21 +21,23 @@ def gratings(study, metric, label, _):
     ok = of_kind & ~np.isnan(truth) & ~np.isnan(predicted)
     truth, predicted = np.rint(np.where(ok, truth, 0) * 1e6), np.rint(np.where(ok, predicted, 0) * 1e6)
     off = np.abs(truth - predicted)
+    tolerance = whole(study.settings["tolerance_mm"])
 
     def share(kept, limit):
         kept = ok & kept
         return int((off[kept] <= limit).sum()) / int(kept.sum()) if kept.any() else Undefined("no samples")
 
     def numbers(kept):
-        return {"value": share(kept, whole(TOLERANCE)), "exact": share(kept, 0)}
+        return {"value": share(kept, tolerance), "exact": share(kept, 0)}
 
     nodes = scored(rows, numbers, lambda kept: int((ok & kept).sum()), {"value": "share", "exact": "share"})
     n = int(ok.sum())
-    within = [int((off[ok] <= whole(TOLERANCE) * step).sum()) for step in range(21)]
-    best = max(int(((truth[ok] >= low) & (truth[ok] <= low + 2 * whole(TOLERANCE))).sum()) for low in set(truth[ok]))
+    within = [int((off[ok] <= STEP * step).sum()) for step in range(21)]
+    hits = int((off[ok] <= tolerance).sum())
+    best = max(int(((truth[ok] >= low) & (truth[ok] <= low + 2 * tolerance)).sum()) for low in set(truth[ok]))
     nodes["of_constant"] = {"value": best / n}
-    nodes["wilson"] = {"value": within[1] / n} | wilson_of_independent(within[1] / n, n)
-    curve = {"x": [step * 50 / 1000 for step in range(21)], "values": [hits / n for hits in within], "counts": within}
+    nodes["wilson"] = {"value": hits / n} | wilson_of_independent(hits / n, n)
+    curve = {"x": [step * 50 / 1000 for step in range(21)], "values": [count / n for count in within], "counts": within}
     return score(nodes, n, curve=curve)
 
 

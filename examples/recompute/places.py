@@ -11,7 +11,7 @@ from hull import contains, hull
 from intervals import Undefined, attempt, deviation, jackknife, known, mean, number, of_components, square_sum
 from study import Rows, by_channel, channels, every, score, scored, whole
 
-GATE, MAP, FEW = 0.02, 20, 5
+STEPS, MAP, FEW, DDOF = 100, 20, 5, 0
 
 
 def binned(keys, values):
@@ -46,17 +46,17 @@ def node(function):
     return {} if isinstance(found, Undefined) else found
 
 
-def surface(study, metric, _, given):
+def surface(study, metric, *_):
     """Compliance Pz / Fz, its map, and how uniform it is over the surface."""
     rows = Rows(study, metric, predicted=False)
-    bins, n_min, ddof = (int(given["parameters"][name]) for name in ("bins", "n_min", "ddof"))
+    bins, n_min, gate = (study.settings[name] for name in ("bins", "n_min", "gate_N"))
     depth, force = rows.truth("Pz"), rows.truth("Fz")
     have = ~np.isnan(depth) & ~np.isnan(force)
-    gated = have & ((force < GATE) | (depth <= 0))
+    gated = have & ((force < gate) | (depth <= 0))
     ok = have & ~gated
     compliance = np.full(len(ok), math.nan)
     compliance[ok] = depth[ok] / force[ok]
-    normal = ok & (np.abs(rows.truth("Fx")) < GATE) & (np.abs(rows.truth("Fy")) < GATE)
+    normal = ok & (np.abs(rows.truth("Fx")) < gate) & (np.abs(rows.truth("Fy")) < gate)
     places = [study.cell(x, y, bins) if of and not math.isnan(x + y) else () for x, y, of in zip(rows.truth("Px"), rows.truth("Py"), ok)]
     cell = np.array([place[0] * bins + place[1] if place else -1 for place in places])
     on_map = cell >= 0
@@ -68,7 +68,7 @@ def surface(study, metric, _, given):
 
     def numbers(kept):
         spreads = [
-            of_means(binned(cell[on_map & also & kept], compliance[on_map & also & kept]), least, ddof)
+            of_means(binned(cell[on_map & also & kept], compliance[on_map & also & kept]), least, DDOF)
             for also, least in ((rows.all, n_min), (rows.all, FEW), (normal, n_min))
         ]
         of = [attempt(lambda s=s: ratio(known(s["mean"]), known(s["deviation"]))) for s in spreads]
@@ -112,10 +112,10 @@ def map_of(study, found, bins, n_min=1):
     return {"x_mm": x, "y_mm": y, "values": values, "counts": [[len(of) for of in line] for line in places]}
 
 
-def r_spatial(study, metric, label, given):
+def r_spatial(study, metric, label, _):
     """Deviation of the mean absolute error between rings and between levels of depth."""
     rows = Rows(study, metric)
-    steps, n_min, ddof, window = (int(given["parameters"][name]) for name in ("bins", "n_min", "ddof", "window"))
+    n_min, window = study.settings["n_min"], study.settings["smoothing"]
     ring, level = (np.full(len(rows.rows), -1) for _ in range(2))
     outside = np.zeros(len(rows.rows), bool)
     for row, place in enumerate(zip(*(rows.truth(axis) for axis in ("Px", "Py", "Pz")))):
@@ -126,8 +126,8 @@ def r_spatial(study, metric, label, given):
         if square > study.reach**2 or not 0 <= z <= study.depth_max:
             outside[row] = True
             continue
-        ring[row] = min(math.isqrt(steps * steps * square) // study.reach, steps - 1)
-        level[row] = min(z * steps // study.depth_max, steps - 1)
+        ring[row] = min(math.isqrt(STEPS * STEPS * square) // study.reach, STEPS - 1)
+        level[row] = min(z * STEPS // study.depth_max, STEPS - 1)
     names = channels(label)
     error = {channel: np.abs(rows.truth(channel) - rows.predicted(channel, free=True)) for channel in names}
     ok = {channel: (ring >= 0) & ~np.isnan(error[channel]) for channel in names}
@@ -137,13 +137,13 @@ def r_spatial(study, metric, label, given):
         reach = window // 2
         if not means:
             raise Undefined("no bin")
-        return deviation([mean(means[max(0, at - reach) : at + reach + 1]) for at in range(len(means))], ddof)
+        return deviation([mean(means[max(0, at - reach) : at + reach + 1]) for at in range(len(means))], DDOF)
 
     def one(channel, kept):
         kept = ok[channel] & kept
         both = [binned(keys[kept], error[channel][kept]) for keys in (ring, level)]
-        full = [of_means(bins, n_min, ddof) for bins in both]
-        few = [of_means(bins, FEW, ddof) for bins in both]
+        full = [of_means(bins, n_min, DDOF) for bins in both]
+        few = [of_means(bins, FEW, DDOF) for bins in both]
         middle = lambda of, key: attempt(lambda: mean(known(bins[key]) for bins in of))
         return {
             "value": middle(full, "deviation"),
@@ -178,9 +178,9 @@ def r_spatial(study, metric, label, given):
     of, kept = error[label], ok[label]
     counts, arrays = {"outside": int((outside & ~np.isnan(of)).sum())}, {}
     for name, keys, extent in (("distance", ring, study.reach), ("depth", level, study.depth_max)):
-        bins = [of[kept & (keys == key)] for key in range(steps)]
+        bins = [of[kept & (keys == key)] for key in range(STEPS)]
         counts[f"bins_{name}"] = sum(len(values) >= max(n_min, 1) for values in bins)
-        middles = [(2 * key + 1) * (extent / 1e6) / (2 * steps) for key in range(steps)]
+        middles = [(2 * key + 1) * (extent / 1e6) / (2 * STEPS) for key in range(STEPS)]
         means = [mean(values) if len(values) >= max(n_min, 1) else None for values in bins]
         arrays[name] = {"x": middles, "values": means, "counts": [len(values) for values in bins]}
     return score(nodes, n, counts, **arrays)

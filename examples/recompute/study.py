@@ -15,6 +15,8 @@ from intervals import Undefined, attempt, jackknife, mean, number
 MASK = (1 << 64) - 1
 CHANNELS = ("Px", "Py", "Pz", "Fx", "Fy", "Fz")
 PLANES = {"Pxy": ("Px", "Py"), "Fxy": ("Fx", "Fy")}
+# Settings of a scene that states no others.
+SETTINGS = {"bins": 20, "n_min": 1, "gate_N": 0.02, "smoothing": 5, "tolerance_mm": 0.05}
 
 
 def channels(label):
@@ -55,6 +57,8 @@ class Study:
 
     def __init__(self, run, plan, results, name, seed):
         self.results, self.seed = results, seed
+        scene = tomllib.loads((run / "scene.toml").read_text())
+        self.settings = SETTINGS | scene.get("metrics", {}).get("settings", {})
         self.header = tomllib.loads((run / "recordings" / name / "dataset.toml").read_text())
         table = pyarrow.parquet.read_table(run / "recordings" / name / "samples.parquet")
         labels = collections.defaultdict(lambda: [None] * table.num_rows)
@@ -100,6 +104,7 @@ class Study:
             for phase in of_press:
                 self.of_phase[phase].append(row)
         self.phase_of = {metric["id"]: metric["phase"] for metric in plan["metrics"]}
+        self.planned = {metric["id"]: metric["channels"] for metric in plan["metrics"]}
 
     def read_footprint(self, footprint):
         self.is_disc = footprint["shape"] == "disc"

@@ -62,11 +62,11 @@ def test_every_number_of_a_run_is_computed_again_from_its_files(run: Path) -> No
     code, text = recomputed(run)
     assert code == 0, text
     assert count(text, "not recomputed") == count(text, "differing") == 0, text
-    total = sum(count(text, kind) for kind in ("equal", "within", "cancelling", "facts"))
+    total = sum(count(text, kind) for kind in ("equal", "within", "cancelling"))
     assert total == count(text, "numbers") > 5000, text
     # Every metric of the protocol has a score, so that none is left out.
     (study,) = json.loads((run / "results.json").read_text())["studies"]
-    assert len(study["metrics"]) == 28 and count(text, "facts") < 200, text
+    assert len(study["metrics"]) == 28 and count(text, "absent") == 0, text
 
 
 def test_a_changed_number_is_named_with_its_place_and_both_values(run: Path, tmp_path: Path) -> None:
@@ -79,6 +79,19 @@ def test_a_changed_number_is_named_with_its_place_and_both_values(run: Path, tmp
     code, text = recomputed(changed)
     assert code == 1 and count(text, "differing") == 1, text
     assert f"studies.0.metrics.rmse.Fz.value: {score['value']!r} in the file, recomputed {was!r}"[:60] in text, text
+
+
+def test_a_changed_constant_and_a_removed_score_are_named(run: Path, tmp_path: Path) -> None:
+    changed = copied(run, tmp_path / "run")
+    results = json.loads((run / "results.json").read_text())
+    metrics = results["studies"][0]["metrics"]
+    metrics["tolerance"]["Fz"]["parameters"]["tolerance"] = 0.04
+    del metrics["rmse"]["Fx"], metrics["hysteresis"]
+    (changed / "results.json").write_text(json.dumps(results))
+    code, text = recomputed(changed)
+    assert code == 1 and (count(text, "differing"), count(text, "absent")) == (1, 2), text
+    assert "differing: studies.0.metrics.tolerance.Fz.parameters.tolerance: 0.04 in the file, recomputed 0.05" in text
+    assert "no rmse.Fx, although plans.json asks for it" in text and "no hysteresis, although" in text
 
 
 def test_a_number_without_a_rule_or_a_removed_one_is_not_passed_over(run: Path, tmp_path: Path) -> None:

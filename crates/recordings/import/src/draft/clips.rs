@@ -49,6 +49,8 @@ pub(super) struct BareClip<'g> {
     pub(super) path: &'g str,
     pub(super) frames: u64,
     pub(super) is_gray: bool,
+    /// True if tables beside the clip were not examined.
+    pub(super) is_asked: bool,
     /// Paths of the other clips.
     pub(super) others: Vec<&'g str>,
 }
@@ -78,6 +80,7 @@ pub(super) fn bare<'g>(
         path,
         frames: video.info().frames,
         is_gray: video.info().pixel_format.starts_with("gray"),
+        is_asked: asked.is_some(),
         others: all.into_iter().filter(|other| *other != path).collect(),
     })
 }

@@ -204,9 +204,13 @@ fn a_clip_alone_is_drafted_with_its_frames_as_rows_and_imports_without_labels() 
     assert_eq!(summary.rows_kept, clip.info().frames);
     // A clip that is asked for comes before the first one.
     copy("second.mp4");
-    let asked = taceva_import::MapDraft::of(&folder.path().join("second.mp4")).expect("a draft");
-    let asked = line(asked.text(), "table = ").to_owned();
-    assert!(asked.contains("file = \"second.mp4\""), "{asked}");
+    let asked = draft(&folder.path().join("second.mp4"));
+    assert!(
+        line(&asked, "table = ").contains("file = \"second.mp4\""),
+        "{asked}"
+    );
+    // Tables beside such a clip are not examined.
+    assert!(asked.contains("\n# Only the clip was read. "), "{asked}");
     let unreadable = taceva_import::MapDraft::of(&folder.path().join("a.mp4"));
     let problem = unreadable.expect_err("no clip").to_string();
     assert!(problem.contains("no file here has labels"), "{problem}");

@@ -186,4 +186,11 @@ fn numbered_columns_called_t_are_drafted_as_taxels_and_none_of_them_as_the_time(
     let found = draft(alone.path());
     assert_eq!(line(&found, "from = \"t0"), "from = \"t0..15\"", "{found}");
     assert!(!found.contains("column = \"t"), "{found}");
+    // Names of times are no names of taxels.
+    let folder = lab(&[(
+        "t.csv",
+        "time0,time1,time2,Fz_N\n0.1,0.2,0.3,1\n0.4,0.5,0.6,3\n",
+    )]);
+    let found = draft(folder.path());
+    assert!(found.contains("column = \"time0\""), "{found}");
 }

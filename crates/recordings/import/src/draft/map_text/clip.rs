@@ -32,11 +32,15 @@ pub(in crate::draft) fn of_clip(clip: &BareClip<'_>, notes: &[String]) -> String
         ..FrameLines::default()
     };
     add_frames(&mut text, &[lines]);
-    add_section(
-        &mut text,
-        "columns",
-        "# No file has labels. Write a table beside the clip, such as labels.csv with the columns `frame` (from 0) and `Fz`, and draft again.\n",
-    );
+    let comment = match clip.is_asked {
+        true => {
+            "# Only the clip was read. If a table beside it has labels, draft the folder instead.\n"
+        }
+        false => {
+            "# No file has labels. Write a table beside the clip, such as labels.csv with the columns `frame` (from 0) and `Fz`, and draft again.\n"
+        }
+    };
+    add_section(&mut text, "columns", comment);
     let time =
         "clock = \"monotonic\"\ncolumn = \"t\"   # the times that the clip states\nunit = \"s\"\n";
     add_section(&mut text, "time", time);

@@ -69,11 +69,10 @@ pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
 /// Takes columns called `t0`, `t1`, … for numbers instead of times.
 pub(super) fn open_numbered_times(columns: &mut [SeenColumn]) {
     for run in columns.chunk_by_mut(|one, next| follows(&one.name, &next.name)) {
-        // Columns without names are called by their positions.
-        let is_series = run.len() >= LEAST_SERIES && run[0].name.parse::<u32>().is_err();
-        let mut own = run.iter();
-        if is_series && own.all(|column| matches!(column.role, Role::Time { .. })) {
-            for column in run {
+        let words = words(&run[0].name);
+        let is_series = run.len() >= LEAST_SERIES && words.last().is_some_and(|word| word == "t");
+        for column in run.iter_mut().filter(|_| is_series) {
+            if matches!(column.role, Role::Time { .. }) {
                 column.role = Role::Number;
             }
         }
