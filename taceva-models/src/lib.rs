@@ -36,8 +36,8 @@ pub use features::choice::{FailedFeatures, FeatureChoice, FeatureTrial, OpenFeat
 pub use features::gratings::{FourierPlane, RadialSpectrum};
 pub use features::{
     Color, Extractor, FeatureDistance, FeatureError, FeatureKind, FeatureKinds, FeatureSpec,
-    FeaturesByRecording, FrameReduction, Marker, MarkerTracker, Pca, Polarity, Preprocessing,
-    RecordedFrames, Tracked,
+    FeaturesByRecording, FrameReduction, FrameWindow, Marker, MarkerTracker, Pca, Polarity,
+    Preprocessing, RecordedFrames, Tracked,
 };
 pub use file::ModelFileError;
 pub use model::{CloserFeatures, FitInput, LabelBounds, Model};
@@ -50,8 +50,8 @@ pub use split::{
 pub use threads::prepare_threads;
 pub use training::card::{
     AngleCard, AutoCard, AutoTrial, ChannelCard, DistanceCard, Form, LibraryCard, ModelCard,
-    NetworkCard, PluginCard, Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard,
-    ValidationScore,
+    NetworkCard, PluginCard, Provenance, SampleCounts, Source, SplitCard, TaskCard, Untried,
+    ValidationCard, ValidationScore,
 };
 pub use training::checkpoint::{CheckpointError, Checkpoints, Foreign};
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};

@@ -197,8 +197,24 @@ impl Model {
     /// Builds the extractor of this model's features for frames or signals of `info`.
     ///
     /// # Errors
-    /// [`FeatureError`] for frames of another kind or signals of another grid than those of the model, or without a needed `reference`.
+    /// [`FeatureError`] for frames of another kind or signals of another grid than those of the model, or without a needed `reference`. Also for a model that
+    /// reads windows of frames.
     pub fn extractor(
+        &self,
+        info: impl Into<InputInfo>,
+        reference: Option<Input<'_>>,
+    ) -> Result<Extractor, FeatureError> {
+        match self.card.features.window {
+            Some(window) => Err(FeatureError::Window { window }),
+            None => self.frame_extractor(info, reference),
+        }
+    }
+
+    /// Builds the extractor of the features of each frame, also for a model that reads windows of frames.
+    ///
+    /// # Errors
+    /// Errors of [`extractor`](Model::extractor), except for windows.
+    pub fn frame_extractor(
         &self,
         info: impl Into<InputInfo>,
         reference: Option<Input<'_>>,

@@ -8,7 +8,7 @@ use taceva_models::Checkpoints;
 
 use super::{
     CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs,
-    SplitOutArgs, TableArgs, TaskArgs, ViewArgs,
+    SplitOutArgs, TableArgs, TaskArgs, ViewArgs, WindowArgs,
 };
 
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
@@ -60,6 +60,8 @@ pub(crate) struct Evaluate {
         conflicts_with_all = ["with", "metrics", "independent", "sensor", "state_out", "html", "figures", "samples_out", "table", "part", "split_out", "explain"]
     )]
     pub(crate) task: Option<String>,
+    #[command(flatten)]
+    pub(crate) window: WindowArgs,
     #[command(flatten)]
     pub(crate) model: OptionalModelArgs,
     #[command(flatten)]

@@ -154,3 +154,65 @@ fn a_recording_without_tasks_says_what_to_write_into_the_map() {
     bench.ok("import lab --map lab/map.toml --out plain -q");
     bench.refused("evaluate plain --task slip --no-cache", 3, "`[task.NAME]`");
 }
+
+/// Twelve strokes whose signal rises by one at each row that slips, from another level in each stroke.
+fn rising_strokes() -> Bench {
+    let bench = Bench::new();
+    let mut table = String::from("fz,stroke,slip,c0,c1,c2,c3");
+    for stroke in 0..12_u32 {
+        let mut level = f64::from(stroke * 37 % 11) * 0.5;
+        for row in 0..10_u32 {
+            let slips = row > 0 && (stroke * 7 + row * 5 + stroke * row % 4).is_multiple_of(3);
+            level += f64::from(u8::from(slips));
+            let word = if slips { "slip" } else { "no_slip" };
+            let noise = |at: u32| f64::from((stroke * 5 + row * 3 + at * 7) % 11) * 0.01;
+            write!(
+                table,
+                "\n{},s{stroke},{word},{:.2},{:.2},{:.2},{:.2}",
+                f64::from(row) * 0.1,
+                level + noise(0),
+                noise(1),
+                noise(2),
+                noise(3)
+            )
+            .expect("written");
+        }
+    }
+    table.push('\n');
+    bench.write("lab/strokes.csv", &table);
+    bench.write("lab/map.toml", MAP);
+    bench.ok("import lab --map lab/map.toml --out data -q");
+    bench
+}
+
+#[test]
+fn a_slip_that_only_the_change_between_two_frames_shows_is_learnt_with_a_window_alone() {
+    let bench = rising_strokes();
+    let accuracy = |options: &str| {
+        let report = bench.json(&format!("evaluate data --task slip {options} --no-cache"));
+        crate::schema::check("tasks", &report);
+        let value = estimate(&report, "class_accuracy")["value"].as_f64();
+        let notes = report["tasks"][0]["notes"].to_string();
+        (value.expect("a number"), notes)
+    };
+    let (alone, _) = accuracy("");
+    let (of_two, notes) = accuracy("--window 2");
+    assert!(alone < 0.7, "{alone}");
+    assert!(of_two > 0.95, "{of_two}");
+    assert!(notes.contains("2 frames with stride 1"), "{notes}");
+}
+
+#[test]
+fn a_window_is_refused_without_a_task_and_out_of_range() {
+    let bench = rising_strokes();
+    bench.refused(
+        "evaluate data --model ridge --set window=3 --no-cache",
+        2,
+        "name the task by --task",
+    );
+    bench.refused(
+        "evaluate data --task slip --window 65 --no-cache",
+        2,
+        "from 1 to 64",
+    );
+}

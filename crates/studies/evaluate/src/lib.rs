@@ -35,6 +35,7 @@ mod sensor_facts;
 mod skill;
 mod state_file;
 mod subject;
+mod task_view;
 mod validation;
 mod work;
 

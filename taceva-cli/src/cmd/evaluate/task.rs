@@ -17,7 +17,8 @@ pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Res
         context.say(format_args!("model: {usual}, as --model is not given"));
         usual
     });
-    let fit = fit_request(model, &args.model.settings, &args.split, &models)?;
+    let settings = args.window.on(&args.model.settings);
+    let fit = fit_request(model, &settings, &args.split, &models)?;
     let cache = cache::of(&args.cache);
     let report = evaluate_task(&dataset, name, fit, context.work(cache.as_ref()))?;
     cache::note(cache.as_ref(), context);

@@ -120,6 +120,7 @@ const FEATURES: FeatureSpec = FeatureSpec {
     difference: false,
     pca: None,
     channels: None,
+    window: None,
 };
 
 /// Builds the [`ModelInfo`] of a network.

@@ -71,8 +71,16 @@ impl Dataset {
         }
         Ok(Dataset {
             seen: self.seen.clone(),
+            labelled_by: Some(own.task().clone()),
             ..Dataset::of(self.folder.again()?, header, table)
         })
+    }
+
+    /// Task whose labels take the place of the channels, after [`of_task`](Dataset::of_task); `None` for measured channels.
+    pub fn labelled_by(&self) -> Option<&Task> {
+        let first = self.joined.first();
+        let of_first = first.and_then(|own| own.dataset().labelled_by());
+        self.labelled_by.as_ref().or(of_first)
     }
 
     fn unknown_task(&self, name: &str) -> DatasetError {

@@ -10,6 +10,7 @@ use taceva_tasks::{Classes, TaskError, TaskReport, TaskScore, TaskScores};
 use super::{EvaluateRequest, ModelChoice, evaluate};
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
+use crate::task_view::{in_words, window_of};
 use crate::work::Work;
 
 /// Models that predict one of the labels of the training part.
@@ -67,6 +68,7 @@ pub fn evaluate_task(
         None => task_division(dataset, task)?,
     };
     let model = fit.model.name().to_owned();
+    let window = window_of(&fit.settings)?;
     let fit = FitRequest {
         channels: Vec::new(),
         split: Some(split.clone()),
@@ -115,6 +117,9 @@ pub fn evaluate_task(
     let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
         .of_classes(&classes);
     scores.notes.push(format!("model {model}, split {split}"));
+    scores
+        .notes
+        .extend(window.map(|window| in_words(window, task)));
     scores
         .notes
         .extend(of_one_cluster(dataset, task, &clusters));

@@ -1,0 +1,36 @@
+//! Task of a model in its card.
+
+use serde::{Deserialize, Serialize};
+
+/// Task whose classes a model predicts, as the positions of their names.
+///
+/// ```
+/// let text = r#"{"name": "slip", "kind": "event", "names": ["no", "yes"], "positive": "yes", "cluster": "stroke"}"#;
+/// let task: taceva_models::TaskCard = serde_json::from_str(text)?;
+/// assert_eq!(task.class(1.0), Some("yes"));
+/// assert_eq!(task.class(0.5), None);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct TaskCard {
+    /// Name of the task, and of the predicted channel.
+    pub name: String,
+    /// Kind of the task: `class`, `event` or `outcome`.
+    pub kind: String,
+    /// Names of the classes, in the order of their positions.
+    pub names: Vec<String>,
+    /// Class that the model should find, if any.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub positive: Option<String>,
+    /// Column with equal values in samples that resemble each other. Windows of frames end at its changes.
+    pub cluster: String,
+}
+
+impl TaskCard {
+    /// Name of the class at `position`; `None` for a number that is no position.
+    pub fn class(&self, position: f64) -> Option<&str> {
+        let mut places = (0_u32..).zip(&self.names);
+        let found = places.find(|(place, _)| (f64::from(*place) - position).abs() < 1e-6);
+        found.map(|(_, name)| name.as_str())
+    }
+}
