@@ -20,7 +20,7 @@ use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureDistance, FeatureError, Pca};
 use crate::linalg::invalid;
 use crate::training::card::{AngleCard, ChannelCard, DistanceCard, ModelCard, ValidationCard};
-use crate::training::regressor::ModelRegressor;
+use crate::training::regressor::{ClassProbabilities, ModelRegressor};
 
 /// Fitted model that predicts channels, in their units, from pixels or signals.
 ///
@@ -303,6 +303,19 @@ impl Model {
             true => found,
             false => self.channels.deviations(&found, &self.learnt(features)?),
         }))
+    }
+
+    /// Probabilities of the classes of the only channel, for every sample of `features`; `None` if the model does not estimate them.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the shape of the features differs.
+    pub fn probabilities(
+        &self,
+        features: &Features,
+    ) -> Result<Option<ClassProbabilities>, ModelError> {
+        let even = self.even(features)?;
+        let features = even.as_ref().unwrap_or(features);
+        self.regressor.probabilities(features)
     }
 
     /// Divides signals by their spread over the training part; `None` for frames, which are not divided.

@@ -14,7 +14,7 @@ pub(crate) use self::auto::FOLDS;
 pub use self::auto::{AutoCard, AutoTrial, Untried};
 pub use self::distance::DistanceCard;
 pub use self::library::LibraryCard;
-pub use self::network::NetworkCard;
+pub use self::network::{ClassCard, NetworkCard};
 pub use self::plugin::PluginCard;
 pub use self::task::TaskCard;
 use crate::features::FeatureSpec;

@@ -5,6 +5,7 @@ use taceva_network::GpuKind;
 use taceva_network::{Architecture, Augmentation, ConvolutionForm, Depth, Loss, Optimizer, Recipe};
 
 use super::appearance::Preparation;
+use super::classes::{CLASS_WEIGHTS, ClassWeights, HEAD};
 use super::regressor::{NetworkRegressor, picture};
 use crate::features::Preprocessing;
 use crate::features::{Color, FeatureError, FeatureKinds, FeatureSpec};
@@ -23,6 +24,8 @@ pub struct NetworkEstimator {
     pub(super) convolutions: ConvolutionForm,
     /// Kind of GPU for training; `None` for the CPU.
     pub(super) gpu: Option<GpuKind>,
+    /// Weights of classes, if the outputs are scores of classes; `None` for numbers.
+    pub(super) classes: Option<ClassWeights>,
     pub(super) checkpoints: Option<Checkpoints>,
 }
 
@@ -105,6 +108,8 @@ const SETTINGS: &[SettingInfo] = &{
         contrast,
         CONVOLUTIONS,
         DEVICE,
+        HEAD,
+        CLASS_WEIGHTS,
     ]
 };
 
@@ -186,6 +191,12 @@ impl NetworkEstimator {
             kind.check_built()
                 .map_err(|source| SettingError::Device { kind, source })?;
         }
+        let weights = settings.value(&CLASS_WEIGHTS, ClassWeights::Equal, ClassWeights::of)?;
+        let predicts_classes = settings.value(&HEAD, false, |text| match text {
+            "numbers" => Some(false),
+            "classes" => Some(true),
+            _ => None,
+        })?;
         Ok(NetworkEstimator {
             kind,
             recipe: Recipe {
@@ -211,6 +222,7 @@ impl NetworkEstimator {
             preparation: Preparation::from_settings(settings)?,
             convolutions: settings.value(&CONVOLUTIONS, ConvolutionForm::Winograd, form_of)?,
             gpu,
+            classes: predicts_classes.then_some(weights),
             checkpoints: None,
         })
     }

@@ -165,7 +165,7 @@ impl SpacingNetwork {
 }
 
 /// Index of the greatest value; of equal values, the first.
-fn greatest(outputs: &[f64]) -> usize {
+pub(super) fn greatest(outputs: &[f64]) -> usize {
     let mut places = 0..outputs.len();
     let first = places.next().unwrap_or(0);
     places.fold(first, |best, place| {
