@@ -121,7 +121,7 @@ impl Model {
         };
         let of_signals = of_signals.map_err(|error| invalid(error.to_string()).because(error))?;
         let estimator = of_signals.as_deref().unwrap_or(input.estimator);
-        let chosen = estimator.choose(&training, None, progress)?;
+        let chosen = estimator.choose(&training, validation.as_ref(), None, progress)?;
         let estimator = chosen
             .as_ref()
             .map_or(estimator, |chosen| &*chosen.estimator);

@@ -20,6 +20,12 @@ pub(crate) struct Fit {
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
+    /// Fit a classifier to a task of the dataset in the place of channels: lda, linfa/logistic, smartcore/knn-classifier, cnn, resnet10, resnet18,
+    /// resnet34, or auto, which takes the best of the first three on the validation part. The split keeps clusters whole
+    #[arg(long, value_name = "NAME")]
+    pub(crate) task: Option<String>,
+    #[command(flatten)]
+    pub(crate) window: WindowArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
@@ -52,8 +58,9 @@ pub(crate) struct Evaluate {
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
-    /// Fit a classifier to a task of the dataset in the place of channels: lda [default] or linfa/logistic. The split keeps clusters whole
-    /// [default: cv:5 by the cluster of the task]
+    /// Fit a classifier to a task of the dataset in the place of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn, resnet10,
+    /// resnet18, resnet34, or auto, which takes the best of the first three on the validation part. The split keeps clusters whole [default: cv:5
+    /// by the cluster of the task]
     #[arg(
         long,
         value_name = "NAME",

@@ -216,3 +216,110 @@ fn a_window_is_refused_without_a_task_and_out_of_range() {
         "from 1 to 64",
     );
 }
+
+#[test]
+fn a_model_of_a_task_is_fitted_once_and_predicts_names_of_classes_that_score_reads() {
+    let bench = strokes();
+    let fitted =
+        bench.ok("fit data --task slip --model lda --window 2 --out slip.model --no-cache -q");
+    assert!(fitted.contains("task     slip: no_slip, slip"), "{fitted}");
+    assert!(fitted.contains("windows of 2 frames"), "{fitted}");
+    bench.ok(
+        "predict data --with slip.model --part all --out pred.csv --truth-out truth.csv --no-cache -q",
+    );
+    let predicted = std::fs::read_to_string(bench.path("pred.csv")).expect("a table");
+    let classes = predicted.matches("slip").count() - predicted.matches("no_slip").count();
+    assert!(classes > 40, "{predicted}");
+    let truth = std::fs::read_to_string(bench.path("truth.csv")).expect("a table");
+    assert!(
+        truth.lines().next().expect("a head").contains("stroke"),
+        "{truth}"
+    );
+    let report = bench.json(
+        "score --truth truth.csv --pred pred.csv --task slip=outcome:positive=slip --cluster stroke",
+    );
+    let accuracy = estimate(&report, "class_accuracy");
+    assert_eq!(
+        (&accuracy["n"], &accuracy["clusters"]),
+        (&120.into(), &12.into())
+    );
+    assert!(
+        accuracy["value"].as_f64().expect("a number") > 0.8,
+        "{report:#}"
+    );
+}
+
+#[test]
+fn a_fit_of_a_task_by_folds_is_refused_with_a_split_to_name() {
+    let bench = strokes();
+    bench.refused(
+        "fit data --task slip --model lda --split cv:5 --out slip.model --no-cache",
+        2,
+        "expected `by-column:stroke`",
+    );
+    bench.refused(
+        "fit data --task slip --model ridge --out slip.model --no-cache",
+        2,
+        "--model lda",
+    );
+}
+
+#[test]
+fn auto_takes_a_classifier_by_the_validation_part_and_states_the_errors_of_all() {
+    let bench = strokes();
+    let ran = bench.run("fit data --task slip --model auto --out slip.model --no-cache");
+    assert_eq!(ran.code, 0, "{}", ran.err);
+    for words in ["by the validation part", "lda 0.", "linfa/logistic 0."] {
+        assert!(ran.err.contains(words), "{words}: {}", ran.err);
+    }
+    assert!(!ran.out.contains("model    auto"), "{}", ran.out);
+    bench.json("evaluate data --task slip --model auto --no-cache");
+}
+
+/// Ten strokes of twelve rows on 8 × 8 taxels, of which the left half rises at a slip.
+fn broad_strokes() -> Bench {
+    let bench = Bench::new();
+    let mut table = String::from("fz,stroke,slip");
+    (0..64).for_each(|taxel| write!(table, ",c{taxel}").expect("written"));
+    for stroke in 0..10_u32 {
+        for row in 0..12_u32 {
+            let word = if row % 3 == 2 { "slip" } else { "no_slip" };
+            write!(table, "\n{},s{stroke},{word}", f64::from(row) * 0.1).expect("written");
+            for taxel in 0..64_u32 {
+                let noise = f64::from((stroke * 5 + row * 3 + taxel * 7) % 11) * 0.05;
+                let rise = f64::from(u8::from(row % 3 == 2 && taxel % 8 < 4));
+                write!(table, ",{:.2}", noise + rise).expect("written");
+            }
+        }
+    }
+    table.push('\n');
+    bench.write("lab/strokes.csv", &table);
+    let map = MAP.replace("c0..3", "c0..63").replace("[2, 2]", "[8, 8]");
+    bench.write("lab/map.toml", &map);
+    bench.ok("import lab --map lab/map.toml --out data -q");
+    bench
+}
+
+#[test]
+fn a_network_learns_classes_and_its_probabilities_are_scored() {
+    let bench = broad_strokes();
+    let network = "--model cnn --set epochs=40 --set batch=16";
+    let report = bench.json(&format!("evaluate data --task slip {network} --no-cache"));
+    let accuracy = estimate(&report, "balanced_accuracy")["value"].as_f64();
+    assert!(accuracy.expect("a number") > 0.9, "{report:#}");
+    bench.ok(&format!(
+        "fit data --task slip {network} --out slip.model --no-cache -q"
+    ));
+    bench.ok(
+        "predict data --with slip.model --part all --out pred.csv --truth-out truth.csv --no-cache -q",
+    );
+    let report = bench.json(
+        "score --truth truth.csv --pred pred.csv --task slip=outcome:positive=slip --cluster stroke",
+    );
+    assert!(
+        estimate(&report, "log_loss")["value"].is_number(),
+        "{report:#}"
+    );
+    let area = estimate(&report, "roc_auc")["value"].as_f64();
+    assert!(area.expect("a number") > 0.95, "{report:#}");
+}

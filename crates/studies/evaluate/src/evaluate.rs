@@ -2,6 +2,7 @@
 
 mod callers_model;
 mod divisions;
+mod fit_task;
 mod fold_progress;
 pub(crate) mod folds;
 mod notes;
@@ -23,10 +24,11 @@ use crate::work::Work;
 
 pub use callers_model::{GivenModel, GivenRequest, GivenRows};
 pub use divisions::{fold_divisions, scored_by_default};
+pub use fit_task::fit_task;
 pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};
-pub use task::{CLASSIFIERS, evaluate_task, task_division};
+pub use task::{evaluate_task, task_division};
 
 /// Evaluates `dataset`: fits the model if requested, predicts the samples that the model has not seen, and scores them.
 ///

@@ -7,6 +7,7 @@ mod cache;
 mod calibration;
 mod calibration_rows;
 mod claim;
+mod classifiers;
 mod effort;
 mod error;
 mod evaluate;
@@ -48,11 +49,12 @@ pub use cache::{
 };
 pub use calibration::calibration;
 pub use claim::{Claim, Watch, clear_dead_claims};
+pub use classifiers::{CLASSIFIERS, labelled_for};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
-    Asked, Behind, CLASSIFIERS, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows,
-    ModelChoice, evaluate, evaluate_plan, evaluate_task, fold_divisions, score, scored_by_default,
+    Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
+    evaluate, evaluate_plan, evaluate_task, fit_task, fold_divisions, score, scored_by_default,
     task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};

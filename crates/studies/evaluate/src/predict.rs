@@ -4,6 +4,7 @@ mod csv_tables;
 mod predictions;
 mod predictor;
 mod target;
+mod task_cells;
 
 use taceva_core::{Channel, Column, Features, Field, Input, InputInfo, shown};
 use taceva_dataset::Dataset;
@@ -18,6 +19,7 @@ use crate::work::Work;
 pub use predictions::{AtBound, Predicted};
 pub use predictor::Predictor;
 pub use target::Target;
+use task_cells::TaskCells;
 
 /// Predicts a part of `dataset`. The default is the unseen data: the test part of the model's own dataset, or all rows of any other dataset. Each prediction
 /// includes the distance of its frame from the training part, if the model computes it.
@@ -36,6 +38,7 @@ pub fn predict(
     let predicted = predicted_table(dataset, Predictor::of(model), &target, &numbers)?;
     Ok(Predicted {
         distance: model.distances(&features)?,
+        task: TaskCells::of(dataset, model, &features, &target.rows)?,
         frames_decoded: frames_decoded(dataset, model, &target.rows)?,
         points: predicted.points.or_else(|| groups(dataset, &target)),
         ..predicted
@@ -214,6 +217,7 @@ pub fn predicted_table(
             })
             .collect(),
         distance: None,
+        task: None,
         constants: predictor.constants,
         frames_decoded: if predictor.reads_frames {
             rows.len() as u64

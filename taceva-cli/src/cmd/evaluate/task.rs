@@ -12,7 +12,7 @@ pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Res
     check_folders(&args.datasets)?;
     let models = context.models()?;
     let dataset = open_seen(&args.datasets, &args.view, None)?;
-    let [usual, _] = CLASSIFIERS;
+    let [usual, ..] = CLASSIFIERS;
     let model = args.model.name.as_deref().unwrap_or_else(|| {
         context.say(format_args!("model: {usual}, as --model is not given"));
         usual

@@ -8,13 +8,11 @@ use taceva_tasks::events::{EventRule, EventState, Frame};
 use taceva_tasks::{Classes, TaskError, TaskReport, TaskScore, TaskScores};
 
 use super::{EvaluateRequest, ModelChoice, evaluate};
+use crate::classifiers::as_classifier;
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
 use crate::task_view::{in_words, window_of};
 use crate::work::Work;
-
-/// Models that predict one of the labels of the training part.
-pub const CLASSIFIERS: [&str; 2] = ["lda", "linfa/logistic"];
 
 /// Most folds of the default division.
 const MOST_FOLDS: usize = 5;
@@ -44,7 +42,7 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
 
 /// Fits `fit` to the classes of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
-/// Without a stated split, [`task_division`] divides the samples. The model is one of [`CLASSIFIERS`].
+/// Without a stated split, [`task_division`] divides the samples. The model is one of [`CLASSIFIERS`](crate::CLASSIFIERS).
 ///
 /// # Errors
 /// [`EvaluateError`] for an unknown task, a task of poses, a model that is no classifier, a split that separates samples of one cluster,
@@ -59,7 +57,7 @@ pub fn evaluate_task(
     let own = dataset.tasks().iter().map(|own| own.task());
     let task = own.clone().find(|task| task.name == name);
     let task = task.expect("`of_task` found the task");
-    check_model(&fit, task)?;
+    let fit = as_classifier(fit, task)?;
     let split = match &fit.split {
         Some(split) => {
             check_split(split, task)?;
@@ -192,21 +190,8 @@ fn onsets(
     Ok(state.scores())
 }
 
-fn check_model(fit: &FitRequest, task: &Task) -> Result<(), EvaluateError> {
-    let model = fit.model.name();
-    match CLASSIFIERS.contains(&model) {
-        true => Ok(()),
-        false => Err(EvaluateError::Request(format!(
-            "task `{}`: {} predicts numbers between the classes, expected a classifier: --model {}",
-            shown(&task.name),
-            shown(model),
-            CLASSIFIERS.join(" or --model ")
-        ))),
-    }
-}
-
 /// Refuses a split that may put samples of one cluster into both the training and the test part.
-fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
+pub(super) fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
     let by = match task.cluster == Field::Point.name() {
         true => "by-point".to_owned(),
         false => format!("by-column:{}", task.cluster),

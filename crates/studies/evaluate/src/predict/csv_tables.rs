@@ -6,6 +6,7 @@ use taceva_core::Column;
 use taceva_results::Samples;
 
 use super::Predicted;
+use super::task_cells::TaskCells;
 use crate::rows::DISTANCE;
 
 impl Predicted {
@@ -59,6 +60,13 @@ impl Predicted {
         head.extend(points.map(|_| "point_id"));
         head.extend(beside.iter().map(|(name, _)| *name));
         head.extend(self.channels.iter().map(|channel| channel.name()));
+        let task = self.task.as_ref();
+        let scored = task.filter(|_| !is_truth);
+        let scores = scored.map_or_else(Vec::new, TaskCells::score_columns);
+        head.extend(scores.iter().map(String::as_str));
+        let clusters = task.filter(|_| is_truth);
+        let clusters = clusters.filter(|task| task.cluster_column(&head).is_some());
+        head.extend(clusters.and_then(|task| task.cluster_column(&[])));
         head.extend(distance.map(|_| DISTANCE));
         writer.write_record(head)?;
         for row in 0..self.rows() {
@@ -67,9 +75,15 @@ impl Predicted {
             let texts = beside.iter().map(|(_, texts)| texts[row].clone());
             cells.extend(texts.map(Option::unwrap_or_default));
             let values = columns.iter().map(|column| column.get(row));
-            let text =
-                |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
+            let text = |value: Option<f64>| match (value, task) {
+                (None, _) => String::new(),
+                (Some(value), None) => format!("{value:?}"),
+                (Some(class), Some(task)) => task.class(class),
+            };
             cells.extend(values.map(text));
+            let scores = scored.map_or_else(Vec::new, |task| task.scores(row));
+            cells.extend(scores.iter().map(|score| format!("{score:?}")));
+            cells.extend(clusters.map(|task| task.cluster(row)));
             cells.extend(distance.map(|distance| format!("{:?}", distance[row])));
             writer.write_record(cells)?;
         }

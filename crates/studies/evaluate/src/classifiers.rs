@@ -1,0 +1,72 @@
+//! Models that predict the classes of a task.
+
+use taceva_core::shown;
+use taceva_dataset::{Dataset, Task};
+use taceva_models::{Model, ModelSettings};
+
+use crate::error::EvaluateError;
+use crate::fit::FitRequest;
+
+/// Models that predict one of the labels of the training part.
+pub const CLASSIFIERS: [&str; 8] = [
+    "lda",
+    "linfa/logistic",
+    "smartcore/knn-classifier",
+    "cnn",
+    "resnet10",
+    "resnet18",
+    "resnet34",
+    "auto",
+];
+
+/// Setting of models that predict either numbers or classes.
+const HEAD: &str = "head";
+
+/// `fit` with the settings by which its model predicts the classes of `task`.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a model that is not one of [`CLASSIFIERS`].
+pub(crate) fn as_classifier(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
+    let model = fit.model.name();
+    if !CLASSIFIERS.contains(&model) {
+        return Err(EvaluateError::Request(format!(
+            "task `{}`: {} predicts numbers between the classes, expected a classifier: --model {}",
+            shown(&task.name),
+            shown(model),
+            CLASSIFIERS.join(" or --model ")
+        )));
+    }
+    if !fit.model.setting_keys().contains(&HEAD) {
+        return Ok(fit);
+    }
+    let words = fit.settings.words();
+    let words = words.filter(|word| !word.starts_with("head="));
+    let words: Vec<String> = words.chain([format!("{HEAD}=classes")]).collect();
+    Ok(FitRequest {
+        settings: ModelSettings::parse(words.iter().map(String::as_str))?,
+        ..fit
+    })
+}
+
+/// Dataset whose labels are those that `model` predicts: the classes of its task, if the dataset has the task; otherwise `None`.
+///
+/// # Errors
+/// [`EvaluateError::Unsuited`] for a task of the same name with other classes.
+pub fn labelled_for(dataset: &Dataset, model: &Model) -> Result<Option<Dataset>, EvaluateError> {
+    let Some(card) = &model.card().provenance.task else {
+        return Ok(None);
+    };
+    let mut tasks = dataset.tasks().iter().map(|own| own.task());
+    let Some(task) = tasks.find(|task| task.name == card.name) else {
+        return Ok(None);
+    };
+    if task.names != card.names {
+        return Err(EvaluateError::Unsuited(format!(
+            "it predicts the classes {} of the task `{}`, and the dataset has {}: import the dataset with the same `names` in its map",
+            card.names.join(", "),
+            shown(&card.name),
+            task.names.join(", ")
+        )));
+    }
+    Ok(Some(dataset.of_task(&card.name)?))
+}
