@@ -77,7 +77,7 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     let card = fitted.model.card();
     writeln!(out, "model    {} on {}", card.model, card.features)?;
     if let Some(task) = &card.provenance.task {
-        let (name, names) = (shown(&task.name), task.names.join(", "));
+        let (name, names) = (shown(&task.name), task.labels());
         writeln!(
             out,
             "task     {name}: {names}, in clusters of {}",

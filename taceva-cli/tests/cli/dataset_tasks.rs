@@ -323,3 +323,66 @@ fn a_network_learns_classes_and_its_probabilities_are_scored() {
     let area = estimate(&report, "roc_auc")["value"].as_f64();
     assert!(area.expect("a number") > 0.95, "{report:#}");
 }
+
+/// Eight strokes of eight rows in which an object moves along x and y and turns about z, as three taxels sense.
+fn moving_strokes() -> Bench {
+    let bench = Bench::new();
+    let mut table = String::from("fz,stroke,x,y,z,qx,qy,qz,qw,c0,c1,c2,c3");
+    for stroke in 0..8_u32 {
+        for row in 0..8_u32 {
+            let part = |factor: u32| f64::from((stroke * 3 + row * factor) % 17) / 8.0 - 1.0;
+            let [x, y, turn] = [part(5), part(7), part(11)];
+            let half = (5.0 * turn).to_radians();
+            write!(
+                table,
+                "\n0.5,s{stroke},{x},{y},0,0,0,{:.9},{:.9},{x},{y},{turn},0.1",
+                half.sin(),
+                half.cos()
+            )
+            .expect("written");
+        }
+    }
+    table.push('\n');
+    bench.write("lab/strokes.csv", &table);
+    let (map, rest) = MAP.split_once("[task.slip]").expect("a task");
+    let (_, sensor) = rest.split_once("[sensor]").expect("a sensor");
+    let task = "[task.moved]\nkind = \"pose\"\nunit = [\"mm\"]\ncluster = \"stroke\"\n\
+        from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }\n";
+    bench.write("lab/map.toml", &format!("{map}{task}[sensor]{sensor}"));
+    bench.ok("import lab --map lab/map.toml --out data -q");
+    bench
+}
+
+#[test]
+fn poses_of_unseen_strokes_are_predicted_by_a_model_of_numbers_and_scored() {
+    let bench = moving_strokes();
+    let report = bench.json("evaluate data --task moved --no-cache");
+    crate::schema::check("tasks", &report);
+    let shift = estimate(&report, "pose_translation")["value"].as_f64();
+    assert!(shift.expect("a number") < 0.1, "{report:#}");
+    let turn = estimate(&report, "pose_rotation")["value"].as_f64();
+    assert!(turn.expect("a number") < 0.5, "{report:#}");
+    assert!(report.to_string().contains("model ridge"), "{report:#}");
+    bench.refused(
+        "evaluate data --task moved --model lda --no-cache",
+        2,
+        "--model ridge",
+    );
+}
+
+#[test]
+fn a_model_of_poses_writes_the_seven_columns_that_score_reads() {
+    let bench = moving_strokes();
+    bench.ok("fit data --task moved --model ridge --out moved.model --no-cache -q");
+    bench.ok(
+        "predict data --with moved.model --part all --out pred.csv --truth-out truth.csv --no-cache -q",
+    );
+    let report =
+        bench.json("score --truth truth.csv --pred pred.csv --task moved=pose --cluster stroke");
+    let turn = &estimate(&report, "pose_rotation");
+    assert_eq!(turn["n"], 64, "{report:#}");
+    assert!(
+        turn["value"].as_f64().expect("a number") < 0.5,
+        "{report:#}"
+    );
+}

@@ -5,6 +5,9 @@ use std::collections::BTreeMap;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
+/// Ends of the names of the channels of a pose: a translation, and a rotation vector.
+const POSE_CHANNELS: [&str; 6] = ["tx", "ty", "tz", "rx", "ry", "rz"];
+
 /// Begin of the name of each column with labels of a task. Attributes and channels contain no `.`.
 const PREFIX: &str = "task.";
 
@@ -161,6 +164,23 @@ impl Task {
                 parts.map(|part| format!("{column}.{part}")).collect()
             }
             _ => vec![column],
+        }
+    }
+
+    /// Channels of the labels after [`Dataset::of_task`](crate::Dataset::of_task): the position of the class, or translation and rotation vector of a pose.
+    ///
+    /// ```
+    /// use taceva_dataset::{Task, TaskKind};
+    /// let moved = Task::new("moved", TaskKind::Pose, "trajectory");
+    /// assert_eq!(moved.channels()[3], "moved_rx");
+    /// ```
+    pub fn channels(&self) -> Vec<String> {
+        match self.kind {
+            TaskKind::Pose => {
+                let ends = POSE_CHANNELS.iter();
+                ends.map(|end| format!("{}_{end}", self.name)).collect()
+            }
+            _ => vec![self.name.clone()],
         }
     }
 

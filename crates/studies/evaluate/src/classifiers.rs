@@ -1,7 +1,7 @@
-//! Models that predict the classes of a task.
+//! Models that predict the labels of a task.
 
 use taceva_core::shown;
-use taceva_dataset::{Dataset, Task};
+use taceva_dataset::{Dataset, Task, TaskKind};
 use taceva_models::{Model, ModelSettings};
 
 use crate::error::EvaluateError;
@@ -19,14 +19,52 @@ pub const CLASSIFIERS: [&str; 8] = [
     "auto",
 ];
 
+/// Number of [`CLASSIFIERS`] that predict no numbers, the first ones.
+const CLASSIFIERS_ALONE: usize = 3;
+
 /// Setting of models that predict either numbers or classes.
 const HEAD: &str = "head";
+
+/// Model of poses, and of classes, if the user names none.
+const USUAL: [&str; 2] = ["ridge", "lda"];
+
+/// Model for the task called `name` if the user names none.
+pub fn usual_model(dataset: &Dataset, name: &str) -> &'static str {
+    let [of_poses, of_classes] = USUAL;
+    let mut tasks = dataset.tasks().iter().map(|own| own.task());
+    match tasks.any(|task| task.name == name && task.kind == TaskKind::Pose) {
+        true => of_poses,
+        false => of_classes,
+    }
+}
+
+/// `fit` with the settings by which its model predicts the labels of `task`: classes, or the numbers of a pose.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a model of numbers and a task of classes, and the reverse.
+pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
+    if task.kind != TaskKind::Pose {
+        return as_classifier(fit, task);
+    }
+    let model = fit.model.name();
+    // The others predict numbers too.
+    let of_classes = CLASSIFIERS.iter().take(CLASSIFIERS_ALONE);
+    if of_classes.copied().any(|classifier| classifier == model) {
+        let [usual, _] = USUAL;
+        return Err(EvaluateError::Request(format!(
+            "task `{}`: {} predicts labels of the training part, and poses are numbers, expected another model, such as --model {usual}",
+            shown(&task.name),
+            shown(model)
+        )));
+    }
+    Ok(fit)
+}
 
 /// `fit` with the settings by which its model predicts the classes of `task`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a model that is not one of [`CLASSIFIERS`].
-pub(crate) fn as_classifier(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
+fn as_classifier(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
     let model = fit.model.name();
     if !CLASSIFIERS.contains(&model) {
         return Err(EvaluateError::Request(format!(

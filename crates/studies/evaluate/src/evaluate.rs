@@ -8,6 +8,7 @@ pub(crate) mod folds;
 mod notes;
 mod passes;
 mod plan;
+mod pose_task;
 mod request;
 mod scores;
 mod task;

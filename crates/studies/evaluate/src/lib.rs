@@ -49,7 +49,7 @@ pub use cache::{
 };
 pub use calibration::calibration;
 pub use claim::{Claim, Watch, clear_dead_claims};
-pub use classifiers::{CLASSIFIERS, labelled_for};
+pub use classifiers::{CLASSIFIERS, labelled_for, usual_model};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Task whose classes a model predicts, as the positions of their names.
+/// Task whose labels a model predicts: the positions of the names of classes, or the numbers of a pose.
 ///
 /// ```
 /// let text = r#"{"name": "slip", "kind": "event", "names": ["no", "yes"], "positive": "yes", "cluster": "stroke"}"#;
@@ -13,11 +13,11 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct TaskCard {
-    /// Name of the task, and of the predicted channel.
+    /// Name of the task. The predicted channel of classes has this name.
     pub name: String,
-    /// Kind of the task: `class`, `event` or `outcome`.
+    /// Kind of the task: `class`, `event`, `outcome` or `pose`.
     pub kind: String,
-    /// Names of the classes, in the order of their positions.
+    /// Names of the classes, in the order of their positions; empty for poses.
     pub names: Vec<String>,
     /// Class that the model should find, if any.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -27,6 +27,14 @@ pub struct TaskCard {
 }
 
 impl TaskCard {
+    /// Names of the classes for a reader; the kind of a task without classes.
+    pub fn labels(&self) -> String {
+        match self.names.is_empty() {
+            true => self.kind.clone(),
+            false => self.names.join(", "),
+        }
+    }
+
     /// Name of the class at `position`; `None` for a number that is no position.
     pub fn class(&self, position: f64) -> Option<&str> {
         let mut places = (0_u32..).zip(&self.names);

@@ -1,13 +1,13 @@
 //! Tasks of a dataset: their labels by row, and the cluster of each row.
 
-use taceva_core::{Channel, Unit, nearest, shown};
+use taceva_core::{nearest, shown};
 
 use super::Dataset;
 use super::union::SEPARATOR;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::table::TaskColumn;
-use crate::task::{Task, TaskKind};
+use crate::task::Task;
 
 /// Columns whose values [`Dataset::joined`] makes distinct between recordings.
 const DISTINCT: [&str; 2] = ["sample", "point_id"];
@@ -33,35 +33,27 @@ impl Dataset {
         clusters
     }
 
-    /// The same dataset with one channel in the place of all others: the position of the class of the task called `name`.
+    /// The same dataset with the [channels](Task::channels) of the task called `name` in the place of all others: the position of its class, or translation (mm)
+    /// and rotation vector (degrees) of its pose.
     ///
     /// A row without a label of the task has no label. The digest depends on the dataset and on the task.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for an unknown task, and for a task of poses, which has no classes.
+    /// [`DatasetError::Request`] for an unknown task.
     pub fn of_task(&self, name: &str) -> Result<Dataset, DatasetError> {
         let own = self
             .table
             .task(name)
             .ok_or_else(|| self.unknown_task(name))?;
-        if own.task().kind == TaskKind::Pose {
-            return Err(DatasetError::request(
-                self.path(),
-                format!(
-                    "the task `{}` is a pose, expected a task with classes",
-                    shown(name)
-                ),
-            ));
-        }
         if !self.joined.is_empty() {
             let recordings = self.joined.iter();
             let of_task = recordings.map(|own| own.dataset().of_task(name));
             return Dataset::joined(of_task.collect::<Result<_, _>>()?);
         }
-        let channel = Channel::named(name, Unit::One)
+        let table = self
+            .table
+            .labelled_by(own)
             .map_err(|error| DatasetError::request(self.path(), error.to_string()))?;
-        let table = self.table.of_classes(name, channel);
-        let table = table.ok_or_else(|| self.unknown_task(name))?;
         let mut header = self.header.clone();
         header.channels = table.channels().clone();
         header.rotations.clear();
@@ -106,7 +98,7 @@ impl Dataset {
     }
 }
 
-/// Digest of a dataset whose channel is the class of `task`.
+/// Digest of a dataset whose channels are the labels of `task`.
 fn digest_of_task(dataset: Digest, task: &str) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 classes of");

@@ -1,20 +1,20 @@
-//! Fit of a classifier to a task of a dataset.
+//! Fit of a model to a task of a dataset.
 
 use taceva_core::{Field, shown};
 use taceva_dataset::Dataset;
 use taceva_models::{Checkpoints, SplitKind, SplitSpec};
 
 use super::task::check_split;
-use crate::classifiers::as_classifier;
+use crate::classifiers::as_predictor;
 use crate::error::EvaluateError;
 use crate::fit::{FitRequest, Fitted, fit};
 use crate::work::Work;
 
-/// Fits a classifier to the classes of the task called `name`. The card of the model keeps the task. Without a stated split, clusters are divided into
+/// Fits a model to the labels of the task called `name`. The card of the model keeps the task. Without a stated split, clusters are divided into
 /// training, validation and test part.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a model that is no classifier, a split that separates samples of one cluster, a split of several models, and for
+/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster, a split of several models, and for
 /// the errors of [`fit`].
 pub fn fit_task(
     dataset: &Dataset,
@@ -26,7 +26,7 @@ pub fn fit_task(
     let of_task = dataset.of_task(name)?;
     let task = of_task.labelled_by();
     let task = task.expect("BUG: the labels are those of the task");
-    let mut request = as_classifier(request, task)?;
+    let mut request = as_predictor(request, task)?;
     let own = match task.cluster == Field::Point.name() {
         true => "by-point".to_owned(),
         false => format!("by-column:{}", task.cluster),

@@ -7,8 +7,8 @@ use taceva_dataset::{Dataset, Task, TaskKind};
 use taceva_tasks::events::{EventRule, EventState, Frame};
 use taceva_tasks::{Classes, TaskError, TaskReport, TaskScore, TaskScores};
 
-use super::{EvaluateRequest, ModelChoice, evaluate};
-use crate::classifiers::as_classifier;
+use super::{EvaluateRequest, ModelChoice, evaluate, pose_task};
+use crate::classifiers::as_predictor;
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
 use crate::task_view::{in_words, window_of};
@@ -40,12 +40,13 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
     })
 }
 
-/// Fits `fit` to the classes of the task called `name`, predicts the samples of unseen clusters, and scores them.
+/// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
-/// Without a stated split, [`task_division`] divides the samples. The model is one of [`CLASSIFIERS`](crate::CLASSIFIERS).
+/// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
+/// [`CLASSIFIERS`](crate::CLASSIFIERS); a pose needs a model of numbers.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a task of poses, a model that is no classifier, a split that separates samples of one cluster,
+/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster,
 /// and for the errors of [`evaluate`].
 pub fn evaluate_task(
     dataset: &Dataset,
@@ -57,7 +58,7 @@ pub fn evaluate_task(
     let own = dataset.tasks().iter().map(|own| own.task());
     let task = own.clone().find(|task| task.name == name);
     let task = task.expect("`of_task` found the task");
-    let fit = as_classifier(fit, task)?;
+    let fit = as_predictor(fit, task)?;
     let split = match &fit.split {
         Some(split) => {
             check_split(split, task)?;
@@ -81,6 +82,14 @@ pub fn evaluate_task(
     };
     let evaluated = evaluate(&of_task, &request, work)?.report;
     let samples = evaluated.samples.expect("an evaluation keeps its samples");
+    let mut notes = vec![format!("model {model}, split {split}")];
+    notes.extend(window.map(|window| in_words(window, task)));
+    if task.kind == TaskKind::Pose {
+        let mut scores = pose_task::scores(dataset, task, &samples)?;
+        notes.append(&mut scores.notes);
+        scores.notes = notes;
+        return Ok(reported(dataset, evaluated.subject.source, scores));
+    }
     let clusters = dataset.clusters_of(task);
     let names = dataset.table().samples().iter();
     let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
@@ -114,10 +123,7 @@ pub fn evaluate_task(
     }
     let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
         .of_classes(&classes);
-    scores.notes.push(format!("model {model}, split {split}"));
-    scores
-        .notes
-        .extend(window.map(|window| in_words(window, task)));
+    scores.notes.extend(notes);
     scores
         .notes
         .extend(of_one_cluster(dataset, task, &clusters));
@@ -137,11 +143,16 @@ pub fn evaluate_task(
     if task.kind == TaskKind::Event {
         scores.scores.extend(onsets(frames, task)?);
     }
+    Ok(reported(dataset, evaluated.subject.source, scores))
+}
+
+/// Report of the scores of one task of `dataset`.
+fn reported(dataset: &Dataset, source: String, scores: TaskScores) -> TaskReport {
     let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), "by their row of the dataset");
     report.tables = [("dataset".to_owned(), dataset.digest().to_string())].into();
-    report.sources = vec![evaluated.subject.source];
+    report.sources = vec![source];
     report.tasks.push(scores);
-    Ok(report)
+    report
 }
 
 /// Number of rows with a label of the task called `name`.
@@ -227,7 +238,7 @@ fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     })
 }
 
-fn without_cluster(task: &Task) -> EvaluateError {
+pub(super) fn without_cluster(task: &Task) -> EvaluateError {
     EvaluateError::Request(format!(
         "task `{}`: a sample has no value in the cluster column `{}`: fill the column in, or state another `cluster` in the map",
         shown(&task.name),

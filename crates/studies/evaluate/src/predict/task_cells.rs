@@ -1,10 +1,13 @@
-//! Cells of predicted classes: their names, their clusters and the probabilities of all classes.
+//! Cells of predicted labels of a task: names of classes and their probabilities, or poses, and clusters.
 
 use taceva_core::Features;
-use taceva_dataset::{Dataset, Task, TaskKind};
+use taceva_dataset::{Dataset, RotationVector, Task, TaskKind};
 use taceva_models::{ClassProbabilities, Model, TaskCard};
 
 use crate::error::EvaluateError;
+
+/// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
+const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
 /// Task of predictions, with what tables say beside the predicted classes.
 #[derive(Debug)]
@@ -34,10 +37,47 @@ impl TaskCells {
         }))
     }
 
-    /// Name of the class with the position `number`.
-    pub(super) fn class(&self, number: f64) -> String {
-        let class = self.card.class(number).map(str::to_owned);
-        class.unwrap_or_else(|| format!("{number:?}"))
+    /// Columns of the labels: one of classes, or the seven of a pose.
+    pub(super) fn label_columns(&self) -> Vec<String> {
+        let ends = POSE.iter().filter(|_| self.is_pose());
+        let of_pose: Vec<String> = ends
+            .map(|end| format!("{}.{end}", self.card.name))
+            .collect();
+        match of_pose.is_empty() {
+            true => vec![self.card.name.clone()],
+            false => of_pose,
+        }
+    }
+
+    /// Cells of the [columns](TaskCells::label_columns) from the values of all channels in a row; empty without a label.
+    pub(super) fn label_cells(&self, values: &[Option<f64>]) -> Vec<String> {
+        let text = |number: f64| format!("{number:?}");
+        let known: Option<Vec<f64>> = values.iter().copied().collect();
+        match known.as_deref() {
+            Some([x, y, z, rotation @ ..]) if self.is_pose() && rotation.len() == 3 => {
+                let turned = RotationVector::new([rotation[0], rotation[1], rotation[2]]);
+                let numbers = [*x, *y, *z].into_iter().chain(turned.quaternion());
+                numbers.map(text).collect()
+            }
+            Some([class]) => {
+                let name = self.card.class(*class).map(str::to_owned);
+                vec![name.unwrap_or_else(|| text(*class))]
+            }
+            _ => vec![String::new(); self.label_columns().len()],
+        }
+    }
+
+    /// Channels of the labels, in the order of [`label_cells`](TaskCells::label_cells).
+    pub(super) fn channels(&self) -> Vec<String> {
+        let kind = match self.is_pose() {
+            true => TaskKind::Pose,
+            false => TaskKind::Class,
+        };
+        Task::new(self.card.name.as_str(), kind, "").channels()
+    }
+
+    fn is_pose(&self) -> bool {
+        self.card.kind == TaskKind::Pose.name()
     }
 
     /// Column with the clusters; `None` if the table has it already.
