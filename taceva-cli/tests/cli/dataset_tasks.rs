@@ -239,10 +239,8 @@ fn a_model_of_a_task_is_fitted_once_and_predicts_names_of_classes_that_score_rea
         "score --truth truth.csv --pred pred.csv --task slip=outcome:positive=slip --cluster stroke",
     );
     let accuracy = estimate(&report, "class_accuracy");
-    assert_eq!(
-        (&accuracy["n"], &accuracy["clusters"]),
-        (&120.into(), &12.into())
-    );
+    assert_eq!(accuracy["n"], 120);
+    assert_eq!(accuracy["clusters"], 12);
     assert!(
         accuracy["value"].as_f64().expect("a number") > 0.8,
         "{report:#}"
@@ -379,7 +377,7 @@ fn a_model_of_poses_writes_the_seven_columns_that_score_reads() {
     );
     let report =
         bench.json("score --truth truth.csv --pred pred.csv --task moved=pose --cluster stroke");
-    let turn = &estimate(&report, "pose_rotation");
+    let turn = estimate(&report, "pose_rotation");
     assert_eq!(turn["n"], 64, "{report:#}");
     assert!(
         turn["value"].as_f64().expect("a number") < 0.5,
