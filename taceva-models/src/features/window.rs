@@ -80,7 +80,8 @@ impl FrameWindow {
         (0..self.frames).map(move |frame| place.saturating_sub(back(frame)))
     }
 
-    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first, then the change to each frame from the one before.
+    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change to each frame from the one
+    /// before follows.
     ///
     /// # Shapes
     /// `frames`: the features of each frame, the newest first, each `[cells, depth]`.

@@ -27,7 +27,7 @@ const OF_LIBRARIES: [&str; 2] = ["linfa/logistic", "smartcore/knn-classifier"];
 fn candidates<'a>(
     libraries: &'a [&'static LibraryModel],
 ) -> impl Iterator<Item = &'static ModelInfo> + 'a {
-    let of_libraries = OF_LIBRARIES.into_iter().filter_map(|name| {
+    let of_libraries = OF_LIBRARIES.into_iter().filter_map(move |name| {
         let found = libraries.iter().find(|model| model.info.name == name);
         found.map(|model| &model.info)
     });
@@ -35,8 +35,8 @@ fn candidates<'a>(
 }
 
 impl Auto {
-    /// Fits each classifier to `training` and takes the one with the smallest share of wrong samples of `held`, averaged over its labels. Of equal shares, takes
-    /// the simplest.
+    /// Fits each classifier to `training` and takes the one with the smallest share of wrong samples of `held`, averaged over its labels.
+    /// Of equal shares, takes the simplest.
     ///
     /// # Errors
     /// [`ModelError`] without a validation part, if no classifier can be fitted, or if `progress` was cancelled.

@@ -33,8 +33,9 @@ impl Dataset {
         clusters
     }
 
-    /// The same dataset with the [channels](Task::channels) of the task called `name` in the place of all others: the position of its class, or translation (mm)
-    /// and rotation vector (degrees) of its pose.
+    /// The same dataset with the [channels](Task::channels) of the task called `name` in the place of all others.
+    ///
+    /// These are the position of its class, or translation (mm) and rotation vector (degrees) of its pose.
     ///
     /// A row without a label of the task has no label. The digest depends on the dataset and on the task.
     ///

@@ -14,8 +14,8 @@ use crate::work::Work;
 /// training, validation and test part.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster, a split of several models, and for
-/// the errors of [`fit`].
+/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster or fits several
+/// models, and for the errors of [`fit`].
 pub fn fit_task(
     dataset: &Dataset,
     name: &str,
