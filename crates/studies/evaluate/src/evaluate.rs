@@ -12,6 +12,7 @@ mod pose_task;
 mod request;
 mod scores;
 mod task;
+mod task_rows;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::catalogue;
@@ -30,6 +31,7 @@ pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};
 pub use task::{evaluate_task, task_division};
+pub use task_rows::{TaskRows, evaluate_task_rows};
 
 /// Evaluates `dataset`: fits the model if requested, predicts the samples that the model has not seen, and scores them.
 ///

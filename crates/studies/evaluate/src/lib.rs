@@ -54,8 +54,8 @@ pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
     Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
-    evaluate, evaluate_plan, evaluate_task, fit_task, fold_divisions, score, scored_by_default,
-    task_division,
+    TaskRows, evaluate, evaluate_plan, evaluate_task, evaluate_task_rows, fit_task, fold_divisions,
+    score, scored_by_default, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};

@@ -69,6 +69,33 @@ impl Dataset {
         })
     }
 
+    /// The same dataset with the labels `classes` of `task` beside those of its own tasks: a position for each row, or none.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] for joined recordings, for another number of labels than rows, and for a class that the task does not name.
+    pub fn with_task(&self, task: Task, classes: &[Option<u32>]) -> Result<Dataset, DatasetError> {
+        let is_named = |class: &u32| (*class as usize) < task.names.len();
+        let are_named = classes.iter().flatten().all(is_named);
+        if !self.joined.is_empty() || classes.len() != self.table.rows() || !are_named {
+            return Err(DatasetError::request(
+                self.path(),
+                format!(
+                    "the task `{}` has {} labels, expected one of its classes or none for each of {} rows of a single recording",
+                    shown(&task.name),
+                    classes.len(),
+                    self.table.rows()
+                ),
+            ));
+        }
+        let table = self.table.with_classes(task, classes);
+        let mut header = self.header.clone();
+        header.digest = table.with_tasks_digest(header.digest);
+        Ok(Dataset {
+            seen: self.seen.clone(),
+            ..Dataset::of(self.folder.again()?, header, table)
+        })
+    }
+
     /// Task whose labels take the place of the channels, after [`of_task`](Dataset::of_task); `None` for measured channels.
     pub fn labelled_by(&self) -> Option<&Task> {
         let first = self.joined.first();

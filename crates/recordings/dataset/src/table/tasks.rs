@@ -201,6 +201,18 @@ impl Table {
         })
     }
 
+    /// The same table with labels of one more task, which must name every class.
+    pub(crate) fn with_classes(&self, task: Task, classes: &[Option<u32>]) -> Table {
+        let mut own = TaskColumn::new(task);
+        own.cells = TaskCells::Classes(classes.to_vec());
+        let mut table = self.clone();
+        table.tasks.push(own);
+        table
+            .tasks
+            .sort_by(|one, other| one.task.name.cmp(&other.task.name));
+        table
+    }
+
     /// Digest of the dataset with the digest `dataset`, and of the labels and definitions of its tasks.
     ///
     /// The file keeps `dataset`, the digest without tasks. A reader of an earlier minor version reads no tasks, and checks that digest.

@@ -15,7 +15,7 @@ use crate::task_view::{in_words, window_of};
 use crate::work::Work;
 
 /// Most folds of the default division.
-const MOST_FOLDS: usize = 5;
+pub(super) const MOST_FOLDS: usize = 5;
 
 /// Division that keeps each cluster of `task` whole: five folds, or one for each of fewer clusters.
 ///
@@ -186,7 +186,7 @@ fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -
 }
 
 /// Scores of the onsets of an event, in the order of time within each cluster.
-fn onsets(
+pub(super) fn onsets(
     clusters: BTreeMap<&str, Vec<Frame>>,
     task: &Task,
 ) -> Result<Vec<TaskScore>, EvaluateError> {
@@ -224,7 +224,7 @@ pub(super) fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError>
 }
 
 /// Position of a class that a channel holds as a number.
-fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
+pub(super) fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     let classes = (0_u32..).take(task.names.len());
     let found = classes
         .into_iter()
@@ -246,6 +246,6 @@ pub(super) fn without_cluster(task: &Task) -> EvaluateError {
     ))
 }
 
-fn refused(task: &Task, error: &TaskError) -> EvaluateError {
+pub(super) fn refused(task: &Task, error: &TaskError) -> EvaluateError {
     EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
 }

@@ -15,10 +15,10 @@ pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     let spec = &inputs.protocol.slip;
     let length_mm = spec.length_mm.value;
     let step_mm = (spec.speed_mm_s.value / spec.rate_hz.value).min(length_mm);
-    let steps = whole_count((length_mm / step_mm).floor());
+    let steps = whole_count((length_mm / step_mm + SLACK).floor());
     let steps = i64::try_from(steps).unwrap_or(i64::MAX).min(STEPS_MOST);
     let step = nanometres(step_mm).0.max(1);
-    let depth = nanometres(inputs.depth_max.to_millimetres() * spec.depth_fraction.value);
+    let depth = nanometres(spec.depth_mm.value).min(inputs.depth_max);
     let stroke = |stroke: u64| {
         let place = draws.place(&inputs.footprint, stroke);
         let first = draws.between(0, 3, [stroke, SHEAR_AXIS]);
@@ -32,6 +32,9 @@ pub(super) fn presses(inputs: &PhaseInputs<'_>) -> Vec<Press> {
     };
     (0..u64::from(spec.strokes.value)).map(stroke).collect()
 }
+
+/// Rounding error of a number of steps.
+const SLACK: f64 = 1e-9;
 
 /// Greatest number of steps of a stroke.
 const STEPS_MOST: i64 = 10_000;

@@ -186,11 +186,11 @@ table! {
         /// Speed of a stroke, in mm/s. The tip rests at each frame, so the speed sets the distance of frames.
         speed_mm_s: f64 = 5.0,
         /// Number of frames per second of a stroke.
-        rate_hz: f64 = 25.0,
+        rate_hz: f64 = 50.0,
         /// Length of a stroke, in mm.
-        length_mm: f64 = 2.0,
-        /// Depth of a stroke, as a fraction of the greatest depth.
-        depth_fraction: f64 = 0.5,
+        length_mm: f64 = 1.0,
+        /// Depth of a stroke, in mm, at most the greatest depth. A ball slides after about 1.5 times the depth times the coefficient of friction.
+        depth_mm: f64 = 0.4,
         /// Coefficient of friction between indenter and gel; 1 on the simulated bench.
         friction: f64 = 1.0,
         /// Number of frames from which a frame is predicted.

@@ -7,7 +7,7 @@ use crate::press::Waypoint;
 fn with_strokes() -> Plan {
     let text = SMALL.replace(
         "[protocol]",
-        "[protocol]\nslip = { strokes = 10, speed_mm_s = 2.5, length_mm = 0.4 }",
+        "[protocol]\nslip = { strokes = 10, length_mm = 0.4 }",
     );
     assert_ne!(text, SMALL);
     planned_as(

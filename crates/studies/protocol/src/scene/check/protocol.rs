@@ -53,6 +53,7 @@ impl Check<'_> {
             ("speed_mm_s", &slip.speed_mm_s),
             ("rate_hz", &slip.rate_hz),
             ("length_mm", &slip.length_mm),
+            ("depth_mm", &slip.depth_mm),
         ] {
             self.length(key, length)?;
         }
@@ -70,7 +71,6 @@ impl Check<'_> {
         // In contact, the tip must be able to stop within a step.
         self.range("speed_mm_s", &contact.speed_mm_s, 5.0)?;
         self.range("depth_fraction", &gratings.depth_fraction, 1.0)?;
-        self.range("depth_fraction", &slip.depth_fraction, 1.0)?;
         self.range("friction", &slip.friction, 5.0)?;
         boards::spacings(gratings)
             .map(drop)
