@@ -5,7 +5,7 @@ use smartcore::metrics::distance::euclidian::Euclidian;
 use taceva_core::{ErrorKind, ModelError};
 
 use super::RELEASE;
-use crate::estimators::library::adapter::{Adapter, Number, Unset, any};
+use crate::estimators::library::adapter::{Adapter, Number, Unset, any, few_labels};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::damaged;
 use crate::estimators::library::{
@@ -17,6 +17,7 @@ use crate::training::file::tensors::Raw;
 use crate::training::info::ModelInfo;
 
 const NAME: &str = "smartcore/knn";
+const CLASSIFIER_NAME: &str = "smartcore/knn-classifier";
 
 const COUNT: Number = Number {
     info: SettingInfo {
@@ -59,7 +60,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
 pub(super) static CLASSIFIER: Adapter = Adapter {
     model: LibraryModel {
         info: ModelInfo::of_library(
-            "smartcore/knn-classifier",
+            CLASSIFIER_NAME,
             "smartcore: the label that most of the nearest training samples have, for kinds, boards and levels",
             &[LibrarySettings::SCALE, COUNT.info, LibrarySettings::REFIT],
             |settings| CLASSIFIER.estimator(settings),
@@ -71,7 +72,7 @@ pub(super) static CLASSIFIER: Adapter = Adapter {
     },
     numbers: &[COUNT],
     is_classifier: true,
-    check: any,
+    check: |training| few_labels(CLASSIFIER_NAME, training),
     fit: |_, task| fit(task, Answer::Vote),
 };
 
