@@ -64,7 +64,7 @@ pub(crate) struct Evaluate {
     #[arg(
         long,
         value_name = "NAME",
-        conflicts_with_all = ["with", "metrics", "independent", "sensor", "state_out", "html", "figures", "samples_out", "table", "part", "split_out", "explain"]
+        conflicts_with_all = ["with", "metrics", "independent", "sensor", "html", "figures", "samples_out", "table", "part", "split_out", "explain"]
     )]
     pub(crate) task: Option<String>,
     #[command(flatten)]
@@ -156,7 +156,8 @@ pub(crate) struct Score {
     pub(crate) output: Output,
 }
 
-/// States are written by `evaluate` and `score` with --state-out. They must have the same metrics, channels and settings.
+/// States are written by `evaluate` and `score` with --state-out, of channels or of tasks. They must have the same metrics, channels and settings, or
+/// the same tasks with the same classes, rules and cluster column.
 #[derive(Debug, Args)]
 pub(crate) struct Merge {
     /// The states to merge

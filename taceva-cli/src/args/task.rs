@@ -2,11 +2,12 @@
 
 use clap::Args;
 use taceva_evaluate::TaskSpec;
+use taceva_tasks::PublicProgram;
 
 use super::SettingArgs;
 
 /// Options that concern channels, which tasks do not have.
-const OF_CHANNELS: [&str; 13] = [
+const OF_CHANNELS: [&str; 12] = [
     "units",
     "periods",
     "allow_invalid",
@@ -14,7 +15,6 @@ const OF_CHANNELS: [&str; 13] = [
     "metrics",
     "independent",
     "sensor",
-    "state_out",
     "html",
     "figures",
     "samples_out",
@@ -27,7 +27,8 @@ const OF_CHANNELS: [&str; 13] = [
 pub(crate) struct TaskArgs {
     /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome or pose; may be repeated. The
     /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
-    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG
+    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG. Refused beside it, as options of channels: --units, --periods, --allow-invalid,
+    /// --shard, --metrics, --independent, --sensor, --html, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]
@@ -39,6 +40,10 @@ pub(crate) struct TaskArgs {
     /// Predict the positive class from the Nth positive frame in a row on, as NAME=N; may be repeated
     #[arg(id = "debounce", long, value_name = "NAME=N", requires = "task")]
     pub(crate) debounces: Vec<String>,
+    /// Print the numbers of a public program too, each beside the right one with the reason for the difference: sparsh, touch-and-go, normalflow or
+    /// objectfolder
+    #[arg(id = "as", long = "as", value_name = "PROGRAM", requires = "task")]
+    pub(crate) program: Option<PublicProgram>,
 }
 
 /// Frames that a sample of a task reads.

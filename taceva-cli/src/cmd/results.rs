@@ -1,6 +1,7 @@
 //! Reads existing results.
 
 mod samples;
+pub(super) mod tasks;
 
 use std::collections::BTreeSet;
 use std::fs;

@@ -154,3 +154,10 @@ fn a_recording_without_tasks_says_what_to_write_into_the_map() {
     bench.ok("import lab --map lab/map.toml --out plain -q");
     bench.refused("evaluate plain --task slip --no-cache", 3, "`[task.NAME]`");
 }
+
+#[test]
+fn a_state_of_a_fitted_task_has_its_scores() {
+    let bench = strokes();
+    let scored = bench.json("evaluate data --task slip --no-cache --state-out slip.state");
+    assert_eq!(bench.json("merge slip.state"), scored);
+}

@@ -1,6 +1,9 @@
 //! Scores of tasks of two tables.
 
+mod compared;
 mod input;
+mod public_programs;
+mod states;
 
 use std::fmt::Write as _;
 

@@ -26,6 +26,8 @@ pub struct Evidence<'a> {
     pub is_split_named: bool,
     /// Division whose test part an evaluation scores: all folds of the default split, or `divided`.
     pub scored: Option<&'a Divided>,
+    /// Division that scores each task of the table: its own folds, or `divided` if the request names a split. `None` for a task without classes or folds.
+    pub of_tasks: &'a [Option<Divided>],
     /// Statistics of the frame of each row; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],
     /// Statistics of the frame without contact.

@@ -124,16 +124,19 @@ impl MapDraft {
             None => match most {
                 Some(group) => map_text::of_files(group, &said),
                 None => {
-                    return Err(ImportError::request(
-                        folder,
-                        match (notes.first(), bare) {
-                            (Some(note), _) => {
-                                format!("nothing here can be read as a table: {note}")
-                            }
-                            (None, Some(bare)) => notes::bare_clips(bare),
-                            (None, None) => "it contains no table and no picture".to_owned(),
-                        },
-                    ));
+                    let asked = file.map(|file| file.to_string_lossy());
+                    let clip = clips::bare(&source, &groups, asked.as_deref());
+                    let problem = match (notes.first(), clip, bare) {
+                        (None, Some(clip), _) => {
+                            return Ok(MapDraft {
+                                text: map_text::of_clip(&clip, &said),
+                            });
+                        }
+                        (Some(note), ..) => format!("nothing here can be read as a table: {note}"),
+                        (None, None, Some(bare)) => notes::bare_clips(bare),
+                        (None, None, None) => "it contains no table and no picture".to_owned(),
+                    };
+                    return Err(ImportError::request(folder, problem));
                 }
             },
         };

@@ -28,6 +28,8 @@ mod site;
 mod spread;
 mod table;
 mod tables_page;
+mod task_comparison;
+mod task_result;
 mod tasks;
 mod tie;
 mod training;
@@ -72,4 +74,6 @@ pub use table::{
     Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };
 pub use tables_page::{PagePart, PageSection, TablesPage};
+pub use task_comparison::{TASK_COMPARISON_SCHEMA, TaskAnswer, TaskComparison};
+pub use task_result::TaskResult;
 pub use tasks::{task_numbers, task_table};

@@ -36,6 +36,7 @@ mod sensor_facts;
 mod skill;
 mod state_file;
 mod subject;
+mod task_state_file;
 mod task_view;
 mod validation;
 mod work;
@@ -55,7 +56,7 @@ pub use error::EvaluateError;
 pub use evaluate::{
     Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
     TaskRows, evaluate, evaluate_plan, evaluate_task, evaluate_task_rows, fit_task, fold_divisions,
-    score, scored_by_default, task_division,
+    score, scored_by_default, scored_of_task, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
@@ -83,11 +84,13 @@ pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, TaskRequest,
-    TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks,
+    TaskRule, TaskSpec, UNKNOWN_ORIGIN, read_table, recount_tables, score_in_one_pass, score_tasks,
+    stated_origins, task_states,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
 pub use taceva_import::CsvTable;
+pub use task_state_file::{TASK_STATE_SCHEMA, TaskStates, merge_task_states};
 pub use validation::fit_validated;
 pub use work::Work;

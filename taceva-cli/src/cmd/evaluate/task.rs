@@ -8,7 +8,8 @@ use crate::args::Evaluate;
 use crate::{exit, output};
 
 pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Result<u8> {
-    output::check_all_free(&args.output.path, args.output.force)?;
+    let state_out = &args.scoring.state_out;
+    output::check_all_free(args.output.path.iter().chain(state_out), args.output.force)?;
     check_folders(&args.datasets)?;
     let models = context.models()?;
     let dataset = open_seen(&args.datasets, &args.view, None)?;
@@ -20,8 +21,8 @@ pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Res
     let settings = args.window.on(&args.model.settings);
     let fit = fit_request(model, &settings, &args.split, &models)?;
     let cache = cache::of(&args.cache);
-    let report = evaluate_task(&dataset, name, fit, context.work(cache.as_ref()))?;
+    let states = evaluate_task(&dataset, name, fit, context.work(cache.as_ref()))?;
     cache::note(cache.as_ref(), context);
-    task_scores::write(&report, &args.output)?;
+    task_scores::write(&states, &args.output, state_out.as_deref())?;
     Ok(exit::DONE)
 }

@@ -4,14 +4,15 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use taceva_core::shown;
-use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, read_table, score_tasks};
+use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, task_states};
 
 use super::super::{Context, Usage, origin, task_scores};
 use crate::args::Score;
 use crate::{exit, output};
 
 pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
-    output::check_all_free(&args.output.path, args.output.force)?;
+    let state_out = &args.scoring.state_out;
+    output::check_all_free(args.output.path.iter().chain(state_out), args.output.force)?;
     let request = TaskRequest {
         tables: ScoreRequest {
             key: args.key.clone(),
@@ -22,9 +23,17 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         rules: rules(args)?,
         cluster: args.task.cluster.clone(),
     };
-    let mut report = score_tasks(&request)?;
-    report.sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
-    task_scores::write(&report, &args.output)?;
+    let mut states = task_states(&request)?;
+    if states.sources.is_empty() {
+        states.sources.insert(origin::beside(&args.truth)?);
+    }
+    let state_out = state_out.as_deref();
+    match args.task.program {
+        Some(program) => {
+            task_scores::write_as_published(program, &states, &args.output, state_out)?;
+        }
+        None => task_scores::write(&states, &args.output, state_out)?,
+    }
     Ok(exit::DONE)
 }
 

@@ -15,5 +15,6 @@ mod pdf_file;
 mod reports;
 #[path = "../support/mod.rs"]
 mod support;
+mod task_comparison;
 mod values;
 mod verdicts;

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use taceva_core::counted;
+use taceva_metrics::ExactSum;
 
 use super::cloud::PointDistances;
 use super::error::PoseError;
@@ -196,6 +197,20 @@ impl PoseState {
             totals.sums[ADD_S].merge(&distances.nearest);
         }
         add_errors(&mut self.still, truth, &Pose::ZERO);
+    }
+
+    /// Names of the clusters with poses, in order.
+    pub fn clusters(&self) -> impl Iterator<Item = &str> {
+        self.clusters.names()
+    }
+
+    /// Mean over the clusters of their mean lengths of differences of translations, mm; `None` without a pose.
+    pub(crate) fn mean_of_cluster_means(&self) -> Option<f64> {
+        let means = self.clusters.values();
+        let means = means.filter_map(|totals| totals.mean(TRANSLATION, POSES).ok());
+        let means: Vec<f64> = means.collect();
+        let count = u32::try_from(means.len()).ok().filter(|count| *count > 0)?;
+        Some(means.into_iter().collect::<ExactSum>().to_f64() / f64::from(count))
     }
 
     /// Both states as one.

@@ -5,19 +5,19 @@ use std::collections::BTreeMap;
 use taceva_core::shown;
 use taceva_dataset::{Dataset, RotationVector, Task};
 use taceva_results::Samples;
+use taceva_tasks::TaskState;
 use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
-use taceva_tasks::{TaskScores, Undefined};
 
-use super::task::without_cluster;
+use super::task::{own_labels, unscored, without_cluster};
 use crate::error::EvaluateError;
 
-/// Scores of the poses in `samples`, a table of predictions of the channels of `task`.
-pub(super) fn scores(
+/// State of the poses in `samples`, a table of predictions of the channels of `task`. `clusters` has the cluster of every row of the dataset.
+pub(super) fn state(
     dataset: &Dataset,
     task: &Task,
+    clusters: &[Option<String>],
     samples: &Samples,
-) -> Result<TaskScores, EvaluateError> {
-    let clusters = dataset.clusters_of(task);
+) -> Result<TaskState, EvaluateError> {
     let names = dataset.table().samples().iter();
     let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
     let channels = task.channels();
@@ -25,7 +25,7 @@ pub(super) fn scores(
         .iter()
         .map(|name| samples.channel(name).expect("a channel of the task"))
         .collect();
-    let mut state = PoseState::new(definition(task)?);
+    let mut poses = PoseState::new(definition(task)?);
     let mut scored: u64 = 0;
     for row in 0..samples.rows() {
         let pairs: Option<Vec<[f64; 2]>> =
@@ -39,27 +39,17 @@ pub(super) fn scores(
         let cluster = sample.and_then(|row| clusters[row].as_deref());
         let cluster = cluster.ok_or_else(|| without_cluster(task))?;
         let side = |side: usize| pose(row as u64 + 1, &pairs, side);
-        let poses = side(0).and_then(|truth| Ok([truth, side(1)?]));
-        let [truth, predicted] = poses.map_err(|error| refused(task, &error))?;
-        state.push(cluster, &truth, &predicted);
+        let both = side(0).and_then(|truth| Ok([truth, side(1)?]));
+        let [truth, predicted] = both.map_err(|error| refused(task, &error))?;
+        poses.push(cluster, &truth, &predicted);
         scored += 1;
     }
-    let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
-    let found = state.scores().into_iter();
-    // No recording has the points of an object.
-    let of_poses = found.filter(|score| score.estimate.value.err() != Some(Undefined::NoPoints));
-    scores.scores = of_poses.collect();
-    let own = dataset.table().task(&task.name);
-    let labelled = own.map_or(0, |own| {
-        let rows = 0..dataset.table().rows();
-        rows.filter(|row| own.label(*row).is_some()).count()
-    });
-    if scored != labelled as u64 {
-        scores.notes.push(format!(
-            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
-        ));
-    }
-    Ok(scores)
+    let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
+    state.pose = Some(poses);
+    state
+        .notes
+        .extend(unscored(scored, own_labels(dataset, &task.name)));
+    Ok(state)
 }
 
 /// Pose of a row from the six numbers on one side of `pairs`: 0 for the truth, 1 for the prediction.

@@ -6,7 +6,7 @@ use taceva_core::shown;
 use taceva_dataset::{Dataset, Task, TaskKind};
 use taceva_models::Split;
 use taceva_tasks::events::Frame;
-use taceva_tasks::{Classes, TaskScores};
+use taceva_tasks::{Classes, TaskScores, TaskState};
 
 use super::task::{MOST_FOLDS, onsets, position, refused};
 use crate::classifiers::as_predictor;
@@ -14,6 +14,7 @@ use crate::error::EvaluateError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
 use crate::predict::{Predicted, Target, predict_target};
 use crate::rows::Divided;
+use crate::task_view::{in_words, window_of};
 use crate::work::Work;
 
 /// Rows to score.
@@ -76,17 +77,22 @@ pub fn evaluate_task_rows(
             frames.entry(stroke.name).or_default().push(frame);
         }
     }
-    let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
-        .of_classes(&classes);
-    scores.notes.push(format!(
+    let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
+    state.notes.push(format!(
         "model {}, split cv:{folds} by {}",
         fit.model.name(),
         shown(&task.cluster)
     ));
+    let window = window_of(&fit.settings)?;
+    state
+        .notes
+        .extend(window.map(|window| in_words(window, task)));
+    state.classes = Some(classes);
     if task.kind == TaskKind::Event {
-        scores.scores.extend(onsets(frames, task)?);
+        state.events = Some(onsets(frames, task)?);
+        state.is_sequence = true;
     }
-    Ok(scores)
+    Ok(state.scores())
 }
 
 /// Truth and prediction of the sample at `at`.

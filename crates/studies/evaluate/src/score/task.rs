@@ -10,16 +10,18 @@ mod spec;
 
 use std::collections::BTreeMap;
 
-use taceva_core::{counted, shown};
+use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
-use taceva_tasks::{TaskReport, TaskScores};
+use taceva_tasks::{TaskReport, TaskState};
 
 use super::ScoreRequest;
 use super::agreement::Matching;
+use super::origins::stated_origins;
 use super::row_key::{KEY_NAMES, RowKeys};
 use super::tables::{self, Pairing};
 use crate::error::EvaluateError;
+use crate::task_state_file::TaskStates;
 
 pub use rule::TaskRule;
 pub use spec::TaskSpec;
@@ -79,6 +81,14 @@ struct RowPair {
 /// # Errors
 /// [`EvaluateError`] if a table cannot be read, rows do not pair, a column is missing, or a cell is no class, number or rotation.
 pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
+    task_states(request).map(|states| states.report())
+}
+
+/// States behind the scores of [`score_tasks`], which can be written and merged.
+///
+/// # Errors
+/// Errors of [`score_tasks`].
+pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     check_names(request)?;
     tables::check_distinct(&request.tables)?;
     let [(truth, of_truth), (prediction, of_prediction)] = tables::read_both(&request.tables)?;
@@ -92,11 +102,12 @@ pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
     let pairs = pairs(&pairing, truth.rows());
     let numbers = pairs.iter().map(|pair| (pair.truth, pair.prediction));
     matching.check([&truth, &prediction], numbers)?;
-    let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), matching.by.to_string());
     let digests = [("truth", of_truth), ("prediction", of_prediction)];
-    report.tables = digests
-        .map(|(role, digest)| (role.to_owned(), digest.to_string()))
-        .into();
+    let digests = digests.map(|(role, digest)| (role.to_owned(), digest.to_string()));
+    let mut states = TaskStates::new(matching.by.to_string(), digests.into());
+    states
+        .sources
+        .extend(stated_origins(&truth)?.unwrap_or_default());
     let tables = TaskTables {
         truth,
         prediction,
@@ -105,12 +116,12 @@ pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
     let clusters = Clusters::of(&tables, request.cluster.as_deref())?;
     for task in &request.tasks {
         let rule = request.rules.get(&task.name);
-        report.tasks.push(match task.kind {
-            TaskKind::Pose => pose::scores(&tables, &clusters, task)?,
-            _ => classes::scores(&tables, &clusters, task, rule)?,
+        states.tasks.push(match task.kind {
+            TaskKind::Pose => pose::state(&tables, &clusters, task)?,
+            _ => classes::state(&tables, &clusters, task, rule)?,
         });
     }
-    Ok(report)
+    Ok(states)
 }
 
 /// Refuses no task, a task that is named twice, and a rule of an unknown task.
@@ -221,12 +232,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// Remark on `left_out` rows without a label, if any.
-fn unlabelled(left_out: usize) -> Option<String> {
-    (left_out > 0).then(|| format!("{} without a label, left out", counted(left_out, "row")))
-}
-
-/// Empty scores of `task`.
-fn empty(task: &TaskSpec, clusters: &Clusters<'_>) -> TaskScores {
-    TaskScores::new(task.name.as_str(), task.kind.name(), clusters.name())
+/// Empty state of `task`.
+fn empty(task: &TaskSpec, clusters: &Clusters<'_>) -> TaskState {
+    TaskState::new(task.name.as_str(), task.kind.name(), clusters.name())
 }
