@@ -7,6 +7,7 @@ mod classifier;
 mod ensemble;
 mod estimator;
 mod fit;
+mod head;
 mod regressor;
 mod spacing;
 mod training;

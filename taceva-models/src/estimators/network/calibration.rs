@@ -1,4 +1,4 @@
-//! Probabilities of classes from outputs of a network, calibrated by one temperature.
+//! Classes from outputs of a network: the greatest output, and probabilities calibrated by one temperature.
 
 /// Range of temperatures. Beyond it, probabilities are all but equal, or all but 0 and 1.
 const RANGE: [f64; 2] = [0.05, 20.0];
@@ -17,6 +17,19 @@ pub(super) fn softmax(outputs: &[f64], temperature: f64, into: &mut Vec<f64>) {
     );
     let sum: f64 = into[start..].iter().sum();
     into[start..].iter_mut().for_each(|share| *share /= sum);
+}
+
+/// Index of the greatest value; of equal values, the first.
+pub(super) fn greatest(outputs: &[f64]) -> usize {
+    let mut places = 0..outputs.len();
+    let first = places.next().unwrap_or(0);
+    places.fold(first, |best, place| {
+        if outputs[place] > outputs[best] {
+            place
+        } else {
+            best
+        }
+    })
 }
 
 /// Temperature with the greatest likelihood of `classes`. The negative log likelihood is convex in the inverse temperature, so its slope has one zero.

@@ -5,9 +5,8 @@ use taceva_core::{
 };
 
 use super::NO_PICTURE;
-use super::calibration::softmax;
+use super::calibration::{greatest, softmax};
 use super::regressor::{NetworkRegressor, named_tensors};
-use super::spacing::greatest;
 use crate::features::Pca;
 use crate::linalg::invalid;
 use crate::training::card::{ClassCard, KindCard, NetworkCard};
@@ -32,6 +31,21 @@ pub(super) fn class_channels(count: usize) -> Result<Channels, ModelError> {
     let channels = named.collect::<Result<Vec<_>, _>>();
     let channels = channels.and_then(Channels::new);
     channels.map_err(|error| invalid("the classes of a network").because(error))
+}
+
+/// Loads a network from a file: a classifier if its card has classes, otherwise a network of numbers.
+pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
+    let card = stored.card.network.as_ref().ok_or(FormatError::Card)?;
+    let found = named_tensors(&stored.tensors)?;
+    let of_stored = stored.channels.clone();
+    let Some(classes) = &card.classes else {
+        let own = NetworkRegressor::of_tensors(stored, of_stored, card, found)?;
+        return Ok(ModelRegressor::new(own));
+    };
+    let channels = class_channels(classes.labels.len())?;
+    let network = NetworkRegressor::of_tensors(stored, channels, card, found)?;
+    let own = NetworkClassifier::new(of_stored, network, classes.clone())?;
+    Ok(ModelRegressor::new(own))
 }
 
 impl NetworkClassifier {
@@ -64,19 +78,6 @@ impl NetworkClassifier {
             network,
             classes,
         })
-    }
-
-    /// Loads the model from a file.
-    pub(super) fn load(
-        stored: &Stored<'_>,
-        card: &NetworkCard,
-        classes: &ClassCard,
-    ) -> Result<ModelRegressor, FormatError> {
-        let found = named_tensors(&stored.tensors)?;
-        let network = NetworkRegressor::of_tensors(stored, card, found)?;
-        let channels = stored.channels.clone();
-        let own = NetworkClassifier::new(channels, network, classes.clone())?;
-        Ok(ModelRegressor::new(own))
     }
 
     /// Labels and temperature in the model card.

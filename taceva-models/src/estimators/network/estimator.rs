@@ -5,8 +5,9 @@ use taceva_network::GpuKind;
 use taceva_network::{Architecture, Augmentation, ConvolutionForm, Depth, Loss, Optimizer, Recipe};
 
 use super::appearance::Preparation;
-use super::classes::{CLASS_WEIGHTS, ClassWeights, HEAD};
-use super::regressor::{NetworkRegressor, picture};
+use super::classifier;
+use super::head::{CLASS_WEIGHTS, ClassWeights, HEAD};
+use super::regressor::picture;
 use crate::features::Preprocessing;
 use crate::features::{Color, FeatureError, FeatureKinds, FeatureSpec};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
@@ -137,7 +138,7 @@ macro_rules! info {
             settings: SETTINGS,
             features: Some(FEATURES),
             make: |settings| Ok(Box::new(NetworkEstimator::from_settings($kind, settings)?)),
-            load: NetworkRegressor::load,
+            load: classifier::load,
         }
     };
 }

@@ -7,7 +7,6 @@ use taceva_core::{Channels, ErrorKind, FeatureShape, Features, ModelError, Regre
 use taceva_network::{NamedTensor, Network, Picture, Predictor};
 
 use super::NO_PICTURE;
-use super::classifier::{NetworkClassifier, class_channels};
 use super::training::refused;
 use crate::features::Pca;
 use crate::linalg::invalid;
@@ -80,20 +79,10 @@ impl NetworkRegressor {
         self.network.tensors()
     }
 
-    /// Loads the model from a file.
-    pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
-        let network = stored.card.network.as_ref().ok_or(FormatError::Card)?;
-        if let Some(classes) = &network.classes {
-            return NetworkClassifier::load(stored, network, classes);
-        }
-        let found = named_tensors(&stored.tensors)?;
-        let own = NetworkRegressor::of_tensors(stored, network, found)?;
-        Ok(ModelRegressor::new(own))
-    }
-
-    /// Builds the network from its card and the tensors of a file.
+    /// Builds the network that predicts `channels` from its card and the tensors of a file.
     pub(super) fn of_tensors(
         stored: &Stored<'_>,
+        channels: Channels,
         card: &NetworkCard,
         found: Vec<NamedTensor>,
     ) -> Result<NetworkRegressor, FormatError> {
@@ -107,10 +96,6 @@ impl NetworkRegressor {
             return Err(FormatError::Card);
         }
         let ready = Network::from_tensors(&card.architecture, found)?;
-        let channels = match &card.classes {
-            Some(classes) => class_channels(classes.labels.len())?,
-            None => stored.channels.clone(),
-        };
         Ok(NetworkRegressor::new(channels, card.clone(), ready)?)
     }
 
