@@ -19,7 +19,7 @@ use taceva_core::{Traceability, Unit};
 use taceva_metrics::{Standing, TrainingSpread, catalogue};
 use taceva_results::{
     DominantSample, EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples,
-    Score, Skip, TaskResult,
+    Score, Skip, StudyTask,
 };
 
 /// Text in the method of an interval that leaves out groups of the split.
@@ -59,7 +59,7 @@ pub struct Study {
     /// Scores for other training seeds; `None` if the model was fitted once.
     pub over_seeds: Option<OverSeeds>,
     /// Scores of tasks, such as slip.
-    pub tasks: Vec<TaskResult>,
+    pub tasks: Vec<StudyTask>,
     /// Samples of the result; `None` if unavailable, and figures of samples are then omitted.
     pub samples: Option<Samples>,
 }

@@ -31,5 +31,5 @@ pub use schema::{RUN_SCHEMA, RunReport, read, sealed};
 pub use score::{Score, Variant, by_metric, scores};
 pub use seeds::{OverSeeds, SeedScore};
 pub use subject::Subject;
-pub use task::{TaskNumber, TaskResult};
+pub use task::{StudyTask, TaskNumber};
 pub use value::Value;

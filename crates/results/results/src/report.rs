@@ -10,7 +10,7 @@ use crate::samples::Samples;
 use crate::score::{Score, by_metric, scores};
 use crate::seeds::OverSeeds;
 use crate::subject::Subject;
-use crate::task::TaskResult;
+use crate::task::StudyTask;
 
 /// Schema of one evaluation report.
 ///
@@ -44,7 +44,7 @@ pub struct EvaluationReport {
     pub over_seeds: Option<OverSeeds>,
     /// Scores of tasks, such as slip; empty unless the scene asks for one.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub tasks: Vec<TaskResult>,
+    pub tasks: Vec<StudyTask>,
     /// Samples behind the scores, if available. They are not part of the JSON.
     #[serde(skip)]
     pub samples: Option<Samples>,

@@ -6,10 +6,10 @@ use serde_json::Value;
 /// Scores of one task, in the form of a task of `taceva.tasks/1`.
 ///
 /// ```
-/// use taceva_results::TaskResult;
+/// use taceva_results::StudyTask;
 /// let text = r#"{"name": "slip", "notes": ["model lda"], "scores": [{"metric": "f1", "variant": null,
 ///     "estimate": {"value": 0.9, "ci95": [0.8, 0.95], "n": 440, "clusters": 40, "of_constant": 0.6}}]}"#;
-/// let slip: TaskResult = serde_json::from_str(text)?;
+/// let slip: StudyTask = serde_json::from_str(text)?;
 /// let scores: Vec<_> = slip.scores().collect();
 /// assert_eq!((slip.name(), scores[0].metric, scores[0].value), ("slip", "f1", Some(0.9)));
 /// assert_eq!(scores[0].interval, Some([0.8, 0.95]));
@@ -17,7 +17,7 @@ use serde_json::Value;
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(transparent)]
-pub struct TaskResult(Value);
+pub struct StudyTask(Value);
 
 /// A score of a task without a variant.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,10 +38,10 @@ pub struct TaskNumber<'a> {
     pub clusters: u64,
 }
 
-impl TaskResult {
+impl StudyTask {
     /// Scores of a task as JSON.
-    pub fn new(task: Value) -> TaskResult {
-        TaskResult(task)
+    pub fn new(task: Value) -> StudyTask {
+        StudyTask(task)
     }
 
     /// Name of the task.

@@ -72,8 +72,14 @@ impl Dataset {
     /// The same dataset with the labels `classes` of `task` beside those of its own tasks: a position for each row, or none.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for joined recordings, for another number of labels than rows, and for a class that the task does not name.
+    /// [`DatasetError::Request`] for joined recordings, for a task of the same name, for another number of labels than rows, and for a class that the
+    /// task does not name.
     pub fn with_task(&self, task: Task, classes: &[Option<u32>]) -> Result<Dataset, DatasetError> {
+        if self.table.task(&task.name).is_some() {
+            let name = shown(&task.name);
+            let problem = format!("the recording has a task `{name}`, expected another name");
+            return Err(DatasetError::request(self.path(), problem));
+        }
         let is_named = |class: &u32| (*class as usize) < task.names.len();
         let are_named = classes.iter().flatten().all(is_named);
         if !self.joined.is_empty() || classes.len() != self.table.rows() || !are_named {

@@ -5,7 +5,7 @@ use taceva_dataset::{Dataset, Task, TaskKind};
 use taceva_evaluate::{EvaluateError, FitRequest, TaskRows, evaluate_task_rows};
 use taceva_models::ModelSettings;
 use taceva_protocol::PhaseKind;
-use taceva_results::{Skip, TaskResult};
+use taceva_results::{Skip, StudyTask};
 
 use super::context::RunContext;
 use super::phase_rows::PhaseRows;
@@ -26,10 +26,12 @@ pub(super) fn of(
     dataset: &Dataset,
     phase_rows: &PhaseRows<'_>,
     context: RunContext<'_>,
-) -> Result<Option<Result<TaskResult, Skip>>, StudyError> {
+) -> Result<Option<Result<StudyTask, Skip>>, StudyError> {
     let rows = phase_rows.rows(PhaseKind::Slip);
     let spec = &scene.scene.protocol.slip;
-    if spec.strokes.value == 0 || rows.is_empty() {
+    // Without a plan, every row of a recording belongs to every phase.
+    let is_planned = phase_rows.protocol().is_some();
+    if spec.strokes.value == 0 || rows.is_empty() || !is_planned {
         return Ok(None);
     }
     let skip = |reason: String| Skip {
@@ -67,7 +69,7 @@ pub(super) fn of(
         Ok(scores) => {
             let task = serde_json::to_value(&scores);
             let task = task.map_err(|error| EvaluateError::Request(error.to_string()))?;
-            Ok(Some(Ok(TaskResult::new(task))))
+            Ok(Some(Ok(StudyTask::new(task))))
         }
         Err(EvaluateError::Request(reason)) => Ok(Some(Err(skip(reason)))),
         Err(error) => Err(error.into()),
