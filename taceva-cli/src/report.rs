@@ -20,6 +20,7 @@ mod recordings;
 pub(crate) mod rig;
 mod scores;
 pub(crate) mod stress;
+mod tasks;
 mod text;
 pub(crate) mod thumbnail;
 pub(crate) mod triple;

@@ -4,6 +4,8 @@ use clap::Args;
 use taceva_evaluate::TaskSpec;
 use taceva_tasks::PublicProgram;
 
+use super::SettingArgs;
+
 /// Options that concern channels, which tasks do not have.
 const OF_CHANNELS: [&str; 11] = [
     "units",
@@ -42,4 +44,28 @@ pub(crate) struct TaskArgs {
     /// objectfolder
     #[arg(id = "as", long = "as", value_name = "PROGRAM", requires = "task")]
     pub(crate) program: Option<PublicProgram>,
+}
+
+/// Frames that a sample of a task reads.
+#[derive(Debug, Args)]
+pub(crate) struct WindowArgs {
+    /// Predict a sample of the task from N frames: its own and those before it in its cluster, and the changes between them [default: 1]
+    #[arg(long, value_name = "N", requires = "task")]
+    pub(crate) window: Option<u32>,
+    /// Number of frames from one frame of the window to the next [default: 1]
+    #[arg(long, value_name = "N", requires = "window")]
+    pub(crate) stride: Option<u32>,
+}
+
+impl WindowArgs {
+    /// `settings` with those of the window.
+    pub(crate) fn on(&self, settings: &SettingArgs) -> SettingArgs {
+        let window = self.window.map(|frames| format!("window={frames}"));
+        let stride = self.stride.map(|frames| format!("stride={frames}"));
+        let set = settings.set.iter().cloned();
+        SettingArgs {
+            set: set.chain(window).chain(stride).collect(),
+            channels: settings.channels.clone(),
+        }
+    }
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::support::Bench;
 
-const MAP: &str = r#"map_version = 2
+pub(super) const MAP: &str = r#"map_version = 2
 table = "strokes.csv"
 [columns]
 Fz = { from = "fz", unit = "N" }
@@ -34,7 +34,7 @@ opaque = "unknown"
 "#;
 
 /// Twelve strokes of ten rows, of which five slip. A taxel senses slip, except in the last stroke, where it senses the contrary.
-fn strokes() -> Bench {
+pub(super) fn strokes() -> Bench {
     let bench = Bench::new();
     let mut table = String::from("fz,stroke,slip,c0,c1,c2,c3");
     for stroke in 0..12_u32 {
@@ -63,7 +63,7 @@ fn strokes() -> Bench {
 }
 
 /// Estimate of a metric without a variant.
-fn estimate<'r>(report: &'r Value, metric: &str) -> &'r Value {
+pub(super) fn estimate<'r>(report: &'r Value, metric: &str) -> &'r Value {
     let scores = report["tasks"][0]["scores"].as_array().expect("a list");
     let found = scores
         .iter()

@@ -9,6 +9,9 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 pub use maps::{MapEntry, MapFacts};
 
+/// Ends of the names of the channels of a pose: a translation, and a rotation vector.
+const POSE_CHANNELS: [&str; 6] = ["tx", "ty", "tz", "rx", "ry", "rz"];
+
 /// Begin of the name of each column with labels of a task. Attributes and channels contain no `.`.
 const PREFIX: &str = "task.";
 
@@ -184,6 +187,24 @@ impl Task {
         };
         let parts = parts.iter();
         parts.map(|part| format!("{column}.{part}")).collect()
+    }
+
+    /// Channels of the labels after [`Dataset::of_task`](crate::Dataset::of_task): the position of the class, or translation and rotation vector of a pose. Places and depth maps have none.
+    ///
+    /// ```
+    /// use taceva_dataset::{Task, TaskKind};
+    /// let moved = Task::new("moved", TaskKind::Pose, "trajectory");
+    /// assert_eq!(moved.channels()[3], "moved_rx");
+    /// ```
+    pub fn channels(&self) -> Vec<String> {
+        match self.kind {
+            TaskKind::Pose => {
+                let ends = POSE_CHANNELS.iter();
+                ends.map(|end| format!("{}_{end}", self.name)).collect()
+            }
+            TaskKind::Place | TaskKind::Depth => Vec::new(),
+            _ => vec![self.name.clone()],
+        }
     }
 
     /// Definition as one line, without the source columns. Labels of two recordings are alike if their definitions are equal.

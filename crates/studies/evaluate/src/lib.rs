@@ -7,6 +7,7 @@ mod cache;
 mod calibration;
 mod calibration_rows;
 mod claim;
+mod classifiers;
 mod effort;
 mod error;
 mod evaluate;
@@ -36,6 +37,7 @@ mod skill;
 mod state_file;
 mod subject;
 mod task_state_file;
+mod task_view;
 mod validation;
 mod work;
 
@@ -48,12 +50,13 @@ pub use cache::{
 };
 pub use calibration::calibration;
 pub use claim::{Claim, Watch, clear_dead_claims};
+pub use classifiers::{CLASSIFIERS, labelled_for, usual_model};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
-    Asked, Behind, CLASSIFIERS, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows,
-    ModelChoice, evaluate, evaluate_plan, evaluate_task, fold_divisions, score, scored_by_default,
-    scored_of_task, task_division,
+    Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
+    TaskRows, evaluate, evaluate_plan, evaluate_task, evaluate_task_rows, fit_task, fold_divisions,
+    score, scored_by_default, scored_of_task, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};

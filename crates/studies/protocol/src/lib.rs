@@ -43,7 +43,7 @@ pub use run::{
 pub use scene::{
     BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, GratingClassifier, Gratings,
     Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec, Protocol,
-    Repeatability, ReportSpec, Scene, SensorSpec, Spatial, Study, SurfaceMap,
+    Repeatability, ReportSpec, Scene, SensorSpec, Slip, Spatial, Study, SurfaceMap,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

@@ -4,6 +4,7 @@ mod context;
 mod gratings;
 mod phase_rows;
 mod score;
+mod slip;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -157,6 +158,7 @@ pub(crate) fn assess(
     if let Some(spacings) = &spacings {
         samples.push_numbers("spacing_predicted_mm", spacings.in_millimetres(&rows));
     }
+    let slip = slip::of(scene, dataset, &phase_rows, context)?;
     let mut subject = subject_of(dataset);
     if let Some((unit, note)) = phase_rows.measured_unit() {
         subject.serial = unit;
@@ -169,7 +171,13 @@ pub(crate) fn assess(
         ..Context::new(subject, provenance)
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
-    Ok(taceva_evaluate::assess(rows, beyond, context)?.report)
+    let mut report = taceva_evaluate::assess(rows, beyond, context)?.report;
+    match slip {
+        Some(Ok(scores)) => report.tasks.push(scores),
+        Some(Err(skip)) => report.skipped.push(skip),
+        None => {}
+    }
+    Ok(report)
 }
 
 /// Writes the state of a group of rows, for the bundles of the run.

@@ -1,9 +1,10 @@
 //! Labels of tasks, in one column for classes, in seven for poses, in three for places, and in two for depth maps.
 
-use taceva_core::{Channel, Channels, Column};
+use taceva_core::{Channel, ChannelError, Channels, Column, Unit};
 
 use super::{Cells, NamedColumn, Table};
 use crate::digest::{Digest, PartsDigest};
+use crate::rotation_vector::RotationVector;
 use crate::task::{MapEntry, Task, TaskKind, TaskLabel};
 
 /// Labels of one task, one per row.
@@ -107,6 +108,29 @@ impl TaskColumn {
         }
     }
 
+    /// Translation and rotation vector of each row, part by part; no numbers for labels other than poses.
+    fn pose_columns(&self) -> Vec<Column> {
+        let rows = 0..self.rows();
+        let pose = |row: usize| match self.label(row)? {
+            TaskLabel::Pose([x, y, z, quaternion @ ..]) => {
+                let [rx, ry, rz] = RotationVector::of_quaternion(quaternion).degrees();
+                Some([x, y, z, rx, ry, rz])
+            }
+            _ => None,
+        };
+        let poses: Vec<Option<[f64; 6]>> = rows.map(pose).collect();
+        let part = |part: usize| column(poses.iter().map(|pose| pose.map(|pose| pose[part])));
+        (0..6).map(part).collect()
+    }
+
+    fn rows(&self) -> usize {
+        match &self.cells {
+            TaskCells::Classes(classes) => classes.len(),
+            TaskCells::Numbers(parts) => parts.first().map_or(0, Vec::len),
+            TaskCells::Maps(maps) => maps.len(),
+        }
+    }
+
     pub(super) fn named_columns(&self) -> Vec<NamedColumn<'_>> {
         let cells: Vec<Cells<'_>> = match &self.cells {
             TaskCells::Classes(classes) => vec![Cells::Class(classes, &self.task.names)],
@@ -125,6 +149,13 @@ fn push_each(parts: &mut [Vec<Option<f64>>], numbers: &[f64]) {
     for (part, number) in parts.iter_mut().zip(numbers) {
         part.push(Some(*number));
     }
+}
+
+/// Column with these cells.
+fn column(cells: impl Iterator<Item = Option<f64>>) -> Column {
+    let mut column = Column::default();
+    cells.for_each(|cell| column.push(cell));
+    column
 }
 
 impl Table {
@@ -165,21 +196,51 @@ impl Table {
         self.tasks.iter().find(|own| own.task.name == name)
     }
 
-    /// The same rows with `channel` as the only channel: positions of the classes of `task`. `None` for an unknown task, and for poses.
-    pub(crate) fn of_classes(&self, task: &str, channel: Channel) -> Option<Table> {
-        let own = self.task(task)?;
-        let TaskCells::Classes(classes) = &own.cells else {
-            return None;
+    /// The same rows with the [channels](Task::channels) of the labels of `own` as the only channels.
+    ///
+    /// # Errors
+    /// [`ChannelError`] for a name of a task that no channel can have.
+    pub(crate) fn labelled_by(&self, own: &TaskColumn) -> Result<Table, ChannelError> {
+        let columns = match &own.cells {
+            TaskCells::Classes(classes) => {
+                vec![column(classes.iter().map(|class| class.map(f64::from)))]
+            }
+            TaskCells::Numbers(_) | TaskCells::Maps(_) => own.pose_columns(),
         };
-        let mut positions = Column::default();
-        for class in classes {
-            positions.push(class.map(f64::from));
+        let units = match &own.cells {
+            TaskCells::Classes(_) => [Unit::One; 6],
+            TaskCells::Numbers(_) | TaskCells::Maps(_) => {
+                let (mm, degree) = (Unit::Millimetre, Unit::Degree);
+                [mm, mm, mm, degree, degree, degree]
+            }
+        };
+        let names = own.task.channels();
+        let named = names.iter().zip(units);
+        let named = named.map(|(name, unit)| Channel::named(name, unit));
+        let channels = Channels::new(named.collect::<Result<Vec<_>, _>>()?)?;
+        // Channels may have another order than the names.
+        let mut truth = vec![Column::default(); names.len()];
+        for (name, column) in names.iter().zip(columns) {
+            let position = channels.position(name);
+            truth[position.expect("one of the channels")] = column;
         }
-        Some(Table {
-            channels: Channels::new([channel]).ok()?,
-            truth: vec![positions],
+        Ok(Table {
+            channels,
+            truth,
             ..self.clone()
         })
+    }
+
+    /// The same table with labels of one more task, which must name every class.
+    pub(crate) fn with_classes(&self, task: Task, classes: &[Option<u32>]) -> Table {
+        let mut own = TaskColumn::new(task);
+        own.cells = TaskCells::Classes(classes.to_vec());
+        let mut table = self.clone();
+        table.tasks.push(own);
+        table
+            .tasks
+            .sort_by(|one, other| one.task.name.cmp(&other.task.name));
+        table
     }
 
     /// Digest of the dataset with the digest `dataset`, and of the labels and definitions of its tasks.

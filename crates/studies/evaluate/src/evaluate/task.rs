@@ -1,25 +1,24 @@
-//! Scores of a task of a dataset: a classifier predicts the classes of clusters that it has not seen.
+//! Scores of a task of a dataset: a model predicts the labels of clusters that it has not seen.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::{Field, shown};
 use taceva_dataset::{Dataset, Task, TaskKind};
+use taceva_results::Samples;
 use taceva_tasks::events::{EventRule, EventState, Frame};
 use taceva_tasks::{Classes, TaskError, TaskState};
 
 use super::task_errors::{self, TaskMistake};
-use super::{EvaluateRequest, ModelChoice, evaluate};
+use super::{EvaluateRequest, ModelChoice, evaluate, pose_task};
+use crate::classifiers::as_predictor;
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
 use crate::task_state_file::TaskStates;
+use crate::task_view::{in_words, window_of};
 use crate::work::Work;
-use taceva_results::Samples;
-
-/// Models that predict one of the labels of the training part.
-pub const CLASSIFIERS: [&str; 2] = ["lda", "linfa/logistic"];
 
 /// Most folds of the default division.
-const MOST_FOLDS: usize = 5;
+pub(super) const MOST_FOLDS: usize = 5;
 
 /// Division that keeps each cluster of `task` whole: five folds, or one for each of fewer clusters.
 ///
@@ -44,12 +43,13 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
     })
 }
 
-/// Fits `fit` to the classes of the task called `name`, predicts the samples of unseen clusters, and scores them.
+/// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
-/// Without a stated split, [`task_division`] divides the samples. The model is one of [`CLASSIFIERS`].
+/// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
+/// [`CLASSIFIERS`](crate::CLASSIFIERS); a pose needs a model of numbers.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a task of poses, a model that is no classifier, a split that separates samples of one cluster,
+/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster,
 /// and for the errors of [`evaluate`].
 pub fn evaluate_task(
     dataset: &Dataset,
@@ -61,17 +61,26 @@ pub fn evaluate_task(
     let own = dataset.tasks().iter().map(|own| own.task());
     let task = own.clone().find(|task| task.name == name);
     let task = task.expect("`of_task` found the task");
-    check_model(&fit, task)?;
+    let fit = as_predictor(fit, task)?;
     let split = split_of(dataset, task, fit.split.as_deref())?;
-    let by = format!("model {}, split {split}", fit.model.name());
+    let mut notes = vec![format!("model {}, split {split}", fit.model.name())];
+    let window = window_of(&fit.settings)?;
+    notes.extend(window.map(|window| in_words(window, task)));
     let evaluated = evaluate(&of_task, &request_of(fit, split), work)?.report;
     let samples = evaluated.samples.expect("an evaluation keeps its samples");
     let clusters = dataset.clusters_of(task);
-    let predicted = Predicted::of(dataset, task, &clusters, &samples)?;
+    let mut state = match task.kind {
+        TaskKind::Pose => pose_task::state(dataset, task, &clusters, &samples)?,
+        _ => Predicted::of(dataset, task, &clusters, &samples)?.state(dataset, task)?,
+    };
+    notes.append(&mut state.notes);
+    state.notes = notes;
+    let labelled = own_labels(dataset, name);
+    state.unlabelled = (dataset.table().rows() - labelled) as u64;
     let digest = [("dataset".to_owned(), dataset.digest().to_string())];
     let mut states = TaskStates::new("by their row of the dataset".to_owned(), digest.into());
     states.sources.insert(evaluated.subject.source);
-    states.tasks.push(predicted.state(dataset, task, by)?);
+    states.tasks.push(state);
     Ok(states)
 }
 
@@ -86,7 +95,7 @@ fn split_of(dataset: &Dataset, task: &Task, stated: Option<&str>) -> Result<Stri
     }
 }
 
-/// Evaluation that predicts the classes of the test part. Its own metric is not read.
+/// Evaluation that predicts the labels of the test part. Its own metric is not read.
 fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
     EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
@@ -163,22 +172,13 @@ impl<'a> Predicted<'a> {
         Ok(found)
     }
 
-    /// State of the task; `by` names the model and the split.
-    fn state(self, dataset: &Dataset, task: &Task, by: String) -> Result<TaskState, EvaluateError> {
-        let (name, kind) = (task.name.as_str(), task.kind.name());
-        let mut state = TaskState::new(name, kind, task.cluster.as_str());
-        state.notes.push(by);
-        state
-            .notes
-            .extend(of_one_cluster(dataset, task, self.clusters));
-        let labelled = own_labels(dataset, name);
-        state.unlabelled = (dataset.table().rows() - labelled) as u64;
-        let scored = self.classes.n();
-        if scored != labelled as u64 {
-            state.notes.push(format!(
-                "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
-            ));
-        }
+    /// State of the task.
+    fn state(self, dataset: &Dataset, task: &Task) -> Result<TaskState, EvaluateError> {
+        let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
+        let single = of_one_cluster(dataset, task, self.clusters);
+        state.notes.extend(single);
+        let unscored = unscored(self.classes.n(), own_labels(dataset, &task.name));
+        state.notes.extend(unscored);
         state.classes = Some(self.classes);
         if task.kind == TaskKind::Event {
             state.events = Some(onsets(self.frames, task)?);
@@ -190,11 +190,20 @@ impl<'a> Predicted<'a> {
 }
 
 /// Number of rows with a label of the task called `name`.
-fn own_labels(dataset: &Dataset, name: &str) -> usize {
+pub(super) fn own_labels(dataset: &Dataset, name: &str) -> usize {
     let own = dataset.table().task(name);
     let rows = 0..dataset.table().rows();
     own.map_or(0, |own| {
-        rows.filter(|row| own.class(*row).is_some()).count()
+        rows.filter(|row| own.label(*row).is_some()).count()
+    })
+}
+
+/// Remark on labelled rows without a score, if there are any.
+pub(super) fn unscored(scored: u64, labelled: usize) -> Option<String> {
+    (scored != labelled as u64).then(|| {
+        format!(
+            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
+        )
     })
 }
 
@@ -220,7 +229,10 @@ fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -
 }
 
 /// State of the onsets of an event, in the order of time within each cluster.
-fn onsets(clusters: BTreeMap<&str, Vec<Frame>>, task: &Task) -> Result<EventState, EvaluateError> {
+pub(super) fn onsets(
+    clusters: BTreeMap<&str, Vec<Frame>>,
+    task: &Task,
+) -> Result<EventState, EvaluateError> {
     let mut state = EventState::new(EventRule::default());
     for (cluster, mut frames) in clusters {
         let time = |frame: &Frame| frame.time_s.unwrap_or_default();
@@ -232,21 +244,8 @@ fn onsets(clusters: BTreeMap<&str, Vec<Frame>>, task: &Task) -> Result<EventStat
     Ok(state)
 }
 
-fn check_model(fit: &FitRequest, task: &Task) -> Result<(), EvaluateError> {
-    let model = fit.model.name();
-    match CLASSIFIERS.contains(&model) {
-        true => Ok(()),
-        false => Err(EvaluateError::Request(format!(
-            "task `{}`: {} predicts numbers between the classes, expected a classifier: --model {}",
-            shown(&task.name),
-            shown(model),
-            CLASSIFIERS.join(" or --model ")
-        ))),
-    }
-}
-
 /// Refuses a split that may put samples of one cluster into both the training and the test part.
-fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
+pub(super) fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
     let by = match task.cluster == Field::Point.name() {
         true => "by-point".to_owned(),
         false => format!("by-column:{}", task.cluster),
@@ -268,7 +267,7 @@ fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
 }
 
 /// Position of a class that a channel holds as a number.
-fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
+pub(super) fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     let classes = (0_u32..).take(task.names.len());
     let found = classes
         .into_iter()
@@ -282,7 +281,7 @@ fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     })
 }
 
-fn without_cluster(task: &Task) -> EvaluateError {
+pub(super) fn without_cluster(task: &Task) -> EvaluateError {
     EvaluateError::Request(format!(
         "task `{}`: a sample has no value in the cluster column `{}`: fill the column in, or state another `cluster` in the map",
         shown(&task.name),
@@ -290,6 +289,6 @@ fn without_cluster(task: &Task) -> EvaluateError {
     ))
 }
 
-fn refused(task: &Task, error: &TaskError) -> EvaluateError {
+pub(super) fn refused(task: &Task, error: &TaskError) -> EvaluateError {
     EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
 }
