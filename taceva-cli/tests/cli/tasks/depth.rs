@@ -198,3 +198,14 @@ fn places_are_scored_by_their_distance() {
     assert_eq!(estimate(&report, "pose_axis", Some("x"))["value"], 3.0);
     assert!(!report.to_string().contains("pose_rotation"), "{report:#}");
 }
+
+#[test]
+fn depth_maps_are_no_labels_of_a_model() {
+    let bench = Bench::new();
+    presses(&bench);
+    bench.refused(
+        "evaluate set --task shape --no-cache",
+        3,
+        "the kind of the task `shape` is depth, expected a task of classes or of poses",
+    );
+}
