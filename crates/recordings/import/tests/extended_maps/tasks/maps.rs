@@ -181,6 +181,22 @@ fn added_rows_bring_their_maps_and_the_former_maps_stay() {
 }
 
 #[test]
+fn rows_with_the_maps_of_the_dataset_are_not_added_twice() {
+    let (lab, folder) = (folder_of_maps(), tempfile::tempdir().expect("a folder"));
+    let dataset = dataset_of(lab.path(), FILES, &folder.path().join("set"));
+    let plan = planned(lab.path(), &format!("{COLUMNS}{FILES}")).expect("planned");
+    let added = Addition::new("2026-11-29", "monday");
+    let message = plan
+        .extend(dataset.path(), &added, NonZeroUsize::MIN, &SilentProgress)
+        .expect_err("the same rows")
+        .to_string();
+    assert!(
+        message.contains("3 of 3 rows are already in it"),
+        "{message}"
+    );
+}
+
+#[test]
 fn maps_of_joined_recordings_are_those_of_each_recording() {
     let (lab, folder) = (folder_of_maps(), tempfile::tempdir().expect("a folder"));
     let one = dataset_of(lab.path(), FILES, &folder.path().join("one"));
