@@ -121,24 +121,27 @@ impl MapDraft {
                 }
                 text
             }
-            None => match most {
-                Some(group) => map_text::of_files(group, &said),
-                None => {
-                    let asked = file.map(|file| file.to_string_lossy());
-                    let clip = clips::bare(&source, &groups, asked.as_deref());
-                    let problem = match (notes.first(), clip, bare) {
-                        (None, Some(clip), _) => {
-                            return Ok(MapDraft {
-                                text: map_text::of_clip(&clip, &said),
-                            });
-                        }
-                        (Some(note), ..) => format!("nothing here can be read as a table: {note}"),
-                        (None, None, Some(bare)) => notes::bare_clips(bare),
-                        (None, None, None) => "it contains no table and no picture".to_owned(),
-                    };
-                    return Err(ImportError::request(folder, problem));
+            None => {
+                let asked = file.map(|file| file.to_string_lossy());
+                // One picture beside a clip is mostly the picture without contact.
+                let is_one = most.is_none_or(|group| group.paths.len() == 1);
+                let clip = clips::bare(&source, &groups, asked.as_deref());
+                let clip = clip.filter(|clip| notes.is_empty() && (clip.is_asked || is_one));
+                match (clip, most) {
+                    (Some(clip), _) => map_text::of_clip(&clip, &said),
+                    (None, Some(group)) => map_text::of_files(group, &said),
+                    (None, None) => {
+                        let problem = match (notes.first(), bare) {
+                            (Some(note), _) => {
+                                format!("nothing here can be read as a table: {note}")
+                            }
+                            (None, Some(bare)) => notes::bare_clips(bare),
+                            (None, None) => "it contains no table and no picture".to_owned(),
+                        };
+                        return Err(ImportError::request(folder, problem));
+                    }
                 }
-            },
+            }
         };
         Ok(MapDraft {
             text: match known_layout(folder, &text) {

@@ -215,3 +215,15 @@ fn a_clip_alone_is_drafted_with_its_frames_as_rows_and_imports_without_labels() 
     let problem = unreadable.expect_err("no clip").to_string();
     assert!(problem.contains("no file here has labels"), "{problem}");
 }
+
+#[test]
+fn a_clip_beside_pictures_is_drafted_if_it_is_asked_for_or_there_is_one_picture() {
+    let folder = lab(&[("untouched.png", "a picture")]);
+    let clip = folder.path().join("press.mp4");
+    std::fs::copy(Path::new(CLIP), &clip).expect("copied");
+    let table = |path: &Path| line(&draft(path), "table = ").to_owned();
+    assert!(table(folder.path()).contains("file = \"press.mp4\""));
+    std::fs::write(folder.path().join("touched.png"), "a picture").expect("written");
+    assert!(table(folder.path()).contains("files = "));
+    assert!(table(&clip).contains("file = \"press.mp4\""));
+}
