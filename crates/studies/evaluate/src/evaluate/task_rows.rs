@@ -175,3 +175,22 @@ impl<'a> Strokes<'a> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rows_of_a_cluster_have_its_number_and_their_places_and_a_row_without_one_is_left_out() {
+        let names = ["a", "b", "a", "b", "a"].map(|name| Some(name.to_owned()));
+        let names: Vec<Option<String>> = names.into_iter().chain([None]).collect();
+        let strokes = Strokes::of(&names, &[1, 2, 3, 4, 5]);
+        assert_eq!(strokes.count, 2);
+        let found: Vec<(usize, u32)> = strokes
+            .by_row
+            .values()
+            .map(|stroke| (stroke.number, stroke.place))
+            .collect();
+        assert_eq!(found, [(0, 0), (1, 0), (0, 1), (1, 1)]);
+    }
+}

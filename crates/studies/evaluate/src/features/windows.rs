@@ -18,7 +18,7 @@ struct Place {
     place: usize,
 }
 
-/// Rows with an input, cluster by cluster, each in the order of time if all of its rows have times, otherwise in the order of the recording.
+/// Rows with an input, cluster by cluster. A cluster is in the order of time if all of its rows have times, otherwise in the order of the recording.
 struct Sequences {
     clusters: Vec<Vec<usize>>,
     /// Place of each row of the dataset; `None` for a row without an input or without a cluster.
@@ -142,4 +142,28 @@ pub(crate) fn extract_as(
         window.join(&of_window, depth, &mut values);
     }
     Ok(Features::new(spec.shape(), values)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_window_stays_in_its_cluster_and_repeats_the_first_frame() {
+        let at = |cluster, place| Some(Place { cluster, place });
+        // Rows of two clusters in turn, and a row without a cluster.
+        let sequences = Sequences {
+            clusters: vec![vec![0, 2], vec![1, 3]],
+            places: vec![at(0, 0), at(1, 0), at(0, 1), at(1, 1), None],
+            column: "stroke".to_owned(),
+        };
+        let window = FrameWindow::new(3, 1).expect("several frames");
+        assert_eq!(sequences.window(3, window).expect("known"), [3, 1, 1]);
+        assert_eq!(
+            sequences.read(&[2, 3], window).expect("known"),
+            [0, 1, 2, 3]
+        );
+        let error = sequences.window(4, window).expect_err("no cluster");
+        assert!(error.to_string().contains("`stroke`"), "{error}");
+    }
 }
