@@ -130,6 +130,7 @@ pub fn parts_of_map(bytes: &[u8]) -> Result<MapParts<'_>, String> {
         None => return Err(cut()),
     };
     let (rows, columns) = (side(1)?, side(5)?);
+    check_pixels([rows, columns])?;
     let mask_bytes = (rows * columns).div_ceil(8);
     let (mask, data) = bytes
         .get(HEAD..)
@@ -221,7 +222,18 @@ fn head(form: MapForm, size: [usize; 2]) -> Result<Vec<u8>, String> {
         }
         bytes.extend(side.to_le_bytes());
     }
+    check_pixels(size)?;
     Ok(bytes)
+}
+
+fn check_pixels([rows, columns]: [usize; 2]) -> Result<(), String> {
+    match rows.saturating_mul(columns) <= limits::MAP_PIXELS {
+        true => Ok(()),
+        false => Err(format!(
+            "a depth map of {rows} x {columns} pixels, expected up to {} pixels",
+            limits::MAP_PIXELS
+        )),
+    }
 }
 
 /// One bit for each pixel, the lowest first.
@@ -367,5 +379,16 @@ mod tests {
             assert!(parts_of_map(&whole[..length]).is_err(), "{length}");
         }
         assert!(parts_of_map(&whole).is_ok());
+    }
+
+    #[test]
+    fn a_map_of_more_pixels_than_are_held_is_refused_by_its_size_alone() {
+        let mut bytes = vec![1];
+        bytes.extend([16_384_u32, 16_384].map(u32::to_le_bytes).concat());
+        let refused = parts_of_map(&bytes).map(|parts| parts.rows);
+        assert_eq!(
+            refused.expect_err("too large"),
+            "a depth map of 16384 x 16384 pixels, expected up to 33554432 pixels"
+        );
     }
 }

@@ -9,8 +9,6 @@ use taceva_dataset::internal::{limits, shown};
 
 /// Number of numbers that are read at once: 8 MiB.
 const READ_NUMBERS: u64 = 1 << 20;
-/// Greatest number of pixels of a map.
-const PIXELS: usize = 1 << 25;
 
 /// Array of depth maps in a file of another program, such as a `.npy`: rows × rows of pixels × columns of pixels.
 ///
@@ -42,7 +40,6 @@ impl MapsFile {
     /// [`ImportError`] if the file cannot be read or the array has no maps.
     pub fn open(path: &Path, name: Option<&str>) -> Result<MapsFile, ImportError> {
         let array = OneArray::open(path, name)?;
-        let greatest = limits::IMAGE_SIDE as usize;
         let side = |side: &u64| usize::try_from(*side).ok().filter(|side| *side > 0);
         let found = match array.shape() {
             [rows, height, width] => side(height).zip(side(width)).map(|size| (*rows, size)),
@@ -59,12 +56,12 @@ impl MapsFile {
                 array.shape()
             ));
         };
-        // A map is stored in 4 bytes for each pixel, and is read in 8.
-        let is_small = height.max(width) <= greatest && height * width <= PIXELS;
+        let (greatest, most) = (limits::IMAGE_SIDE as usize, limits::MAP_PIXELS);
+        let is_small = height.max(width) <= greatest && height * width <= most;
         if !is_small {
             return Err(table_error!(
                 path,
-                "depth maps of {height} x {width} pixels, expected sides up to {greatest} pixels and up to {PIXELS} pixels in all"
+                "depth maps of {height} x {width} pixels, expected sides up to {greatest} pixels and up to {most} pixels in all"
             ));
         }
         Ok(MapsFile {

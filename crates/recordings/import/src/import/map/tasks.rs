@@ -57,7 +57,7 @@ pub(super) struct WrittenTask {
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "the name of a column, or { t = [three columns], q = [four columns] }"
+    expecting = "the name of a column, or { t = [three columns] }, with q = [four columns] or m = [nine columns] for a pose"
 )]
 enum WrittenFrom {
     Column(ColumnName),
