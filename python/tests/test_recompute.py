@@ -31,6 +31,12 @@ repeatability = { points = 6, trials = 3, depth_step_mm = 0.5 }
 hysteresis = { points = 5, depth_step_mm = 0.5 }
 surface = { points = 8 }
 idle = { frames = 12 }
+
+[metrics.settings]
+bins = 10
+gate_N = 0.03
+smoothing = 3
+tolerance_mm = 0.1
 """
 
 
