@@ -51,7 +51,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def recomputed(run: Path) -> tuple[int, str]:
-    done = subprocess.run([sys.executable, PROGRAM, run], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-B", PROGRAM, run], capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
 
 
