@@ -11,7 +11,7 @@ from hull import contains, hull
 from intervals import Undefined, attempt, deviation, jackknife, known, mean, number, of_components, square_sum
 from study import Rows, by_channel, channels, every, score, scored, whole
 
-STEPS, MAP, FEW, DDOF = 100, 20, 5, 0
+STEPS, FEW, DDOF = 100, 5, 0
 
 
 def binned(keys, values):
@@ -236,14 +236,14 @@ def hysteresis(study, metric, *_):
 
     kinds = dict.fromkeys(names, "positive") | {"signed_area": "any"}
     nodes = scored(rows, numbers, lambda kept: int((ok & kept).sum()), kinds)
-    found = collections.defaultdict(list)
+    found, bins = collections.defaultdict(list), study.settings["bins"]
     x, y = rows.truth("Px"), rows.truth("Py")
     for point, of in valid.items():
-        place = study.cell(mean(x[of_point[point]]), mean(y[of_point[point]]), MAP)
+        place = study.cell(mean(x[of_point[point]]), mean(y[of_point[point]]), bins)
         if place:
             found[place].append(of["value"])
     counts = {"points_valid": len(valid), "points_total": len(presses)}
-    return score(nodes, int(ok.sum()), counts, map=map_of(study, found, MAP))
+    return score(nodes, int(ok.sum()), counts, map=map_of(study, found, bins))
 
 
 def registration(moving, fixed):

@@ -31,6 +31,12 @@ repeatability = { points = 6, trials = 3, depth_step_mm = 0.5 }
 hysteresis = { points = 5, depth_step_mm = 0.5 }
 surface = { points = 8 }
 idle = { frames = 12 }
+
+[metrics.settings]
+bins = 10
+gate_N = 0.03
+smoothing = 3
+tolerance_mm = 0.1
 """
 
 
@@ -45,7 +51,7 @@ def run(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def recomputed(run: Path) -> tuple[int, str]:
-    done = subprocess.run([sys.executable, PROGRAM, run], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-B", PROGRAM, run], capture_output=True, text=True, check=False)
     return done.returncode, done.stdout + done.stderr
 
 
