@@ -22,7 +22,7 @@ const READ_NUMBERS: u64 = 1 << 20;
 /// # bytes.extend([0.25_f32, 0.5].map(f32::to_le_bytes).concat());
 /// # std::fs::write(&path, bytes)?;
 /// let maps = MapsFile::open(&path, None)?;
-/// assert_eq!((maps.len(), maps.size()), (1, [1, 2]));
+/// assert_eq!((maps.count(), maps.size()), (1, [1, 2]));
 /// assert_eq!(maps.map(0)?, [0.25, 0.5]);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -72,11 +72,7 @@ impl MapsFile {
     }
 
     /// Number of maps.
-    #[allow(
-        clippy::len_without_is_empty,
-        reason = "a file has a map, or is refused"
-    )]
-    pub fn len(&self) -> u64 {
+    pub fn count(&self) -> u64 {
         self.rows
     }
 

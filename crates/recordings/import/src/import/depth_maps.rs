@@ -64,12 +64,12 @@ impl PlannedMaps {
     ) -> Result<Option<PathBuf>, ImportError> {
         let (source, file) = match &self.array {
             Some(array) => {
-                if number >= array.len() {
+                if number >= array.count() {
                     return Err(table_error!(
                         rows.place(row),
                         "[task.{}] has {} depth maps in its array, and the table has more rows",
                         self.name,
-                        array.len()
+                        array.count()
                     ));
                 }
                 (Some(MapSource::Row(number)), None)
@@ -90,11 +90,11 @@ impl PlannedMaps {
     /// Checks that the array, if any, has `rows` maps, as many as the tables have rows.
     pub(super) fn check_rows(&self, rows: u64) -> Result<(), ImportError> {
         match &self.array {
-            Some(array) if array.len() != rows => Err(ImportError::table(
+            Some(array) if array.count() != rows => Err(ImportError::table(
                 array.path(),
                 format!(
                     "{} depth maps for {rows} rows of the table: [task.{}] needs one for each row",
-                    array.len(),
+                    array.count(),
                     self.name
                 ),
             )),
@@ -139,7 +139,7 @@ impl PlannedMaps {
                     let place = Place::file(array.path()).in_row(*number);
                     let first = *number - *number % array.step();
                     if held.1.is_empty() || held.0 != first {
-                        let end = (first + array.step()).min(array.len());
+                        let end = (first + array.step()).min(array.count());
                         held = (first, array.maps(first..end)?);
                     }
                     let at = usize::try_from(*number - first).unwrap_or(usize::MAX);
@@ -175,7 +175,7 @@ impl PlannedMaps {
             false => {
                 let file = MapsFile::open(path, None);
                 let file = file.map_err(|error| error.named_at(place.clone()))?;
-                match file.len() {
+                match file.count() {
                     1 => map_of_numbers(file.size(), &file.map(0)?, self.facts.invalid),
                     count => Err(format!(
                         "{count} maps in the file of one row: write `array` in the place of `from` for a file with all maps"

@@ -47,12 +47,12 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
     let unit = unit_of(of)?;
     let maps = MapsFile::open(prediction, None)?;
     let rows = dataset.table().rows();
-    if maps.len() != rows as u64 {
+    if maps.count() != rows as u64 {
         return Err(EvaluateError::Tables {
             path: prediction.clone(),
             problem: format!(
                 "{} depth maps for {}: expected one for each sample of {}, in their order",
-                maps.len(),
+                maps.count(),
                 counted(rows, "sample"),
                 shown(truth)
             ),
