@@ -204,7 +204,9 @@ fn moving_strokes() -> Bench {
 #[test]
 fn poses_of_unseen_strokes_are_predicted_by_a_model_of_numbers_and_scored() {
     let bench = moving_strokes();
-    let report = bench.json("evaluate data --task moved --no-cache");
+    let report = bench.json("evaluate data --task moved --no-cache --html page.html");
+    let page = std::fs::read_to_string(bench.path("page.html")).expect("written");
+    assert!(page.contains("Greatest errors"), "{page}");
     crate::schema::check("tasks", &report);
     let shift = estimate(&report, "pose_translation")["value"].as_f64();
     assert!(shift.expect("a number") < 0.1, "{report:#}");

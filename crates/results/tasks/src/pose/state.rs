@@ -11,7 +11,7 @@ use super::thresholds::Thresholds;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::totals::{Totals, checked_counts};
-use crate::vector::{length, minus};
+use crate::vector::minus;
 
 /// Index of the sum of lengths of differences of translations, mm.
 pub(super) const TRANSLATION: usize = 0;
@@ -261,7 +261,7 @@ fn pairs(truth: [usize; 3], prediction: [usize; 3]) -> impl Iterator<Item = (usi
 /// Adds the errors of translation and rotation of one pose.
 fn add_errors(totals: &mut PoseTotals, truth: &Pose, prediction: &Pose) {
     let apart = minus(prediction.translation_mm(), truth.translation_mm());
-    totals.sums[TRANSLATION].add(length(apart));
+    totals.sums[TRANSLATION].add(truth.distance_mm(prediction));
     for (axis, off) in apart.into_iter().enumerate() {
         totals.sums[AXES + axis].add(off.abs());
     }

@@ -5,8 +5,8 @@ use std::collections::BTreeMap;
 use taceva_core::shown;
 use taceva_dataset::{Dataset, RotationVector, Task};
 use taceva_results::Samples;
-use taceva_tasks::TaskState;
 use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
+use taceva_tasks::{TaskState, WorstSample};
 
 use super::task::{own_labels, unscored, without_cluster};
 use crate::error::EvaluateError;
@@ -25,6 +25,7 @@ pub(super) fn state(
         .iter()
         .map(|name| samples.channel(name).expect("a channel of the task"))
         .collect();
+    let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
     let mut poses = PoseState::new(definition(task)?);
     let mut scored: u64 = 0;
     for row in 0..samples.rows() {
@@ -36,15 +37,18 @@ pub(super) fn state(
         let sample = samples
             .word("sample", row)
             .and_then(|sample| rows.get(sample).copied());
-        let cluster = sample.and_then(|row| clusters[row].as_deref());
-        let cluster = cluster.ok_or_else(|| without_cluster(task))?;
+        let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
+        let (at, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
         let side = |side: usize| pose(row as u64 + 1, &pairs, side);
         let both = side(0).and_then(|truth| Ok([truth, side(1)?]));
         let [truth, predicted] = both.map_err(|error| refused(task, &error))?;
         poses.push(cluster, &truth, &predicted);
+        let sample = dataset.table().samples()[at].as_str();
+        let error = truth.distance_mm(&predicted);
+        let worst = WorstSample::new(at, sample, cluster, error, "mm");
+        state.evidence.add_worst(worst);
         scored += 1;
     }
-    let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
     state.pose = Some(poses);
     state
         .notes

@@ -73,7 +73,7 @@ pub(super) fn state(
         };
         let cluster = clusters.cell(*pair)?;
         state.push(cluster, &true_place, &predicted);
-        let error = distance_mm(&true_place, &predicted);
+        let error = true_place.distance_mm(&predicted);
         let sample = format!("row {}", pair.truth + 1);
         let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
         of_task.evidence.add_worst(worst);
@@ -81,11 +81,4 @@ pub(super) fn state(
     of_task.unlabelled = left_out;
     of_task.pose = Some(state);
     Ok(of_task)
-}
-
-/// Distance of the positions of two poses, mm.
-pub(super) fn distance_mm(one: &Pose, other: &Pose) -> f64 {
-    let axes = one.translation_mm().into_iter().zip(other.translation_mm());
-    let squares = axes.map(|(one, other)| (one - other) * (one - other));
-    squares.sum::<f64>().sqrt()
 }

@@ -5,7 +5,6 @@ use taceva_import::CsvTable;
 use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
 use taceva_tasks::{TaskState, WorstSample};
 
-use super::place::distance_mm;
 use super::{Clusters, TaskSpec, TaskTables, empty};
 use crate::error::EvaluateError;
 
@@ -96,7 +95,7 @@ pub(super) fn state(
         let cluster = clusters.cell(*pair)?;
         state.push(cluster, &true_pose, &predicted);
         euler.push(&true_pose, &predicted);
-        let error = distance_mm(&true_pose, &predicted);
+        let error = true_pose.distance_mm(&predicted);
         let sample = format!("row {}", pair.truth + 1);
         let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
         of_task.evidence.add_worst(worst);
