@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
-/// Scores of one task, in the form of a task of `taceva.tasks/1`.
+/// Scores of one task, in the form of a task of `taceva.tasks/1.1`.
 ///
 /// ```
 /// use taceva_results::StudyTask;
