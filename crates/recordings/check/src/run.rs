@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use taceva_core::shown;
 
 use taceva_core::{Field, Progress, SkipReason, Skipped, counted};
-use taceva_dataset::{Dataset, Pass, RecordedSessions, TaskKind};
+use taceva_dataset::{Dataset, Pass, RecordedSessions};
 
 use crate::checks::{ALL, blank, damaged_frames, depth_maps, leakage, unseen_classes};
 use crate::depth_facts::DepthFacts;
@@ -176,7 +176,7 @@ pub(crate) fn check_seen(
     })
 }
 
-/// Division that scores each task. A task of one cluster has none, and its evaluation is refused.
+/// Division that scores each task of classes. A task of one cluster has none, and its evaluation is refused.
 fn of_tasks(
     dataset: &Dataset,
     request: &CheckRequest,
@@ -185,7 +185,7 @@ fn of_tasks(
     let tasks = dataset.tasks().iter().map(|own| own.task());
     let divided = tasks.map(|task| match (&request.split, task.kind) {
         (Some(_), _) => Ok(named.cloned()),
-        (None, TaskKind::Pose) => Ok(None),
+        (None, kind) if !kind.has_classes() => Ok(None),
         (None, _) => match scored_of_task(dataset, task, request.seed) {
             Err(EvaluateError::Split(_) | EvaluateError::Request(_)) => Ok(None),
             divided => divided,
