@@ -59,15 +59,24 @@ pub(crate) fn stream<'py>(py: Python<'py>, dataset: &Dataset) -> PyResult<Bound<
     arrow::stream(py, table.rows(), columns, &metadata)
 }
 
-/// Labels of a task: names of classes, or the number at `part` of each pose.
+/// Labels of a task: names of classes, the number at `part` of each pose or place, or the place and the digest of each depth map.
 fn of_task(own: &TaskColumn, part: usize, rows: usize) -> Cells {
     match own.task().kind {
-        TaskKind::Pose => {
+        TaskKind::Pose | TaskKind::Place => {
             let number = |row: usize| match own.label(row)? {
                 TaskLabel::Pose(pose) => Some(pose[part]),
+                TaskLabel::Place(place) => Some(place[part]),
                 _ => None,
             };
             Cells::Numbers((0..rows).map(number).collect())
+        }
+        TaskKind::Depth => {
+            let text = |row: usize| match own.label(row)? {
+                TaskLabel::Map(entry) if part == 0 => Some(entry.to_string()),
+                TaskLabel::Map(entry) => Some(entry.digest().to_string()),
+                _ => None,
+            };
+            Cells::Texts((0..rows).map(text).collect())
         }
         _ => Cells::Texts(
             (0..rows)

@@ -19,6 +19,7 @@ mod plugin;
 mod python_model;
 mod record;
 mod results;
+mod tasks;
 mod worker;
 
 use pyo3::prelude::*;
@@ -59,6 +60,9 @@ mod _taceva {
     use super::results::{
         comparison, figure_pdf, figures, keeps_samples, not_measured, read_result, score_table,
     };
+
+    #[pymodule_export]
+    use super::tasks::{compare_tasks, merge_tasks, task_scores};
 
     /// Sets the location attributes of an error to `None`, for unknown locations.
     #[pymodule_init]

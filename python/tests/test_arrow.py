@@ -152,17 +152,24 @@ def test_labels_of_tasks_are_columns_with_names_of_classes_and_numbers_of_poses(
     pyarrow = pytest.importorskip("pyarrow")
     lab = tmp_path / "lab"
     lab.mkdir()
-    (lab / "t.csv").write_text("stroke,slip,x,y,z,qx,qy,qz,qw\na,1,0.5,0,0,0,0,0,1\nb,,,,,,,,\n")
+    (lab / "t.csv").write_text("stroke,slip,x,y,z,qx,qy,qz,qw,map\na,1,0.5,0,0,0,0,0,1,a.npy\nb,,,,,,,,,\n")
+    np.save(lab / "a.npy", np.zeros((2, 3)))
     (lab / "map.toml").write_text(
         'map_version = 2\ntable = "t.csv"\n[ids]\npoint_id = "stroke"\n[time]\nclock = "unknown"\n'
         '[task.slip]\nkind = "event"\nfrom = "slip"\nnames = ["no_slip", "slip"]\npositive = "slip"\n'
         '[task.moved]\nkind = "pose"\nunit = "mm"\nfrom = { t = ["x", "y", "z"], q = ["qx", "qy", "qz", "qw"] }\n'
+        '[task.touched]\nkind = "place"\nunit = "mm"\nfrom = { t = ["x", "y", "z"] }\n'
+        '[task.shape]\nkind = "depth"\nunit = "mm"\nfrom = "map"\n'
         '[sensor]\nmodel = "drawn gel"\nserial = "unknown"\ngel = "unknown"\nopaque = true\n'
     )
     out = tmp_path / "recording"
     done = command("import", lab, "--map", lab / "map.toml", "--out", out)
     assert done.returncode == 0, done.stderr
     table = pyarrow.table(taceva.open(out))
+    assert table.column("task.touched.x").to_pylist() == [0.5, None]
+    digest, absent = table.column("task.shape.sha256").to_pylist()
+    assert digest.startswith("sha256:")
+    assert absent is None
     assert table.column("task.slip").to_pylist() == ["slip", None]
     assert table.column("task.moved.x").to_pylist() == [0.5, None]
     assert table.column("task.moved.qw").to_pylist() == [1.0, None]

@@ -64,7 +64,7 @@ pub(crate) use self::study::{PlanArgs, Run, SceneArgs};
 pub(crate) use self::sweep::{
     Sweep, SweepCollect, SweepEngine, SweepRun, SweepShow, SweepSubject, SweepTask,
 };
-pub(crate) use self::task::TaskArgs;
+pub(crate) use self::task::{TaskArgs, WindowArgs};
 pub(crate) use self::watch::Watch;
 pub(crate) use self::wear::{Wear, WearByArg};
 

@@ -21,6 +21,7 @@ mod spec;
 mod statistics;
 #[cfg(test)]
 mod test_pictures;
+mod window;
 
 pub use error::FeatureError;
 pub use extractor::Extractor;
@@ -34,3 +35,4 @@ pub use recording_rules::{FeaturesByRecording, RecordedFrames};
 pub use reduction::FrameReduction;
 pub use spec::{Color, FeatureSpec};
 pub(crate) use spec::{DIFFERENCE, SIZE};
+pub use window::FrameWindow;

@@ -24,8 +24,8 @@ pub use estimators::library::{LibraryModel, LibraryRegressor, library_models};
 pub use estimators::linear::{LinearEstimator, LinearFit, LinearRegressor};
 pub use estimators::neighbours::{NeighbourRegressor, Neighbours};
 pub use estimators::network::{
-    EnsembleRegressor, NetworkEnsemble, NetworkEstimator, NetworkRegressor, SpacingNetwork,
-    SpacingOutput,
+    EnsembleRegressor, NetworkClassifier, NetworkEnsemble, NetworkEstimator, NetworkRegressor,
+    SpacingNetwork, SpacingOutput,
 };
 pub use estimators::pls::Pls;
 pub use estimators::plugin::PluginRegressor;
@@ -36,8 +36,8 @@ pub use features::choice::{FailedFeatures, FeatureChoice, FeatureTrial, OpenFeat
 pub use features::gratings::{FourierPlane, RadialSpectrum};
 pub use features::{
     Color, Extractor, FeatureDistance, FeatureError, FeatureKind, FeatureKinds, FeatureSpec,
-    FeaturesByRecording, FrameReduction, Marker, MarkerTracker, Pca, Polarity, Preprocessing,
-    RecordedFrames, Tracked,
+    FeaturesByRecording, FrameReduction, FrameWindow, Marker, MarkerTracker, Pca, Polarity,
+    Preprocessing, RecordedFrames, Tracked,
 };
 pub use file::ModelFileError;
 pub use model::{CloserFeatures, FitInput, LabelBounds, Model};
@@ -49,9 +49,9 @@ pub use split::{
 };
 pub use threads::prepare_threads;
 pub use training::card::{
-    AngleCard, AutoCard, AutoTrial, ChannelCard, DistanceCard, Form, LibraryCard, ModelCard,
-    NetworkCard, PluginCard, Provenance, SampleCounts, Source, SplitCard, Untried, ValidationCard,
-    ValidationScore,
+    AngleCard, AutoCard, AutoTrial, ChannelCard, ClassCard, DistanceCard, Form, LibraryCard,
+    ModelCard, NetworkCard, PluginCard, Provenance, SampleCounts, Source, SplitCard, TaskCard,
+    Untried, ValidationCard, ValidationScore,
 };
 pub use training::checkpoint::{CheckpointError, Checkpoints, Foreign};
 pub use training::choice::{ChannelChoice, Choice, ChosenBy};
@@ -59,4 +59,4 @@ pub use training::file::error::FormatError;
 pub use training::fit::{Chosen, ModelEstimator, ModelFit};
 pub use training::info::ModelInfo;
 pub use training::label_scaling::{LabelScaling, label_means};
-pub use training::regressor::ModelRegressor;
+pub use training::regressor::{ClassProbabilities, ModelRegressor};

@@ -20,7 +20,7 @@ use crate::features::signals::{divided, spread};
 use crate::features::{Extractor, FeatureDistance, FeatureError, Pca};
 use crate::linalg::invalid;
 use crate::training::card::{AngleCard, ChannelCard, DistanceCard, ModelCard, ValidationCard};
-use crate::training::regressor::ModelRegressor;
+use crate::training::regressor::{ClassProbabilities, ModelRegressor};
 
 /// Fitted model that predicts channels, in their units, from pixels or signals.
 ///
@@ -121,7 +121,7 @@ impl Model {
         };
         let of_signals = of_signals.map_err(|error| invalid(error.to_string()).because(error))?;
         let estimator = of_signals.as_deref().unwrap_or(input.estimator);
-        let chosen = estimator.choose(&training, None, progress)?;
+        let chosen = estimator.choose(&training, validation.as_ref(), None, progress)?;
         let estimator = chosen
             .as_ref()
             .map_or(estimator, |chosen| &*chosen.estimator);
@@ -197,8 +197,24 @@ impl Model {
     /// Builds the extractor of this model's features for frames or signals of `info`.
     ///
     /// # Errors
-    /// [`FeatureError`] for frames of another kind or signals of another grid than those of the model, or without a needed `reference`.
+    /// [`FeatureError`] for frames of another kind or signals of another grid than those of the model, or without a needed `reference`. Also for a model that
+    /// reads windows of frames.
     pub fn extractor(
+        &self,
+        info: impl Into<InputInfo>,
+        reference: Option<Input<'_>>,
+    ) -> Result<Extractor, FeatureError> {
+        match self.card.features.window {
+            Some(window) => Err(FeatureError::Window { window }),
+            None => self.frame_extractor(info, reference),
+        }
+    }
+
+    /// Builds the extractor of the features of each frame, also for a model that reads windows of frames.
+    ///
+    /// # Errors
+    /// Errors of [`extractor`](Model::extractor), except for windows.
+    pub fn frame_extractor(
         &self,
         info: impl Into<InputInfo>,
         reference: Option<Input<'_>>,
@@ -287,6 +303,19 @@ impl Model {
             true => found,
             false => self.channels.deviations(&found, &self.learnt(features)?),
         }))
+    }
+
+    /// Probabilities of the classes of the only channel, for every sample of `features`; `None` if the model does not estimate them.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the shape of the features differs.
+    pub fn probabilities(
+        &self,
+        features: &Features,
+    ) -> Result<Option<ClassProbabilities>, ModelError> {
+        let even = self.even(features)?;
+        let features = even.as_ref().unwrap_or(features);
+        self.regressor.probabilities(features)
     }
 
     /// Divides signals by their spread over the training part; `None` for frames, which are not divided.

@@ -4,6 +4,7 @@ mod angles;
 mod auto;
 mod blobs;
 mod checkpoints;
+mod classes;
 mod every_model;
 mod feature_distance;
 #[cfg(all(feature = "linfa", feature = "smartcore"))]

@@ -89,6 +89,7 @@ pub(crate) fn fit(name: &str, words: &[&str], spec: FeatureSpec) -> (Model, Feat
             }),
             notes: vec!["random frames".into()],
             validation: None,
+            task: None,
         },
     };
     (

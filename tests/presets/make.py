@@ -11,6 +11,7 @@ import csv
 import io
 import json
 import pickle
+import struct
 import tarfile
 from pathlib import Path
 
@@ -234,10 +235,121 @@ def diffusion_zarr(to):
         root.create_array(name, data=values)
 
 
+def touch_and_go(to):
+    """Clip 20220516_190814 is in both lists."""
+    for clip, numbers in (("20220516_190814", (0, 1)), ("20220517_192217", (2,)), ("20220607_133934", (3,))):
+        for n in numbers:
+            draw(to / f"dataset/{clip}/gelsight_frame/{n:010}.jpg", n)
+            draw(to / f"dataset/{clip}/video_frame/{n:010}.jpg", n + 5)
+    # Without an end of line, as the lists are.
+    (to / "test.txt").write_text("20220516_190814/0000000000.jpg,14\n20220517_192217/0000000002.jpg,5")
+    (to / "train.txt").write_text("20220516_190814/0000000001.jpg,14\n20220607_133934/0000000003.jpg,4")
+
+
+def feeling_of_success(to):
+    to.mkdir(parents=True, exist_ok=True)
+    for file, numbers in ((0, (0, 1)), (1, (2,))):
+        grasps = {"is_gripping": [n != 1 for n in numbers]}
+        for sensor, shift in (("gelsightA", 0), ("gelsightB", 5)):
+            for moment in ("before", "during", "after"):
+                shown = 8 if moment != "during" else shift
+                grasps[f"{sensor}_{moment}"] = [encoded(n + shown) for n in numbers]
+        with open(to / f"{file:03}.pkl", "wb") as pickled:
+            pickle.dump(grasps, pickled)
+
+
+def objectfolder_benchmark(to):
+    for n in range(SAMPLES):
+        draw(to / f"touch/{n // 2 + 1}/{n % 2}.png", n)
+    (to / "label.json").write_text(json.dumps({"1": 3, "2": 6}))
+    (to / "split.json").write_text(json.dumps({"train": [["1", 0], ["1", 1]], "test": [["2", 0]]}))
+
+
+def chunk(name, content):
+    return name + struct.pack("<I", len(content)) + content + b"\0" * (len(content) % 2)
+
+
+def clip(path, numbers):
+    """Motion JPEG in AVI, with one stream and an index."""
+    pictures = [encoded(n, "JPEG") for n in numbers]
+    rate, (width, height), count = 25, picture(0).size, len(pictures)
+    head = struct.pack("<14I", 1_000_000 // rate, 0, 0, 0x10, count, 0, 1, 0, width, height, 0, 0, 0, 0)
+    stream = b"vidsMJPG" + struct.pack("<IHHIIIIIIII4H", 0, 0, 0, 0, 1, rate, 0, count, 0, 0xFFFFFFFF, 0, 0, 0, width, height)
+    form = struct.pack("<IiiHH4sIiiII", 40, width, height, 1, 24, b"MJPG", width * height * 3, 0, 0, 0, 0)
+    streams = chunk(b"LIST", b"strl" + chunk(b"strh", stream) + chunk(b"strf", form))
+    movie, index = b"movi", b""
+    for data in pictures:
+        index += b"00dc" + struct.pack("<III", 0x10, len(movie), len(data))
+        movie += chunk(b"00dc", data)
+    body = b"AVI " + chunk(b"LIST", b"hdrl" + chunk(b"avih", head) + streams) + chunk(b"LIST", movie) + chunk(b"idx1", index)
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(chunk(b"RIFF", body))
+
+
+def poses(numbers):
+    """Matrices at the places of the samples. Each is turned about z from the one before by an angle with the cosine 0.8."""
+    turn = np.array([[0.8, -0.6, 0], [0.6, 0.8, 0], [0, 0, 1]])
+    matrices = np.zeros((len(numbers), 4, 4))
+    for at, n in enumerate(numbers):
+        matrices[at, :3, :3] = np.linalg.matrix_power(turn, n)
+        matrices[at, :3, 3] = place(n)
+        matrices[at, 3, 3] = 1
+    return matrices
+
+
+def tactile_tracking(to):
+    trial = to / "avocado1"
+    clip(trial / "gelsight.avi", range(SAMPLES))
+    np.save(trial / "true_start_T_currs.npy", poses(range(SAMPLES)))
+
+
+def sparsh_pose(to):
+    draw(to / "bgs/digit_index.png", 7)
+    for part, numbers in (("test", (0,)), ("train", (1, 2))):
+        sequence = {"object_poses": [[*place(n), 1, 0, 0, 0] for n in numbers]}
+        for finger, shift in (("index", 0), ("middle", 3), ("ring", 5)):
+            sequence[f"digit_{finger}"] = [encoded(n + shift) for n in numbers]
+            sequence[f"object_{finger}_rel_pose_n5"] = poses(numbers)
+        file = to / part / "sugar/bag_00.pkl"
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_bytes(pickle.dumps(sequence))
+
+
+def sparsh_slip(to):
+    """Six presses in the layout of sparsh-force. Pictures are bright while the finger slips."""
+    batch = to / "sphere/batch_1"
+    batch.mkdir(parents=True, exist_ok=True)
+    presses, frames = 6, 4
+    pictures = []
+    for number in range(presses * frames):
+        slips = number % frames >= 2
+        level = (180 if slips else 40) + 2 * (number % 3)
+        image = Image.new("RGB", (32, 24), (level, 90, 120))
+        into = io.BytesIO()
+        image.save(into, "PNG")
+        pictures.append(into.getvalue())
+    with open(batch / "dataset_digit_00.pkl", "wb") as file:
+        pickle.dump(pictures, file)
+    trajectories = {
+        press: {
+            "indexes": np.arange(press * frames, (press + 1) * frames),
+            "forces": np.array([force(n) for n in range(frames)]),
+            "slip_label": np.array([0, 0, 1, 1]),
+            "coef_friction": 0.5,
+        }
+        for press in range(presses)
+    }
+    with open(batch / "dataset_slip_forces.pkl", "wb") as file:
+        pickle.dump({"in_contact": np.ones(presses * frames), "trajectories": trajectories}, file)
+
+
 LAYOUTS = {
     "bristol": bristol, "py3dcal": py3dcal, "9dtact": nine_dtact, "allsight": allsight, "sparsh-force": sparsh_force,
     "ycb-slide": ycb_slide, "touchd": touchd, "tacquad": tacquad, "poseit": poseit, "tool-force": tool_force, "univtac": univtac,
     "gelsight-live": gelsight_live, "fota": fota, "diffusion-zarr": diffusion_zarr,
+    "touch-and-go": touch_and_go, "feeling-of-success": feeling_of_success, "objectfolder-benchmark": objectfolder_benchmark,
+    "tactile-tracking": tactile_tracking, "sparsh-pose": sparsh_pose,
+    "sparsh-slip": sparsh_slip,
 }
 
 if __name__ == "__main__":

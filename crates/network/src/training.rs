@@ -93,6 +93,7 @@ impl<'a> Trainer<'a> {
     ) -> Result<Trainer<'a>, NetworkError> {
         recipe.check()?;
         let architecture = snapshot.network.architecture();
+        recipe.check_weights(architecture.outputs)?;
         training.check(SampleSet::Training, architecture, recipe.loss)?;
         if let Some(validation) = &validation {
             validation.check(SampleSet::Validation, architecture, recipe.loss)?;
@@ -333,10 +334,7 @@ impl<'a> Trainer<'a> {
             Labels::Classes(classes) => Labels::Classes(classes),
             Labels::Values(_) => Labels::Values(&labels),
         };
-        let loss = self
-            .recipe
-            .loss
-            .measure(&outputs, width, truth, &mut Vec::new());
+        let loss = self.recipe.measure(&outputs, width, truth, &mut Vec::new());
         if loss.is_finite() {
             Ok(Some(loss))
         } else {

@@ -164,6 +164,7 @@ fn two_hundred_steps_go_as_pytorch_s() {
             rate: 3e-4,
             schedule: Schedule::Constant,
             loss,
+            class_weights: Vec::new(),
             scaling: LabelScaling::None,
             augmentation: Augmentation::default(),
             patience: None,

@@ -10,7 +10,7 @@ Exact metrics with intervals over arrays, recordings on disk, and models, with t
 0.125
 """
 
-from taceva import bundle
+from taceva import bundle, tasks
 from taceva._bar import progress
 from taceva._compare import Comparison, compare
 from taceva._dataset import Dataset, Rows, Samples, open
@@ -67,4 +67,5 @@ __all__ = [
     "score",
     "score_function",
     "score_tables",
+    "tasks",
 ]

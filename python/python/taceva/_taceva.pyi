@@ -14,6 +14,7 @@ __all__ = [
     "Training",
     "channel_order",
     "command",
+    "compare_tasks",
     "comparison",
     "evaluate_named",
     "features",
@@ -22,6 +23,7 @@ __all__ = [
     "found_plugins",
     "import_recording",
     "keeps_samples",
+    "merge_tasks",
     "metric_titles",
     "metrology",
     "model_names",
@@ -33,6 +35,7 @@ __all__ = [
     "score_table",
     "score_tables",
     "serve_plugin",
+    "task_scores",
     "unit_of",
     "verify_bundle",
     "version",
@@ -151,6 +154,11 @@ def comparison(
     texts: list[str], samples: list[str | None], metrics: list[str], margins: dict[str, float], seed: int, form: str
 ) -> str: ...
 def keeps_samples(rows: int) -> bool: ...
+def task_scores(
+    truth: str, prediction: str, tasks: str, cluster: str | None, key: str | None, source: str
+) -> dict[str, Any]: ...
+def merge_tasks(paths: list[str]) -> dict[str, Any]: ...
+def compare_tasks(names: list[str], paths: list[str], metrics: list[str], seed: int) -> dict[str, Any]: ...
 def score_tables(
     truth: str,
     prediction: str,

@@ -14,7 +14,7 @@ default: cnn with size=up-to-128x96 color=auto difference=in-color appearance=au
 best: cnn-ensemble with size=up-to-128x96 color=auto difference=in-color appearance=auto, the mean of two cnn; \
 auto: tries models on held-out samples while the expected gain is worth the time, for at most budget_s=1800, and keeps one; of a library: \
 linfa/linear, linfa/pls, linfa/elastic-net, linfa/svr, linfa/logistic, smartcore/ridge, smartcore/lasso, smartcore/svr, \
-smartcore/knn, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which can be stopped only between two \
+smartcore/knn, smartcore/knn-classifier, smartcore/random-forest, smartcore/extra-trees, smartcore/gradient-boosting, which can be stopped only between two \
 fits of the library; or of a plugin, ID/KEY";
 
 /// A model to fit, and its settings.

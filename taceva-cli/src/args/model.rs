@@ -8,7 +8,7 @@ use taceva_models::Checkpoints;
 
 use super::{
     CacheArgs, ModelArgs, OptionalModelArgs, Output, PartArgs, ScoringArgs, SplitArgs,
-    SplitOutArgs, TableArgs, TaskArgs, ViewArgs,
+    SplitOutArgs, TableArgs, TaskArgs, ViewArgs, WindowArgs,
 };
 
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
@@ -20,6 +20,12 @@ pub(crate) struct Fit {
     pub(crate) datasets: Vec<PathBuf>,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
+    /// Fit a classifier to a task of the dataset in the place of channels: lda, linfa/logistic, smartcore/knn-classifier, cnn, resnet10, resnet18,
+    /// resnet34, or auto, which takes the best of the first three on the validation part. The split keeps clusters whole
+    #[arg(long, value_name = "NAME")]
+    pub(crate) task: Option<String>,
+    #[command(flatten)]
+    pub(crate) window: WindowArgs,
     #[command(flatten)]
     pub(crate) model: ModelArgs,
     #[command(flatten)]
@@ -52,14 +58,17 @@ pub(crate) struct Evaluate {
     /// A fitted model file
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
-    /// Fit a classifier to a task of the dataset in the place of channels: lda [default] or linfa/logistic. The split keeps clusters whole
-    /// [default: cv:5 by the cluster of the task]
+    /// Fit a classifier to a task of the dataset in the place of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn, resnet10,
+    /// resnet18, resnet34, or auto, which takes the best of the first three on the validation part. The split keeps clusters whole [default: cv:5
+    /// by the cluster of the task]
     #[arg(
         long,
         value_name = "NAME",
-        conflicts_with_all = ["with", "metrics", "independent", "sensor", "state_out", "html", "figures", "samples_out", "table", "part", "split_out", "explain"]
+        conflicts_with_all = ["with", "metrics", "independent", "sensor", "figures", "samples_out", "table", "part", "split_out", "explain"]
     )]
     pub(crate) task: Option<String>,
+    #[command(flatten)]
+    pub(crate) window: WindowArgs,
     #[command(flatten)]
     pub(crate) model: OptionalModelArgs,
     #[command(flatten)]
@@ -147,7 +156,8 @@ pub(crate) struct Score {
     pub(crate) output: Output,
 }
 
-/// States are written by `evaluate` and `score` with --state-out. They must have the same metrics, channels and settings.
+/// States are written by `evaluate` and `score` with --state-out, of channels or of tasks. They must have the same metrics, channels and settings, or
+/// the same tasks with the same classes, rules and cluster column.
 #[derive(Debug, Args)]
 pub(crate) struct Merge {
     /// The states to merge

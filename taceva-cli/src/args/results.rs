@@ -9,7 +9,8 @@ use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 /// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of
 /// runs (or their results.json), or names of the catalogue. If two results predict the same samples, their mean absolute errors are compared
 /// sample by sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a
-/// run. Other scores are compared by the intervals of both, with Holm's adjustment.
+/// run. Other scores are compared by the intervals of both, with Holm's adjustment. Results and states of tasks are compared cluster by cluster, if
+/// they have the same labels, and a state or `NAME.state` beside `NAME.json`.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare
@@ -120,7 +121,7 @@ Limits:
   r = 1.0                   # guarded: inside the limit by r times the expanded uncertainty
   [[limit]]
   metric = \"mae\"            # or a variant, such as \"hysteresis.ratio\"
-  channel = \"Fz\"
+  channel = \"Fz\"            # or the name of a task, with metric = \"f1\" and unit = \"1\"
   unit = \"N\"
   most = 0.05               # or least; or both
 
@@ -146,7 +147,7 @@ pub(crate) enum Conditional {
 #[derive(Debug, Args)]
 #[command(after_help = LIMITS_HELP)]
 pub(crate) struct Accept {
-    /// The result of one sensor: JSON of evaluate or score, or a report of a run
+    /// The result of one sensor: JSON of evaluate or score, a report of a run, or a state of tasks
     #[arg(value_name = "RESULT.json", required_unless_present = "template")]
     pub(crate) result: Option<PathBuf>,
     /// The limits: `[[limit]]` with metric, channel, unit, and most or least

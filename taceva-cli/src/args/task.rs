@@ -2,9 +2,12 @@
 
 use clap::Args;
 use taceva_evaluate::TaskSpec;
+use taceva_tasks::PublicProgram;
+
+use super::SettingArgs;
 
 /// Options that concern channels, which tasks do not have.
-const OF_CHANNELS: [&str; 13] = [
+const OF_CHANNELS: [&str; 11] = [
     "units",
     "periods",
     "allow_invalid",
@@ -12,8 +15,6 @@ const OF_CHANNELS: [&str; 13] = [
     "metrics",
     "independent",
     "sensor",
-    "state_out",
-    "html",
     "figures",
     "samples_out",
     "table",
@@ -23,9 +24,11 @@ const OF_CHANNELS: [&str; 13] = [
 /// Tasks to score in the place of channels.
 #[derive(Debug, Args)]
 pub(crate) struct TaskArgs {
-    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome or pose; may be repeated. The
+    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be repeated. The
     /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
-    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG
+    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; the truth of NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions
+    /// are an array of maps (.npy, .npz, .h5). Refused beside it, as options of channels: --units, --periods, --allow-invalid, --shard,
+    /// --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]
@@ -37,4 +40,32 @@ pub(crate) struct TaskArgs {
     /// Predict the positive class from the Nth positive frame in a row on, as NAME=N; may be repeated
     #[arg(id = "debounce", long, value_name = "NAME=N", requires = "task")]
     pub(crate) debounces: Vec<String>,
+    /// Print the numbers of a public program too, each beside the right one with the reason for the difference: sparsh, touch-and-go, normalflow or
+    /// objectfolder
+    #[arg(id = "as", long = "as", value_name = "PROGRAM", requires = "task")]
+    pub(crate) program: Option<PublicProgram>,
+}
+
+/// Frames that a sample of a task reads.
+#[derive(Debug, Args)]
+pub(crate) struct WindowArgs {
+    /// Predict a sample of the task from N frames: its own and those before it in its cluster, and the changes between them [default: 1]
+    #[arg(long, value_name = "N", requires = "task")]
+    pub(crate) window: Option<u32>,
+    /// Number of frames from one frame of the window to the next [default: 1]
+    #[arg(long, value_name = "N", requires = "window")]
+    pub(crate) stride: Option<u32>,
+}
+
+impl WindowArgs {
+    /// `settings` with those of the window.
+    pub(crate) fn on(&self, settings: &SettingArgs) -> SettingArgs {
+        let window = self.window.map(|frames| format!("window={frames}"));
+        let stride = self.stride.map(|frames| format!("stride={frames}"));
+        let set = settings.set.iter().cloned();
+        SettingArgs {
+            set: set.chain(window).chain(stride).collect(),
+            channels: settings.channels.clone(),
+        }
+    }
 }

@@ -19,6 +19,11 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     let files = args.output.path.iter().chain(&args.html);
     output::check_all_free(files, args.output.force)?;
     if let Some(result) = &args.template {
+        if results::tasks::read(result)?.is_some() {
+            return Err(Usage::error(
+                "--template is for scores of channels; a limit of a task is: [[limit]], metric = \"f1\", channel = \"slip\" (the task), unit = \"1\", least = 0.8",
+            ));
+        }
         let text = limits_template(&study_of(result)?);
         output::write(args.output.path.as_deref(), |out| {
             out.write_all(text.as_bytes())
@@ -117,6 +122,9 @@ fn target_risk(args: &Accept) -> anyhow::Result<Option<f64>> {
 
 /// Reads a result with a single sensor.
 fn study_of(result: &Path) -> anyhow::Result<Study> {
+    if let Some(of_tasks) = results::tasks::read(result)? {
+        return Ok(of_tasks.study());
+    }
     let mut studies = results::read(result)?;
     match (studies.pop(), studies.len()) {
         (Some(study), 0) => Ok(study),

@@ -1,5 +1,7 @@
 //! `taceva compare`.
 
+mod tasks;
+
 use std::collections::BTreeMap;
 
 use taceva_report::{
@@ -11,6 +13,9 @@ use crate::args::{Compare, Format, TableScores};
 use crate::{exit, output, report};
 
 pub(crate) fn run(args: &Compare, context: &Context) -> anyhow::Result<u8> {
+    if let Some(code) = tasks::run(args)? {
+        return Ok(code);
+    }
     let table = super::table_scores(&args.table, args.output.format)?;
     let files = args.output.path.iter().chain(&args.page.path);
     output::check_all_free(files, args.output.force)?;

@@ -5,7 +5,7 @@ use std::time::Duration;
 use taceva_core::{counted, shown};
 
 use anyhow::Context as _;
-use taceva_evaluate::{Effort, Fitted, fit_validated};
+use taceva_evaluate::{Effort, Fitted, fit_task, fit_validated};
 use taceva_metrics::Standing;
 use taceva_models::{Checkpoints, ChosenBy, FoldGroups, Foreign, SplitKind, SplitSpec};
 use taceva_results::OPTIMISTIC;
@@ -19,13 +19,20 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     output::check_all_free(&args.split_out.path, args.force)?;
     let dataset = open_seen(&args.datasets, &args.view, None)?;
     let models = context.models()?;
-    let request = fit_request(&args.model.name, &args.model.settings, &args.split, &models)?;
+    let settings = args.window.on(&args.model.settings);
+    let request = fit_request(&args.model.name, &settings, &args.split, &models)?;
     let checkpoints = checkpoints(args);
     let cache = cache::of(&args.cache);
-    let planned = Effort::of_fit(&dataset, &request)?;
-    effort::print(&planned, &dataset, cache.as_ref(), context);
     let work = context.work(cache.as_ref());
-    let fitted = fit_validated(&dataset, &request, Some(checkpoints.clone()), work)?;
+    let kept = Some(checkpoints.clone());
+    let fitted = match &args.task {
+        Some(task) => fit_task(&dataset, task, request, kept, work)?,
+        None => {
+            let planned = Effort::of_fit(&dataset, &request)?;
+            effort::print(&planned, &dataset, cache.as_ref(), context);
+            fit_validated(&dataset, &request, kept, work)?
+        }
+    };
     cache::note(cache.as_ref(), context);
     fitted.model.save(&args.out)?;
     checkpoints.remove().with_context(|| {
@@ -69,6 +76,14 @@ fn checkpoints(args: &Fit) -> Checkpoints {
 fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     let card = fitted.model.card();
     writeln!(out, "model    {} on {}", card.model, card.features)?;
+    if let Some(task) = &card.provenance.task {
+        let (name, names) = (shown(&task.name), task.labels());
+        writeln!(
+            out,
+            "task     {name}: {names}, in clusters of {}",
+            shown(&task.cluster)
+        )?;
+    }
     if !card.settings.is_empty() {
         writeln!(out, "settings {}", card.settings.join(" "))?;
     }

@@ -1,24 +1,22 @@
 //! Origins of the samples of a table.
 
-use std::collections::BTreeSet;
+use std::path::Path;
 
+use taceva_evaluate::{UNKNOWN_ORIGIN, stated_origins};
 use taceva_import::CsvTable;
 
 use super::results;
 
-/// Column with the origin of each sample.
-const SOURCE: &str = "source";
-/// Origin of samples without a stated origin.
-const UNKNOWN: &str = "unknown";
-
 /// Origins of the samples, from the column `source` or from the result beside the table.
 pub(super) fn of(table: &CsvTable) -> anyhow::Result<Vec<String>> {
-    if !table.has(SOURCE) {
-        let source = results::source_of(table.path())?;
-        return Ok(vec![source.unwrap_or_else(|| UNKNOWN.to_owned())]);
+    match stated_origins(table)? {
+        Some(origins) => Ok(origins.into_iter().collect()),
+        None => Ok(vec![beside(table.path())?]),
     }
-    let stated = table.text(SOURCE)?.into_iter();
-    let stated = stated.map(|source| if source.is_empty() { UNKNOWN } else { source });
-    let distinct: BTreeSet<&str> = stated.collect();
-    Ok(distinct.into_iter().map(str::to_owned).collect())
+}
+
+/// Origin of the samples of the table at `path`, from the result beside it.
+pub(super) fn beside(path: &Path) -> anyhow::Result<String> {
+    let source = results::source_of(path)?;
+    Ok(source.unwrap_or_else(|| UNKNOWN_ORIGIN.to_owned()))
 }

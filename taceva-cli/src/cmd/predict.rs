@@ -5,7 +5,7 @@ use std::io::{self, Write};
 
 use anyhow::Context as _;
 use taceva_core::shown;
-use taceva_evaluate::{AtBound, DataPart, Predicted, predict};
+use taceva_evaluate::{AtBound, DataPart, Predicted, labelled_for, predict};
 
 use super::{Context, Usage, cache, open_seen};
 use crate::args::Predict;
@@ -29,6 +29,9 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     output::check_all_free(files, args.force)?;
     let model = context.models()?.open(&args.with)?;
     let dataset = open_seen(&args.datasets, &args.view, Some(&model))?;
+    let labelled = labelled_for(&dataset, &model);
+    let labelled = labelled.with_context(|| super::applied(&args.with, &args.datasets))?;
+    let dataset = labelled.unwrap_or(dataset);
     if args.deviations_out.is_some() && !model.regressor().knows_deviations() {
         return Err(Usage::error(format!(
             "--deviations-out: a model of {} estimates no standard deviations; gaussian-process does",

@@ -2,6 +2,7 @@
 
 mod faults;
 mod samples;
+pub(super) mod tasks;
 
 use std::collections::BTreeSet;
 use std::fs;

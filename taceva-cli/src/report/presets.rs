@@ -9,7 +9,7 @@ use super::json;
 use crate::args::ListFormat;
 
 /// Indent of the description of a preset, characters.
-const INDENT: usize = 16;
+const INDENT: usize = 24;
 
 /// Writes all presets. Text has lines of at most `line` characters.
 pub(crate) fn list(format: ListFormat, line: usize, out: &mut dyn Write) -> io::Result<()> {

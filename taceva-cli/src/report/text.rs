@@ -9,7 +9,7 @@ use taceva_results::{EvaluationReport, not_measured};
 
 use super::line::{Line, flags, limits, methods, pictures, read_lines, remedies, standings};
 use super::number::formatted;
-use super::{groups, recordings};
+use super::{groups, recordings, tasks};
 
 pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
     heading(report, out)?;
@@ -28,6 +28,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
     over_seeds(report, out)?;
     recordings::write(report, out)?;
     groups::write(report, out)?;
+    tasks::write(report, out)?;
     footer(report, out)
 }
 

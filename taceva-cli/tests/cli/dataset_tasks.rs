@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use crate::support::Bench;
 
-const MAP: &str = r#"map_version = 2
+pub(super) const MAP: &str = r#"map_version = 2
 table = "strokes.csv"
 [columns]
 Fz = { from = "fz", unit = "N" }
@@ -34,7 +34,7 @@ opaque = "unknown"
 "#;
 
 /// Twelve strokes of ten rows, of which five slip. A taxel senses slip, except in the last stroke, where it senses the contrary.
-fn strokes() -> Bench {
+pub(super) fn strokes() -> Bench {
     let bench = Bench::new();
     let mut table = String::from("fz,stroke,slip,c0,c1,c2,c3");
     for stroke in 0..12_u32 {
@@ -63,7 +63,7 @@ fn strokes() -> Bench {
 }
 
 /// Estimate of a metric without a variant.
-fn estimate<'r>(report: &'r Value, metric: &str) -> &'r Value {
+pub(super) fn estimate<'r>(report: &'r Value, metric: &str) -> &'r Value {
     let scores = report["tasks"][0]["scores"].as_array().expect("a list");
     let found = scores
         .iter()
@@ -153,4 +153,32 @@ fn a_recording_without_tasks_says_what_to_write_into_the_map() {
     bench.write("lab/map.toml", &format!("{map}[sensor]{sensor}"));
     bench.ok("import lab --map lab/map.toml --out plain -q");
     bench.refused("evaluate plain --task slip --no-cache", 3, "`[task.NAME]`");
+}
+
+#[test]
+fn a_state_of_a_fitted_task_has_its_scores() {
+    let bench = strokes();
+    let scored = bench.json("evaluate data --task slip --no-cache --state-out slip.state");
+    assert_eq!(bench.json("merge slip.state"), scored);
+}
+
+#[test]
+fn slip_of_the_force_set_of_sparsh_is_imported_by_its_preset_and_scored() {
+    let bench = Bench::new();
+    let drawn = concat!(env!("CARGO_MANIFEST_DIR"), "/../tests/presets/sparsh-slip");
+    bench.ok(&format!(
+        "import {drawn} --preset sparsh-force --out slips -q"
+    ));
+    let report = bench.json("evaluate slips --task slip --no-cache");
+    crate::schema::check("tasks", &report);
+    assert_eq!(report["tasks"][0]["positive"], "slip");
+    let f1 = estimate(&report, "f1");
+    // Six presses of four pictures, half of which slip. Pictures are bright while the finger slips.
+    assert_eq!(
+        (f1["n"].as_u64(), f1["clusters"].as_u64()),
+        (Some(24), Some(6))
+    );
+    assert_eq!(f1["of_constant"], 2.0 / 3.0);
+    let value = f1["value"].as_f64().expect("defined");
+    assert!(value > 0.8, "{report:#}");
 }

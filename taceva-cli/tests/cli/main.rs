@@ -49,6 +49,7 @@ mod support;
 mod sweep;
 mod sweep_scenes;
 mod sweep_tables;
+mod task_models;
 mod tasks;
 mod taxels;
 mod threads;

@@ -6,6 +6,7 @@ mod overrides;
 mod recorded;
 mod reduced;
 mod resume;
+mod slip;
 
 use std::fs;
 use std::path::Path;

@@ -1,6 +1,11 @@
 //! Scores of tasks of two tables.
 
+mod compared;
+mod depth;
 mod input;
+mod page;
+mod public_programs;
+mod states;
 
 use std::fmt::Write as _;
 

@@ -124,7 +124,7 @@ impl Standing {
                 "not above chance: with this number of samples, the differences between places may be chance",
             ),
             Standing::NotAboveConstant => Some(
-                "not above a constant answer: its interval is not above the share reached by always predicting the mean of the training labels",
+                "not above a constant answer: its interval is not better than the score of one constant answer, such as the mean of the training labels",
             ),
             Standing::NoInterval => Some(
                 "no interval to compare with predicting the mean: too few contact points were scored, or nothing varied between them",

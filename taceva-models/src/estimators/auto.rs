@@ -1,6 +1,7 @@
 //! Selection of the model with the least error on held-out samples, within a budget of work.
 
 mod candidates;
+mod classes;
 mod cost;
 mod entrant;
 mod excess;
@@ -11,6 +12,7 @@ mod validate;
 use taceva_core::{Features, ModelError, Progress, SignalInfo, TrainingSet, counted};
 
 use self::candidates::candidates;
+use self::classes::HEAD;
 use self::cost::{NETWORK, Sizes};
 use self::race::{Made, Race};
 use self::validate::Folds;
@@ -38,12 +40,16 @@ use crate::training::problem::Problem;
 /// is chosen unless this model is better by more than two standard errors. The network replaces this choice if it is better on the first fold, by more than two
 /// standard errors and a twentieth of the squared error.
 ///
+/// With `head=classes`, classifiers are fitted to the training part, and the one that predicts the validation part best is chosen.
+///
 /// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and its final fit do not exceed the
 /// remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore leads to the same choice on every machine,
 /// under any load and with any number of threads. Baseline and ridge are always tried.
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
+    /// True to choose among classifiers, by the validation part.
+    predicts_classes: bool,
     /// Library models to try in addition to the models of this crate.
     libraries: Vec<&'static LibraryModel>,
     /// Signals that serve as features; `None` for pictures.
@@ -65,7 +71,7 @@ impl Auto {
     pub const INFO: ModelInfo = ModelInfo {
         name: "auto",
         about: "the best of the other models on held-out samples, residual networks excluded, within a budget of work",
-        settings: &[BUDGET],
+        settings: &[BUDGET, HEAD],
         features: Some(FeatureSpec::DEFAULT),
         make: |settings| Ok(Box::new(Auto::from_settings(settings)?)),
         // A model file names the chosen model instead.
@@ -80,6 +86,11 @@ impl Auto {
         settings.check_keys(Auto::INFO.settings)?;
         Ok(Auto {
             budget_s: settings.value(&BUDGET, 1800.0, |text| number(text, 0.0..=1e6))?,
+            predicts_classes: settings.value(&HEAD, false, |text| match text {
+                "numbers" => Some(false),
+                "classes" => Some(true),
+                _ => None,
+            })?,
             libraries: Vec::new(),
             of_signals: None,
             checkpoints: None,
@@ -126,6 +137,9 @@ impl ModelEstimator for Auto {
     }
 
     fn looks_closer(&self, [samples, features, channels]: [usize; 3]) -> bool {
+        if self.predicts_classes {
+            return false;
+        }
         let sizes = Sizes {
             samples: samples as f64,
             features: features as f64,
@@ -140,9 +154,14 @@ impl ModelEstimator for Auto {
     fn choose(
         &self,
         training: &TrainingSet<'_>,
+        validation: Option<&TrainingSet<'_>>,
         closer: Option<&Features>,
         progress: &dyn Progress,
     ) -> Result<Option<Chosen>, ModelError> {
+        if self.predicts_classes {
+            let chosen = self.choose_classifier(training, validation, progress)?;
+            return Ok(Some(chosen));
+        }
         let problem = Problem::new(*training)?;
         let samples = training.features.samples();
         if samples < FOLDS {
@@ -203,7 +222,7 @@ impl ModelEstimator for Auto {
         validation: Option<&TrainingSet<'_>>,
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError> {
-        let chosen = self.choose(training, None, progress)?;
+        let chosen = self.choose(training, validation, None, progress)?;
         let chosen = chosen.expect("this estimator chooses");
         chosen.estimator.fit_model(training, validation, progress)
     }

@@ -1,14 +1,19 @@
 //! Networks that read features as pictures: a small network of five convolutions, and residual networks.
 
 mod appearance;
+mod calibration;
+mod classes;
+mod classifier;
 mod ensemble;
 mod estimator;
 mod fit;
+mod head;
 mod regressor;
 mod spacing;
 mod training;
 mod variants;
 
+pub use classifier::NetworkClassifier;
 pub use ensemble::{EnsembleRegressor, NetworkEnsemble};
 pub use estimator::NetworkEstimator;
 pub use regressor::NetworkRegressor;

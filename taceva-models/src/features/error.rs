@@ -4,6 +4,7 @@ use taceva_core::{FrameInfo, InputInfo, SignalInfo};
 
 use super::area::AreaSums;
 use super::spec::FeatureSpec;
+use super::window::FrameWindow;
 
 /// Error of feature extraction.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -125,6 +126,15 @@ pub enum FeatureError {
         info: SignalInfo,
         /// Minimum number of cells along a side for a network.
         least: u32,
+    },
+    /// The model reads windows, and one frame is given.
+    #[error(
+        "the model reads windows of {} frames, expected a model of single frames: fit one without `window`",
+        window.frames()
+    )]
+    Window {
+        /// Frames that one sample of the model reads.
+        window: FrameWindow,
     },
     /// The caller's buffer has the wrong length.
     #[error("a buffer of {found} numbers for {expected} features")]

@@ -84,9 +84,9 @@ impl Extractor {
         Ok(Extractor { spec, of })
     }
 
-    /// Shape of one sample's features.
+    /// Shape of the features of one frame, or of the signals of one instant.
     pub fn shape(&self) -> FeatureShape {
-        self.spec.shape()
+        self.spec.frame_shape()
     }
 
     /// Specification of the extracted features.

@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 use taceva_core::{FeatureShape, SignalInfo};
 
 use super::kinds::{FeatureKind, FeatureKinds};
+use super::window::FrameWindow;
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
 /// Colour mode of features: gray or RGB.
@@ -56,6 +57,9 @@ pub struct FeatureSpec {
     /// Number of values per taxel of signals; `None` for frames, and for signals before the recording is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub channels: Option<u32>,
+    /// Frames that one sample reads; `None` for its own frame only.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub window: Option<FrameWindow>,
 }
 
 impl Default for FeatureSpec {
@@ -119,10 +123,14 @@ impl FeatureSpec {
         difference: false,
         pca: None,
         channels: None,
+        window: None,
     };
 
     /// Settings in the registry.
-    pub const SETTINGS: &'static [SettingInfo] = &[INPUT, KINDS, SIZE, COLOR, DIFFERENCE, PCA];
+    pub const SETTINGS: &'static [SettingInfo] = &{
+        let [frames, stride] = FrameWindow::SETTINGS;
+        [INPUT, KINDS, SIZE, COLOR, DIFFERENCE, PCA, frames, stride]
+    };
 
     /// Reads the features from `settings`.
     ///
@@ -176,6 +184,7 @@ impl FeatureSpec {
                 number(text, 1..=FeatureSpec::PCA_MAX).map(Some)
             })?,
             channels: None,
+            window: FrameWindow::changed_by(self.window, settings)?,
         })
     }
 
@@ -206,6 +215,16 @@ impl FeatureSpec {
 
     /// Shape of one sample's features, before principal components.
     pub fn shape(&self) -> FeatureShape {
+        let FeatureShape { depth, .. } = self.frame_shape();
+        let values = self.window.map_or(1, FrameWindow::values_per_value);
+        FeatureShape {
+            depth: depth * values,
+            ..self.frame_shape()
+        }
+    }
+
+    /// Shape of the features of a single frame, or of the signals of one instant.
+    pub fn frame_shape(&self) -> FeatureShape {
         FeatureShape {
             height: self.height as usize,
             width: self.width as usize,
@@ -238,6 +257,7 @@ impl FeatureSpec {
         };
         is_grid
             && (self.kinds == FeatureKinds::SIGNALS) == self.channels.is_some()
+            && self.window.is_none_or(FrameWindow::is_valid)
             && self
                 .pca
                 .is_none_or(|count| (1..=FeatureSpec::PCA_MAX).contains(&count))
@@ -267,6 +287,10 @@ impl fmt::Display for FeatureSpec {
             (false, _) => {}
             (true, None) => f.write_str(", difference from the reference")?,
             (true, Some(_)) => f.write_str(", difference from rest")?,
+        }
+        if let Some(window) = self.window {
+            let (frames, stride) = (window.frames(), window.stride());
+            write!(f, ", windows of {frames} frames with stride {stride}")?;
         }
         match self.pca {
             Some(count) => write!(f, ", {count} principal components"),
@@ -319,6 +343,18 @@ mod tests {
     }
 
     #[test]
+    fn a_window_has_the_values_of_its_frames_and_their_changes_and_one_frame_is_no_window() {
+        let spec = parse(&["size=4", "window=3", "stride=2"]).expect("valid");
+        assert_eq!((spec.shape().depth, spec.frame_shape().depth), (5, 1));
+        let words = "4×4 gray, windows of 3 frames with stride 2";
+        assert_eq!(spec.to_string(), words);
+        let text = serde_json::to_string(&spec).expect("writes");
+        let read: FeatureSpec = serde_json::from_str(&text).expect("reads");
+        assert_eq!(read, spec);
+        assert_eq!(parse(&["window=1"]).expect("valid"), FeatureSpec::DEFAULT);
+    }
+
+    #[test]
     fn sizes_out_of_range_are_refused() {
         for word in [
             "size=0",
@@ -329,6 +365,8 @@ mod tests {
             "difference=1",
             "features=smells",
             "features=",
+            "window=65",
+            "stride=0",
         ] {
             assert!(
                 matches!(parse(&[word]), Err(SettingError::Value { .. })),

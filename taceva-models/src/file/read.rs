@@ -109,7 +109,7 @@ fn is_of_its_input(card: &ModelCard) -> bool {
         (InputInfo::Signals(info), Some(spread)) => {
             let is_divisor = |spread: &f64| spread.is_finite() && *spread > 0.0;
             card.features.of_signals(info) == card.features
-                && spread.len() == info.channels as usize
+                && spread.len() == card.features.shape().depth
                 && spread.iter().all(is_divisor)
         }
         _ => false,

@@ -33,9 +33,10 @@ impl Model {
                 "finer features of one part, expected them for both training and validation",
             ));
         }
-        let chosen = input
-            .estimator
-            .choose(&input.training, Some(closer.training), progress)?;
+        let chosen =
+            input
+                .estimator
+                .choose(&input.training, None, Some(closer.training), progress)?;
         let Some(chosen) = chosen else {
             return Model::fit(input, progress);
         };

@@ -5,6 +5,7 @@ mod distance;
 mod library;
 mod network;
 mod plugin;
+mod task;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::{InputInfo, Unit};
@@ -13,8 +14,9 @@ pub(crate) use self::auto::FOLDS;
 pub use self::auto::{AutoCard, AutoTrial, Untried};
 pub use self::distance::DistanceCard;
 pub use self::library::LibraryCard;
-pub use self::network::NetworkCard;
+pub use self::network::{ClassCard, NetworkCard};
 pub use self::plugin::PluginCard;
+pub use self::task::TaskCard;
 use crate::features::FeatureSpec;
 use crate::features::choice::FeatureChoice;
 use crate::training::choice::Choice;
@@ -191,6 +193,9 @@ pub struct Provenance {
     /// Cross-validation scores, for a model fitted to all samples.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub validation: Option<ValidationCard>,
+    /// Task whose classes the model predicts; `None` for measured channels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub task: Option<TaskCard>,
 }
 
 /// Cross-validation of a model that was fitted to all samples.

@@ -35,14 +35,16 @@ pub(crate) use estimator;
 
 /// An estimator whose regressor can be stored in a model file, and that reports its choices.
 pub trait ModelEstimator: Estimator {
-    /// Chooses another estimator for `training`, and returns it with a record of the choice; `None` for estimators that do not choose. Some candidates use the
-    /// finer features `closer` of the same samples, if given.
+    /// Chooses another estimator for `training`, and returns it with a record of the choice; `None` for estimators that do not choose.
+    ///
+    /// Classifiers are chosen by `validation`. Some candidates use the finer features `closer` of the same samples, if given.
     ///
     /// # Errors
     /// Errors of [`Estimator::fit`].
     fn choose(
         &self,
         _training: &TrainingSet<'_>,
+        _validation: Option<&TrainingSet<'_>>,
         _closer: Option<&Features>,
         _progress: &dyn Progress,
     ) -> Result<Option<Chosen>, ModelError> {

@@ -34,9 +34,37 @@ pub(crate) trait FittedModel: Regressor + Any + fmt::Debug {
         Ok(None)
     }
 
+    /// Probabilities of classes; `None` if the model does not estimate them.
+    fn probabilities(&self, _: &Features) -> Result<Option<ClassProbabilities>, ModelError> {
+        Ok(None)
+    }
+
     /// Converts this regressor of the components of `pca` to a regressor of pixels; `None` if the components must be stored with the model.
     fn through(&self, _: &Pca) -> Result<Option<ModelRegressor>, ModelError> {
         Ok(None)
+    }
+}
+
+/// Probabilities of the classes of the only channel.
+///
+/// ```
+/// use taceva_models::ClassProbabilities;
+/// let of_two_samples = ClassProbabilities { labels: vec![0.0, 1.0], shares: vec![0.9, 0.1, 0.2, 0.8] };
+/// let second: Vec<&[f64]> = of_two_samples.samples().collect();
+/// assert_eq!(second[1], [0.2, 0.8]);
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct ClassProbabilities {
+    /// Label of each class, ascending.
+    pub labels: Vec<f64>,
+    /// Probabilities, shape `[samples, labels]`.
+    pub shares: Vec<f64>,
+}
+
+impl ClassProbabilities {
+    /// Probabilities of each sample, in the order of the labels.
+    pub fn samples(&self) -> impl Iterator<Item = &[f64]> {
+        self.shares.chunks_exact(self.labels.len().max(1))
     }
 }
 
@@ -92,6 +120,17 @@ impl ModelRegressor {
     /// [`ModelError`] if the shape of the features differs.
     pub fn deviations(&self, features: &Features) -> Result<Option<Vec<f64>>, ModelError> {
         self.0.deviations(features)
+    }
+
+    /// Probabilities of the classes of the only channel; `None` if the model does not estimate them.
+    ///
+    /// # Errors
+    /// [`ModelError`] if the shape of the features differs.
+    pub fn probabilities(
+        &self,
+        features: &Features,
+    ) -> Result<Option<ClassProbabilities>, ModelError> {
+        self.0.probabilities(features)
     }
 }
 

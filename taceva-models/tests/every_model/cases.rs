@@ -98,6 +98,11 @@ pub(crate) const LIBRARIES: &[Case] = match cfg!(all(feature = "linfa", feature 
             order: Some(1e-5),
             ..case("smartcore/knn", &[], 1.0)
         },
+        // As many label values as samples: the label of the nearest picture is predicted.
+        Case {
+            order: Some(1e-5),
+            ..case("smartcore/knn-classifier", &[], 1.5)
+        },
         Case {
             order: None,
             ..case("smartcore/random-forest", &["trees=40", "share=0.1"], 1.5)

@@ -77,7 +77,6 @@ impl<B: Products> DeviceEngine<B> {
         let mut gradient = Vec::new();
         let loss = self
             .recipe
-            .loss
             .measure(&outputs, width, batch.labels, &mut gradient);
         if !loss.is_finite() {
             return Err(NetworkError::LossNotFinite { step: batch.step });

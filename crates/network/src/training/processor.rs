@@ -4,9 +4,8 @@ use super::engine::{Batch, Engine, Moments, Snapshot};
 use super::recipe::Recipe;
 use crate::convolution::ConvolutionForm;
 use crate::error::NetworkError;
-use crate::loss::Loss;
 use crate::network::{Network, TrainingSpace};
-use crate::optimizer::{Descent, Memory, Optimizer};
+use crate::optimizer::{Descent, Memory};
 
 /// Training engine on the CPU.
 #[derive(Debug)]
@@ -14,8 +13,7 @@ pub(super) struct Processor {
     network: Network,
     space: TrainingSpace,
     memory: Memory,
-    optimizer: Optimizer,
-    loss: Loss,
+    recipe: Recipe,
     form: ConvolutionForm,
 }
 
@@ -39,8 +37,7 @@ impl Processor {
         Ok(Processor {
             space: network.training_space(recipe.batch, form)?,
             memory,
-            optimizer: recipe.optimizer,
-            loss: recipe.loss,
+            recipe: recipe.clone(),
             form,
             network,
         })
@@ -61,13 +58,13 @@ impl Engine for Processor {
         let width = self.network.architecture().outputs;
         let outputs = self.network.forward(&mut self.space, pictures.len());
         let mut gradient = Vec::new();
-        let loss = self.loss.measure(outputs, width, labels, &mut gradient);
+        let loss = self.recipe.measure(outputs, width, labels, &mut gradient);
         if !loss.is_finite() {
             return Err(NetworkError::LossNotFinite { step });
         }
         let mut descent = Descent {
             machine: self.network.machine,
-            optimizer: self.optimizer,
+            optimizer: self.recipe.optimizer,
             rate,
             steps: step + 1,
             memory: &mut self.memory,

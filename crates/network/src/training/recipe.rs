@@ -4,7 +4,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{Augmentation, LabelScaling};
 use crate::error::NetworkError;
-use crate::loss::Loss;
+use crate::labels::Labels;
+use crate::loss::{Loss, cross_entropy};
 use crate::optimizer::Optimizer;
 use crate::schedule::Schedule;
 
@@ -23,6 +24,9 @@ pub struct Recipe {
     pub schedule: Schedule,
     /// Loss function.
     pub loss: Loss,
+    /// Weight of each class in cross entropy; empty for equal weights.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub class_weights: Vec<f64>,
     /// Scaling of labels. Classes are not scaled.
     pub scaling: LabelScaling,
     /// Random changes of pictures before each step.
@@ -43,6 +47,7 @@ impl Default for Recipe {
             rate: 3e-3,
             schedule: Schedule::OneCycle { rise: 0.3 },
             loss: Loss::Huber { delta: 1.0 },
+            class_weights: Vec::new(),
             scaling: LabelScaling::Standard,
             augmentation: Augmentation::default(),
             patience: None,
@@ -52,6 +57,43 @@ impl Default for Recipe {
 }
 
 impl Recipe {
+    /// Computes the loss of some samples with the class weights, and writes the gradient of the loss.
+    ///
+    /// # Shapes
+    /// `outputs`, `gradient`: `[samples, width]`.
+    /// # Panics
+    /// As [`Loss::measure`].
+    pub(crate) fn measure(
+        &self,
+        outputs: &[f64],
+        width: usize,
+        truth: Labels<'_>,
+        gradient: &mut Vec<f64>,
+    ) -> f64 {
+        match (self.loss, truth) {
+            (Loss::CrossEntropy, Labels::Classes(classes)) => {
+                cross_entropy(outputs, width, classes, &self.class_weights, gradient)
+            }
+            (loss, truth) => loss.measure(outputs, width, truth, gradient),
+        }
+    }
+
+    /// Checks that there is one weight for each of `outputs` classes, or none.
+    pub(super) fn check_weights(&self, outputs: usize) -> Result<(), NetworkError> {
+        let weights = &self.class_weights;
+        let are_positive = weights
+            .iter()
+            .all(|weight| weight.is_finite() && *weight > 0.0);
+        if weights.is_empty() || (weights.len() == outputs && are_positive) {
+            return Ok(());
+        }
+        Err(NetworkError::Recipe {
+            name: "class_weights",
+            found: format!("{weights:?}"),
+            expected: "a number above 0 for each output, or none",
+        })
+    }
+
     /// Checks the range of every setting.
     ///
     /// # Errors

@@ -57,6 +57,7 @@ fn recipe(loss: Loss, optimizer: Optimizer) -> Recipe {
         rate: 3e-4,
         schedule: Schedule::Constant,
         loss,
+        class_weights: Vec::new(),
         scaling: LabelScaling::None,
         augmentation: Augmentation::default(),
         patience: None,

@@ -13,6 +13,7 @@ mod clusters;
 mod contradictory_labels;
 pub(crate) mod damaged_frames;
 mod dead_zone;
+pub(crate) mod depth_maps;
 mod doubled_frames;
 mod dropped_frames;
 mod duplicate_frames;
@@ -48,7 +49,7 @@ mod zero_shift;
 use crate::finding::Check;
 
 /// All checks, in the order of their codes.
-pub static ALL: [&Check; 44] = [
+pub static ALL: [&Check; 45] = [
     &units::CHECK,
     &duplicate_frames::CHECK,
     &channel_order::CHECK,
@@ -81,6 +82,7 @@ pub static ALL: [&Check; 44] = [
     &unseen_classes::CHECK,
     &contradictory_labels::CHECK,
     &quaternion_norms::CHECK,
+    &depth_maps::CHECK,
     &changed_rest::CHECK,
     &zero_shift::CHECK,
     &repeated_stamps::CHECK,

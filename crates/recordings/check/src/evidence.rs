@@ -4,6 +4,7 @@ use taceva_core::{Frame, PixelFormat};
 use taceva_dataset::{Header, Table};
 use taceva_evaluate::Divided;
 
+use crate::depth_facts::DepthFacts;
 use crate::signal_facts::SignalFacts;
 use crate::tiles::Tiles;
 use taceva_dataset::RecordedSessions;
@@ -26,12 +27,16 @@ pub struct Evidence<'a> {
     pub is_split_named: bool,
     /// Division whose test part an evaluation scores: all folds of the default split, or `divided`.
     pub scored: Option<&'a Divided>,
+    /// Division that scores each task of the table: its own folds, or `divided` if the request names a split. `None` for a task without classes or folds.
+    pub of_tasks: &'a [Option<Divided>],
     /// Statistics of the frame of each row; empty if no check reads frames.
     pub frames: &'a [Option<FrameFacts>],
     /// Statistics of the frame without contact.
     pub reference: Option<&'a FrameFacts>,
     /// Statistics of every taxel; `None` without taxels, or if no check reads signals.
     pub signals: Option<&'a SignalFacts>,
+    /// Statistics of the depth maps of each task; empty if no check reads them.
+    pub maps: &'a [DepthFacts],
     /// Rows whose pictures can be decoded although they are damaged, with a description of the damage.
     pub damaged: &'a [(usize, String)],
     /// Sessions on a real rig that made the recording; `None` without a table of sessions.

@@ -3,6 +3,7 @@
 mod check;
 mod checks;
 mod count;
+mod depth_facts;
 mod evidence;
 mod finding;
 mod rest_change;
@@ -15,6 +16,7 @@ mod views;
 
 pub use check::check;
 pub use checks::ALL;
+pub use depth_facts::{DepthFacts, OneMap};
 pub use evidence::{Evidence, FrameFacts};
 pub use finding::{Check, CheckReport, Finding, Severity};
 pub use rest_change::RestChange;

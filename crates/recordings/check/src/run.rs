@@ -6,13 +6,14 @@ use taceva_core::shown;
 use taceva_core::{Field, Progress, SkipReason, Skipped, counted};
 use taceva_dataset::{Dataset, Pass, RecordedSessions};
 
-use crate::checks::{ALL, blank, damaged_frames, leakage, unseen_classes};
+use crate::checks::{ALL, blank, damaged_frames, depth_maps, leakage, unseen_classes};
+use crate::depth_facts::DepthFacts;
 use crate::evidence::{Evidence, FrameFacts};
 use crate::finding::{Check, CheckReport, Finding};
 use crate::signal_facts::SignalFacts;
 use taceva_evaluate::EvaluateError;
 use taceva_evaluate::Plan;
-use taceva_evaluate::{Divided, require_samples, scored_by_default};
+use taceva_evaluate::{Divided, require_samples, scored_by_default, scored_of_task};
 
 /// Options of a run of checks.
 #[derive(Clone, Debug)]
@@ -86,8 +87,7 @@ pub(crate) fn check_seen(
         // No split was requested, and this recording has none: checks of splits are skipped.
         Err(EvaluateError::Split(error)) if request.split.is_none() => {
             wanted.retain(|check| {
-                let reads_split = check.code == leakage::CHECK.code
-                    || check.code == unseen_classes::CHECK.code && !dataset.tasks().is_empty();
+                let reads_split = check.code == leakage::CHECK.code;
                 if reads_split {
                     skipped.push(Skipped::new(
                         format!("check:{}", check.code),
@@ -123,9 +123,23 @@ pub(crate) fn check_seen(
         true => SignalFacts::of(dataset, progress)?,
         false => None,
     };
+    let reads_maps = wanted
+        .iter()
+        .any(|check| check.code == depth_maps::CHECK.code);
+    let maps = match reads_maps {
+        true => DepthFacts::of_tasks(dataset, progress)?,
+        false => Vec::new(),
+    };
     let sessions = RecordedSessions::of(dataset.path());
     let tasks = dataset.tasks().iter();
     let clusters: Vec<_> = tasks.map(|own| dataset.clusters_of(own.task())).collect();
+    let of_tasks = match wanted
+        .iter()
+        .any(|check| check.code == unseen_classes::CHECK.code)
+    {
+        true => of_tasks(dataset, request, divided.as_ref())?,
+        false => Vec::new(),
+    };
     let evidence = Evidence {
         header: dataset.header(),
         table: dataset.table(),
@@ -133,9 +147,11 @@ pub(crate) fn check_seen(
         divided: divided.as_ref(),
         is_split_named: request.split.is_some(),
         scored: folds.as_ref().or(divided.as_ref()),
+        of_tasks: &of_tasks,
         frames: &frames,
         reference: reference.as_ref(),
         signals: signals.as_ref(),
+        maps: &maps,
         damaged: &damaged,
         sessions: sessions.as_ref(),
     };
@@ -158,6 +174,24 @@ pub(crate) fn check_seen(
         findings,
         skipped,
     })
+}
+
+/// Division that scores each task of classes. A task of one cluster has none, and its evaluation is refused.
+fn of_tasks(
+    dataset: &Dataset,
+    request: &CheckRequest,
+    named: Option<&Divided>,
+) -> Result<Vec<Option<Divided>>, EvaluateError> {
+    let tasks = dataset.tasks().iter().map(|own| own.task());
+    let divided = tasks.map(|task| match (&request.split, task.kind) {
+        (Some(_), _) => Ok(named.cloned()),
+        (None, kind) if !kind.has_classes() => Ok(None),
+        (None, _) => match scored_of_task(dataset, task, request.seed) {
+            Err(EvaluateError::Split(_) | EvaluateError::Request(_)) => Ok(None),
+            divided => divided,
+        },
+    });
+    divided.collect()
 }
 
 /// True if any of `wanted` reads `field` for every sample, and `dataset` has this field.

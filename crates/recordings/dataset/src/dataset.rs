@@ -1,6 +1,7 @@
 //! A recording on disk, opened for reading.
 
 mod frames;
+mod maps;
 mod pass;
 mod signals;
 mod tasks;
@@ -23,6 +24,7 @@ use crate::layout;
 use crate::limits;
 use crate::signals::SignalsReader;
 use crate::table::Table;
+use crate::task::Task;
 use crate::toml_file::utf8;
 use verify::read_table;
 
@@ -66,6 +68,8 @@ pub struct Dataset {
     joined: Vec<JoinedRecording>,
     /// Indices of the selected views; empty if a row has one picture or no view was selected.
     seen: Vec<usize>,
+    /// Task whose labels take the place of the channels; `None` for measured channels.
+    labelled_by: Option<Task>,
 }
 
 impl Dataset {
@@ -105,6 +109,7 @@ impl Dataset {
             signals: Mutex::default(),
             joined: Vec::new(),
             seen: Vec::new(),
+            labelled_by: None,
         }
     }
 

@@ -8,16 +8,18 @@ pub const SIGNALS: &str = "signals.parquet";
 pub const PREDICTIONS: &str = "predictions.csv";
 pub const SOURCES: &str = "sources.sha256";
 pub const FRAMES: &str = "frames";
+pub const MAPS: &str = "maps";
 pub const JOURNAL: &str = "journal";
 
 /// All names in the folder of a dataset or a recording.
-pub const ALL: [&str; 7] = [
+pub const ALL: [&str; 8] = [
     HEADER,
     SAMPLES,
     SIGNALS,
     PREDICTIONS,
     SOURCES,
     FRAMES,
+    MAPS,
     JOURNAL,
 ];
 
@@ -45,6 +47,11 @@ pub fn frame_path(number: usize, extension: &str) -> String {
 /// File of pack `number`, relative to the dataset.
 pub fn pack_path(number: usize) -> String {
     format!("{FRAMES}/{number:04}.pack")
+}
+
+/// Pack with the depth maps of the task called `task`, relative to the dataset.
+pub fn map_pack_path(task: &str) -> String {
+    format!("{MAPS}/{task}.pack")
 }
 
 /// Number of the pack at `path`; `None` if the file is not a pack.

@@ -22,11 +22,13 @@ pub mod layout;
 #[doc(hidden)]
 pub mod limits;
 mod lock;
+mod maps;
 mod pack;
 mod parallel;
 mod quality;
 mod recorder;
 mod replacement;
+mod rotation_vector;
 mod samples;
 mod sensor_file;
 mod session_table;
@@ -56,15 +58,17 @@ pub use header::{
     ReferenceInfo, SensorFacts, Shape, Source, SourcesInfo, StreamFacts, TableInfo, ViewInfo,
 };
 pub use later_facts::{add_device_warnings, add_measured_settings};
+pub use maps::StoredMap;
 pub use pack::Span;
 pub use quality::names_quality;
 pub use recorder::{Recorder, RecordingSpec, Streamed};
 pub use replacement::settle;
+pub use rotation_vector::RotationVector;
 pub use sensor_file::SensorFile;
 pub use session_table::{RecordedSessions, Session, SessionTable};
 pub use signals::{SignalsInfo, SignalsSpec};
 pub use table::{FrameEntry, Row, RowFrame, Table, TaskColumn, ViewFrames};
-pub use task::{PoseThresholds, Task, TaskKind, TaskLabel};
+pub use task::{MapEntry, MapFacts, PoseThresholds, Task, TaskKind, TaskLabel};
 pub use toml_file::read_toml;
 pub use version::Version;
 pub use zero_table::{PressZero, add_press_zero, press_zeros, zero_settings};
@@ -80,6 +84,7 @@ pub mod internal {
     pub use crate::encode::encode_png;
     pub use crate::file::{check_relative, open_regular, read_capped, write_durable};
     pub use crate::header::{Mapping, Misread, add_left_out};
+    pub use crate::maps::{MapForm, MapPack, MapParts, map_of_numbers, map_of_png, parts_of_map};
     pub use crate::parallel::{all_cores, each_part, ordered_map};
     pub use crate::shell::shell_word;
     pub use crate::signals::{SignalsReader, SignalsWriter};

@@ -14,6 +14,8 @@ pub const IMAGE_BYTES: u64 = 256 << 20;
 pub const PACK_BYTES: u64 = 1 << 30;
 /// Maximum side of an image, pixels.
 pub const IMAGE_SIDE: u32 = 16_384;
+/// Maximum number of pixels of a depth map. A map in memory has 8 bytes for each.
+pub const MAP_PIXELS: usize = 1 << 25;
 /// Maximum size of a decoded image, bytes.
 pub const DECODED_BYTES: u64 = 256 << 20;
 /// Decoded size that is allowed for every image, bytes. An image with a larger decoded size is limited to [`DECODED_RATIO`] times its file size.

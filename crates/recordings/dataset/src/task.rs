@@ -1,15 +1,22 @@
 //! Tasks of a recording: labels other than measured quantities, such as slip, an object or a pose, and their definitions.
 
+mod maps;
+
 use std::collections::BTreeMap;
 
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
 
+pub use maps::{MapEntry, MapFacts};
+
+/// Ends of the names of the channels of a pose: a translation, and a rotation vector.
+const POSE_CHANNELS: [&str; 6] = ["tx", "ty", "tz", "rx", "ry", "rz"];
+
 /// Begin of the name of each column with labels of a task. Attributes and channels contain no `.`.
 const PREFIX: &str = "task.";
 
 /// Parts of a pose, in the order of storage: a position in mm and a unit quaternion.
-const POSE_PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
+static POSE_PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
 /// True if the column `name` of a table contains labels of a task.
 pub fn is_task_column(name: &str) -> bool {
@@ -22,7 +29,7 @@ pub fn is_task_column(name: &str) -> bool {
 /// use taceva_dataset::TaskKind;
 ///
 /// assert_eq!(TaskKind::from_name("event"), Some(TaskKind::Event));
-/// assert_eq!(TaskKind::ALL.map(TaskKind::name), ["class", "event", "outcome", "pose"]);
+/// assert_eq!(TaskKind::ALL.map(TaskKind::name), ["class", "event", "outcome", "pose", "place", "depth"]);
 /// ```
 #[non_exhaustive]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -36,15 +43,21 @@ pub enum TaskKind {
     Outcome,
     /// Position and orientation of an object.
     Pose,
+    /// Position of a contact, without an orientation.
+    Place,
+    /// Depth of each pixel of a picture.
+    Depth,
 }
 
 impl TaskKind {
     /// Every kind.
-    pub const ALL: [TaskKind; 4] = [
+    pub const ALL: [TaskKind; 6] = [
         TaskKind::Class,
         TaskKind::Event,
         TaskKind::Outcome,
         TaskKind::Pose,
+        TaskKind::Place,
+        TaskKind::Depth,
     ];
 
     /// Word for the kind in maps and headers.
@@ -54,7 +67,14 @@ impl TaskKind {
             TaskKind::Event => "event",
             TaskKind::Outcome => "outcome",
             TaskKind::Pose => "pose",
+            TaskKind::Place => "place",
+            TaskKind::Depth => "depth",
         }
+    }
+
+    /// True if a label is one of several classes.
+    pub const fn has_classes(self) -> bool {
+        matches!(self, TaskKind::Class | TaskKind::Event | TaskKind::Outcome)
     }
 
     /// Kind with the word `name`.
@@ -84,7 +104,7 @@ pub struct Task {
     /// Source columns of the labels; empty if nothing was imported.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub from: Vec<String>,
-    /// Names of the classes, in the order of their positions; empty for poses.
+    /// Names of the classes, in the order of their positions; empty for kinds without classes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub names: Vec<String>,
     /// Name of the class that a model should find; `None` if no class is preferred.
@@ -107,6 +127,9 @@ pub struct Task {
     /// Limits between the classes of a pose change; `None` without such classes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub thresholds: Option<PoseThresholds>,
+    /// Meaning of the numbers of depth maps; `None` for other tasks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub maps: Option<MapFacts>,
 }
 
 /// Limits between the classes of a pose change, as decimals. A decimal has no rounding, so limits of different programs compare exactly.
@@ -149,18 +172,38 @@ impl Task {
             over: None,
             frame: None,
             thresholds: None,
+            maps: None,
         }
     }
 
     /// Names of the columns with the labels in the table of a dataset.
     pub fn columns(&self) -> Vec<String> {
         let column = format!("{PREFIX}{}", self.name);
+        let parts: &[&str] = match self.kind {
+            TaskKind::Pose => &POSE_PARTS,
+            TaskKind::Place => &POSE_PARTS[..3],
+            TaskKind::Depth => return vec![column.clone(), format!("{column}.sha256")],
+            _ => return vec![column],
+        };
+        let parts = parts.iter();
+        parts.map(|part| format!("{column}.{part}")).collect()
+    }
+
+    /// Channels of the labels after [`Dataset::of_task`](crate::Dataset::of_task): the position of the class, or translation and rotation vector of a pose. Places and depth maps have none.
+    ///
+    /// ```
+    /// use taceva_dataset::{Task, TaskKind};
+    /// let moved = Task::new("moved", TaskKind::Pose, "trajectory");
+    /// assert_eq!(moved.channels()[3], "moved_rx");
+    /// ```
+    pub fn channels(&self) -> Vec<String> {
         match self.kind {
             TaskKind::Pose => {
-                let parts = POSE_PARTS.iter();
-                parts.map(|part| format!("{column}.{part}")).collect()
+                let ends = POSE_CHANNELS.iter();
+                ends.map(|end| format!("{}_{end}", self.name)).collect()
             }
-            _ => vec![column],
+            TaskKind::Place | TaskKind::Depth => Vec::new(),
+            _ => vec![self.name.clone()],
         }
     }
 
@@ -192,21 +235,31 @@ pub enum TaskLabel {
     Class(u32),
     /// Position x, y, z in mm, and quaternion x, y, z, w.
     Pose([f64; 7]),
+    /// Position x, y, z in mm.
+    Place([f64; 3]),
+    /// Depth map in the pack of the task.
+    Map(MapEntry),
 }
 
 impl TaskLabel {
     /// Greatest deviation from 1 of the norm of a quaternion. Quaternions in single precision stay below it.
     pub const NORM_TOLERANCE: f64 = 1e-6;
 
-    /// Norm of the quaternion of a pose; `None` for a class.
+    /// Norm of the quaternion of a pose; `None` for other labels.
     pub fn quaternion_norm(&self) -> Option<f64> {
-        match self {
-            TaskLabel::Class(_) => None,
-            TaskLabel::Pose(pose) => {
-                let squares = pose[3..].iter().map(|part| part * part);
-                Some(squares.sum::<f64>().sqrt())
-            }
+        let TaskLabel::Pose(pose) = self else {
+            return None;
+        };
+        let squares = pose[3..].iter().map(|part| part * part);
+        Some(squares.sum::<f64>().sqrt())
+    }
+
+    /// Pose of seven numbers, or place of three; `None` for another count.
+    pub(crate) fn of_numbers(numbers: &[f64]) -> Option<TaskLabel> {
+        if let Ok(place) = <[f64; 3]>::try_from(numbers) {
+            return Some(TaskLabel::Place(place));
         }
+        <[f64; 7]>::try_from(numbers).ok().map(TaskLabel::Pose)
     }
 }
 

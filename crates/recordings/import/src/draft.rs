@@ -121,21 +121,27 @@ impl MapDraft {
                 }
                 text
             }
-            None => match most {
-                Some(group) => map_text::of_files(group, &said),
-                None => {
-                    return Err(ImportError::request(
-                        folder,
-                        match (notes.first(), bare) {
+            None => {
+                let asked = file.map(|file| file.to_string_lossy());
+                // One picture beside a clip is mostly the picture without contact.
+                let is_one = most.is_none_or(|group| group.paths.len() == 1);
+                let clip = clips::bare(&source, &groups, asked.as_deref());
+                let clip = clip.filter(|clip| notes.is_empty() && (clip.is_asked || is_one));
+                match (clip, most) {
+                    (Some(clip), _) => map_text::of_clip(&clip, &said),
+                    (None, Some(group)) => map_text::of_files(group, &said),
+                    (None, None) => {
+                        let problem = match (notes.first(), bare) {
                             (Some(note), _) => {
                                 format!("nothing here can be read as a table: {note}")
                             }
                             (None, Some(bare)) => notes::bare_clips(bare),
                             (None, None) => "it contains no table and no picture".to_owned(),
-                        },
-                    ));
+                        };
+                        return Err(ImportError::request(folder, problem));
+                    }
                 }
-            },
+            }
         };
         Ok(MapDraft {
             text: match known_layout(folder, &text) {

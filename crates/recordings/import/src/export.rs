@@ -8,6 +8,7 @@ mod hdf5;
 mod hugging_face;
 mod lerobot;
 mod map;
+mod maps;
 mod picture;
 mod tasks;
 
@@ -19,7 +20,7 @@ use taceva_core::Progress;
 
 use taceva_dataset::Dataset;
 use taceva_dataset::internal::{
-    Cells, column_kind, staging::Place, staging::StagedFolder, write_durable,
+    Cells, column_kind, layout, staging::Place, staging::StagedFolder, write_durable,
 };
 
 use content::Exported;
@@ -133,13 +134,23 @@ impl<'a> ExportPlan<'a> {
     ) -> Result<ExportReport, ImportError> {
         let ExportPlan { dataset, form } = self;
         let table = dataset.table();
+        let staged = StagedFolder::create(target, Place::Free)?;
+        let maps = maps::write(dataset, &staged)?;
         let mut columns = table.columns();
+        for column in &mut columns {
+            if let Some(own) = maps.iter().find(|own| own.column == column.name) {
+                column.cells = Cells::Text(&own.files);
+            }
+        }
         // An import measures the brightness of each picture again, and the view selected here is no fact of the dataset.
         columns.retain(|column| {
             let is_seen = column.name == "source_frame" && !table.views().is_empty();
             column_kind(column.name) != "intensity"
                 && !is_seen
-                && !matches!(column.cells, Cells::FramePath(_) | Cells::FrameDigest(_))
+                && !matches!(
+                    column.cells,
+                    Cells::FramePath(_) | Cells::FrameDigest(_) | Cells::MapDigest(_)
+                )
         });
         let views = dataset.views().into_iter();
         let views = views.map(|view| dataset.seen(view));
@@ -158,7 +169,6 @@ impl<'a> ExportPlan<'a> {
             jobs,
             progress,
         };
-        let staged = StagedFolder::create(target, Place::Free)?;
         progress.begin("export samples", Some(table.rows() as u64));
         let written = match form {
             ExportForm::Csv => csv::write(&exported, &staged),
@@ -167,7 +177,11 @@ impl<'a> ExportPlan<'a> {
             ExportForm::LeRobot => lerobot::write(&exported, &staged),
         };
         progress.end();
-        let (map, folders) = written?;
+        let (map, mut folders) = written?;
+        if !maps.is_empty() {
+            folders.push(layout::MAPS.to_owned());
+        }
+        folders.extend(maps.iter().map(|own| own.folder.clone()));
         let map = map::text(&exported, &map);
         write_durable(&staged.path().join(MAP), map.as_bytes())?;
         staged.put_in_place(&folders)?;

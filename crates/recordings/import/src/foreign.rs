@@ -15,6 +15,7 @@ mod lerobot;
 mod members;
 mod messages;
 mod nested_tables;
+mod one_array;
 mod pictures;
 mod table_form;
 pub(crate) mod tar;
@@ -43,6 +44,7 @@ pub(crate) use file_series::SeveralPictures;
 pub(crate) use files::FileRows;
 pub(crate) use json::JsonRows;
 pub(crate) use messages::{Topics, is_recording};
+pub(crate) use one_array::OneArray;
 pub(crate) use pictures::{Picture, Pictures};
 pub(crate) use table_form::TableForm;
 

@@ -2,6 +2,7 @@
 
 mod archive;
 mod copy;
+mod depth_maps;
 mod explain;
 mod extension;
 mod frame_cells;

@@ -35,6 +35,11 @@ const FILES: &[(&str, &str)] = files![
     "fota",
     "rosbag",
     "diffusion-zarr",
+    "touch-and-go",
+    "feeling-of-success",
+    "objectfolder-benchmark",
+    "tactile-tracking",
+    "sparsh-pose",
 ];
 
 /// Header of the preset section, which follows the map.

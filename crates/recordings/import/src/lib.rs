@@ -10,6 +10,7 @@ mod frame_names;
 mod import;
 mod instant;
 mod layouts;
+mod maps_file;
 mod open_places;
 mod preset;
 mod source_folder;
@@ -31,6 +32,7 @@ pub use import::{
     VideoFrames, ZeroSummary, magnitude_suspicion,
 };
 pub use layouts::Preset;
+pub use maps_file::MapsFile;
 pub use source_sums::{SourceDifference, SourceSums};
 pub use taceva_video::Decoders;
 

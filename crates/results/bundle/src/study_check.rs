@@ -274,6 +274,7 @@ impl StudyCheck<'_> {
             ("by_recording", !report.by_recording.is_empty()),
             ("by_group", !report.by_group.is_empty()),
             ("over_seeds", report.over_seeds.is_some()),
+            ("tasks", !report.tasks.is_empty()),
         ] {
             if is_there {
                 let reason = "no state holds these numbers";

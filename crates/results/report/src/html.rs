@@ -19,9 +19,11 @@ mod seeds;
 mod sensor_summary;
 mod summary;
 mod tables;
+mod tasks;
 mod themes;
 mod triple;
 
+pub(crate) use data_address::address as picture_address;
 pub(crate) use document::Document;
 pub(crate) use figures::{one as drawn, radars};
 pub use picks::{Pick, picks};
@@ -81,6 +83,11 @@ pub fn report(report: &ReportPage<'_>) -> String {
     }
     let themes = themes::section(&table, &figures);
     document.section("themes", "Scores and figures", themes);
+    if let Some((count, section)) = tasks::section(studies) {
+        let title = "Scores of tasks, such as slip";
+        let section = fold("tasks-all", title, &counted(count, "score"), &section);
+        document.section("tasks", "Tasks", section);
+    }
     if let Some(section) = metrology::section(studies) {
         document.section("metrology", "Metrology", section);
     }

@@ -31,7 +31,10 @@ mod site;
 mod spread;
 mod table;
 mod tables_page;
+mod task_comparison;
+mod task_result;
 mod tasks;
+mod tasks_page;
 mod tie;
 mod training;
 mod variables;
@@ -77,4 +80,7 @@ pub use table::{
     Align, Cell, Column, Direction, Estimate, Layout, Row, Table, Words, latex_number, latex_symbol,
 };
 pub use tables_page::{PagePart, PageSection, TablesPage};
+pub use task_comparison::{TASK_COMPARISON_SCHEMA, TaskAnswer, TaskComparison};
+pub use task_result::TaskResult;
 pub use tasks::{task_numbers, task_table};
+pub use tasks_page::task_page;

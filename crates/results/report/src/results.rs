@@ -21,7 +21,7 @@ use taceva_core::{Traceability, Unit};
 use taceva_metrics::{Standing, TrainingSpread, catalogue};
 use taceva_results::{
     DominantSample, EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples,
-    Score, Skip,
+    Score, Skip, StudyTask,
 };
 
 use crate::faults::FaultResult;
@@ -62,6 +62,8 @@ pub struct Study {
     pub notes: Vec<String>,
     /// Scores for other training seeds; `None` if the model was fitted once.
     pub over_seeds: Option<OverSeeds>,
+    /// Scores of tasks, such as slip.
+    pub tasks: Vec<StudyTask>,
     /// Samples of the result; `None` if unavailable, and figures of samples are then omitted.
     pub samples: Option<Samples>,
     /// Errors with faults of the pictures; `None` if no fault was tested.
@@ -142,6 +144,7 @@ impl From<EvaluationReport> for Study {
             edits: report.provenance.edits,
             notes: report.provenance.notes,
             over_seeds: report.over_seeds,
+            tasks: report.tasks,
             samples: report.samples,
             faults: None,
         }

@@ -3,8 +3,9 @@
 use taceva_core::counted;
 use taceva_metrics::Interval;
 use taceva_results::not_measured;
-use taceva_tasks::{Estimate, TaskReport, TaskScore, TaskScores};
+use taceva_tasks::{Estimate, PublicNumber, TaskReport, TaskScore, TaskScores};
 
+use crate::number::numeral;
 use crate::table::{Cell, Column, Table};
 
 /// Greatest number of classes whose confusion stands below the scores.
@@ -77,7 +78,7 @@ pub fn task_numbers(report: &TaskReport) -> Table {
             let ends = estimate.interval.ends();
             table.push([
                 Cell::text(task.name.as_str()),
-                Cell::text(task.kind),
+                Cell::text(task.kind.as_str()),
                 Cell::text(score.metric),
                 Cell::text(score.variant.clone().unwrap_or_default()),
                 Cell::exact(estimate.value.ok()),
@@ -167,7 +168,27 @@ fn remarks(task: &TaskScores) -> Vec<String> {
     if task.names.len() <= MOST_CLASSES {
         remarks.extend(confusion(task));
     }
+    remarks.extend(task.as_published.iter().map(as_published));
     remarks
+}
+
+/// Number of a public program beside the right one.
+fn as_published(number: &PublicNumber) -> String {
+    let unit = match number.unit {
+        Some(unit) => format!(" {unit}"),
+        None => String::new(),
+    };
+    let right = match number.right {
+        Some(right) => format!("the right number is {}{unit}", numeral(right)),
+        None => "the right number needs other columns".to_owned(),
+    };
+    format!(
+        "{} as {} computes it is {}{unit}, and {right}: {}",
+        number.number,
+        number.program,
+        numeral(number.value),
+        number.difference
+    )
 }
 
 /// One sentence for each true class: `held: 1 as lost, 4 as held`.

@@ -15,6 +15,7 @@ mod schema;
 mod score;
 mod seeds;
 mod subject;
+mod task;
 mod value;
 
 pub use error::ResultsError;
@@ -30,4 +31,5 @@ pub use schema::{RUN_SCHEMA, RunReport, read, sealed};
 pub use score::{Score, Variant, by_metric, scores};
 pub use seeds::{OverSeeds, SeedScore};
 pub use subject::Subject;
+pub use task::{StudyTask, TaskNumber};
 pub use value::Value;

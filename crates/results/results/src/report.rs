@@ -10,6 +10,7 @@ use crate::samples::Samples;
 use crate::score::{Score, by_metric, scores};
 use crate::seeds::OverSeeds;
 use crate::subject::Subject;
+use crate::task::StudyTask;
 
 /// Schema of one evaluation report.
 ///
@@ -41,6 +42,9 @@ pub struct EvaluationReport {
     /// Scores with other training seeds; `None` if not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
+    /// Scores of tasks, such as slip; empty unless the scene asks for one.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tasks: Vec<StudyTask>,
     /// Samples behind the scores, if available. They are not part of the JSON.
     #[serde(skip)]
     pub samples: Option<Samples>,
@@ -96,6 +100,7 @@ impl EvaluationReport {
             by_recording: Vec::new(),
             by_group: Vec::new(),
             over_seeds: None,
+            tasks: Vec::new(),
             samples: None,
         }
     }

@@ -168,6 +168,35 @@ impl Classes {
         self.n
     }
 
+    /// Names of the clusters with samples, in order.
+    pub fn clusters(&self) -> impl Iterator<Item = &str> {
+        self.clusters.names()
+    }
+
+    /// Rule that was applied to the predictions; empty without one.
+    pub(crate) fn rule(&self) -> &str {
+        &self.rule
+    }
+
+    /// Counts of all clusters but those called `names`.
+    pub(crate) fn without_clusters(&self, names: &[&str]) -> Classes {
+        let mut left = self.clone();
+        left.clusters.remove(names);
+        left.n = left.hits_by_cluster().iter().map(|[_, n]| n).sum();
+        left
+    }
+
+    /// Numbers of right and of all samples of each cluster.
+    pub(crate) fn hits_by_cluster(&self) -> Vec<[u64; 2]> {
+        let of_cells = |cells: &Cells| -> [u64; 2] {
+            let hits = cells
+                .iter()
+                .filter(|(cell, _)| cell.truth == cell.predicted);
+            [hits.map(|(_, count)| count).sum(), cells.values().sum()]
+        };
+        self.clusters.values().map(of_cells).collect()
+    }
+
     /// Adds a sample of `cluster` by the names of both classes.
     ///
     /// # Errors
@@ -252,7 +281,11 @@ impl Classes {
     /// [`TaskError::OtherDefinition`] if names, the positive class or the rule differ.
     pub fn merge(mut self, other: Classes) -> Result<Classes, TaskError> {
         self.names.check_same(&other.names)?;
-        same("rule", self.rule.clone(), other.rule)?;
+        let [ours, theirs] = [&self.rule, &other.rule].map(|rule| match rule.as_str() {
+            "" => "none".to_owned(),
+            rule => rule.to_owned(),
+        });
+        same("rule", ours, theirs)?;
         self.n += other.n;
         self.clusters.merge(other.clusters, |ours, theirs| {
             for (cell, count) in theirs {

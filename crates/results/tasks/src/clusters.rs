@@ -26,6 +26,16 @@ impl<T> ByCluster<T> {
         self.0.into_iter()
     }
 
+    /// Names of all clusters, in order.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &str> {
+        self.0.keys().map(String::as_str)
+    }
+
+    /// Takes the clusters called `names` away.
+    pub(crate) fn remove(&mut self, names: &[&str]) {
+        self.0.retain(|name, _| !names.contains(&name.as_str()));
+    }
+
     /// Sums of all clusters, to be changed.
     pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.0.values_mut()

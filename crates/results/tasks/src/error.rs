@@ -101,6 +101,15 @@ pub enum TaskError {
         /// Part found.
         found: String,
     },
+    /// A sequence with rows in two states.
+    #[error(
+        "cluster \"{}\" has rows in both states, but onsets and a debounce need its whole sequence; divide tables between clusters",
+        shown(.cluster)
+    )]
+    DividedSequence {
+        /// The cluster.
+        cluster: String,
+    },
     /// A merge of states with different definitions.
     #[error("states of different {what} do not merge: {} and {}; score both parts with the same {what}", shown(.ours), shown(.theirs))]
     OtherDefinition {

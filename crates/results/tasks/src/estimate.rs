@@ -34,6 +34,9 @@ pub struct Estimate {
     pub clusters: u64,
     /// Score of the best constant prediction; `None` if no constant has a score.
     pub of_constant: Option<f64>,
+    /// Score without each cluster with samples, in the order of the names of the clusters, for comparisons in pairs. Reports omit it, and scores of
+    /// single classes have none.
+    pub left_out: Vec<LeftOut>,
 }
 
 impl Estimate {
@@ -46,14 +49,17 @@ impl Estimate {
     }
 }
 
-/// `{value, undefined, ci95, n, clusters, of_constant}`; `undefined` is the reason of a missing value.
+/// `{value, undefined, ci95, method, standard_error, degrees_of_freedom, n, clusters, of_constant}`; `undefined` is the reason of a missing value.
 impl Serialize for Estimate {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut into = serializer.serialize_struct("Estimate", 6)?;
+        let mut into = serializer.serialize_struct("Estimate", 9)?;
         into.serialize_field("value", &self.value.ok())?;
         let reason = self.value.err().map(|reason| reason.to_string());
         into.serialize_field("undefined", &reason)?;
         into.serialize_field("ci95", &self.interval)?;
+        into.serialize_field("method", &self.interval.method())?;
+        into.serialize_field("standard_error", &self.interval.standard_error())?;
+        into.serialize_field("degrees_of_freedom", &self.interval.freedom())?;
         into.serialize_field("n", &self.n)?;
         into.serialize_field("clusters", &self.clusters)?;
         into.serialize_field("of_constant", &self.of_constant)?;
@@ -94,6 +100,7 @@ pub(crate) fn estimate(
         n: left_out.iter().map(|part| part.count).sum(),
         clusters: left_out.len() as u64,
         of_constant,
+        left_out,
     }
 }
 

@@ -14,6 +14,7 @@
 
 mod cloud;
 mod error;
+mod euler;
 mod rigid;
 mod rotation;
 mod scores;
@@ -21,6 +22,7 @@ mod state;
 mod thresholds;
 
 pub use error::PoseError;
+pub use euler::EulerErrors;
 pub use rigid::Pose;
 pub use rotation::Rotation;
 pub use state::{PoseState, PoseTask};

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::estimate::{Part, estimate, share};
+use crate::evidence::{CurvePoint, curve_of};
 use crate::ranking::key::ScoreKey;
 pub(crate) use crate::ranking::levels::{Level, Sides};
 use crate::ranking::levels::{average_precision, average_precision_of_rest, roc_auc};
@@ -200,6 +201,28 @@ impl Ranking {
                 sides.prevalence(),
             ),
         ]
+    }
+
+    /// Curve of precision and recall, one point for each different score, the greatest first; empty without a positive sample.
+    #[must_use]
+    pub fn curve(&self) -> Vec<CurvePoint> {
+        let levels = self.levels();
+        match Sides::of(&levels).positive {
+            0 => Vec::new(),
+            positives => {
+                let levels = levels.iter().rev();
+                curve_of(
+                    levels.map(|level| [level.positive, level.negative]),
+                    positives,
+                )
+            }
+        }
+    }
+
+    /// Share of positive samples; `None` without samples.
+    #[must_use]
+    pub fn prevalence(&self) -> Option<f64> {
+        Sides::of(&self.levels()).prevalence()
     }
 
     /// Properties of the scores that limit what is computed from them.

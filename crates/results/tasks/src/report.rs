@@ -4,10 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
+use crate::evidence::TaskEvidence;
+use crate::public_number::PublicNumber;
 use crate::score::TaskScore;
 
-/// Schema of a report of tasks.
-pub const TASKS_SCHEMA: &str = "taceva.tasks/1";
+/// Schema of a report of tasks. 1.1: method, standard error and degrees of freedom of each interval.
+pub const TASKS_SCHEMA: &str = "taceva.tasks/1.1";
 
 /// Scores of the tasks of two tables.
 ///
@@ -63,11 +65,14 @@ impl TaskReport {
 pub struct TaskScores {
     /// Name of the task.
     pub name: String,
-    /// Kind of the task: `class`, `event`, `outcome` or `pose`.
-    pub kind: &'static str,
+    /// Kind of the task: `class`, `event`, `outcome`, `pose`, `place` or `depth`.
+    pub kind: String,
     /// Column with the clusters.
     pub cluster: String,
-    /// Classes in their order; empty for a pose.
+    /// Names of the clusters in order, for comparisons in pairs. Reports omit them.
+    #[serde(skip)]
+    pub clusters: Vec<String>,
+    /// Classes in their order; empty for a kind without classes.
     pub names: Vec<String>,
     /// Class that F1, precision and recall describe.
     pub positive: Option<String>,
@@ -77,6 +82,12 @@ pub struct TaskScores {
     pub scores: Vec<TaskScore>,
     /// Counts above 0 of true and predicted classes.
     pub confusion: Vec<ConfusionCount>,
+    /// Numbers as a public program computes them, if requested.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub as_published: Vec<PublicNumber>,
+    /// Content of the page of the task besides the scores.
+    #[serde(skip)]
+    pub evidence: TaskEvidence,
 }
 
 /// Number of samples of one class that are predicted as one class.
@@ -96,18 +107,21 @@ impl TaskScores {
     #[must_use]
     pub fn new(
         name: impl Into<String>,
-        kind: &'static str,
+        kind: impl Into<String>,
         cluster: impl Into<String>,
     ) -> TaskScores {
         TaskScores {
             name: name.into(),
-            kind,
+            kind: kind.into(),
             cluster: cluster.into(),
+            clusters: Vec::new(),
             names: Vec::new(),
             positive: None,
             notes: Vec::new(),
             scores: Vec::new(),
             confusion: Vec::new(),
+            as_published: Vec::new(),
+            evidence: TaskEvidence::default(),
         }
     }
 

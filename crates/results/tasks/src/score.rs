@@ -38,7 +38,20 @@ impl TaskScore {
     /// Direction of good values.
     #[must_use]
     pub fn better(&self) -> Better {
-        match (self.metric, self.unit) {
+        TaskScore::direction(self.metric, self.unit)
+    }
+
+    /// Direction of good values of `metric`, whose values have `unit`; `None` is the unit of a pure number.
+    ///
+    /// ```
+    /// use taceva_metrics::Better;
+    /// use taceva_tasks::TaskScore;
+    /// assert_eq!(TaskScore::direction("f1", None), Better::Higher);
+    /// assert_eq!(TaskScore::direction("pose_rotation", Some("deg")), Better::Lower);
+    /// ```
+    #[must_use]
+    pub fn direction(metric: &str, unit: Option<&str>) -> Better {
+        match (metric, unit) {
             ("depth_bias" | "onset_delay", _) => Better::NearZero,
             ("brier" | "log_loss" | "ece", _) | (_, Some(_)) => Better::Lower,
             _ => Better::Higher,

@@ -164,6 +164,7 @@ impl<'a, const SUMS: usize, const COUNTS: usize> LeaveOneOut<'a, SUMS, COUNTS> {
             n: self.total.counts[count],
             clusters: clusters as u64,
             of_constant,
+            left_out: Vec::new(),
         }
     }
 }

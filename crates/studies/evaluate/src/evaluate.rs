@@ -2,14 +2,18 @@
 
 mod callers_model;
 mod divisions;
+mod fit_task;
 mod fold_progress;
 pub(crate) mod folds;
 mod notes;
 mod passes;
 mod plan;
+mod pose_task;
 mod request;
 mod scores;
 mod task;
+mod task_errors;
+mod task_rows;
 
 use taceva_dataset::Dataset;
 use taceva_metrics::catalogue;
@@ -22,11 +26,13 @@ use crate::predict::{self, Target};
 use crate::work::Work;
 
 pub use callers_model::{GivenModel, GivenRequest, GivenRows};
-pub use divisions::{fold_divisions, scored_by_default};
+pub use divisions::{fold_divisions, scored_by_default, scored_of_task};
+pub use fit_task::fit_task;
 pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};
-pub use task::{CLASSIFIERS, evaluate_task, task_division};
+pub use task::{evaluate_task, task_division};
+pub use task_rows::{TaskRows, evaluate_task_rows};
 
 /// Evaluates `dataset`: fits the model if requested, predicts the samples that the model has not seen, and scores them.
 ///

@@ -2,6 +2,7 @@
 
 mod model_input;
 mod table;
+mod windows;
 
 use std::num::NonZeroUsize;
 
@@ -16,6 +17,7 @@ use crate::work::Work;
 
 pub(crate) use model_input::{Sight, kinds, recorded_frames};
 pub use table::{FeatureTable, feature_table};
+pub(crate) use windows::{extract_as, rows_read};
 
 /// Extractor for `spec` on the frames or signals of `dataset`.
 pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, EvaluateError> {

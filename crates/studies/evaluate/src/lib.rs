@@ -7,6 +7,7 @@ mod cache;
 mod calibration;
 mod calibration_rows;
 mod claim;
+mod classifiers;
 mod effort;
 mod error;
 mod evaluate;
@@ -36,6 +37,8 @@ mod sensor_facts;
 mod skill;
 mod state_file;
 mod subject;
+mod task_state_file;
+mod task_view;
 mod validation;
 mod work;
 
@@ -48,12 +51,13 @@ pub use cache::{
 };
 pub use calibration::calibration;
 pub use claim::{Claim, Watch, clear_dead_claims};
+pub use classifiers::{CLASSIFIERS, labelled_for, usual_model};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
-    Asked, Behind, CLASSIFIERS, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows,
-    ModelChoice, evaluate, evaluate_plan, evaluate_task, fold_divisions, score, scored_by_default,
-    task_division,
+    Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
+    TaskRows, evaluate, evaluate_plan, evaluate_task, evaluate_task_rows, fit_task, fold_divisions,
+    score, scored_by_default, scored_of_task, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
@@ -82,11 +86,13 @@ pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, TaskRequest,
-    TaskRule, TaskSpec, read_table, recount_tables, score_in_one_pass, score_tasks,
+    TaskRule, TaskSpec, UNKNOWN_ORIGIN, read_table, recount_tables, score_in_one_pass, score_tasks,
+    stated_origins, task_states,
 };
 pub use skill::{skill, with_skill};
 pub use state_file::{ReadState, STATE_SCHEMA, StateFile};
 pub use subject::of as subject_of;
 pub use taceva_import::CsvTable;
+pub use task_state_file::{TASK_STATE_SCHEMA, TaskStates, merge_task_states};
 pub use validation::fit_validated;
 pub use work::Work;

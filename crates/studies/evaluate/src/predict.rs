@@ -4,13 +4,14 @@ mod csv_tables;
 mod predictions;
 mod predictor;
 mod target;
+mod task_cells;
 
-use taceva_core::{Channel, Column, Features, Field, shown};
+use taceva_core::{Channel, Column, Features, Field, Input, InputInfo, shown};
 use taceva_dataset::Dataset;
-use taceva_models::{FeatureError, Model};
+use taceva_models::{Extractor, FeatureError, Model};
 
 use crate::error::EvaluateError;
-use crate::features::{Sight, blank, extract};
+use crate::features::{Sight, blank, extract_as, rows_read};
 use crate::grouping::Grouping;
 use crate::rows::{BESIDE_CHANNELS, DataPart};
 use crate::work::Work;
@@ -18,6 +19,7 @@ use crate::work::Work;
 pub use predictions::{AtBound, Predicted};
 pub use predictor::Predictor;
 pub use target::Target;
+use task_cells::TaskCells;
 
 /// Predicts a part of `dataset`. The default is the unseen data: the test part of the model's own dataset, or all rows of any other dataset. Each prediction
 /// includes the distance of its frame from the training part, if the model computes it.
@@ -36,6 +38,8 @@ pub fn predict(
     let predicted = predicted_table(dataset, Predictor::of(model), &target, &numbers)?;
     Ok(Predicted {
         distance: model.distances(&features)?,
+        task: TaskCells::of(dataset, model, &features, &target.rows)?,
+        frames_decoded: frames_decoded(dataset, model, &target.rows)?,
         points: predicted.points.or_else(|| groups(dataset, &target)),
         ..predicted
     })
@@ -66,7 +70,18 @@ pub fn predict_target(
     work: Work<'_>,
 ) -> Result<Predicted, EvaluateError> {
     let numbers = predicted_numbers(dataset, model, target, work)?;
-    predicted_table(dataset, Predictor::of(model), target, &numbers)
+    Ok(Predicted {
+        frames_decoded: frames_decoded(dataset, model, &target.rows)?,
+        ..predicted_table(dataset, Predictor::of(model), target, &numbers)?
+    })
+}
+
+/// Number of frames decoded to predict `rows`.
+fn frames_decoded(dataset: &Dataset, model: &Model, rows: &[usize]) -> Result<u64, EvaluateError> {
+    Ok(match model.reads_frames() {
+        true => rows_read_by(dataset, model, rows)?.len() as u64,
+        false => 0,
+    })
 }
 
 /// Unclipped predictions of `model` for the rows of `target`, and standard deviations if the model predicts them.
@@ -91,14 +106,34 @@ fn features_of(
 ) -> Result<Features, EvaluateError> {
     let rows = &target.rows;
     match model.reads_features() {
-        true => extract(
+        true => extract_as(
             dataset,
-            |recording| model_extractor(recording, model),
+            &model.card().features,
+            clusters_of(model),
+            |recording| extractor_of(recording, model, Model::frame_extractor),
             rows,
             work,
         ),
         false => blank(model.card().features.shape(), rows.len()),
     }
+}
+
+/// Column whose clusters the windows of a model do not cross; `None` for a model without a task.
+fn clusters_of(model: &Model) -> Option<&str> {
+    let task = model.card().provenance.task.as_ref();
+    task.map(|task| task.cluster.as_str())
+}
+
+/// Rows whose inputs `model` reads to predict `rows`: these rows, or those of their windows.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a row without a cluster.
+pub(crate) fn rows_read_by(
+    dataset: &Dataset,
+    model: &Model,
+    rows: &[usize],
+) -> Result<Vec<usize>, EvaluateError> {
+    rows_read(dataset, &model.card().features, clusters_of(model), rows)
 }
 
 fn numbers_of(model: &Model, features: &Features) -> Result<Column, EvaluateError> {
@@ -108,17 +143,25 @@ fn numbers_of(model: &Model, features: &Features) -> Result<Column, EvaluateErro
 }
 
 /// Extractor of a fitted model on the frames or signals of `dataset`.
-pub fn model_extractor(
+pub fn model_extractor(dataset: &Dataset, model: &Model) -> Result<Extractor, EvaluateError> {
+    extractor_of(dataset, model, Model::extractor)
+}
+
+/// Builder of an extractor of a model from the input and the contact-free reference.
+type Build = fn(&Model, InputInfo, Option<Input<'_>>) -> Result<Extractor, FeatureError>;
+
+fn extractor_of(
     dataset: &Dataset,
     model: &Model,
-) -> Result<taceva_models::Extractor, EvaluateError> {
+    build: Build,
+) -> Result<Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &model.card().features)?;
     let sight = sight.map_err(|absent| {
         EvaluateError::Unsuited(format!(
             "the model needs {absent}, and the dataset has none"
         ))
     })?;
-    let extractor = model.extractor(sight.info(), sight.reference());
+    let extractor = build(model, sight.info(), sight.reference());
     extractor.map_err(|error| match error {
         FeatureError::Kind { expected, found } => EvaluateError::Unsuited(format!(
             "{} has frames of {found}, and the model was fitted on frames of {expected}; import pictures of the size and format of the model, or fit \
@@ -174,6 +217,7 @@ pub fn predicted_table(
             })
             .collect(),
         distance: None,
+        task: None,
         constants: predictor.constants,
         frames_decoded: if predictor.reads_frames {
             rows.len() as u64

@@ -7,6 +7,7 @@ mod key_parts;
 mod likely_key;
 mod likely_radians;
 mod one_pass;
+mod origins;
 mod parquet_parts;
 mod period;
 mod recount;
@@ -48,6 +49,7 @@ use row_pairs::PairedRows;
 use tables::Pairing;
 
 pub use one_pass::score_in_one_pass;
+pub use origins::{UNKNOWN_ORIGIN, stated_origins};
 pub use period::Period;
 pub use recount::recount_tables;
 pub use request::ScoreRequest;
@@ -55,7 +57,7 @@ pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};
 pub use shard_scores::ScoreTables;
 pub use tables::read_table;
-pub use task::{TaskRequest, TaskRule, TaskSpec, score_tasks};
+pub use task::{TaskRequest, TaskRule, TaskSpec, score_tasks, task_states};
 
 /// Finished scores of two tables.
 #[derive(Debug)]

@@ -190,11 +190,12 @@ impl ReadState {
 
 /// Beginning of the file, which contains only the schema and is read before the rest.
 #[derive(Deserialize)]
-struct Head {
-    schema: String,
+pub(crate) struct Head {
+    pub(crate) schema: String,
 }
 
-fn read_capped(path: &Path) -> io::Result<String> {
+/// Text of the state file at `path`, which is a regular file of at most 1 GiB.
+pub(crate) fn read_capped(path: &Path) -> io::Result<String> {
     let file = File::open(path)?;
     if !file.metadata()?.is_file() {
         return Err(io::Error::other("not a regular file"));

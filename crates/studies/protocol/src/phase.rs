@@ -6,6 +6,7 @@ mod idle;
 mod light_sweep;
 mod load_unload;
 mod repeatability;
+mod slip;
 mod spatial;
 mod surface_map;
 
@@ -56,6 +57,7 @@ impl PhaseInputs<'_> {
             PhaseKind::Repeatability => repeatability::presses(self),
             PhaseKind::LoadUnload => load_unload::presses(self),
             PhaseKind::Gratings => gratings::presses(self),
+            PhaseKind::Slip => slip::presses(self),
         }
     }
 
@@ -86,6 +88,7 @@ impl PhaseInputs<'_> {
                 let spacings = spacings(spec).map_or(0, |spacings| spacings.len());
                 (spacings * spec.kinds.value.len()) as u64 * u64::from(spec.presses.value)
             }
+            PhaseKind::Slip => u64::from(protocol.slip.strokes.value),
         }
     }
 

@@ -21,11 +21,13 @@ pub enum PhaseKind {
     LoadUnload,
     /// Presses on boards of every spacing.
     Gratings,
+    /// Strokes along the gel until the indenter slides.
+    Slip,
 }
 
 impl PhaseKind {
     /// All kinds, in the order of their execution.
-    pub const ALL: [PhaseKind; 8] = [
+    pub const ALL: [PhaseKind; 9] = [
         PhaseKind::Idle,
         PhaseKind::SurfaceMap,
         PhaseKind::Calibration,
@@ -34,6 +36,7 @@ impl PhaseKind {
         PhaseKind::Repeatability,
         PhaseKind::LoadUnload,
         PhaseKind::Gratings,
+        PhaseKind::Slip,
     ];
 
     /// Name of the phase in plans.
@@ -47,6 +50,7 @@ impl PhaseKind {
             PhaseKind::Repeatability => "repeatability",
             PhaseKind::LoadUnload => "load-unload",
             PhaseKind::Gratings => "gratings",
+            PhaseKind::Slip => "slip",
         }
     }
 }

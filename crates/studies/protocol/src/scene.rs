@@ -14,8 +14,8 @@ mod study;
 pub use builtin::BuiltinScene;
 pub use classifier::GratingClassifier;
 pub use counts::{
-    Calibration, Contact, Gratings, Hysteresis, Idle, LightSweep, Protocol, Repeatability, Spatial,
-    SurfaceMap,
+    Calibration, Contact, Gratings, Hysteresis, Idle, LightSweep, Protocol, Repeatability, Slip,
+    Spatial, SurfaceMap,
 };
 pub use depth_origin::DepthOrigin;
 pub use devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};

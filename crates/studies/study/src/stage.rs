@@ -4,6 +4,7 @@ mod context;
 mod gratings;
 mod phase_rows;
 mod score;
+mod slip;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -166,6 +167,7 @@ pub(crate) fn assess(
     if let Some(digests) = dataset.table().as_text(digest) {
         samples.push_words(digest, digests);
     }
+    let slip = slip::of(scene, dataset, &phase_rows, context)?;
     let mut subject = subject_of(dataset);
     if let Some((unit, note)) = phase_rows.measured_unit() {
         subject.serial = unit;
@@ -178,7 +180,12 @@ pub(crate) fn assess(
         ..Context::new(subject, provenance)
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
-    let report = taceva_evaluate::assess(rows, beyond, context)?.report;
+    let mut report = taceva_evaluate::assess(rows, beyond, context)?.report;
+    match slip {
+        Some(Ok(scores)) => report.tasks.push(scores),
+        Some(Err(skip)) => report.skipped.push(skip),
+        None => {}
+    }
     let fitted = learnt.map(|learnt| learnt.into_fitted(dataset, &phase_rows));
     Ok(FinishedStudy {
         report,

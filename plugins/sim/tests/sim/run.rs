@@ -61,7 +61,8 @@ const NOISE_N: f64 = 0.05;
 #[test]
 fn every_part_of_a_study_runs_to_its_end_on_every_sensor() {
     for model in Model::ALL {
-        let trial = Trial::new(model, &scene(model));
+        let strokes = "[protocol.slip]\nstrokes = 2\nlength_mm = 0.4\n";
+        let trial = Trial::new(model, &(scene(model) + strokes));
         let mut log = Log::default();
         for unit in ["1", "2"] {
             trial.run(unit, &mut log, usize::MAX);

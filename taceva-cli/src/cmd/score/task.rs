@@ -4,14 +4,16 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use taceva_core::shown;
-use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, read_table, score_tasks};
+use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, task_states};
 
 use super::super::{Context, Usage, origin, task_scores};
 use crate::args::Score;
 use crate::{exit, output};
 
 pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
-    output::check_all_free(&args.output.path, args.output.force)?;
+    let (state_out, page) = (&args.scoring.state_out, &args.scoring.page);
+    let files = args.output.path.iter().chain(state_out).chain(&page.path);
+    output::check_all_free(files, args.output.force)?;
     let request = TaskRequest {
         tables: ScoreRequest {
             key: args.key.clone(),
@@ -22,9 +24,19 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
         rules: rules(args)?,
         cluster: args.task.cluster.clone(),
     };
-    let mut report = score_tasks(&request)?;
-    report.sources = origin::of(&read_table(&args.truth, context.jobs)?.0)?;
-    task_scores::write(&report, &args.output)?;
+    let mut states = task_states(&request)?;
+    // The truth of depth maps is a dataset, which states its origin.
+    if states.sources.is_empty() {
+        states.sources.insert(origin::beside(&args.truth)?);
+    }
+    let state_out = state_out.as_deref();
+    let report = match args.task.program {
+        Some(program) => {
+            task_scores::write_as_published(program, &states, &args.output, state_out)?
+        }
+        None => task_scores::write(&states, &args.output, state_out)?,
+    };
+    task_scores::write_page(&report, page, None)?;
     Ok(exit::DONE)
 }
 

@@ -148,3 +148,131 @@ fn predictions_without_classes_and_scores_are_refused_with_both_columns() {
     let message = "no column `cloth` with classes and no column `cloth.p.CLASS` with scores";
     bench.refused(CLOTH, 3, message);
 }
+
+/// Predictions of [`slip`] without the scores of the other class.
+fn of_the_positive(prediction: &str) -> String {
+    let rows = prediction.lines().map(|line| {
+        let cells: Vec<&str> = line.split(',').collect();
+        format!("{},{}\n", cells[0], cells[2])
+    });
+    rows.collect()
+}
+
+#[test]
+fn a_wrong_header_of_a_column_of_scores_is_named_beside_the_class_without_scores() {
+    let bench = Bench::new();
+    slip(&bench);
+    let prediction = std::fs::read_to_string(bench.path("pred.csv")).expect("text");
+    bench.write(
+        "pred.csv",
+        &prediction.replacen("slip.p.slip", "slip.p.slp", 1),
+    );
+    bench.refused(
+        SLIP,
+        3,
+        "`slip`: no column `slip.p.slip` has its scores, and no row has the class of the column `slip.p.slp`: write both alike",
+    );
+    // Only the positive class has scores.
+    let only = of_the_positive(&prediction);
+    bench.write("pred.csv", &only.replacen("slip.p.slip", "slip.p.slp", 1));
+    bench.refused(
+        &format!("{SLIP} --threshold slip=0.5"),
+        3,
+        "no row has the class of the column `slip.p.slp`",
+    );
+}
+
+#[test]
+fn a_misspelt_label_beside_columns_of_scores_is_refused_at_its_row_with_the_nearest() {
+    let bench = Bench::new();
+    slip(&bench);
+    let truth = std::fs::read_to_string(bench.path("truth.csv")).expect("text");
+    let misspelt = truth.replacen("0.36,slip", "0.36,slipp", 1);
+    assert_ne!(misspelt, truth);
+    bench.write("truth.csv", &misspelt);
+    let message =
+        "`slipp`: no column `slip.p.slipp` has its scores; did you mean `slip`? Correct the label";
+    bench.refused(SLIP, 3, message);
+    bench.refused(SLIP, 3, "line 11");
+    let prediction = std::fs::read_to_string(bench.path("pred.csv")).expect("text");
+    let only = of_the_positive(&prediction);
+    bench.write("pred.csv", &only);
+    bench.refused(&format!("{SLIP} --threshold slip=0.5"), 3, message);
+}
+
+#[test]
+fn a_threshold_that_no_probability_crosses_is_refused_and_log_odds_take_any() {
+    let bench = Bench::new();
+    slip(&bench);
+    for threshold in ["1.5", "-0.5"] {
+        bench.refused(
+            &format!("{SLIP} --threshold slip={threshold}"),
+            2,
+            &format!("the threshold {threshold} is outside 0 to 1"),
+        );
+    }
+    for threshold in ["0", "1"] {
+        bench.ok(&format!("{SLIP} --threshold slip={threshold}"));
+    }
+    bench.write("truth.csv", "id,point_id,held\n1,a,no\n2,b,yes\n3,c,yes\n");
+    bench.write("pred.csv", "id,held.p.yes\n1,-2\n2,3\n3,4.5\n");
+    let held = "score --truth truth.csv --pred pred.csv --task held=outcome:positive=yes";
+    let report = bench.json(&format!("{held} --threshold held=3.5"));
+    assert_eq!(
+        estimate(&report, "class_accuracy", None)["value"],
+        2.0 / 3.0
+    );
+    bench.write("pred.csv", "id,held\n1,no\n2,yes\n3,yes\n");
+    bench.refused(
+        &format!("{held} --threshold held=3.5"),
+        2,
+        "a threshold needs the scores of the positive class",
+    );
+}
+
+#[test]
+fn the_help_lists_every_option_that_a_task_refuses() {
+    let bench = Bench::new();
+    slip(&bench);
+    let help = bench.ok("score --help");
+    let help: String = help.split_whitespace().collect::<Vec<_>>().join(" ");
+    let listed = help.split("as options of channels: ").nth(1);
+    let listed = listed.expect("a list").split(" --cluster").next();
+    let listed = listed.expect("a list");
+    let of_task: Vec<&str> = listed.split(", ").collect();
+    assert!(of_task.len() > 10, "{of_task:?}");
+    for option in of_task {
+        let value = match option {
+            "--allow-invalid" | "--independent" | "--explain" => "",
+            "--shard" => " 1/2",
+            "--units" => " slip=N",
+            "--periods" => " slip=360",
+            "--table" => " all",
+            _ => " x",
+        };
+        let ran = bench.run(&format!("{SLIP} {option}{value}"));
+        assert_eq!(ran.code, 2, "{option}: {}", ran.err);
+        assert!(
+            ran.err.contains("cannot be used with"),
+            "{option}: {}",
+            ran.err
+        );
+    }
+}
+
+#[test]
+fn the_origin_of_the_truth_is_read_with_its_labels() {
+    let bench = Bench::new();
+    bench.write(
+        "truth.csv",
+        "id,clip,cloth,source\n1,a,denim,recorded\n2,b,silk,\n",
+    );
+    bench.write("pred.csv", "id,cloth\n1,denim\n2,silk\n");
+    let report = bench.json(CLOTH);
+    assert_eq!(
+        report["sources"],
+        serde_json::json!(["recorded", "unknown"])
+    );
+    bench.write("truth.csv", "id,clip,cloth\n1,a,denim\n2,b,silk\n");
+    assert_eq!(bench.json(CLOTH)["sources"], serde_json::json!(["unknown"]));
+}

@@ -1,7 +1,10 @@
 //! Adapters as tables of a registry entry, numeric settings and a library call.
 
-use taceva_core::{ModelError, TrainingSet};
+use std::collections::BTreeSet;
 
+use taceva_core::{ErrorKind, ModelError, TrainingSet};
+
+use crate::estimators::discriminant::VALUES_MAX;
 use crate::estimators::library::{
     LibraryLearner, LibraryModel, LibraryPredictor, LibrarySettings, LibraryTask, LoadedPredictor,
     library_estimator,
@@ -47,6 +50,29 @@ pub(crate) struct Numbers<'a> {
 
 /// Accepts every training set.
 pub(crate) fn any(_: &TrainingSet<'_>) -> Result<(), ModelError> {
+    Ok(())
+}
+
+/// Accepts channels with a limited number of labels, for the classifier `name`.
+pub(crate) fn few_labels(name: &str, training: &TrainingSet<'_>) -> Result<(), ModelError> {
+    let channels = training.targets.channels.as_slice();
+    for (position, channel) in channels.iter().enumerate() {
+        let labels = training.targets.values.iter().skip(position);
+        let labels: BTreeSet<u64> = labels
+            .step_by(channels.len())
+            .map(|label| label.to_bits())
+            .collect();
+        let values = labels.len();
+        if values > VALUES_MAX {
+            return Err(ModelError::new(
+                ErrorKind::InvalidArgument,
+                format!(
+                    "`{channel}` has {values} values in the training part, {name} accepts at most {VALUES_MAX} classes: for continuous \
+                        labels choose another model, such as linfa/elastic-net"
+                ),
+            ));
+        }
+    }
     Ok(())
 }
 

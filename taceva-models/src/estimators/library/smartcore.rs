@@ -22,6 +22,7 @@ pub(crate) const ALL: &[&LibraryModel] = &[
     &lasso::ADAPTER.model,
     &svr::ADAPTER.model,
     &knn::ADAPTER.model,
+    &knn::CLASSIFIER.model,
     &forest::FOREST.model,
     &forest::EXTRA_TREES.model,
     &boosting::ADAPTER.model,

@@ -91,8 +91,9 @@ impl ModelEstimator for NetworkEnsemble {
         for member in &self.members {
             let fit = member.fit_model(training, validation, progress)?;
             let network = fit.regressor.get::<NetworkRegressor>();
-            let network =
-                network.ok_or_else(|| invalid("a member of the ensemble is not a network"))?;
+            let network = network.ok_or_else(|| {
+                invalid("head=classes: an ensemble averages numbers, expected head=numbers")
+            })?;
             networks.push(network.clone());
             last = Some(fit);
         }

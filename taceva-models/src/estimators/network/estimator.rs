@@ -5,7 +5,9 @@ use taceva_network::GpuKind;
 use taceva_network::{Architecture, Augmentation, ConvolutionForm, Depth, Loss, Optimizer, Recipe};
 
 use super::appearance::Preparation;
-use super::regressor::{NetworkRegressor, picture};
+use super::classifier;
+use super::head::{CLASS_WEIGHTS, ClassWeights, HEAD};
+use super::regressor::picture;
 use crate::features::Preprocessing;
 use crate::features::{Color, FeatureError, FeatureKinds, FeatureSpec};
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
@@ -23,6 +25,8 @@ pub struct NetworkEstimator {
     pub(super) convolutions: ConvolutionForm,
     /// Kind of GPU for training; `None` for the CPU.
     pub(super) gpu: Option<GpuKind>,
+    /// Weights of classes, if the outputs are scores of classes; `None` for numbers.
+    pub(super) classes: Option<ClassWeights>,
     pub(super) checkpoints: Option<Checkpoints>,
 }
 
@@ -105,6 +109,8 @@ const SETTINGS: &[SettingInfo] = &{
         contrast,
         CONVOLUTIONS,
         DEVICE,
+        HEAD,
+        CLASS_WEIGHTS,
     ]
 };
 
@@ -120,6 +126,7 @@ const FEATURES: FeatureSpec = FeatureSpec {
     difference: false,
     pca: None,
     channels: None,
+    window: None,
 };
 
 /// Builds the [`ModelInfo`] of a network.
@@ -131,7 +138,7 @@ macro_rules! info {
             settings: SETTINGS,
             features: Some(FEATURES),
             make: |settings| Ok(Box::new(NetworkEstimator::from_settings($kind, settings)?)),
-            load: NetworkRegressor::load,
+            load: classifier::load,
         }
     };
 }
@@ -185,6 +192,12 @@ impl NetworkEstimator {
             kind.check_built()
                 .map_err(|source| SettingError::Device { kind, source })?;
         }
+        let weights = settings.value(&CLASS_WEIGHTS, ClassWeights::Equal, ClassWeights::of)?;
+        let predicts_classes = settings.value(&HEAD, false, |text| match text {
+            "numbers" => Some(false),
+            "classes" => Some(true),
+            _ => None,
+        })?;
         Ok(NetworkEstimator {
             kind,
             recipe: Recipe {
@@ -210,6 +223,7 @@ impl NetworkEstimator {
             preparation: Preparation::from_settings(settings)?,
             convolutions: settings.value(&CONVOLUTIONS, ConvolutionForm::Winograd, form_of)?,
             gpu,
+            classes: predicts_classes.then_some(weights),
             checkpoints: None,
         })
     }

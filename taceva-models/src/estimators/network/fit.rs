@@ -37,6 +37,9 @@ impl ModelEstimator for NetworkEstimator {
         validation: Option<&TrainingSet<'_>>,
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError> {
+        if self.classes.is_some() {
+            return self.fit_classes(training, validation, progress);
+        }
         let problem = Problem::new(*training)?;
         let held = problem.validation(validation)?;
         let validation = validation.filter(|_| held.is_some());
@@ -104,6 +107,7 @@ impl ModelEstimator for NetworkEstimator {
             gpu: gpu
                 .filter(|_| !varying.is_empty())
                 .map(|gpu| gpu.to_string()),
+            classes: None,
         };
         let regressor = NetworkRegressor::new(channels.clone(), card, network)?;
         let errors = match validation {

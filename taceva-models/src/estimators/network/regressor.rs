@@ -79,17 +79,10 @@ impl NetworkRegressor {
         self.network.tensors()
     }
 
-    /// Loads the model from a file.
-    pub(super) fn load(stored: &Stored<'_>) -> Result<ModelRegressor, FormatError> {
-        let network = stored.card.network.as_ref().ok_or(FormatError::Card)?;
-        let found = named_tensors(&stored.tensors)?;
-        let own = NetworkRegressor::of_tensors(stored, network, found)?;
-        Ok(ModelRegressor::new(own))
-    }
-
-    /// Builds the network from its card and the tensors of a file.
+    /// Builds the network that predicts `channels` from its card and the tensors of a file.
     pub(super) fn of_tensors(
         stored: &Stored<'_>,
+        channels: Channels,
         card: &NetworkCard,
         found: Vec<NamedTensor>,
     ) -> Result<NetworkRegressor, FormatError> {
@@ -103,7 +96,6 @@ impl NetworkRegressor {
             return Err(FormatError::Card);
         }
         let ready = Network::from_tensors(&card.architecture, found)?;
-        let channels = stored.channels.clone();
         Ok(NetworkRegressor::new(channels, card.clone(), ready)?)
     }
 

@@ -4,6 +4,7 @@ use taceva_core::{FeatureShape, Features, ModelError, Nanometre, Progress};
 use taceva_network::Gpu;
 use taceva_network::{LabelScale, Labels, Loss, Network, Recipe, Samples, Trained};
 
+use super::calibration::greatest;
 use super::estimator::NetworkEstimator;
 use super::training::{Training, no_gpu, refused};
 use crate::features::Preprocessing;
@@ -162,17 +163,4 @@ impl SpacingNetwork {
             .collect::<Option<_>>()
             .ok_or_else(|| invalid("a predicted spacing is not a length"))
     }
-}
-
-/// Index of the greatest value; of equal values, the first.
-fn greatest(outputs: &[f64]) -> usize {
-    let mut places = 0..outputs.len();
-    let first = places.next().unwrap_or(0);
-    places.fold(first, |best, place| {
-        if outputs[place] > outputs[best] {
-            place
-        } else {
-            best
-        }
-    })
 }

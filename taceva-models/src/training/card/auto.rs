@@ -12,7 +12,7 @@ pub(crate) const FOLDS: usize = 5;
 pub struct AutoCard {
     /// Budget of work, in seconds of a core with 10⁹ multiplications per second.
     pub budget_s: f64,
-    /// Number of folds of the training part.
+    /// Number of folds of the training part; 0 for a classifier, which the validation part chose.
     pub folds: usize,
     /// True if folds consist of whole groups of samples, false if they consist of runs of neighbouring samples.
     pub by_group: bool,
@@ -29,7 +29,8 @@ pub struct AutoCard {
 pub struct AutoTrial {
     /// Name of the model.
     pub model: String,
-    /// Root mean square error over the completed folds, relative to the standard deviation of labels, over the varying channels.
+    /// Root mean square error over the completed folds, relative to the standard deviation of labels, over the varying channels. For a classifier, the share of
+    /// wrong samples, averaged over labels.
     pub error: f64,
     /// Work of the trial, in s of the budget.
     pub cost_s: f64,
@@ -60,6 +61,14 @@ impl AutoCard {
         let mut trials = self.tried.iter();
         trials.rfind(|trial| trial.model == self.taken)
     }
+
+    fn write_untried(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (position, other) in self.untried.iter().enumerate() {
+            let before = if position == 0 { "; not tried: " } else { ", " };
+            write!(f, "{before}{} ({})", other.model, other.reason)?;
+        }
+        Ok(())
+    }
 }
 
 impl fmt::Display for AutoTrial {
@@ -80,6 +89,18 @@ impl fmt::Display for AutoCard {
         let Some(best) = self.best() else {
             return f.write_str("auto tried no model");
         };
+        if self.folds == 0 {
+            write!(
+                f,
+                "auto chose {} by the validation part; share of wrong samples, averaged over classes:",
+                best.model
+            )?;
+            for (position, trial) in self.tried.iter().enumerate() {
+                let before = if position == 0 { " " } else { "; " };
+                write!(f, "{before}{} {:.3}", trial.model, trial.error)?;
+            }
+            return self.write_untried(f);
+        }
         let folds = if self.by_group {
             "folds of whole groups"
         } else {
@@ -105,11 +126,7 @@ impl fmt::Display for AutoCard {
             "; trials took {spent:.1} s of work of a budget of {} s",
             self.budget_s
         )?;
-        for (position, other) in self.untried.iter().enumerate() {
-            let before = if position == 0 { "; not tried: " } else { ", " };
-            write!(f, "{before}{} ({})", other.model, other.reason)?;
-        }
-        Ok(())
+        self.write_untried(f)
     }
 }
 

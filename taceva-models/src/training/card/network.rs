@@ -25,4 +25,26 @@ pub struct NetworkCard {
     /// GPU that trained the network; `None` for the CPU. Repeated training on a GPU gives other bits.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gpu: Option<String>,
+    /// Classes of the outputs; `None` for outputs that are numbers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub classes: Option<ClassCard>,
+}
+
+/// Classes of the outputs of a network.
+///
+/// ```
+/// let text = r#"{"labels": [0.0, 1.0], "temperature": 1.5, "calibrated_on": 40}"#;
+/// let card: taceva_models::ClassCard = serde_json::from_str(text)?;
+/// assert_eq!(card.labels.len(), 2);
+/// # Ok::<(), serde_json::Error>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClassCard {
+    /// Label of each output, ascending.
+    pub labels: Vec<f64>,
+    /// Divisor of the outputs before the softmax that gives probabilities.
+    pub temperature: f64,
+    /// Number of samples of the validation part that set the temperature; 0 if it was not set.
+    pub calibrated_on: usize,
 }

@@ -55,7 +55,7 @@ fn of_task(evidence: &Evidence<'_>, own: &TaskColumn) -> Option<Found> {
     let rows: Vec<usize> = pairs.iter().map(|[_, row]| *row).collect();
     // Untouched frames of a simulation are equal, whatever the outcome of a grasp or the pose of an object.
     let severity = match own.task().kind {
-        TaskKind::Outcome | TaskKind::Pose => Severity::Note,
+        TaskKind::Outcome | TaskKind::Pose | TaskKind::Place | TaskKind::Depth => Severity::Note,
         _ => Severity::Warning,
     };
     Some(evidence.found(severity, message, &rows))

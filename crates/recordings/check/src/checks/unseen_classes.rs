@@ -1,4 +1,4 @@
-//! TAC030: classes of a task without a sample in one part of the split, or in all folds but one.
+//! TAC030: classes of a task without a sample in one part of the named split, or in all folds of the task but one.
 
 use std::collections::BTreeSet;
 
@@ -6,6 +6,7 @@ use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 use taceva_dataset::TaskColumn;
 use taceva_dataset::internal::{first_names, shown};
+use taceva_evaluate::Divided;
 
 pub(crate) static CHECK: Check = Check {
     code: "TAC030",
@@ -21,11 +22,12 @@ pub(crate) static CHECK: Check = Check {
 const NAMED: usize = 8;
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
-    let tasks = evidence.table.tasks().iter();
-    tasks.flat_map(|own| of_task(evidence, own)).collect()
+    let tasks = evidence.table.tasks().iter().zip(evidence.of_tasks);
+    let found = tasks.flat_map(|(own, scored)| of_task(evidence, own, scored.as_ref()));
+    found.collect()
 }
 
-fn of_task(evidence: &Evidence<'_>, own: &TaskColumn) -> Vec<Found> {
+fn of_task(evidence: &Evidence<'_>, own: &TaskColumn, scored: Option<&Divided>) -> Vec<Found> {
     let task = own.task();
     let seen = |rows: &mut dyn Iterator<Item = usize>| -> BTreeSet<&str> {
         rows.filter_map(|row| own.class(row)).collect()
@@ -50,7 +52,7 @@ fn of_task(evidence: &Evidence<'_>, own: &TaskColumn) -> Vec<Found> {
     };
     let never = lacking(&|name| !all.contains(name));
     report(Severity::Note, "the recording", &never);
-    let Some(scored) = evidence.scored else {
+    let Some(scored) = scored else {
         return found;
     };
     if !scored.folds.is_empty() {

@@ -17,6 +17,7 @@ mod tasks;
 #[path = "../../../../studies/evaluate/tests/evaluations/taxel_drawing.rs"]
 mod taxel_drawing;
 mod taxels;
+mod touch_clips;
 mod views;
 mod zeros;
 

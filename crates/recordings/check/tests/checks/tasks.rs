@@ -107,7 +107,7 @@ fn clusters_that_the_default_split_shares_are_a_warning_and_no_error() {
 
 #[test]
 fn a_class_in_one_fold_of_the_default_split_is_never_learnt_and_one_in_several_folds_is() {
-    // The default of 40 samples is cross-validation, which tests each sample once.
+    // The task has five folds of eight clips each.
     let found = |stones: usize| {
         let mut rows = String::new();
         for row in 0..40_usize {
@@ -127,6 +127,42 @@ fn a_class_in_one_fold_of_the_default_split_is_never_learnt_and_one_in_several_f
     );
     // No fold has more than 8 of 40 samples.
     assert_eq!(found(9), Vec::<String>::new());
+}
+
+#[test]
+fn the_folds_of_a_task_keep_its_clusters_whole_although_those_of_the_labels_do_not() {
+    // Four clips. Folds of single samples have stones each; folds of whole clips do not.
+    let found = |clips_of_stone: usize| {
+        let mut rows = String::new();
+        for row in 0..40_usize {
+            let material = match row % 4 < clips_of_stone {
+                true => "stone",
+                false => "cloth",
+            };
+            let _ = writeln!(rows, ",clip {},{material}", row % 4);
+        }
+        let report = checked(&rows, "TAC030", None);
+        let found = only(&report, "TAC030").into_iter();
+        let found = found.filter(|finding| finding.severity == Severity::Warning);
+        let messages = found.map(|finding| finding.message.clone());
+        messages.collect::<Vec<_>>()
+    };
+    assert_eq!(
+        found(1),
+        ["task `material`: every fold but one has no sample of 1 of 3 classes: stone"]
+    );
+    assert_eq!(found(2), Vec::<String>::new());
+}
+
+#[test]
+fn a_task_of_one_cluster_has_no_folds_and_no_finding_about_them() {
+    let names = ["cloth", "grass", "stone"];
+    let rows: String = (0..40)
+        .map(|row| format!(",clip,{}\n", names[row % 3]))
+        .collect();
+    let report = checked(&rows, "TAC030", None);
+    assert!(only(&report, "TAC030").is_empty(), "{:?}", report.findings);
+    assert!(report.skipped.is_empty(), "{:?}", report.skipped);
 }
 
 #[test]
@@ -231,4 +267,48 @@ fn a_quaternion_of_another_norm_is_an_error_with_its_sample() {
         (finding.samples[0].as_str(), finding.severity),
         ("b", Severity::Error)
     );
+}
+
+#[test]
+fn depth_maps_without_a_valid_pixel_and_depths_in_another_unit_are_named_by_sample() {
+    let found = |unit: &str, invalid: f32| {
+        let table = "force,press\n1,a\n2,b\n";
+        let map = format!(
+            "map_version = 2\ntable = \"t.csv\"\n[columns]\nFz = {{ from = \"force\", unit = \"N\" }}\n[ids]\npoint_id = \"press\"\n\
+             [task.shape]\nkind = \"depth\"\narray = \"d.npy\"\nunit = \"{unit}\"\n[time]\nclock = \"unknown\"\n{SENSOR}"
+        );
+        let header = "{'descr': '<f4', 'fortran_order': False, 'shape': (2, 1, 2), }\n";
+        let length = u16::try_from(header.len()).expect("short");
+        let mut array = [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..]].concat();
+        array.extend(header.as_bytes());
+        for number in [0.0, 100.0, f32::NAN, invalid] {
+            array.extend(number.to_le_bytes());
+        }
+        let files = [("t.csv", table.as_bytes().to_vec()), ("d.npy", array)];
+        // Depth maps have no classes, and thus no folds that lack one.
+        let report = imported(&files, &map, &["TAC030", "TAC033"]);
+        assert!(only(&report, "TAC030").is_empty());
+        report
+    };
+    let report = found("um", f32::NAN);
+    let [finding] = only(&report, "TAC033")[..] else {
+        panic!("{:?}", report.findings);
+    };
+    assert_eq!(
+        finding.message,
+        "task `shape`: 1 of 2 depth maps have no valid pixel"
+    );
+    assert_eq!(
+        (finding.samples[0].as_str(), finding.severity),
+        ("1", Severity::Warning)
+    );
+    let report = found("mm", 0.5);
+    let [finding] = only(&report, "TAC033")[..] else {
+        panic!("{:?}", report.findings);
+    };
+    assert_eq!(
+        finding.message,
+        "task `shape`: 1 of 2 depth maps have depths above 50 mm, up to 100 mm: their unit or scale may be wrong"
+    );
+    assert!(only(&found("um", 0.5), "TAC033").is_empty());
 }

@@ -1,13 +1,13 @@
 //! Tasks of a dataset: their labels by row, and the cluster of each row.
 
-use taceva_core::{Channel, Unit, nearest, shown};
+use taceva_core::{nearest, shown};
 
 use super::Dataset;
 use super::union::SEPARATOR;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::table::TaskColumn;
-use crate::task::{Task, TaskKind};
+use crate::task::Task;
 
 /// Columns whose values [`Dataset::joined`] makes distinct between recordings.
 const DISTINCT: [&str; 2] = ["sample", "point_id"];
@@ -33,23 +33,23 @@ impl Dataset {
         clusters
     }
 
-    /// The same dataset with one channel in the place of all others: the position of the class of the task called `name`.
+    /// The same dataset with the [channels](Task::channels) of the task called `name` in the place of all others.
+    ///
+    /// These are the position of its class, or translation (mm) and rotation vector (degrees) of its pose.
     ///
     /// A row without a label of the task has no label. The digest depends on the dataset and on the task.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for an unknown task, and for a task of poses, which has no classes.
+    /// [`DatasetError::Request`] for an unknown task, and for a task of places or of depth maps.
     pub fn of_task(&self, name: &str) -> Result<Dataset, DatasetError> {
-        let own = self
-            .table
-            .task(name)
-            .ok_or_else(|| self.unknown_task(name))?;
-        if own.task().kind == TaskKind::Pose {
+        let own = self.task_called(name)?;
+        if own.task().channels().is_empty() {
             return Err(DatasetError::request(
                 self.path(),
                 format!(
-                    "the task `{}` is a pose, expected a task with classes",
-                    shown(name)
+                    "the kind of the task `{}` is {}, expected a task of classes or of poses",
+                    shown(name),
+                    own.task().kind.name()
                 ),
             ));
         }
@@ -58,10 +58,10 @@ impl Dataset {
             let of_task = recordings.map(|own| own.dataset().of_task(name));
             return Dataset::joined(of_task.collect::<Result<_, _>>()?);
         }
-        let channel = Channel::named(name, Unit::One)
+        let table = self
+            .table
+            .labelled_by(own)
             .map_err(|error| DatasetError::request(self.path(), error.to_string()))?;
-        let table = self.table.of_classes(name, channel);
-        let table = table.ok_or_else(|| self.unknown_task(name))?;
         let mut header = self.header.clone();
         header.channels = table.channels().clone();
         header.rotations.clear();
@@ -71,8 +71,55 @@ impl Dataset {
         }
         Ok(Dataset {
             seen: self.seen.clone(),
+            labelled_by: Some(own.task().clone()),
             ..Dataset::of(self.folder.again()?, header, table)
         })
+    }
+
+    /// Labels of the task called `name`.
+    pub(super) fn task_called(&self, name: &str) -> Result<&TaskColumn, DatasetError> {
+        let own = self.table.task(name);
+        own.ok_or_else(|| self.unknown_task(name))
+    }
+
+    /// The same dataset with the labels `classes` of `task` beside those of its own tasks: a position for each row, or none.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] for joined recordings, for a task of the same name, for another number of labels than rows, and for a class that the
+    /// task does not name.
+    pub fn with_task(&self, task: Task, classes: &[Option<u32>]) -> Result<Dataset, DatasetError> {
+        if self.table.task(&task.name).is_some() {
+            let name = shown(&task.name);
+            let problem = format!("the recording has a task `{name}`, expected another name");
+            return Err(DatasetError::request(self.path(), problem));
+        }
+        let is_named = |class: &u32| (*class as usize) < task.names.len();
+        let are_named = classes.iter().flatten().all(is_named);
+        if !self.joined.is_empty() || classes.len() != self.table.rows() || !are_named {
+            return Err(DatasetError::request(
+                self.path(),
+                format!(
+                    "the task `{}` has {} labels, expected one of its classes or none for each of {} rows of a single recording",
+                    shown(&task.name),
+                    classes.len(),
+                    self.table.rows()
+                ),
+            ));
+        }
+        let table = self.table.with_classes(task, classes);
+        let mut header = self.header.clone();
+        header.digest = table.with_tasks_digest(header.digest);
+        Ok(Dataset {
+            seen: self.seen.clone(),
+            ..Dataset::of(self.folder.again()?, header, table)
+        })
+    }
+
+    /// Task whose labels take the place of the channels, after [`of_task`](Dataset::of_task); `None` for measured channels.
+    pub fn labelled_by(&self) -> Option<&Task> {
+        let first = self.joined.first();
+        let of_first = first.and_then(|own| own.dataset().labelled_by());
+        self.labelled_by.as_ref().or(of_first)
     }
 
     fn unknown_task(&self, name: &str) -> DatasetError {
@@ -98,7 +145,7 @@ impl Dataset {
     }
 }
 
-/// Digest of a dataset whose channel is the class of `task`.
+/// Digest of a dataset whose channels are the labels of `task`.
 fn digest_of_task(dataset: Digest, task: &str) -> Digest {
     let mut digest = PartsDigest::default();
     digest.part(b"taceva.dataset/1 classes of");

@@ -3,7 +3,7 @@
 use std::io::{Seek, SeekFrom};
 use std::path::Path;
 
-use taceva_core::counted;
+use taceva_core::{counted, shown};
 
 use super::Dataset;
 use crate::digest::Digest;
@@ -14,10 +14,11 @@ use crate::header::{Header, dataset_digest};
 use crate::layout;
 use crate::limits;
 use crate::samples::from_parquet;
-use crate::table::{FrameEntry, Table};
+use crate::table::{FrameEntry, Table, is_attribute_name};
+use crate::task::{Task, TaskKind};
 
 impl Dataset {
-    /// Reads all frames, signals and predictions, and checks their digests. Does not decode frames.
+    /// Reads all frames, depth maps, signals and predictions, and checks their digests. Does not decode frames.
     ///
     /// # Errors
     /// Errors of [`frame_bytes`](Dataset::frame_bytes), for the first file that differs from its digest.
@@ -37,6 +38,7 @@ impl Dataset {
             self.frame_bytes(entry)?;
         }
         self.verify_predictions()?;
+        self.verify_maps()?;
         self.verify_signals()
     }
 
@@ -107,6 +109,18 @@ impl Dataset {
                     ),
                 ));
             }
+        }
+        // The name of such a task is the name of the file with its maps, here and in an export.
+        let mut tasks = self.header.tasks.iter();
+        let is_path = |task: &&Task| task.kind == TaskKind::Depth && !is_attribute_name(&task.name);
+        if let Some(task) = tasks.find(is_path) {
+            return Err(damaged(
+                layout::HEADER,
+                format!(
+                    "the name `{}` of a task of depth maps is reserved or invalid: expected a letter, then letters, digits or `_`",
+                    shown(&task.name)
+                ),
+            ));
         }
         let own = self.table.frames().iter().flatten().cloned();
         let own = own.chain(self.reference_entry());

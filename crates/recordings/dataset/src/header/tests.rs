@@ -169,7 +169,7 @@ fn a_newer_minor_may_say_more() {
 
 #[test]
 fn a_kind_of_task_of_a_later_minor_is_skipped_and_the_others_are_read() {
-    let later = "[task.shape]\nkind = \"depth\"\narray = \"depth.npy\"\n";
+    let later = "[task.sheen]\nkind = \"spectrum\"\narray = \"sheen.npy\"\n";
     let text = format!("{}\n{later}", header().body());
     let text = taceva_files::seal::toml_text::seal(&text).expect("TOML");
     let read = Header::parse(Path::new("dataset.toml"), text.into_bytes());

@@ -6,8 +6,9 @@ use taceva_core::{Channels, GratingKind, Limit, MAGNITUDE_MAX, Nanometre, Phase,
 
 use super::read::Stored;
 use crate::digest::Digest;
+use crate::pack::Span;
 use crate::table::{FrameEntry, Row, RowFrame, Table, column_of};
-use crate::task::{Task, TaskKind, TaskLabel};
+use crate::task::{MapEntry, Task, TaskKind, TaskLabel};
 
 /// Columns of a file, by name.
 struct Columns(BTreeMap<String, Stored>);
@@ -67,13 +68,16 @@ impl Columns {
 
     /// Label of a task, whose columns on disk are `names`.
     fn label(
-        &self,
+        &mut self,
         task: &Task,
         names: &[String],
         row: usize,
     ) -> Result<Option<TaskLabel>, String> {
         let name = names.first().map_or("", String::as_str);
-        if task.kind != TaskKind::Pose {
+        if task.kind == TaskKind::Depth {
+            return self.map(names, row);
+        }
+        if task.kind.has_classes() {
             return match self.count(name, row)? {
                 Some(class) if class as usize >= task.names.len() => Err(format!(
                     "column `{name}`, row {row}: class {class}, but the task has {}, counted from 0",
@@ -88,14 +92,38 @@ impl Columns {
             return Ok(None);
         }
         let parts: Option<Vec<f64>> = parts.into_iter().collect();
-        let pose: Option<[f64; 7]> = parts.and_then(|parts| parts.try_into().ok());
-        match pose {
-            Some(pose) => Ok(Some(TaskLabel::Pose(pose))),
+        match parts.and_then(|parts| TaskLabel::of_numbers(&parts)) {
+            Some(label) => Ok(Some(label)),
             None => Err(format!(
-                "row {row}: the pose of `{}` lacks a number",
+                "row {row}: the {} of `{}` lacks a number",
+                task.kind.name(),
                 task.name
             )),
         }
+    }
+
+    /// Depth map at the place and with the digest in the columns `names`.
+    fn map(&mut self, names: &[String], row: usize) -> Result<Option<TaskLabel>, String> {
+        let [place, digest] = names else {
+            return Ok(None);
+        };
+        let found = (self.text(place, row)?, self.text(digest, row)?);
+        let (found_place, found_digest) = match found {
+            (None, None) => return Ok(None),
+            (Some(place), Some(digest)) => (place, digest),
+            _ => {
+                return Err(format!(
+                    "row {row} has a depth map in `{place}` or a digest in `{digest}`, but not both"
+                ));
+            }
+        };
+        let span = found_place.parse::<Span>().map_err(|()| {
+            format!("column `{place}`, row {row}: `{found_place}` is not a place in a pack")
+        })?;
+        let digest = found_digest
+            .parse::<Digest>()
+            .map_err(|error| format!("column `{digest}`, row {row}: {error}"))?;
+        Ok(Some(TaskLabel::Map(MapEntry { span, digest })))
     }
 }
 

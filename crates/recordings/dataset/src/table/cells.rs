@@ -4,6 +4,7 @@ use taceva_core::{Channel, Column, GratingKind, Limit, Nanometre, Phase, Unit};
 
 use super::FrameEntry;
 use crate::digest::PartsDigest;
+use crate::task::MapEntry;
 
 /// Reserved column names on disk. Channels and attributes must have other names.
 pub const RESERVED: [&str; 19] = [
@@ -58,6 +59,8 @@ pub enum Cells<'a> {
     FrameDigest(&'a [Option<FrameEntry>]),
     /// Positions of classes, and the names of the classes.
     Class(&'a [Option<u32>], &'a [String]),
+    MapPlace(&'a [Option<MapEntry>]),
+    MapDigest(&'a [Option<MapEntry>]),
 }
 
 impl Cells<'_> {
@@ -73,6 +76,7 @@ impl Cells<'_> {
             Cells::Measured(cells) => cells[row].is_some(),
             Cells::Number(cells) => cells.get(row).is_some(),
             Cells::FramePath(cells) | Cells::FrameDigest(cells) => cells[row].is_some(),
+            Cells::MapPlace(cells) | Cells::MapDigest(cells) => cells[row].is_some(),
         }
     }
 
@@ -106,6 +110,8 @@ impl Cells<'_> {
             }
             Cells::FramePath(cells) => cells[row].as_ref().map(|entry| entry.place().into_owned()),
             Cells::FrameDigest(cells) => cells[row].as_ref().map(|entry| entry.digest.to_string()),
+            Cells::MapPlace(cells) => cells[row].map(|entry| entry.to_string()),
+            Cells::MapDigest(cells) => cells[row].map(|entry| entry.digest().to_string()),
         }
     }
 

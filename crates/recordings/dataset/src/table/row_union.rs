@@ -3,7 +3,7 @@
 use taceva_core::Channel;
 
 use super::views::{ViewFrames, column_kind};
-use super::{FrameEntry, Row, Table, TaskColumn};
+use super::{Cells, FrameEntry, Row, Table, TaskColumn};
 use crate::digest::{Digest, PartsDigest};
 
 /// Names for a row of another table in this table, and the new location of the frame.
@@ -73,7 +73,9 @@ impl Table {
         ];
         let mut digests = vec![PartsDigest::default(); self.rows()];
         for column in self.columns() {
-            if NAMES.contains(&column_kind(column.name)) {
+            // Equal depth maps have different places and one digest.
+            let is_place = matches!(column.cells, Cells::MapPlace(_));
+            if is_place || NAMES.contains(&column_kind(column.name)) {
                 continue;
             }
             for (row, digest) in digests.iter_mut().enumerate() {

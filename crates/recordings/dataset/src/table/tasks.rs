@@ -1,10 +1,11 @@
-//! Labels of tasks, in one column for classes and in seven for poses.
+//! Labels of tasks, in one column for classes, in seven for poses, in three for places, and in two for depth maps.
 
-use taceva_core::{Channel, Channels, Column};
+use taceva_core::{Channel, ChannelError, Channels, Column, Unit};
 
 use super::{Cells, NamedColumn, Table};
 use crate::digest::{Digest, PartsDigest};
-use crate::task::{Task, TaskKind, TaskLabel};
+use crate::rotation_vector::RotationVector;
+use crate::task::{MapEntry, Task, TaskKind, TaskLabel};
 
 /// Labels of one task, one per row.
 ///
@@ -31,17 +32,23 @@ pub struct TaskColumn {
 #[derive(Clone, Debug, PartialEq)]
 enum TaskCells {
     Classes(Vec<Option<u32>>),
-    Poses([Vec<Option<f64>>; 7]),
+    /// One list for each number of a pose or of a place.
+    Numbers(Vec<Vec<Option<f64>>>),
+    Maps(Vec<Option<MapEntry>>),
 }
 
 impl TaskColumn {
     fn new(task: Task) -> TaskColumn {
+        let columns = task.columns();
         TaskColumn {
-            columns: task.columns(),
             cells: match task.kind {
-                TaskKind::Pose => TaskCells::Poses(Default::default()),
+                TaskKind::Pose | TaskKind::Place => {
+                    TaskCells::Numbers(vec![Vec::new(); columns.len()])
+                }
+                TaskKind::Depth => TaskCells::Maps(Vec::new()),
                 _ => TaskCells::Classes(Vec::new()),
             },
+            columns,
             task,
         }
     }
@@ -58,17 +65,16 @@ impl TaskColumn {
     pub fn label(&self, row: usize) -> Option<TaskLabel> {
         match &self.cells {
             TaskCells::Classes(classes) => classes[row].map(TaskLabel::Class),
-            TaskCells::Poses(parts) => {
-                let mut pose = [0.0; 7];
-                for (number, part) in pose.iter_mut().zip(parts) {
-                    *number = part[row]?;
-                }
-                Some(TaskLabel::Pose(pose))
+            TaskCells::Numbers(parts) => {
+                let numbers = parts.iter().map(|part| part[row]);
+                let numbers: Option<Vec<f64>> = numbers.collect();
+                TaskLabel::of_numbers(&numbers?)
             }
+            TaskCells::Maps(maps) => maps[row].map(TaskLabel::Map),
         }
     }
 
-    /// Name of the class of a row; `None` if the row has no label, and for a pose.
+    /// Name of the class of a row; `None` if the row has no label, and for a kind without classes.
     ///
     /// # Panics
     /// Panics if the row does not exist.
@@ -89,20 +95,47 @@ impl TaskColumn {
                 );
                 classes.push(Some(class));
             }
-            (TaskCells::Poses(parts), None) => parts.iter_mut().for_each(|part| part.push(None)),
-            (TaskCells::Poses(parts), Some(TaskLabel::Pose(pose))) => {
-                for (part, number) in parts.iter_mut().zip(pose) {
-                    part.push(Some(number));
-                }
+            (TaskCells::Numbers(parts), None) => parts.iter_mut().for_each(|part| part.push(None)),
+            (TaskCells::Numbers(parts), Some(TaskLabel::Pose(pose))) if parts.len() == 7 => {
+                push_each(parts, &pose);
             }
+            (TaskCells::Numbers(parts), Some(TaskLabel::Place(place))) if parts.len() == 3 => {
+                push_each(parts, &place);
+            }
+            (TaskCells::Maps(maps), None) => maps.push(None),
+            (TaskCells::Maps(maps), Some(TaskLabel::Map(entry))) => maps.push(Some(entry)),
             (_, Some(_)) => panic!("a label of the kind of `{}`", self.task.name),
+        }
+    }
+
+    /// Translation and rotation vector of each row, part by part; no numbers for labels other than poses.
+    fn pose_columns(&self) -> Vec<Column> {
+        let rows = 0..self.rows();
+        let pose = |row: usize| match self.label(row)? {
+            TaskLabel::Pose([x, y, z, quaternion @ ..]) => {
+                let [rx, ry, rz] = RotationVector::of_quaternion(quaternion).degrees();
+                Some([x, y, z, rx, ry, rz])
+            }
+            _ => None,
+        };
+        let poses: Vec<Option<[f64; 6]>> = rows.map(pose).collect();
+        let part = |part: usize| column(poses.iter().map(|pose| pose.map(|pose| pose[part])));
+        (0..6).map(part).collect()
+    }
+
+    fn rows(&self) -> usize {
+        match &self.cells {
+            TaskCells::Classes(classes) => classes.len(),
+            TaskCells::Numbers(parts) => parts.first().map_or(0, Vec::len),
+            TaskCells::Maps(maps) => maps.len(),
         }
     }
 
     pub(super) fn named_columns(&self) -> Vec<NamedColumn<'_>> {
         let cells: Vec<Cells<'_>> = match &self.cells {
             TaskCells::Classes(classes) => vec![Cells::Class(classes, &self.task.names)],
-            TaskCells::Poses(parts) => parts.iter().map(|part| Cells::Measured(part)).collect(),
+            TaskCells::Numbers(parts) => parts.iter().map(|part| Cells::Measured(part)).collect(),
+            TaskCells::Maps(maps) => vec![Cells::MapPlace(maps), Cells::MapDigest(maps)],
         };
         let names = self.columns.iter();
         names
@@ -112,7 +145,34 @@ impl TaskColumn {
     }
 }
 
+fn push_each(parts: &mut [Vec<Option<f64>>], numbers: &[f64]) {
+    for (part, number) in parts.iter_mut().zip(numbers) {
+        part.push(Some(*number));
+    }
+}
+
+/// Column with these cells.
+fn column(cells: impl Iterator<Item = Option<f64>>) -> Column {
+    let mut column = Column::default();
+    cells.for_each(|cell| column.push(cell));
+    column
+}
+
 impl Table {
+    /// Sets the depth map of a row for the task called `task`.
+    ///
+    /// # Panics
+    /// Panics if the row or a task of depth maps with this name does not exist.
+    #[doc(hidden)]
+    pub fn set_map(&mut self, task: &str, row: usize, entry: MapEntry) {
+        let mut tasks = self.tasks.iter_mut();
+        let own = tasks.find(|own| own.task.name == task);
+        let Some(TaskCells::Maps(maps)) = own.map(|own| &mut own.cells) else {
+            panic!("a task of depth maps called `{task}`");
+        };
+        maps[row] = Some(entry);
+    }
+
     /// The same table, for rows with a label of each of `tasks`, which are sorted by name. The table must be empty.
     ///
     /// # Panics
@@ -136,21 +196,51 @@ impl Table {
         self.tasks.iter().find(|own| own.task.name == name)
     }
 
-    /// The same rows with `channel` as the only channel: positions of the classes of `task`. `None` for an unknown task, and for poses.
-    pub(crate) fn of_classes(&self, task: &str, channel: Channel) -> Option<Table> {
-        let own = self.task(task)?;
-        let TaskCells::Classes(classes) = &own.cells else {
-            return None;
+    /// The same rows with the [channels](Task::channels) of the labels of `own` as the only channels.
+    ///
+    /// # Errors
+    /// [`ChannelError`] for a name of a task that no channel can have.
+    pub(crate) fn labelled_by(&self, own: &TaskColumn) -> Result<Table, ChannelError> {
+        let columns = match &own.cells {
+            TaskCells::Classes(classes) => {
+                vec![column(classes.iter().map(|class| class.map(f64::from)))]
+            }
+            TaskCells::Numbers(_) | TaskCells::Maps(_) => own.pose_columns(),
         };
-        let mut positions = Column::default();
-        for class in classes {
-            positions.push(class.map(f64::from));
+        let units = match &own.cells {
+            TaskCells::Classes(_) => [Unit::One; 6],
+            TaskCells::Numbers(_) | TaskCells::Maps(_) => {
+                let (mm, degree) = (Unit::Millimetre, Unit::Degree);
+                [mm, mm, mm, degree, degree, degree]
+            }
+        };
+        let names = own.task.channels();
+        let named = names.iter().zip(units);
+        let named = named.map(|(name, unit)| Channel::named(name, unit));
+        let channels = Channels::new(named.collect::<Result<Vec<_>, _>>()?)?;
+        // Channels may have another order than the names.
+        let mut truth = vec![Column::default(); names.len()];
+        for (name, column) in names.iter().zip(columns) {
+            let position = channels.position(name);
+            truth[position.expect("one of the channels")] = column;
         }
-        Some(Table {
-            channels: Channels::new([channel]).ok()?,
-            truth: vec![positions],
+        Ok(Table {
+            channels,
+            truth,
             ..self.clone()
         })
+    }
+
+    /// The same table with labels of one more task, which must name every class.
+    pub(crate) fn with_classes(&self, task: Task, classes: &[Option<u32>]) -> Table {
+        let mut own = TaskColumn::new(task);
+        own.cells = TaskCells::Classes(classes.to_vec());
+        let mut table = self.clone();
+        table.tasks.push(own);
+        table
+            .tasks
+            .sort_by(|one, other| one.task.name.cmp(&other.task.name));
+        table
     }
 
     /// Digest of the dataset with the digest `dataset`, and of the labels and definitions of its tasks.
@@ -166,6 +256,10 @@ impl Table {
         for own in &self.tasks {
             digest.part(own.task.definition().as_bytes());
             for column in own.named_columns() {
+                // The digest of a map beside it says more than its place.
+                if matches!(column.cells, Cells::MapPlace(_)) {
+                    continue;
+                }
                 for row in 0..self.rows() {
                     column.cells.digest(row, &mut digest);
                 }

@@ -43,6 +43,48 @@ pub(super) fn only(folder: &SourceFolder, groups: &[FileGroup]) -> Option<OnlyCl
     })
 }
 
+/// Clip in a folder without a table.
+pub(super) struct BareClip<'g> {
+    /// Path relative to the folder.
+    pub(super) path: &'g str,
+    pub(super) frames: u64,
+    pub(super) is_gray: bool,
+    /// True if tables beside the clip were not examined.
+    pub(super) is_asked: bool,
+    /// Paths of the other clips.
+    pub(super) others: Vec<&'g str>,
+}
+
+/// Maximum number of clips that are opened to find a readable one.
+const OPENED: usize = 16;
+
+/// First clip among `groups` that can be opened and states the time of each frame; only the clip `asked`, if one is.
+pub(super) fn bare<'g>(
+    folder: &SourceFolder,
+    groups: &'g [FileGroup],
+    asked: Option<&str>,
+) -> Option<BareClip<'g>> {
+    let clips = groups.iter().filter(|group| is_clip(&group.ending));
+    let clips = clips.flat_map(|group| &group.paths).map(String::as_str);
+    let all: Vec<&str> = clips.collect();
+    let wanted = all
+        .iter()
+        .filter(|path| asked.is_none_or(|asked| asked == **path));
+    let (path, video) = wanted.take(OPENED).find_map(|path| {
+        let video = Video::open(&folder.path().join(path), &Decoders::default()).ok()?;
+        let times = video.info().times_s.as_ref()?;
+        let are_rising = times.windows(2).all(|pair| pair[0] < pair[1]);
+        are_rising.then_some((*path, video))
+    })?;
+    Some(BareClip {
+        path,
+        frames: video.info().frames,
+        is_gray: video.info().pixel_format.starts_with("gray"),
+        is_asked: asked.is_some(),
+        others: all.into_iter().filter(|other| *other != path).collect(),
+    })
+}
+
 /// Frame lines for the clips among `groups` that have a frame for each row of `main`.
 pub(super) fn of(
     folder: &SourceFolder,

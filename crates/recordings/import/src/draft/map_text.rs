@@ -1,5 +1,6 @@
 //! Text of a drafted map: certain lines, guesses with a reason, and `"?"` for facts that only the lab knows.
 
+mod clip;
 mod column_lists;
 mod ids;
 mod sections;
@@ -16,6 +17,7 @@ use super::roles::candidate::Candidate;
 use super::survey::FileGroup;
 use super::tables::{SeenTable, Taxels};
 use crate::source_folder::SourceFolder;
+pub(super) use clip::of_clip;
 use column_lists::lists;
 use ids::{add_parts, attribute_name, group_points, repeat_column, shared_points};
 use sections::{HEAD, Lines, add_frames, add_path, add_section, begun, ended, line};

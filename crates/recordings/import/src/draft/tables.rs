@@ -16,7 +16,7 @@ use crate::foreign::{ForeignTable, PictureColumn, TableForm, Topics, cell_list};
 use crate::source_folder::SourceFolder;
 use form::{NUMBERED_HEADER, cut_key, form_of};
 pub(super) use taxels::Taxels;
-use taxels::taxels_of;
+use taxels::{open_numbered_times, taxels_of};
 
 /// Maximum number of rows examined in a table.
 const SAMPLED: usize = 200;
@@ -187,6 +187,7 @@ impl<'g> SeenTable<'g> {
         });
         let mut columns: Vec<SeenColumn> = columns.collect();
         open_invalid(&mut columns);
+        open_numbered_times(&mut columns);
         let is_numbered = extra.starts_with(NUMBERED_HEADER);
         let is_nameless = extra.contains("header = false") || is_numbered;
         let has_guessed_channels = is_nameless && guess_channels(&mut columns);

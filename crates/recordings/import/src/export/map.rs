@@ -9,7 +9,7 @@ use super::content::Exported;
 use crate::import::IdMap;
 use crate::unit_suffix::UnitSuffix;
 use taceva_dataset::internal::{RESERVED, column_kind, column_of, is_task_column};
-use taceva_dataset::{Header, ReducedFrames, SensorFacts, TaskColumn};
+use taceva_dataset::{Header, ReducedFrames, SensorFacts, Task, TaskColumn};
 
 /// Names of the exported items, to be written in the map.
 pub(super) struct Written {
@@ -163,7 +163,8 @@ pub(super) fn text(exported: &Exported<'_>, written: &Written) -> String {
         line(format_args!("{name} = {}", quoted(&(written.names)(name))));
     }
     let tasks = table.tasks().iter().map(TaskColumn::task);
-    for task in tasks.filter(|task| task.columns().iter().all(|column| has(column))) {
+    let is_there = |task: &&Task| super::tasks::columns(task).iter().all(|column| has(column));
+    for task in tasks.filter(is_there) {
         line(format_args!(
             "\n{}",
             super::tasks::section(task, written.names)

@@ -3,11 +3,20 @@
 use std::fmt::Write as _;
 
 use super::map::quoted;
-use taceva_dataset::Task;
+use taceva_dataset::{Task, TaskKind};
+
+/// Exported columns of `task`. The digests of depth maps are not exported.
+pub(super) fn columns(task: &Task) -> Vec<String> {
+    let mut columns = task.columns();
+    if task.kind == TaskKind::Depth {
+        columns.truncate(1);
+    }
+    columns
+}
 
 /// Section of `task` in a map. `names` maps a column name of the dataset to its name in the file.
 pub(super) fn section(task: &Task, names: fn(&str) -> String) -> String {
-    let columns = task.columns();
+    let columns = columns(task);
     let columns: Vec<String> = columns
         .iter()
         .map(|column| quoted(&names(column)))
@@ -18,6 +27,10 @@ pub(super) fn section(task: &Task, names: fn(&str) -> String) -> String {
         let _ = write!(text, "\n{key} = {value}");
     };
     match columns.as_slice() {
+        [x, y, z] => {
+            line("from", &format!("{{ t = [{x}, {y}, {z}] }}"));
+            line("unit", "\"mm\"");
+        }
         [x, y, z, quaternion @ ..] => {
             let quaternion = quaternion.join(", ");
             line(
@@ -43,6 +56,16 @@ pub(super) fn section(task: &Task, names: fn(&str) -> String) -> String {
     }
     if task.is_timed {
         line("time", "true");
+    }
+    if let Some(maps) = &task.maps {
+        line("unit", &quoted(&maps.unit));
+        line("scale", &format!("{:?}", maps.scale));
+        if let Some([x, y]) = maps.pixel_mm {
+            line("pixel_mm", &format!("[{x:?}, {y:?}]"));
+        }
+        if let Some(invalid) = maps.invalid {
+            line("invalid", &format!("{invalid:?}"));
+        }
     }
     if let Some(over) = task.over {
         line("over", &over.to_string());

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use taceva_core::{FrameInfo, Progress};
 
+use super::depth_maps::write_maps;
 use super::plan::ImportPlan;
 use super::summary::ImportSummary;
 use crate::error::ImportError;
@@ -98,8 +99,9 @@ impl ImportPlan {
         let CopiedFrames {
             frames,
             views,
-            folders,
+            mut folders,
         } = copy_frames(&staged, &self.frames, 0, &mut table, jobs, progress)?;
+        folders.extend(write_maps(&self.maps, &staged, None, &mut table, progress)?);
         let signals = self.signals.as_ref().map(|signals| {
             let path = staged.path().join(layout::SIGNALS);
             signals.write(&path, progress)

@@ -10,6 +10,7 @@ use std::path::Path;
 use taceva_core::Progress;
 
 use super::copy::{CopiedFrames, ImportReport, copy_frames};
+use super::depth_maps::write_maps;
 use super::frame_plan::PlannedFrames;
 use super::plan::ImportPlan;
 use crate::error::ImportError;
@@ -118,6 +119,14 @@ impl ImportPlan {
             progress,
         )?;
         folders.extend(frames.folders.iter().cloned());
+        let maps = write_maps(
+            &self.maps,
+            &staged,
+            Some(&before),
+            &mut self.table,
+            progress,
+        )?;
+        folders.extend(maps);
         self.check_alike(&before, Some(&frames))?;
         let table = self.joined_table(&before);
         let signals = self.signals.as_ref();

@@ -15,6 +15,7 @@ use std::path::Path;
 
 use taceva_video::Decoders;
 
+use super::depth_maps::PlannedMaps;
 use super::frame_plan::{FrameSource, PlannedFrames};
 use super::map::ImportMap;
 use super::signals::{FoundSignals, PlannedSignals};
@@ -52,6 +53,8 @@ pub struct ImportPlan {
     /// Pictures of each view.
     pub(super) frames: Vec<PlannedFrames>,
     pub(super) signals: Option<PlannedSignals>,
+    /// Depth maps of each task that has them.
+    pub(super) maps: Vec<PlannedMaps>,
     /// Summary of the map for the header.
     pub(super) mapping: Mapping,
     /// True if row numbers are the sample names, because the map names no column for them.
@@ -105,6 +108,7 @@ impl ImportPlan {
         let signals = map.signals.as_ref();
         let signals = signals.map(|signals| FoundSignals::new(signals, &folder));
         reading.signals = signals.transpose()?;
+        reading.maps = PlannedMaps::of_tasks(map, &folder)?;
         for path in &tables {
             reading.read(path)?;
         }

@@ -7,6 +7,7 @@ mod coordinate_frame;
 mod join;
 mod matrix;
 mod naming_folder;
+mod positions;
 mod rotation;
 mod signals;
 mod table;
@@ -86,6 +87,8 @@ pub(super) fn resolve(
     decoders: &Decoders,
 ) -> Result<Resolved, ImportError> {
     let main = ForeignTable::read_by(path, &map.form, decoders)?;
+    let with_names = positions::with_names(map, &main)?;
+    let map = with_names.as_ref().unwrap_or(map);
     let inside = path.strip_prefix(folder.path()).unwrap_or(path);
     let mut sources = Sources {
         map,

@@ -2,6 +2,7 @@
 
 mod labels;
 mod point;
+mod rotation_matrix;
 mod tasks;
 mod views;
 mod zero;

@@ -1,6 +1,7 @@
 //! Tests of labels of tasks: read by a map, kept in the dataset, joined, added, exported, and refused.
 
 mod cells;
+mod maps;
 
 use std::num::NonZeroUsize;
 use std::path::Path;
@@ -244,9 +245,9 @@ fn times_without_a_column_and_kinds_that_are_not_read_are_refused() {
     let untimed = map(&[SLIP]).replace("column = \"t\"\nunit = \"s\"\n", "");
     let message = refused(&[("labels.csv", TABLE)], &untimed);
     assert!(message.contains("[time] has no `column`"), "{message}");
-    let message = refused_with("\"class\"", "\"depth\"");
+    let message = refused_with("\"class\"", "\"spectrum\"");
     assert!(
-        message.contains("`depth` is not supported yet: expected class, event"),
+        message.contains("`spectrum` is not a kind of task: expected class, event"),
         "{message}"
     );
     let message = refused_with("\"class\"", "\"clas\"");

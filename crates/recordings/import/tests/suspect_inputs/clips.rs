@@ -5,7 +5,7 @@ use std::path::Path;
 use taceva_video::{Decoders, Video};
 
 use super::drafts::filled;
-use super::{FACTS, draft, imported, lab, line, planned};
+use super::{FACTS, draft, imported, lab, line, planned, summary};
 
 const CLIP: &str = concat!(
     env!("CARGO_MANIFEST_DIR"),
@@ -182,4 +182,48 @@ fn a_text_file_with_the_time_of_each_frame_is_the_table_that_others_join() {
         let expected = 0.1 + f64::from(frame) / 30.0;
         assert!((force - expected).abs() < 1e-4, "{force} for {expected}");
     }
+}
+
+#[test]
+fn a_clip_alone_is_drafted_with_its_frames_as_rows_and_imports_without_labels() {
+    let clip = Video::open(CLIP.as_ref(), &Decoders::default()).expect("a clip");
+    let folder = lab(&[("notes.txt", "x"), ("a.mp4", "no clip")]);
+    let copy = |name: &str| {
+        std::fs::copy(Path::new(CLIP), folder.path().join(name)).expect("copied");
+    };
+    copy("press.mp4");
+    let found = draft(folder.path());
+    let table = "table = { file = \"press.mp4\", format = \"clip\" }   # no table: ";
+    assert!(line(&found, "table = ").starts_with(table), "{found}");
+    assert!(
+        line(&found, "# No file has labels").contains("labels.csv"),
+        "{found}"
+    );
+    assert!(line(&found, "# Other clips: a.mp4.").contains("Draft each"));
+    let summary = summary(folder.path(), &filled(&found));
+    assert_eq!(summary.rows_kept, clip.info().frames);
+    // A clip that is asked for comes before the first one.
+    copy("second.mp4");
+    let asked = draft(&folder.path().join("second.mp4"));
+    assert!(
+        line(&asked, "table = ").contains("file = \"second.mp4\""),
+        "{asked}"
+    );
+    // Tables beside such a clip are not examined.
+    assert!(asked.contains("\n# Only the clip was read. "), "{asked}");
+    let unreadable = taceva_import::MapDraft::of(&folder.path().join("a.mp4"));
+    let problem = unreadable.expect_err("no clip").to_string();
+    assert!(problem.contains("no file here has labels"), "{problem}");
+}
+
+#[test]
+fn a_clip_beside_pictures_is_drafted_if_it_is_asked_for_or_there_is_one_picture() {
+    let folder = lab(&[("untouched.png", "a picture")]);
+    let clip = folder.path().join("press.mp4");
+    std::fs::copy(Path::new(CLIP), &clip).expect("copied");
+    let table = |path: &Path| line(&draft(path), "table = ").to_owned();
+    assert!(table(folder.path()).contains("file = \"press.mp4\""));
+    std::fs::write(folder.path().join("touched.png"), "a picture").expect("written");
+    assert!(table(folder.path()).contains("files = "));
+    assert!(table(&clip).contains("file = \"press.mp4\""));
 }

@@ -103,6 +103,7 @@ impl Sensor {
             edits: Vec::new(),
             notes: vec!["published numbers, not measured with this program".to_owned()],
             over_seeds: None,
+            tasks: Vec::new(),
             samples: None,
             faults: None,
         }

@@ -15,5 +15,7 @@ mod pdf_file;
 mod reports;
 #[path = "../support/mod.rs"]
 mod support;
+mod task_comparison;
+mod task_page;
 mod values;
 mod verdicts;

@@ -124,7 +124,7 @@ impl Confusion<'_> {
     fn of_class(&self, position: usize, name: &str) -> Vec<TaskScore> {
         let of = self.all.of[position];
         let variant = format!("class {name}");
-        vec![
+        let mut scores = vec![
             self.f1("f1_macro", position, name).variant(variant.clone()),
             self.precision(position, name)
                 .variant(variant.clone())
@@ -132,7 +132,12 @@ impl Confusion<'_> {
             self.recall(position, name)
                 .variant(variant)
                 .beside(of.hits, of.truth),
-        ]
+        ];
+        for score in &mut scores {
+            // A thousand classes of a thousand clusters would take much memory.
+            score.estimate.left_out = Vec::new();
+        }
+        scores
     }
 
     fn f1(&self, metric: &'static str, position: usize, name: &str) -> TaskScore {

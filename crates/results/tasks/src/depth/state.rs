@@ -148,6 +148,11 @@ impl DepthState {
         Ok(self)
     }
 
+    /// Names of the clusters with maps, in order.
+    pub fn clusters(&self) -> impl Iterator<Item = &str> {
+        self.clusters.names()
+    }
+
     /// Number of pairs of maps.
     #[must_use]
     pub fn maps(&self) -> u64 {

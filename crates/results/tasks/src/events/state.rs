@@ -130,6 +130,12 @@ impl EventState {
         Ok(())
     }
 
+    /// Delays of all matched onsets in s, in ascending order.
+    #[must_use]
+    pub fn delays_s(&self) -> &[f64] {
+        &self.delays
+    }
+
     /// Both states as one.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use super::error::PoseError;
 use super::rotation::Rotation;
-use crate::vector::GREATEST_MM;
+use crate::vector::{GREATEST_MM, length, minus};
 
 /// Pose of a body, or a change of pose: points are rotated, then shifted.
 ///
@@ -47,6 +47,12 @@ impl Pose {
     #[must_use]
     pub fn rotation(&self) -> Rotation {
         self.rotation
+    }
+
+    /// Distance of the positions of both poses, mm.
+    #[must_use]
+    pub fn distance_mm(&self, other: &Pose) -> f64 {
+        length(minus(other.translation_mm, self.translation_mm))
     }
 
     /// Moves `point`, in mm.

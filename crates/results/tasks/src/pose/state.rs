@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 use taceva_core::counted;
+use taceva_metrics::ExactSum;
 
 use super::cloud::PointDistances;
 use super::error::PoseError;
@@ -10,7 +11,7 @@ use super::thresholds::Thresholds;
 use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::totals::{Totals, checked_counts};
-use crate::vector::{length, minus};
+use crate::vector::minus;
 
 /// Index of the sum of lengths of differences of translations, mm.
 pub(super) const TRANSLATION: usize = 0;
@@ -198,6 +199,20 @@ impl PoseState {
         add_errors(&mut self.still, truth, &Pose::ZERO);
     }
 
+    /// Names of the clusters with poses, in order.
+    pub fn clusters(&self) -> impl Iterator<Item = &str> {
+        self.clusters.names()
+    }
+
+    /// Mean over the clusters of their mean lengths of differences of translations, mm; `None` without a pose.
+    pub(crate) fn mean_of_cluster_means(&self) -> Option<f64> {
+        let means = self.clusters.values();
+        let means = means.filter_map(|totals| totals.mean(TRANSLATION, POSES).ok());
+        let means: Vec<f64> = means.collect();
+        let count = u32::try_from(means.len()).ok().filter(|count| *count > 0)?;
+        Some(means.into_iter().collect::<ExactSum>().to_f64() / f64::from(count))
+    }
+
     /// Both states as one.
     ///
     /// # Errors
@@ -246,7 +261,7 @@ fn pairs(truth: [usize; 3], prediction: [usize; 3]) -> impl Iterator<Item = (usi
 /// Adds the errors of translation and rotation of one pose.
 fn add_errors(totals: &mut PoseTotals, truth: &Pose, prediction: &Pose) {
     let apart = minus(prediction.translation_mm(), truth.translation_mm());
-    totals.sums[TRANSLATION].add(length(apart));
+    totals.sums[TRANSLATION].add(truth.distance_mm(prediction));
     for (axis, off) in apart.into_iter().enumerate() {
         totals.sums[AXES + axis].add(off.abs());
     }

@@ -1,5 +1,6 @@
 //! Scores of tasks beside exact fractions and beside those of other libraries.
 
+mod as_published;
 mod cases;
 mod classes;
 mod coverage;
@@ -15,5 +16,6 @@ mod ranking;
 mod refused;
 mod shape;
 mod simulated;
+mod state;
 mod stored;
 mod top_k;

@@ -119,9 +119,10 @@ impl Cache {
 }
 
 fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key {
-    // The model itself computes principal components, from all features.
+    // The model itself computes principal components, from all features. Windows are joined from the features of single frames.
     let spec = FeatureSpec {
         pca: None,
+        window: None,
         ..*extractor.spec()
     };
     Key::of(CachedStage::Features)

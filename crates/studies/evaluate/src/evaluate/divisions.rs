@@ -1,10 +1,10 @@
 //! Divisions of a cross-validation, for a caller that fits its own models.
 
 use taceva_core::shown;
-use taceva_dataset::Dataset;
+use taceva_dataset::{Dataset, Task};
 use taceva_models::SplitSpec;
 
-use super::folds;
+use super::{folds, task_division};
 use crate::error::EvaluateError;
 use crate::rows::Divided;
 
@@ -35,4 +35,18 @@ pub fn fold_divisions(
 /// [`EvaluateError::Split`] if the default split cannot be made.
 pub fn scored_by_default(dataset: &Dataset, seed: u64) -> Result<Option<Divided>, EvaluateError> {
     Ok(folds::by_default(dataset, seed)?.map(folds::Folds::into_whole))
+}
+
+/// Samples that [`evaluate_task`](crate::evaluate_task) scores if no split is named: the test part of the folds of [`task_division`].
+///
+/// # Errors
+/// [`EvaluateError::Request`] for fewer than two clusters, and [`EvaluateError::Split`] if the folds cannot be made.
+pub fn scored_of_task(
+    dataset: &Dataset,
+    task: &Task,
+    seed: u64,
+) -> Result<Option<Divided>, EvaluateError> {
+    let spec = task_division(dataset, task)?.parse::<SplitSpec>()?;
+    let of_task = dataset.of_task(&task.name)?;
+    Ok(folds::of_spec(&of_task, seed, spec)?.map(folds::Folds::into_whole))
 }

@@ -332,7 +332,7 @@ impl<'a> Folds<'a> {
                 ..work
             };
             if plan.reads_frames() {
-                decoded.extend(plan.train.iter().chain(&plan.validation).copied());
+                decoded.extend(plan.read.iter().copied());
                 passes = plan.passes();
             }
             let fitted = plan.run(work)?;
@@ -341,7 +341,7 @@ impl<'a> Folds<'a> {
             let target = Target::of(dataset, Some(fitted.divided), None, reads)?;
             let own = predict::predict_target(dataset, model, &target, work)?;
             if reads {
-                decoded.extend(target.rows.iter().copied());
+                decoded.extend(predict::rows_read_by(dataset, model, &target.rows)?);
             }
             unlearnt += fitted.left_out;
             unpredicted += target.left_out;

@@ -1,22 +1,24 @@
-//! Scores of a task of a dataset: a classifier predicts the classes of clusters that it has not seen.
+//! Scores of a task of a dataset: a model predicts the labels of clusters that it has not seen.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_core::{Field, counted, shown};
+use taceva_core::{Field, shown};
 use taceva_dataset::{Dataset, Task, TaskKind};
+use taceva_results::Samples;
 use taceva_tasks::events::{EventRule, EventState, Frame};
-use taceva_tasks::{Classes, TaskError, TaskReport, TaskScore, TaskScores};
+use taceva_tasks::{Classes, TaskError, TaskState};
 
-use super::{EvaluateRequest, ModelChoice, evaluate};
+use super::task_errors::{self, TaskMistake};
+use super::{EvaluateRequest, ModelChoice, evaluate, pose_task};
+use crate::classifiers::as_predictor;
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
+use crate::task_state_file::TaskStates;
+use crate::task_view::{in_words, window_of};
 use crate::work::Work;
 
-/// Models that predict one of the labels of the training part.
-pub const CLASSIFIERS: [&str; 2] = ["lda", "linfa/logistic"];
-
 /// Most folds of the default division.
-const MOST_FOLDS: usize = 5;
+pub(super) const MOST_FOLDS: usize = 5;
 
 /// Division that keeps each cluster of `task` whole: five folds, or one for each of fewer clusters.
 ///
@@ -41,112 +43,167 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
     })
 }
 
-/// Fits `fit` to the classes of the task called `name`, predicts the samples of unseen clusters, and scores them.
+/// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
-/// Without a stated split, [`task_division`] divides the samples. The model is one of [`CLASSIFIERS`].
+/// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
+/// [`CLASSIFIERS`](crate::CLASSIFIERS); a pose needs a model of numbers.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a task of poses, a model that is no classifier, a split that separates samples of one cluster,
+/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster,
 /// and for the errors of [`evaluate`].
 pub fn evaluate_task(
     dataset: &Dataset,
     name: &str,
     fit: FitRequest,
     work: Work<'_>,
-) -> Result<TaskReport, EvaluateError> {
+) -> Result<TaskStates, EvaluateError> {
     let of_task = dataset.of_task(name)?;
     let own = dataset.tasks().iter().map(|own| own.task());
     let task = own.clone().find(|task| task.name == name);
     let task = task.expect("`of_task` found the task");
-    check_model(&fit, task)?;
-    let split = match &fit.split {
+    let fit = as_predictor(fit, task)?;
+    let split = split_of(dataset, task, fit.split.as_deref())?;
+    let mut notes = vec![format!("model {}, split {split}", fit.model.name())];
+    let window = window_of(&fit.settings)?;
+    notes.extend(window.map(|window| in_words(window, task)));
+    let evaluated = evaluate(&of_task, &request_of(fit, split), work)?.report;
+    let samples = evaluated.samples.expect("an evaluation keeps its samples");
+    let clusters = dataset.clusters_of(task);
+    let mut state = match task.kind {
+        TaskKind::Pose => pose_task::state(dataset, task, &clusters, &samples)?,
+        _ => Predicted::of(dataset, task, &clusters, &samples)?.state(dataset, task)?,
+    };
+    notes.append(&mut state.notes);
+    state.notes = notes;
+    let labelled = own_labels(dataset, name);
+    state.unlabelled = (dataset.table().rows() - labelled) as u64;
+    let digest = [("dataset".to_owned(), dataset.digest().to_string())];
+    let mut states = TaskStates::new("by their row of the dataset".to_owned(), digest.into());
+    states.sources.insert(evaluated.subject.source);
+    states.tasks.push(state);
+    Ok(states)
+}
+
+/// The stated split, or the division of the task.
+fn split_of(dataset: &Dataset, task: &Task, stated: Option<&str>) -> Result<String, EvaluateError> {
+    match stated {
         Some(split) => {
             check_split(split, task)?;
-            split.clone()
+            Ok(split.to_owned())
         }
-        None => task_division(dataset, task)?,
-    };
-    let model = fit.model.name().to_owned();
-    let fit = FitRequest {
-        channels: Vec::new(),
-        split: Some(split.clone()),
-        ..fit
-    };
-    let request = EvaluateRequest {
-        model: ModelChoice::Fit(fit),
+        None => task_division(dataset, task),
+    }
+}
+
+/// Evaluation that predicts the labels of the test part. Its own metric is not read.
+fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
+    EvaluateRequest {
+        model: ModelChoice::Fit(FitRequest {
+            channels: Vec::new(),
+            split: Some(split),
+            ..fit
+        }),
         metrics: vec!["mae".to_owned()],
         part: None,
         sensor: None,
         is_independent: false,
-    };
-    let evaluated = evaluate(&of_task, &request, work)?.report;
-    let samples = evaluated.samples.expect("an evaluation keeps its samples");
-    let clusters = dataset.clusters_of(task);
-    let names = dataset.table().samples().iter();
-    let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
-    let mut classes = Classes::new(
-        task.names.iter().map(String::as_str),
-        task.positive.as_deref(),
-    )
-    .map_err(|error| refused(task, &error))?;
-    let channel = samples.channel(name).expect("the channel of the task");
-    let times = dataset.table().t_s();
-    let positive = task.positive.as_deref();
-    let positive = task.names.iter().position(|name| positive == Some(name));
-    let mut frames: BTreeMap<&str, Vec<Frame>> = BTreeMap::new();
-    for row in 0..samples.rows() {
-        let Some([truth, predicted]) = channel.pair(row) else {
-            continue;
+    }
+}
+
+/// Predicted samples of a task, with the cluster of every row of the dataset.
+struct Predicted<'a> {
+    clusters: &'a [Option<String>],
+    classes: Classes,
+    /// Frames of each cluster, with the positive class as the event.
+    frames: BTreeMap<&'a str, Vec<Frame>>,
+    /// Samples whose predicted class is wrong.
+    wrong: Vec<TaskMistake<'a>>,
+}
+
+impl<'a> Predicted<'a> {
+    fn of(
+        dataset: &Dataset,
+        task: &Task,
+        clusters: &'a [Option<String>],
+        samples: &Samples,
+    ) -> Result<Predicted<'a>, EvaluateError> {
+        let names = dataset.table().samples().iter();
+        let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
+        let positive = task.positive.as_deref();
+        let classes = Classes::new(task.names.iter().map(String::as_str), positive);
+        let mut found = Predicted {
+            clusters,
+            classes: classes.map_err(|error| refused(task, &error))?,
+            frames: BTreeMap::new(),
+            wrong: Vec::new(),
         };
-        let sample = samples
-            .word("sample", row)
-            .and_then(|sample| rows.get(sample).copied());
-        let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
-        let (row, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
-        let [truth, predicted] = [position(truth, task)?, position(predicted, task)?];
-        classes
-            .push_positions(cluster, &[truth], &[predicted])
-            .map_err(|error| refused(task, &error))?;
+        let positive = task.names.iter().position(|name| positive == Some(name));
         let is_event = |class: u32| positive == Some(class as usize);
-        let score = f64::from(u8::from(is_event(predicted)));
-        let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
-        frames.entry(cluster).or_default().push(frame);
+        let channel = samples
+            .channel(&task.name)
+            .expect("the channel of the task");
+        let times = dataset.table().t_s();
+        for row in 0..samples.rows() {
+            let Some([truth, predicted]) = channel.pair(row) else {
+                continue;
+            };
+            let sample = samples
+                .word("sample", row)
+                .and_then(|sample| rows.get(sample).copied());
+            let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
+            let (row, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
+            let [truth, predicted] = [position(truth, task)?, position(predicted, task)?];
+            found
+                .classes
+                .push_positions(cluster, &[truth], &[predicted])
+                .map_err(|error| refused(task, &error))?;
+            if truth != predicted {
+                found.wrong.push(TaskMistake {
+                    row,
+                    cluster,
+                    truth,
+                    predicted,
+                });
+            }
+            let score = f64::from(u8::from(is_event(predicted)));
+            let frame = Frame::new(row as u64 + 1, times[row], is_event(truth), score);
+            found.frames.entry(cluster).or_default().push(frame);
+        }
+        Ok(found)
     }
-    let mut scores = TaskScores::new(task.name.as_str(), task.kind.name(), task.cluster.as_str())
-        .of_classes(&classes);
-    scores.notes.push(format!("model {model}, split {split}"));
-    scores
-        .notes
-        .extend(of_one_cluster(dataset, task, &clusters));
-    let labelled = own_labels(dataset, name);
-    let left_out = dataset.table().rows() - labelled;
-    if left_out > 0 {
-        let words = format!("{} without a label, left out", counted(left_out, "row"));
-        scores.notes.push(words);
+
+    /// State of the task.
+    fn state(self, dataset: &Dataset, task: &Task) -> Result<TaskState, EvaluateError> {
+        let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
+        let single = of_one_cluster(dataset, task, self.clusters);
+        state.notes.extend(single);
+        let unscored = unscored(self.classes.n(), own_labels(dataset, &task.name));
+        state.notes.extend(unscored);
+        state.classes = Some(self.classes);
+        if task.kind == TaskKind::Event {
+            state.events = Some(onsets(self.frames, task)?);
+            state.is_sequence = true;
+        }
+        task_errors::add(&mut state, self.wrong, dataset, task);
+        Ok(state)
     }
-    if classes.n() != labelled as u64 {
-        let scored = classes.n();
-        let words = format!(
-            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
-        );
-        scores.notes.push(words);
-    }
-    if task.kind == TaskKind::Event {
-        scores.scores.extend(onsets(frames, task)?);
-    }
-    let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), "by their row of the dataset");
-    report.tables = [("dataset".to_owned(), dataset.digest().to_string())].into();
-    report.sources = vec![evaluated.subject.source];
-    report.tasks.push(scores);
-    Ok(report)
 }
 
 /// Number of rows with a label of the task called `name`.
-fn own_labels(dataset: &Dataset, name: &str) -> usize {
+pub(super) fn own_labels(dataset: &Dataset, name: &str) -> usize {
     let own = dataset.table().task(name);
     let rows = 0..dataset.table().rows();
     own.map_or(0, |own| {
-        rows.filter(|row| own.class(*row).is_some()).count()
+        rows.filter(|row| own.label(*row).is_some()).count()
+    })
+}
+
+/// Remark on labelled rows without a score, if there are any.
+pub(super) fn unscored(scored: u64, labelled: usize) -> Option<String> {
+    (scored != labelled as u64).then(|| {
+        format!(
+            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
+        )
     })
 }
 
@@ -171,11 +228,11 @@ fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -
     words.collect()
 }
 
-/// Scores of the onsets of an event, in the order of time within each cluster.
-fn onsets(
+/// State of the onsets of an event, in the order of time within each cluster.
+pub(super) fn onsets(
     clusters: BTreeMap<&str, Vec<Frame>>,
     task: &Task,
-) -> Result<Vec<TaskScore>, EvaluateError> {
+) -> Result<EventState, EvaluateError> {
     let mut state = EventState::new(EventRule::default());
     for (cluster, mut frames) in clusters {
         let time = |frame: &Frame| frame.time_s.unwrap_or_default();
@@ -184,24 +241,11 @@ fn onsets(
             EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
         })?;
     }
-    Ok(state.scores())
-}
-
-fn check_model(fit: &FitRequest, task: &Task) -> Result<(), EvaluateError> {
-    let model = fit.model.name();
-    match CLASSIFIERS.contains(&model) {
-        true => Ok(()),
-        false => Err(EvaluateError::Request(format!(
-            "task `{}`: {} predicts numbers between the classes, expected a classifier: --model {}",
-            shown(&task.name),
-            shown(model),
-            CLASSIFIERS.join(" or --model ")
-        ))),
-    }
+    Ok(state)
 }
 
 /// Refuses a split that may put samples of one cluster into both the training and the test part.
-fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
+pub(super) fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
     let by = match task.cluster == Field::Point.name() {
         true => "by-point".to_owned(),
         false => format!("by-column:{}", task.cluster),
@@ -223,7 +267,7 @@ fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError> {
 }
 
 /// Position of a class that a channel holds as a number.
-fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
+pub(super) fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     let classes = (0_u32..).take(task.names.len());
     let found = classes
         .into_iter()
@@ -237,7 +281,7 @@ fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     })
 }
 
-fn without_cluster(task: &Task) -> EvaluateError {
+pub(super) fn without_cluster(task: &Task) -> EvaluateError {
     EvaluateError::Request(format!(
         "task `{}`: a sample has no value in the cluster column `{}`: fill the column in, or state another `cluster` in the map",
         shown(&task.name),
@@ -245,6 +289,6 @@ fn without_cluster(task: &Task) -> EvaluateError {
     ))
 }
 
-fn refused(task: &Task, error: &TaskError) -> EvaluateError {
+pub(super) fn refused(task: &Task, error: &TaskError) -> EvaluateError {
     EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
 }

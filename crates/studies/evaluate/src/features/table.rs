@@ -4,7 +4,7 @@ use taceva_core::Features;
 use taceva_dataset::Dataset;
 use taceva_models::{FeatureSpec, ModelSettings};
 
-use super::{extract, extractor, kinds};
+use super::{extract_as, extractor, kinds};
 use crate::error::EvaluateError;
 use crate::work::Work;
 
@@ -13,7 +13,7 @@ use crate::work::Work;
 pub struct FeatureTable {
     /// Features, shape `[rows, height, width, depth]`.
     pub features: Features,
-    /// Specification of the features of each frame or signal.
+    /// Specification of the features of each row.
     pub spec: FeatureSpec,
 }
 
@@ -33,6 +33,8 @@ pub fn feature_table(
         (None, Some(info)) => asked.of_signals(info),
         _ => asked,
     };
-    let features = extract(dataset, |recording| extractor(recording, spec), rows, work)?;
+    let clusters = dataset.labelled_by().map(|task| task.cluster.as_str());
+    let of = |recording: &Dataset| extractor(recording, spec);
+    let features = extract_as(dataset, &spec, clusters, of, rows, work)?;
     Ok(FeatureTable { features, spec })
 }

@@ -8,7 +8,7 @@ use taceva_models::{
 
 use super::{FitRequest, Recipe};
 use crate::error::EvaluateError;
-use crate::features::{kinds, recorded_frames};
+use crate::features::{kinds, recorded_frames, rows_read};
 use crate::plan::Plan;
 use crate::rows::{
     DataPart, Divided, Need, chosen_channels, require_samples, seen_channels, usable,
@@ -35,6 +35,8 @@ pub struct FitPlan<'a> {
     pub train: Vec<usize>,
     /// Rows for choosing settings.
     pub validation: Vec<usize>,
+    /// Rows whose frames or signals are read: those of the fit, and with windows those before them.
+    pub(crate) read: Vec<usize>,
     /// Group of every row of the dataset. Whole groups are left out to choose settings; `None` to leave out contact points.
     pub(super) groups: Option<Vec<String>>,
     pub(super) left_out: usize,
@@ -99,6 +101,12 @@ impl<'a> FitPlan<'a> {
             divided.rows(DataPart::Validation),
         ];
         let [train, validation] = [&whole[0], &whole[1]].map(|rows| usable(dataset, rows, need()));
+        let clusters = dataset.labelled_by().map(|task| task.cluster.as_str());
+        let read = [&train[..], &validation].concat();
+        let read = match model_reads {
+            true => rows_read(dataset, &features, clusters, &read)?,
+            false => read,
+        };
         let left_out = whole[0].len() + whole[1].len() - train.len() - validation.len();
         let fits = |spec: &FeatureSpec| {
             reads_frames
@@ -123,6 +131,7 @@ impl<'a> FitPlan<'a> {
             divided,
             train,
             validation,
+            read,
             left_out,
         })
     }
@@ -145,7 +154,7 @@ impl<'a> FitPlan<'a> {
     /// Number of frames that [`run`](FitPlan::run) decodes.
     pub fn frames_to_decode(&self) -> u64 {
         if self.reads_frames() {
-            self.passes() * (self.train.len() + self.validation.len()) as u64
+            self.passes() * self.read.len() as u64
         } else {
             0
         }
@@ -153,7 +162,7 @@ impl<'a> FitPlan<'a> {
 
     /// Adds the steps of [`run`](FitPlan::run) to the plan.
     pub fn explain(&self, plan: &mut Plan) {
-        let rows = self.train.len() + self.validation.len();
+        let rows = self.read.len();
         if self.model.reads_features() {
             let features = match self.open {
                 Some(_) => format!("{} and other candidates, chosen in the fit", self.features),

@@ -10,9 +10,10 @@ use taceva_models::{
 
 use super::{FitPlan, Fitted};
 use crate::error::EvaluateError;
-use crate::features::{blank, extract, extractor, kinds};
+use crate::features::{blank, extract_as, extractor, kinds};
 use crate::note::Note;
 use crate::recordings;
+use crate::task_view::task_card;
 use crate::work::Work;
 
 /// Features of the training part, followed by those of the validation part, with their specification and input.
@@ -68,9 +69,11 @@ impl FitPlan<'_> {
             Some(_) => signals.map(InputInfo::from),
         };
         let of = |recording: &Dataset| extractor(recording, spec);
+        let task = self.dataset.labelled_by();
+        let clusters = task.map(|task| task.cluster.as_str());
         Ok(Seen {
             spec,
-            features: extract(self.dataset, of, &rows, work)?,
+            features: extract_as(self.dataset, &spec, clusters, of, &rows, work)?,
             input: input.unwrap_or_else(|| self.any_input(spec)),
         })
     }
@@ -192,6 +195,7 @@ impl FitPlan<'_> {
                 neighbours.chain(self.divided.split.note.clone()).collect()
             },
             validation: None,
+            task: self.dataset.labelled_by().map(task_card),
         }
     }
 }

@@ -6,6 +6,7 @@ use taceva_core::Column;
 use taceva_results::Samples;
 
 use super::Predicted;
+use super::task_cells::TaskCells;
 use crate::rows::DISTANCE;
 
 impl Predicted {
@@ -14,7 +15,13 @@ impl Predicted {
     /// # Errors
     /// Errors of `out`.
     pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(&self.prediction, false, self.distance(), out)
+        self.write(
+            &self.prediction,
+            self.task.as_ref(),
+            false,
+            self.distance(),
+            out,
+        )
     }
 
     /// Writes the unclipped predictions, in the format of [`write_predictions`](Predicted::write_predictions). `score` needs them to compute robustness.
@@ -22,7 +29,13 @@ impl Predicted {
     /// # Errors
     /// Errors of `out`.
     pub fn write_unbounded_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(&self.unbounded, false, self.distance(), out)
+        self.write(
+            &self.unbounded,
+            self.task.as_ref(),
+            false,
+            self.distance(),
+            out,
+        )
     }
 
     /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model predicts none.
@@ -31,7 +44,7 @@ impl Predicted {
     /// Errors of `out`.
     pub fn write_deviations(&self, out: &mut dyn Write) -> io::Result<bool> {
         match &self.deviation {
-            Some(deviation) => self.write(deviation, false, None, out).map(|()| true),
+            Some(deviation) => self.write(deviation, None, false, None, out).map(|()| true),
             None => Ok(false),
         }
     }
@@ -42,12 +55,13 @@ impl Predicted {
     /// # Errors
     /// Errors of `out`.
     pub fn write_truth(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(&self.truth, true, None, out)
+        self.write(&self.truth, self.task.as_ref(), true, None, out)
     }
 
     fn write(
         &self,
         columns: &[Column],
+        task: Option<&TaskCells>,
         is_truth: bool,
         distance: Option<&[f64]>,
         out: &mut dyn Write,
@@ -58,7 +72,25 @@ impl Predicted {
         let mut head = vec![Samples::KEY];
         head.extend(points.map(|_| "point_id"));
         head.extend(beside.iter().map(|(name, _)| *name));
-        head.extend(self.channels.iter().map(|channel| channel.name()));
+        let labels = match task {
+            Some(task) => task.label_columns(),
+            None => self
+                .channels
+                .iter()
+                .map(|own| own.name().to_owned())
+                .collect(),
+        };
+        head.extend(labels.iter().map(String::as_str));
+        // Columns of the channels of a task, in the order of its labels.
+        let order = task.map_or_else(Vec::new, TaskCells::channels);
+        let order = order.iter().filter_map(|name| self.channels.position(name));
+        let order: Vec<usize> = order.collect();
+        let scored = task.filter(|_| !is_truth);
+        let scores = scored.map_or_else(Vec::new, TaskCells::score_columns);
+        head.extend(scores.iter().map(String::as_str));
+        let clusters = task.filter(|_| is_truth);
+        let clusters = clusters.filter(|task| task.cluster_column(&head).is_some());
+        head.extend(clusters.and_then(|task| task.cluster_column(&[])));
         head.extend(distance.map(|_| DISTANCE));
         writer.write_record(head)?;
         for row in 0..self.rows() {
@@ -69,7 +101,16 @@ impl Predicted {
             let values = columns.iter().map(|column| column.get(row));
             let text =
                 |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:?}"));
-            cells.extend(values.map(text));
+            match task {
+                None => cells.extend(values.map(text)),
+                Some(task) => {
+                    let values = order.iter().map(|&channel| columns[channel].get(row));
+                    cells.extend(task.label_cells(&values.collect::<Vec<_>>()));
+                }
+            }
+            let scores = scored.map_or_else(Vec::new, |task| task.scores(row));
+            cells.extend(scores.iter().map(|score| format!("{score:?}")));
+            cells.extend(clusters.map(|task| task.cluster(row)));
             cells.extend(distance.map(|distance| format!("{:?}", distance[row])));
             writer.write_record(cells)?;
         }

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{Channel, Channels, Column};
 
+use super::task_cells::TaskCells;
 use crate::bounded_share::Bounded;
 use crate::error::EvaluateError;
 use crate::note::Note;
@@ -41,6 +42,8 @@ pub struct Predicted {
     pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
+    /// Names, clusters and probabilities of predicted classes, from [`predict`](super::predict) by a model of a task.
+    pub(super) task: Option<TaskCells>,
     /// Best constant predictions by channel, if the model states them.
     pub(super) constants: BTreeMap<String, f64>,
     /// Number of frames decoded for the predictions.

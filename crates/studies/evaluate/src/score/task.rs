@@ -1,8 +1,11 @@
 //! Scores of tasks that another program predicted: classes, events, outcomes and changes of pose, from two tables.
 
 mod classes;
+mod depth;
 mod events;
 mod labels;
+mod mean_map;
+mod place;
 mod pose;
 mod rule;
 mod score_columns;
@@ -10,16 +13,18 @@ mod spec;
 
 use std::collections::BTreeMap;
 
-use taceva_core::{counted, shown};
+use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
-use taceva_tasks::{TaskReport, TaskScores};
+use taceva_tasks::{TaskReport, TaskState};
 
 use super::ScoreRequest;
 use super::agreement::Matching;
+use super::origins::stated_origins;
 use super::row_key::{KEY_NAMES, RowKeys};
 use super::tables::{self, Pairing};
 use crate::error::EvaluateError;
+use crate::task_state_file::TaskStates;
 
 pub use rule::TaskRule;
 pub use spec::TaskSpec;
@@ -57,7 +62,9 @@ struct RowPair {
 /// Scores the tasks of two tables.
 ///
 /// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
-/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`.
+/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
+///
+/// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
 ///
 /// ```
 /// use taceva_evaluate::{ScoreRequest, TaskRequest, score_tasks};
@@ -79,7 +86,18 @@ struct RowPair {
 /// # Errors
 /// [`EvaluateError`] if a table cannot be read, rows do not pair, a column is missing, or a cell is no class, number or rotation.
 pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
+    task_states(request).map(|states| states.report())
+}
+
+/// States behind the scores of [`score_tasks`], which can be written and merged.
+///
+/// # Errors
+/// Errors of [`score_tasks`].
+pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     check_names(request)?;
+    if let Some(task) = request.tasks.iter().find(|of| of.kind == TaskKind::Depth) {
+        return depth::states(request, task);
+    }
     tables::check_distinct(&request.tables)?;
     let [(truth, of_truth), (prediction, of_prediction)] = tables::read_both(&request.tables)?;
     tables::check_rows(&truth)?;
@@ -92,11 +110,12 @@ pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
     let pairs = pairs(&pairing, truth.rows());
     let numbers = pairs.iter().map(|pair| (pair.truth, pair.prediction));
     matching.check([&truth, &prediction], numbers)?;
-    let mut report = TaskReport::new(env!("CARGO_PKG_VERSION"), matching.by.to_string());
     let digests = [("truth", of_truth), ("prediction", of_prediction)];
-    report.tables = digests
-        .map(|(role, digest)| (role.to_owned(), digest.to_string()))
-        .into();
+    let digests = digests.map(|(role, digest)| (role.to_owned(), digest.to_string()));
+    let mut states = TaskStates::new(matching.by.to_string(), digests.into());
+    states
+        .sources
+        .extend(stated_origins(&truth)?.unwrap_or_default());
     let tables = TaskTables {
         truth,
         prediction,
@@ -105,12 +124,13 @@ pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
     let clusters = Clusters::of(&tables, request.cluster.as_deref())?;
     for task in &request.tasks {
         let rule = request.rules.get(&task.name);
-        report.tasks.push(match task.kind {
-            TaskKind::Pose => pose::scores(&tables, &clusters, task)?,
-            _ => classes::scores(&tables, &clusters, task, rule)?,
+        states.tasks.push(match task.kind {
+            TaskKind::Pose => pose::state(&tables, &clusters, task)?,
+            TaskKind::Place => place::state(&tables, &clusters, task)?,
+            _ => classes::state(&tables, &clusters, task, rule)?,
         });
     }
-    Ok(report)
+    Ok(states)
 }
 
 /// Refuses no task, a task that is named twice, and a rule of an unknown task.
@@ -129,12 +149,12 @@ fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
         }
         before.push(name);
     }
-    let of_poses = request.tasks.iter().filter(|of| of.kind == TaskKind::Pose);
-    let mut poses = of_poses.map(|of| &of.name);
-    if let Some(name) = poses.find(|name| request.rules.contains_key(*name)) {
+    let mut measured = request.tasks.iter().filter(|of| !of.kind.has_classes());
+    if let Some(of) = measured.find(|of| request.rules.contains_key(&of.name)) {
         return Err(EvaluateError::Request(format!(
-            "a threshold or a debounce is given for `{}`, which is a pose: omit it",
-            shown(name)
+            "a threshold or a debounce is given for `{}`, which is a {}: omit it",
+            shown(&of.name),
+            of.kind.name()
         )));
     }
     match request
@@ -221,12 +241,7 @@ fn listed<'a>(names: impl Iterator<Item = &'a str>) -> String {
     names.join(", ")
 }
 
-/// Remark on `left_out` rows without a label, if any.
-fn unlabelled(left_out: usize) -> Option<String> {
-    (left_out > 0).then(|| format!("{} without a label, left out", counted(left_out, "row")))
-}
-
-/// Empty scores of `task`.
-fn empty(task: &TaskSpec, clusters: &Clusters<'_>) -> TaskScores {
-    TaskScores::new(task.name.as_str(), task.kind.name(), clusters.name())
+/// Empty state of `task`.
+fn empty(task: &TaskSpec, clusters: &Clusters<'_>) -> TaskState {
+    TaskState::new(task.name.as_str(), task.kind.name(), clusters.name())
 }

@@ -147,8 +147,11 @@ impl Collected {
         });
         Collected {
             metrics: metrics.collect(),
-            phases: match facts.phase_inputs {
-                Some(_) => PhaseKind::ALL.to_vec(),
+            phases: match &facts.phase_inputs {
+                Some(inputs) => PhaseKind::ALL
+                    .into_iter()
+                    .filter(|kind| *kind != PhaseKind::Slip || inputs.count(*kind) > 0)
+                    .collect(),
                 None => Vec::new(),
             },
             presses: presses.collect(),
@@ -187,8 +190,8 @@ impl Collected {
 
     /// True if a planned metric or model of phase `kind` reads frames.
     pub(crate) fn looks_at_pictures(&self, kind: PhaseKind) -> bool {
-        // The idle phase measures the timing of frames.
-        if kind == PhaseKind::Idle {
+        // The idle phase measures the timing of frames, and slip is predicted from frames.
+        if matches!(kind, PhaseKind::Idle | PhaseKind::Slip) {
             return self.phases.contains(&kind);
         }
         let seen = |fields: FieldSet| PICTURES.into_iter().any(|field| fields.contains(field));

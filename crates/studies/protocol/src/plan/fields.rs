@@ -30,6 +30,10 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
         true => needed.with(Field::Stamp),
         false => needed,
     };
+    let needed = match collected.phases.contains(&PhaseKind::Slip) {
+        true => needed.with(Field::Truth),
+        false => needed,
+    };
     let inputs = facts.phase_inputs.as_ref();
     let are_units_compared = collected.phases.contains(&PhaseKind::Repeatability)
         && inputs.is_some_and(|inputs| inputs.protocol.repeatability.every_unit.value);

@@ -4,6 +4,7 @@ use taceva_core::SkipReason;
 
 use super::collect::{Collected, Fit};
 use super::study_facts::{ModelChoice, StudyFacts};
+use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 
 /// Removes models that no metric reads, then phases that no metric or model uses.
@@ -25,7 +26,8 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     for kind in std::mem::take(&mut collected.phases) {
         let metric = collected.metrics.iter().any(|metric| metric.phase == kind);
         let fit = collected.fits.iter().any(|fit: &Fit| fit.phase == kind);
-        if metric || fit {
+        // Slip is no metric: the scene asks for its strokes.
+        if metric || fit || kind == PhaseKind::Slip {
             collected.phases.push(kind);
         } else {
             collected.skip(Subject::Phase(kind), PlanReason::NoMetricNeeds);

@@ -49,6 +49,8 @@ pub struct Protocol {
     pub surface: SurfaceMap,
     /// Frames without contact.
     pub idle: Idle,
+    /// Strokes until the indenter slides; none unless the scene asks for them.
+    pub slip: Slip,
 }
 
 table! {
@@ -173,5 +175,25 @@ table! {
     Idle {
         /// Number of frames.
         frames: u32 = 100,
+    }
+}
+
+table! {
+    /// Strokes along the gel until the indenter slides. A frame is labelled `slip` if the shear force is near the limit of Coulomb's friction.
+    Slip {
+        /// Number of strokes, each at its own place; 0 for none.
+        strokes: u32 = 0,
+        /// Speed of a stroke, in mm/s. The tip rests at each frame, so the speed sets the distance of frames.
+        speed_mm_s: f64 = 5.0,
+        /// Number of frames per second of a stroke.
+        rate_hz: f64 = 50.0,
+        /// Length of a stroke, in mm.
+        length_mm: f64 = 1.0,
+        /// Depth of a stroke, in mm, at most the greatest depth. A ball slides after about 1.5 times the depth times the coefficient of friction.
+        depth_mm: f64 = 0.4,
+        /// Coefficient of friction between indenter and gel; 1 on the simulated bench.
+        friction: f64 = 1.0,
+        /// Number of frames from which a frame is predicted.
+        window: u32 = 5,
     }
 }

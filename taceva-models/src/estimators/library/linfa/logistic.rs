@@ -5,11 +5,10 @@ use linfa::traits::Fit;
 use linfa_logistic::MultiLogisticRegression;
 use ndarray::Array1;
 use rayon::prelude::*;
-use taceva_core::{ErrorKind, ModelError, TrainingSet};
+use taceva_core::ModelError;
 
 use super::{RELEASE, records};
-use crate::estimators::discriminant::VALUES_MAX;
-use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset};
+use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, few_labels};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::{Classes, Planes};
 use crate::estimators::library::{LibraryModel, LibrarySettings, LibraryTask, LoadedPredictor};
@@ -58,7 +57,7 @@ pub(super) static ADAPTER: Adapter = Adapter {
     },
     numbers: &[STRENGTH],
     is_classifier: true,
-    check,
+    check: |training| few_labels(NAME, training),
     fit,
 };
 
@@ -88,24 +87,6 @@ fn planes(task: &LibraryTask<'_>, target: usize, strength: f64) -> Result<Classe
         offsets: fitted.intercept().to_vec(),
         weights: weights.iter().copied().collect(),
     })
-}
-
-fn check(training: &TrainingSet<'_>) -> Result<(), ModelError> {
-    let channels = training.targets.channels.as_slice();
-    for (position, channel) in channels.iter().enumerate() {
-        let labels = training.targets.values.iter().skip(position);
-        let values = levels(labels.step_by(channels.len()).copied().collect()).len();
-        if values > VALUES_MAX {
-            return Err(ModelError::new(
-                ErrorKind::InvalidArgument,
-                format!(
-                    "`{channel}` has {values} values in the training part, {NAME} accepts at most {VALUES_MAX} classes: for continuous \
-                        labels choose another model, such as linfa/elastic-net"
-                ),
-            ));
-        }
-    }
-    Ok(())
 }
 
 fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {

@@ -1,11 +1,11 @@
-//! `smartcore/knn`: mean of the nearest training samples, found by the library's search.
+//! `smartcore/knn` and `smartcore/knn-classifier`: mean or vote of the nearest training samples, found by the library's search.
 
 use smartcore::algorithm::neighbour::linear_search::LinearKNNSearch;
 use smartcore::metrics::distance::euclidian::Euclidian;
 use taceva_core::{ErrorKind, ModelError};
 
 use super::RELEASE;
-use crate::estimators::library::adapter::{Adapter, Number, Numbers, Unset, any};
+use crate::estimators::library::adapter::{Adapter, Number, Unset, any, few_labels};
 use crate::estimators::library::guard::guarded;
 use crate::estimators::library::predictor::damaged;
 use crate::estimators::library::{
@@ -17,6 +17,7 @@ use crate::training::file::tensors::Raw;
 use crate::training::info::ModelInfo;
 
 const NAME: &str = "smartcore/knn";
+const CLASSIFIER_NAME: &str = "smartcore/knn-classifier";
 
 const COUNT: Number = Number {
     info: SettingInfo {
@@ -47,13 +48,40 @@ pub(super) static ADAPTER: Adapter = Adapter {
             let [samples, features, targets] = sizes.real();
             Some(9.0 * targets * samples * samples * features)
         },
-        load: Lookup::load,
+        load: |tensors, sizes| Lookup::load(tensors, sizes, Answer::Mean),
     },
     numbers: &[COUNT],
     is_classifier: false,
     check: any,
-    fit,
+    fit: |_, task| fit(task, Answer::Mean),
 };
+
+/// The label with the greatest sum of weights 1 / distance among the nearest neighbours. Of equal sums, the smallest label.
+pub(super) static CLASSIFIER: Adapter = Adapter {
+    model: LibraryModel {
+        info: ModelInfo::of_library(
+            CLASSIFIER_NAME,
+            "smartcore: the label that most of the nearest training samples have, for kinds, boards and levels",
+            &[LibrarySettings::SCALE, COUNT.info, LibrarySettings::REFIT],
+            |settings| CLASSIFIER.estimator(settings),
+        ),
+        release: RELEASE,
+        // Not tried for measured channels.
+        work: |_| None,
+        load: |tensors, sizes| Lookup::load(tensors, sizes, Answer::Vote),
+    },
+    numbers: &[COUNT],
+    is_classifier: true,
+    check: |training| few_labels(CLASSIFIER_NAME, training),
+    fit: |_, task| fit(task, Answer::Vote),
+};
+
+/// Prediction from the labels of neighbours.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Answer {
+    Mean,
+    Vote,
+}
 
 /// Search structure of the library with the training samples, and the labels of these samples.
 struct Lookup {
@@ -64,6 +92,7 @@ struct Lookup {
     labels: Vec<f64>,
     /// Number of neighbours of each target.
     counts: Vec<u32>,
+    answer: Answer,
 }
 
 const COUNTS_TENSOR: &str = "counts";
@@ -76,6 +105,7 @@ impl Lookup {
         features: usize,
         labels: Vec<f64>,
         counts: Vec<u32>,
+        answer: Answer,
     ) -> Result<Lookup, ModelError> {
         let samples = rows.chunks_exact(features);
         let samples: Vec<Vec<f64>> = samples
@@ -88,12 +118,14 @@ impl Lookup {
             rows,
             labels,
             counts,
+            answer,
         })
     }
 
     fn load(
         tensors: &LibraryTensors<'_>,
         sizes: LibrarySizes,
+        answer: Answer,
     ) -> Result<Box<dyn LibraryPredictor>, ModelError> {
         let samples = tensors.rows(ROWS)?;
         let counts = tensors.integers(COUNTS_TENSOR, &[sizes.targets])?;
@@ -103,7 +135,10 @@ impl Lookup {
         }
         let rows = tensors.singles(ROWS, &[samples, sizes.features])?;
         let labels = tensors.doubles(LABELS, &[samples, sizes.targets])?;
-        Ok(Box::new(Lookup::new(rows, sizes.features, labels, counts)?))
+        let features = sizes.features;
+        Ok(Box::new(Lookup::new(
+            rows, features, labels, counts, answer,
+        )?))
     }
 }
 
@@ -128,16 +163,48 @@ impl LibraryPredictor for Lookup {
                 Some((known, near)) if known == count => near,
                 _ => self.nearest(&asked, count)?,
             };
-            let (mut sum, mut total) = (0.0, 0.0);
-            for (sample, weight) in &near {
-                sum += weight * self.labels[sample * targets + target];
-                total += weight;
-            }
-            *place = sum / total;
+            let labels = near.iter().map(|(sample, weight)| {
+                let label = self.labels[sample * targets + target];
+                (label, *weight)
+            });
+            *place = match self.answer {
+                Answer::Mean => mean(labels),
+                Answer::Vote => vote(labels),
+            };
             last = Some((count, near));
         }
         Ok(())
     }
+}
+
+/// Mean of labels with weights.
+fn mean(labels: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let (mut sum, mut total) = (0.0, 0.0);
+    for (label, weight) in labels {
+        sum += weight * label;
+        total += weight;
+    }
+    sum / total
+}
+
+/// Label with the greatest sum of weights; of equal sums, the smallest label.
+fn vote(labels: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let mut sums: Vec<(f64, f64)> = Vec::new();
+    for (label, weight) in labels {
+        match sums
+            .iter_mut()
+            .find(|(known, _)| known.total_cmp(&label).is_eq())
+        {
+            Some((_, sum)) => *sum += weight,
+            None => sums.push((label, weight)),
+        }
+    }
+    let ahead = |best: (f64, f64), own: (f64, f64)| {
+        let is_ahead = own.1 > best.1 || (own.1 >= best.1 && own.0 < best.0);
+        if is_ahead { own } else { best }
+    };
+    let best = sums.into_iter().reduce(ahead);
+    best.map_or(f64::NAN, |(label, _)| label)
 }
 
 impl Lookup {
@@ -169,7 +236,7 @@ impl Lookup {
     clippy::cast_sign_loss,
     reason = "whole numbers of neighbours, and rows that are single-precision numbers"
 )]
-fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
+fn fit(task: &LibraryTask<'_>, answer: Answer) -> LoadedPredictor {
     let rows = task.rows.iter().map(|&value| value as f32).collect();
     let most = task.sizes.samples.min(1000) as f64;
     let counts = task.values.iter().map(|value| value.min(most) as u32);
@@ -178,5 +245,6 @@ fn fit(_: &Numbers<'_>, task: &LibraryTask<'_>) -> LoadedPredictor {
         task.sizes.features,
         task.labels.to_vec(),
         counts.collect(),
+        answer,
     )?))
 }

@@ -56,7 +56,12 @@ impl EnsembleRegressor {
                 ..tensor
             });
             let own = own.collect();
-            members.push(NetworkRegressor::of_tensors(stored, network, own)?);
+            members.push(NetworkRegressor::of_tensors(
+                stored,
+                stored.channels.clone(),
+                network,
+                own,
+            )?);
         }
         match found.into_iter().next() {
             Some(tensor) => Err(FormatError::Unexpected { name: tensor.name }),

@@ -37,6 +37,9 @@ pub(super) fn signals(taxels: &Taxels, others: &[String]) -> String {
         [] => String::new(),
         others => format!("# or: from = {}\n", first_names(others, NAMED)),
     };
+    if let Some(positions) = &taxels.by_position {
+        let _ = writeln!(text, "# or, by position from 0: from = {positions}");
+    }
     let unit = match taxels.unit {
         Some(unit) => format!("{unit:?}   # by its name"),
         None => "\"?\"".to_owned(),

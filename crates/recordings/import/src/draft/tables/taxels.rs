@@ -19,6 +19,8 @@ const LEAST_RUN: usize = 8;
 pub(crate) struct Taxels {
     /// Value of `from`, as TOML.
     pub(crate) from: String,
+    /// Value of `from` by positions, for a list of adjacent columns.
+    pub(crate) by_position: Option<String>,
     /// Shape of the lists in a cell, or the number of columns.
     pub(crate) shape: Vec<usize>,
     /// Unit stated by the name.
@@ -28,6 +30,9 @@ pub(crate) struct Taxels {
     /// True if the name contains a word for taxels. Named taxels are preferred.
     pub(crate) is_named: bool,
 }
+
+/// Minimum number of numbered columns that are not times, whatever their name: `t0`, `t1`, `t2`.
+const LEAST_SERIES: usize = 3;
 
 /// Words in the names of taxel columns.
 const WORDS: [&str; 14] = [
@@ -59,6 +64,34 @@ pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
     let is_many = (LEAST..=MOST).contains(&count) && shape.len() <= 3;
     let mut filled = cells.iter().filter(|cell| !cell.is_empty());
     (is_many && filled.all(|cell| shape_of(cell).as_ref() == Some(&shape))).then_some(shape)
+}
+
+/// Takes columns called `t0`, `t1`, … for numbers instead of times.
+pub(super) fn open_numbered_times(columns: &mut [SeenColumn]) {
+    for run in columns.chunk_by_mut(|one, next| follows(&one.name, &next.name)) {
+        let words = words(&run[0].name);
+        let is_series = run.len() >= LEAST_SERIES && words.last().is_some_and(|word| word == "t");
+        for column in run.iter_mut().filter(|_| is_series) {
+            if matches!(column.role, Role::Time { .. }) {
+                column.role = Role::Number;
+            }
+        }
+    }
+}
+
+/// Name before the number at its end, and that number.
+fn counted(name: &str) -> Option<(&str, u32)> {
+    let digits = name.bytes().rev().take_while(u8::is_ascii_digit);
+    let (stem, number) = name.split_at(name.len() - digits.count());
+    Some((stem, number.parse().ok()?))
+}
+
+/// True if `next` has the number after that of `name`.
+fn follows(name: &str, next: &str) -> bool {
+    let pair = counted(name).zip(counted(next));
+    pair.is_some_and(|((stem, number), (next_stem, next_number))| {
+        stem == next_stem && number.checked_add(1) == Some(next_number)
+    })
 }
 
 /// Shape of the nested lists in a cell of numbers, the outermost list first.
@@ -122,46 +155,30 @@ impl SeenTable<'_> {
     /// Runs of numbered columns of numbers: `c0`, `c1`, …
     fn runs(&self) -> Vec<Taxels> {
         let is_number = |column: &&SeenColumn| column.role == Role::Number;
-        let counted = |column: &SeenColumn| -> Option<(String, u32)> {
-            let digits = column.name.bytes().rev().take_while(u8::is_ascii_digit);
-            let at = column.name.len() - digits.count();
-            let number = column.name[at..].parse().ok()?;
-            Some((column.name[..at].to_owned(), number))
-        };
         let numbers: Vec<&SeenColumn> = self.columns.iter().filter(is_number).collect();
-        let mut runs: Vec<Vec<&SeenColumn>> = Vec::new();
-        for column in &numbers {
-            let follows = runs.last().and_then(|run| {
-                let (stem, number) = counted(run.last()?)?;
-                Some(counted(column)? == (stem, number + 1))
-            });
-            match (follows, runs.last_mut()) {
-                (Some(true), Some(run)) => run.push(column),
-                _ => runs.push(vec![column]),
-            }
-        }
+        let runs = numbers.chunk_by(|one, next| follows(&one.name, &next.name));
         let is_padded = |column: &SeenColumn| {
             let digits = column
                 .name
                 .trim_start_matches(|letter: char| !letter.is_ascii_digit());
             digits.len() > 1 && digits.starts_with('0')
         };
-        let of_run = |run: &Vec<&SeenColumn>| {
-            let [first, .., last] = run.as_slice() else {
+        let of_run = |run: &[&SeenColumn]| {
+            let [first, .., last] = run else {
                 return None;
             };
             let has_header = first.name.parse::<usize>().is_err();
             let least = if has_header { LEAST_RUN } else { LEAST };
             let is_taxels = (least..=MOST).contains(&run.len())
                 && (has_header || (run.len().is_multiple_of(3) && self.channels() == 0));
-            let (_, number) = counted(last)?;
+            let (_, number) = counted(&last.name)?;
             let from = match run.iter().any(|column| is_padded(column)) {
                 true => listed(run),
                 false => format!("\"{}..{number}\"", first.name),
             };
-            is_taxels.then(|| of_columns(run, from))
+            is_taxels.then(|| self.of_columns(run, from))
         };
-        let mut found: Vec<Taxels> = runs.iter().filter_map(of_run).collect();
+        let mut found: Vec<Taxels> = runs.filter_map(of_run).collect();
         let series = axes::series(numbers.iter().map(|column| column.name.as_str()));
         let series = series.into_iter().map(|positions| {
             let columns = positions.into_iter().map(|position| numbers[position]);
@@ -170,7 +187,7 @@ impl SeenTable<'_> {
         let series = series.filter(|columns| (LEAST..=MOST).contains(&columns.len()));
         found.extend(series.map(|columns| Taxels {
             shape: vec![columns.len() / axes::COUNT, axes::COUNT],
-            ..of_columns(&columns, listed(&columns))
+            ..self.of_columns(&columns, listed(&columns))
         }));
         // Columns with uninformative names, and no other columns.
         let is_one = self
@@ -186,9 +203,37 @@ impl SeenTable<'_> {
             && self.channels() == 0
             && self.pictures.is_empty();
         if found.is_empty() && is_nameless {
-            found.push(of_columns(&numbers, listed(&numbers)));
+            found.push(self.of_columns(&numbers, listed(&numbers)));
         }
         found
+    }
+
+    fn of_columns(&self, columns: &[&SeenColumn], from: String) -> Taxels {
+        let first = columns.first();
+        Taxels {
+            by_position: self.by_position(columns).filter(|_| from.starts_with('[')),
+            from,
+            shape: vec![columns.len()],
+            unit: first.and_then(|column| unit_of(&column.name)),
+            placeholders: placeholders(columns),
+            is_named: first.is_some_and(|column| is_named(&column.name)),
+        }
+    }
+
+    /// Positions of adjacent `columns` of a text table, from 0, as TOML. `None` if a name of the table may be a position.
+    fn by_position(&self, columns: &[&SeenColumn]) -> Option<String> {
+        let is_text = matches!(self.group.ending.as_str(), "csv" | "tsv");
+        let is_number = |column: &SeenColumn| column.name.parse::<usize>().is_ok();
+        if !is_text || self.columns.iter().any(is_number) {
+            return None;
+        }
+        let mut all = self.columns.iter();
+        let start = columns.first()?;
+        let first = all.position(|column| column.name == start.name)?;
+        let own = self.columns.get(first..first + columns.len())?;
+        let mut pairs = own.iter().zip(columns);
+        let are_adjacent = pairs.all(|(own, column)| own.name == column.name);
+        are_adjacent.then(|| format!("\"{first}..{}\"", first + columns.len() - 1))
     }
 }
 
@@ -240,21 +285,11 @@ fn unit_of(name: &str) -> Option<&'static str> {
 fn of_column(column: &SeenColumn, shape: Vec<usize>) -> Taxels {
     Taxels {
         from: format!("{:?}", column.name),
+        by_position: None,
         shape,
         unit: unit_of(&column.name),
         placeholders: Vec::new(),
         is_named: is_named(&column.name),
-    }
-}
-
-fn of_columns(columns: &[&SeenColumn], from: String) -> Taxels {
-    let first = columns.first();
-    Taxels {
-        from,
-        shape: vec![columns.len()],
-        unit: first.and_then(|column| unit_of(&column.name)),
-        placeholders: placeholders(columns),
-        is_named: first.is_some_and(|column| is_named(&column.name)),
     }
 }
 

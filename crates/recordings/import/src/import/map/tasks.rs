@@ -1,6 +1,8 @@
 //! Tasks in a map: labels other than measured quantities, and their definitions.
 
+mod maps;
 mod names;
+mod place;
 
 use std::collections::BTreeMap;
 
@@ -10,31 +12,32 @@ use toml::Spanned;
 
 use super::check::{Check, ColumnName};
 use super::{ClassMap, IdMap};
+use maps::{Invalid, MapArray, WrittenArray};
 use names::{problem_of_limits, problem_of_names};
 use taceva_dataset::internal::{is_attribute_name, listed, shown};
 use taceva_dataset::{DatasetError, PoseThresholds, Task, TaskKind};
 
 pub(crate) use names::no_name;
 
-/// Kinds that a map may state in a later version.
-const LATER: [&str; 2] = ["depth", "place"];
 /// Column with the imported table of each row, which is there without a line of the map.
 const SOURCE_TABLE: &str = "source_table";
 
 /// Task with its source.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TaskMap {
-    /// Definition, with one source column for classes, and seven for poses.
+    /// Definition, with one source column for classes and files of depth maps, three for places, and seven or, with a rotation matrix, twelve for poses.
     pub(crate) task: Task,
-    /// Units of the positions x, y, z of a pose; empty for classes.
+    /// Units of the positions x, y, z of a pose or a place; empty for other tasks.
     pub(crate) units: Vec<SourceUnit>,
+    /// Array with the depth maps of all rows; `None` if a column names a file for each row, and for other tasks.
+    pub(crate) array: Option<MapArray>,
 }
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a table")]
 pub(super) struct WrittenTask {
     kind: Spanned<String>,
-    from: WrittenFrom,
+    from: Option<WrittenFrom>,
     names: Option<Spanned<Vec<String>>>,
     positive: Option<Spanned<String>>,
     cluster: Option<Spanned<String>>,
@@ -45,16 +48,35 @@ pub(super) struct WrittenTask {
     over: Option<u32>,
     frame: Option<String>,
     thresholds: Option<Spanned<WrittenThresholds>>,
+    array: Option<Spanned<WrittenArray>>,
+    scale: Option<Spanned<f64>>,
+    pixel_mm: Option<Spanned<[f64; 2]>>,
+    invalid: Option<Spanned<Invalid>>,
 }
 
 #[derive(Deserialize)]
 #[serde(
     untagged,
-    expecting = "the name of a column, or { t = [three columns], q = [four columns] }"
+    expecting = "the name of a column, or { t = [three columns] }, with q = [four columns] or m = [nine columns] for a pose"
 )]
 enum WrittenFrom {
     Column(ColumnName),
     Pose(WrittenPose),
+    Matrix(WrittenMatrix),
+    Place(WrittenPlace),
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenMatrix {
+    t: [ColumnName; 3],
+    m: [ColumnName; 9],
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct WrittenPlace {
+    t: [ColumnName; 3],
 }
 
 #[derive(Deserialize)]
@@ -153,8 +175,18 @@ impl Check<'_> {
         let mut task = Task::new(name, kind, cluster);
         task.is_timed = written.time;
         task.rule.clone_from(&written.rule);
+        if kind != TaskKind::Depth && written.is_of_maps() {
+            let problem = "`array`, `scale`, `pixel_mm` and `invalid` belong to `kind = \"depth\"`";
+            return Err(self.at(offset, problem));
+        }
+        if kind != TaskKind::Depth && written.from.is_none() {
+            let problem = format!("[task.{name}] needs `from`, the column of its labels");
+            return Err(self.at(offset, &problem));
+        }
         match kind {
             TaskKind::Pose => self.pose(task, written, offset),
+            TaskKind::Place => self.place(task, written, offset),
+            TaskKind::Depth => self.maps_of(task, written, offset),
             _ => self.classes_of(task, written, offset),
         }
     }
@@ -166,7 +198,6 @@ impl Check<'_> {
         }
         let known = TaskKind::ALL.map(TaskKind::name);
         let problem = match nearest(word, known) {
-            _ if LATER.contains(&word) => "is not supported yet".to_owned(),
             Some(guess) => format!("is not a kind of task, did you mean `{guess}`"),
             None => "is not a kind of task".to_owned(),
         };
@@ -222,7 +253,7 @@ impl Check<'_> {
             || written.frame.is_some()
             || written.thresholds.is_some();
         let from = match written.from {
-            WrittenFrom::Column(column) if !is_pose => column.into_name(),
+            Some(WrittenFrom::Column(column)) if !is_pose => column.into_name(),
             _ => {
                 let problem = "`from` with `t` and `q`, `unit`, `over`, `frame` and `thresholds` belong to `kind = \"pose\"`";
                 return Err(self.at(offset, problem));
@@ -273,6 +304,7 @@ impl Check<'_> {
         Ok(TaskMap {
             task,
             units: Vec::new(),
+            array: None,
         })
     }
 
@@ -284,23 +316,21 @@ impl Check<'_> {
     ) -> Result<TaskMap, DatasetError> {
         let is_class = written.names.is_some() || written.positive.is_some();
         let columns = match written.from {
-            WrittenFrom::Pose(columns) if !is_class => columns,
+            Some(WrittenFrom::Pose(WrittenPose { t, q })) if !is_class => {
+                t.into_iter().chain(q).collect::<Vec<_>>()
+            }
+            Some(WrittenFrom::Matrix(WrittenMatrix { t, m })) if !is_class => {
+                t.into_iter().chain(m).collect()
+            }
             _ => {
                 let problem = "a pose has `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`, and neither `names` nor \
                     `positive`";
                 return Err(self.at(offset, problem));
             }
         };
-        let columns = columns.t.into_iter().chain(columns.q);
+        let columns = columns.into_iter();
         task.from = columns.map(ColumnName::into_name).collect();
-        let units = written.unit.ok_or_else(|| {
-            let problem = format!(
-                "[task.{}] needs `unit` of its positions, such as \"mm\"",
-                task.name
-            );
-            self.at(offset, &problem)
-        })?;
-        let units = self.units_of_pose(&units)?;
+        let units = self.units_of_positions(written.unit.as_ref(), &task.name, offset)?;
         task.over = written.over;
         task.frame = written.frame;
         if let Some(thresholds) = written.thresholds {
@@ -313,14 +343,24 @@ impl Check<'_> {
             }
             task.thresholds = Some(PoseThresholds::new(t, r));
         }
-        Ok(TaskMap { task, units })
+        Ok(TaskMap {
+            task,
+            units,
+            array: None,
+        })
     }
 
-    /// Units of x, y and z.
-    fn units_of_pose(
+    /// Units of x, y and z of the task called `name`.
+    fn units_of_positions(
         &self,
-        written: &Spanned<WrittenUnits>,
+        written: Option<&Spanned<WrittenUnits>>,
+        name: &str,
+        offset: usize,
     ) -> Result<Vec<SourceUnit>, DatasetError> {
+        let written = written.ok_or_else(|| {
+            let problem = format!("[task.{name}] needs `unit` of its positions, such as \"mm\"");
+            self.at(offset, &problem)
+        })?;
         let at = written.span().start;
         let symbols = match written.get_ref() {
             WrittenUnits::One(symbol) => vec![symbol; 3],
@@ -335,17 +375,20 @@ impl Check<'_> {
                 "`unit` is one unit of length, or one for each of x, y and z",
             ));
         }
-        let units = symbols.into_iter().map(|symbol| {
-            let unit = SourceUnit::parse(symbol).map_err(|error| error.to_string());
-            let unit = unit.and_then(|unit| match unit.unit() {
-                Unit::Millimetre => Ok(unit),
-                _ => Err(format!(
-                    "`{}` is not a unit of length, such as \"mm\" or \"m\"",
-                    shown(symbol)
-                )),
-            });
-            unit.map_err(|problem| self.at(at, &problem))
+        let units = symbols.into_iter();
+        units.map(|symbol| self.length(symbol, at)).collect()
+    }
+
+    /// Unit of length with the symbol `symbol`, which stands at `at`.
+    fn length(&self, symbol: &str, at: usize) -> Result<SourceUnit, DatasetError> {
+        let unit = SourceUnit::parse(symbol).map_err(|error| error.to_string());
+        let unit = unit.and_then(|unit| match unit.unit() {
+            Unit::Millimetre => Ok(unit),
+            _ => Err(format!(
+                "`{}` is not a unit of length, such as \"mm\" or \"m\"",
+                shown(symbol)
+            )),
         });
-        units.collect()
+        unit.map_err(|problem| self.at(at, &problem))
     }
 }

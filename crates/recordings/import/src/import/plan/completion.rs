@@ -70,11 +70,15 @@ impl Reading<'_> {
             &mut self.summary,
         )?;
         let rows_read = self.summary.rows_read;
+        for maps in &self.maps {
+            maps.check_rows(rows_read)?;
+        }
         let signals = self.signals.take();
         let signals = signals.map(|signals| signals.into_plan(rows_read));
         self.summary.signals = self.map.signals.as_ref().map(|map| map.spec.info);
         Ok(ImportPlan {
             signals: signals.transpose()?,
+            maps: self.maps,
             summary: self.summary,
             facts: self.map.facts.clone(),
             is_numbered: self.map.ids.sample.is_none(),
@@ -131,7 +135,8 @@ impl Reading<'_> {
         if !self.map.frames.is_empty() || self.map.signals.is_some() {
             return;
         }
-        let images = unnamed_images(self.folder.path(), &BTreeSet::new()).images;
+        // Pictures that are depth maps are named.
+        let images = unnamed_images(self.folder.path(), &self.named).images;
         if let (Some(first), true) = (images.iter().min(), images.len() > 1) {
             self.summary.warnings.insert(ImportWarning::NoPictures {
                 pictures: images.len() as u64,

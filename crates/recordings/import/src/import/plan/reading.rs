@@ -8,6 +8,7 @@ use taceva_video::Decoders;
 use super::view::ViewReading;
 use crate::error::ImportError;
 use crate::foreign::TableForm;
+use crate::import::depth_maps::PlannedMaps;
 use crate::import::frame_cells::FrameName;
 use crate::import::map::{GravityMap, ImportMap};
 use crate::import::resolve::{CoordinateFrames, JoinMatches};
@@ -30,6 +31,8 @@ pub(super) struct Reading<'a> {
     /// Pictures of each view.
     pub(super) views: Vec<ViewReading<'a>>,
     pub(super) signals: Option<FoundSignals<'a>>,
+    /// Depth maps of each task that has them.
+    pub(super) maps: Vec<PlannedMaps>,
     /// Error for different numbers of pictures and rows without an index; `None` if they agree.
     pub(super) unequal: Option<ImportError>,
     pub(super) joins: Vec<JoinMatches>,
@@ -64,6 +67,7 @@ impl<'a> Reading<'a> {
                 .with_tasks(map.tasks.iter().map(|own| own.task.clone())),
             views: map.frames.iter().map(ViewReading::new).collect(),
             signals: None,
+            maps: Vec::new(),
             unequal: None,
             joins: Vec::new(),
             coordinate_frames: CoordinateFrames::default(),
@@ -177,6 +181,10 @@ impl<'a> Reading<'a> {
         }
         if let Some(signals) = &mut self.signals {
             signals.take(rows, row, number)?;
+        }
+        for maps in &mut self.maps {
+            let file = maps.take(rows, row, number, self.folder)?;
+            self.named.extend(file);
         }
         self.table.push(labels);
         self.summary.rows_kept += 1;

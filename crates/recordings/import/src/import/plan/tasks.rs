@@ -3,6 +3,7 @@
 use taceva_core::counted;
 
 use super::reading::Reading;
+use crate::import::depth_maps::PlannedMaps;
 use taceva_dataset::internal::{first_names, shown};
 use taceva_dataset::{TaskColumn, TaskLabel};
 
@@ -13,15 +14,20 @@ impl Reading<'_> {
     /// Adds each task, with the number of labels, to the summary.
     pub(super) fn describe_tasks(&mut self) {
         let rows = self.table.rows();
+        let maps_of = |name: &str| {
+            let own = self.maps.iter().find(|maps| maps.name() == name);
+            own.map_or(0, PlannedMaps::count)
+        };
         let tasks = self.table.tasks().iter();
-        self.summary.tasks = tasks.map(|own| described(own, rows)).collect();
+        let described = tasks.map(|own| described(own, rows, maps_of(&own.task().name)));
+        self.summary.tasks = described.collect();
     }
 }
 
-/// Kind, source, number of labels and cluster of a task, in words.
-fn described(own: &TaskColumn, rows: usize) -> String {
+/// Kind, source, number of labels and cluster of a task, in words. `maps` is the number of its depth maps.
+fn described(own: &TaskColumn, rows: usize, maps: usize) -> String {
     let task = own.task();
-    let (mut labelled, mut counts) = (0_usize, vec![0_usize; task.names.len()]);
+    let (mut labelled, mut counts) = (maps, vec![0_usize; task.names.len()]);
     for label in (0..rows).filter_map(|row| own.label(row)) {
         labelled += 1;
         if let TaskLabel::Class(class) = label {
@@ -43,11 +49,14 @@ fn described(own: &TaskColumn, rows: usize) -> String {
         .iter()
         .map(|name| format!("`{}`", shown(name)))
         .collect();
+    let from = match from.is_empty() {
+        true => "an array".to_owned(),
+        false => first_names(&from, 1),
+    };
     format!(
-        "{} = {} of {}, {labelled} of {} labelled{counts}, cluster `{}`",
+        "{} = {} of {from}, {labelled} of {} labelled{counts}, cluster `{}`",
         task.name,
         task.kind.name(),
-        first_names(&from, 1),
         counted(rows, "sample"),
         task.cluster
     )

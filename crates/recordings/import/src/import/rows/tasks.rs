@@ -1,10 +1,10 @@
-//! Labels of tasks in a row: positions of classes, and poses.
+//! Labels of tasks in a row: positions of classes, poses, places, and files of depth maps.
 
-use super::MappedTable;
+use super::{MappedTable, rotation_matrix};
 use crate::error::{ImportError, table_error};
 use crate::import::map::{TaskMap, no_name};
 use taceva_dataset::internal::listed;
-use taceva_dataset::{Row, Task, TaskKind, TaskLabel};
+use taceva_dataset::{Place, Row, Task, TaskKind, TaskLabel};
 
 impl MappedTable<'_> {
     /// Labels of all tasks in row `row`. `read` has the ids and attributes of this row.
@@ -16,11 +16,19 @@ impl MappedTable<'_> {
         let tasks = self.map.tasks.iter().zip(&self.tasks);
         let labels = tasks.map(|(map, columns)| {
             let label = match (map.task.kind, columns.as_slice()) {
-                (TaskKind::Pose, columns) => self.pose(row, columns, map)?,
+                (TaskKind::Pose | TaskKind::Place, columns) => self.numbers(row, columns, map)?,
+                // The place of a map is known once it is written.
+                (TaskKind::Depth, _) => None,
                 (_, [column, ..]) => self.class_of_task(row, *column, &map.task)?,
                 (_, []) => None,
             };
-            match label.is_some() && !self.has_cluster(read, &map.task.cluster) {
+            let has_map = match (&map.array, columns.as_slice()) {
+                _ if map.task.kind != TaskKind::Depth => false,
+                (None, [column, ..]) => !self.table.cell(row, *column).is_empty(),
+                _ => true,
+            };
+            let is_labelled = label.is_some() || has_map;
+            match is_labelled && !self.has_cluster(read, &map.task.cluster) {
                 false => Ok(label),
                 true => Err(table_error!(
                     self.place(row),
@@ -59,16 +67,23 @@ impl MappedTable<'_> {
         }
     }
 
-    /// Pose in seven cells; `None` if all of them are empty.
-    fn pose(
+    /// Name of the file with the depth map of a row for the task at position `task` of the map, with its place; `None` for an empty cell.
+    pub(in crate::import) fn map_file(&self, task: usize, row: usize) -> Option<(&str, Place)> {
+        let column = *self.tasks[task].first()?;
+        let name = self.table.cell(row, column);
+        (!name.is_empty()).then(|| (name, self.table.place(row, column)))
+    }
+
+    /// Pose in seven cells, or twelve with a rotation matrix, or place in three; `None` if all of them are empty.
+    fn numbers(
         &self,
         row: usize,
         columns: &[usize],
         map: &TaskMap,
     ) -> Result<Option<TaskLabel>, ImportError> {
-        let mut pose = [0.0; 7];
+        let mut numbers = vec![0.0; columns.len()];
         let mut empty = Vec::new();
-        for (at, (number, column)) in pose.iter_mut().zip(columns).enumerate() {
+        for (at, (number, column)) in numbers.iter_mut().zip(columns).enumerate() {
             let found = match map.units.get(at) {
                 Some(unit) => self.table.number_in_unit(row, *column, unit)?,
                 None => self.table.number(row, *column)?,
@@ -85,10 +100,34 @@ impl MappedTable<'_> {
                 return Err(self.wrong(
                     row,
                     *column,
-                    "empty, expected all seven numbers of a pose",
+                    match map.task.kind {
+                        TaskKind::Place => "empty, expected all three numbers of a place",
+                        _ if columns.len() == 12 => "empty, expected all twelve numbers of a pose",
+                        _ => "empty, expected all seven numbers of a pose",
+                    },
                 ));
             }
         }
+        if let Ok(place) = <[f64; 3]>::try_from(numbers.as_slice()) {
+            return Ok(Some(TaskLabel::Place(place)));
+        }
+        if let Ok(matrix) = <[f64; 9]>::try_from(&numbers[3..]) {
+            let turned = rotation_matrix::quaternion(matrix);
+            let turned = turned.ok_or_else(|| {
+                table_error!(
+                    self.place(row),
+                    "the matrix of [task.{}] is no rotation, expected perpendicular rows of length 1 ± 0.000001 and the determinant 1: name its \
+                     columns row by row, now {}",
+                    map.task.name,
+                    listed(&map.task.from[3..])
+                )
+            })?;
+            numbers.truncate(3);
+            numbers.extend(turned);
+        }
+        let Ok(pose) = <[f64; 7]>::try_from(numbers.as_slice()) else {
+            return Ok(None);
+        };
         let label = TaskLabel::Pose(pose);
         let norm = label.quaternion_norm().unwrap_or_default();
         if (norm - 1.0).abs() > TaskLabel::NORM_TOLERANCE {

@@ -1,13 +1,12 @@
 //! Signals in an array of another file, read in blocks of rows.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use taceva_arrays::{ArrayFile, ArrayFormat};
 use taceva_core::{Progress, single};
 
 use crate::error::{ImportError, table_error};
-use crate::foreign::stated;
+use crate::foreign::{OneArray, stated};
 use crate::import::map::SignalsMap;
 use crate::import::resolve::{place_first, problem_of_names, problem_of_signals};
 use crate::source_folder::SourceFolder;
@@ -20,9 +19,7 @@ const READ_VALUES: u64 = 1 << 20;
 /// Array of signals.
 #[derive(Debug)]
 pub(super) struct ArraySignals {
-    path: PathBuf,
-    file: ArrayFile,
-    name: String,
+    array: OneArray,
     rows: u64,
     length: u64,
 }
@@ -35,64 +32,35 @@ impl ArraySignals {
         map: &SignalsMap,
     ) -> Result<ArraySignals, ImportError> {
         let wrong = |problem: String| ImportError::table(path, problem);
-        let format = ArrayFormat::of(path).ok_or_else(|| {
-            wrong(
-                "not a file of arrays by its name: expected .npy, .npz, .h5, .hdf5, .zarr, .mat or .pkl"
-                    .to_owned(),
-            )
-        })?;
-        let opened = guarded(|| ArrayFile::open(path, format)).map_err(wrong)?;
-        let file = opened.map_err(|error| wrong(error.to_string()))?;
-        let names = file.names();
-        let name = match (name, &names[..]) {
-            (Some(name), _) => name.to_owned(),
-            (None, [only]) => only.clone(),
-            (None, _) => {
-                let some: Vec<&str> = names.iter().take(16).map(String::as_str).collect();
-                return Err(wrong(format!(
-                    "{} arrays ({}): name one by `from = {{ file = …, path = … }}`",
-                    names.len(),
-                    taceva_dataset::internal::shown(&some.join(", "))
-                )));
-            }
-        };
-        let info = file.info(&name);
-        let info = info.ok_or_else(|| {
-            wrong(format!(
-                "no array `{}`",
-                taceva_dataset::internal::shown(&name)
-            ))
-        })?;
-        let (rows, beside) = match &info.shape[..] {
+        let array = OneArray::open(path, name)?;
+        let (rows, beside) = match array.shape() {
             [rows, beside @ ..] => (*rows, beside),
             [] => (0, &[][..]),
         };
-        let array = taceva_dataset::internal::shown(&name);
+        let shown_name = taceva_dataset::internal::shown(array.name());
         if rows == 0 {
             return Err(wrong(format!(
-                "`{array}` of shape {:?} has no row of signals",
-                info.shape
+                "`{shown_name}` of shape {:?} has no row of signals",
+                array.shape()
             )));
         }
-        let of_file = guarded(|| stated(&file, &name)).map_err(wrong)?;
+        let of_file = guarded(|| stated(array.file(), array.name())).map_err(wrong)?;
         let contradicted = problem_of_signals(&of_file, &map.unit);
         // An array in a `.npy` file is named by the file.
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-        let named = match name.as_str() {
+        let named = match array.name() {
             "value" => stem.as_ref(),
             name => name,
         };
         if let Some(problem) = contradicted.or_else(|| problem_of_names([named], &map.unit)) {
-            return Err(wrong(format!("`{array}`: {problem}")));
+            return Err(wrong(format!("`{shown_name}`: {problem}")));
         }
         map.check_axes(beside)
-            .map_err(|problem| wrong(format!("`{array}`: {problem}")))?;
+            .map_err(|problem| wrong(format!("`{shown_name}`: {problem}")))?;
         Ok(ArraySignals {
-            path: path.to_owned(),
-            file,
-            name,
             rows,
             length: map.spec.info.len() as u64,
+            array,
         })
     }
 
@@ -100,7 +68,7 @@ impl ArraySignals {
         match row < self.rows {
             true => Ok(()),
             false => Err(table_error!(
-                &self.path,
+                self.array.path(),
                 "{} rows of signals, and the table has more",
                 self.rows
             )),
@@ -112,7 +80,7 @@ impl ArraySignals {
         match rows == self.rows {
             true => Ok(()),
             false => Err(table_error!(
-                &self.path,
+                self.array.path(),
                 "{} rows of signals for {rows} rows of the table",
                 self.rows
             )),
@@ -125,11 +93,9 @@ impl ArraySignals {
         folder: &SourceFolder,
         into: &mut BTreeMap<String, u64>,
     ) -> Result<(), ImportError> {
-        let wrong = |problem: String| ImportError::table(&self.path, problem);
-        let counted = guarded(|| self.file.absent_chunks(&self.name)).map_err(wrong)?;
-        let count = counted.map_err(|error| wrong(error.to_string()))?;
+        let count = self.array.absent_chunks()?;
         if count > 0 {
-            into.insert(folder.inside(&self.path, &self.name), count);
+            into.insert(folder.inside(self.array.path(), self.array.name()), count);
         }
         Ok(())
     }
@@ -142,7 +108,7 @@ impl ArraySignals {
         let mut first = 0;
         while first < self.rows {
             let end = (first + step).min(self.rows);
-            let values = self.read(first..end)?;
+            let values = self.array.read(first..end)?;
             let rows = (first..end).zip(values.chunks(length));
             let held = rows.filter(|(_, row)| row.iter().any(|value| map.is_placeholder(*value)));
             found.extend(held.map(|(row, _)| row));
@@ -167,16 +133,17 @@ impl ArraySignals {
             let (Some(first), Some(last)) = (chunk.first(), chunk.last()) else {
                 continue;
             };
-            let values = self.read(*first..last + 1)?;
+            let values = self.array.read(*first..last + 1)?;
             for row in chunk {
                 let at = usize::try_from((row - first) * self.length).unwrap_or(usize::MAX);
                 let length = usize::try_from(self.length).unwrap_or(0);
                 let own = values.get(at..).and_then(|own| own.get(..length));
-                let own = own.ok_or_else(|| table_error!(&self.path, "row {row} is missing"))?;
+                let own =
+                    own.ok_or_else(|| table_error!(self.array.path(), "row {row} is missing"))?;
                 let kept: Vec<f32> = own.iter().map(|value| kept(*value, map)).collect();
                 if let Some(position) = kept.iter().position(|value| !value.is_finite()) {
                     return Err(table_error!(
-                        &self.path,
+                        self.array.path(),
                         "row {row}: number {position} of its signals is {}, expected a finite number",
                         own[position]
                     ));
@@ -186,19 +153,6 @@ impl ArraySignals {
             }
         }
         Ok(())
-    }
-
-    fn read(&self, rows: std::ops::Range<u64>) -> Result<Vec<f64>, ImportError> {
-        let wrong = |problem: String| ImportError::table(&self.path, problem);
-        let read = guarded(|| self.file.read(&self.name, rows)).map_err(wrong)?;
-        let read = read.map_err(|error| wrong(error.to_string()))?;
-        let numbers = read.values.to_f64();
-        numbers.ok_or_else(|| {
-            wrong(format!(
-                "`{}` holds no numbers, or numbers that 64 bits of floating point cannot represent",
-                taceva_dataset::internal::shown(&self.name)
-            ))
-        })
     }
 }
 

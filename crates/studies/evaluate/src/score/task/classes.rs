@@ -3,15 +3,12 @@
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_tasks::events::EventRule;
-use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskScores, TopK};
+use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskState, TopK};
 
 use super::labels::{ClassColumn, ClassNames};
 use super::score_columns::ScoreColumns;
-use super::{Clusters, RowPair, TaskRule, TaskSpec, TaskTables, empty, events, listed, unlabelled};
+use super::{Clusters, RowPair, TaskRule, TaskSpec, TaskTables, empty, events, listed};
 use crate::error::EvaluateError;
-
-/// Places of `top_k`.
-const PLACES: [u64; 2] = [2, 3];
 
 /// A labelled sample of a task.
 #[derive(Clone, Debug)]
@@ -30,13 +27,13 @@ pub(super) struct ClassRow<'a> {
     pub(super) scores: Vec<f64>,
 }
 
-/// Scores of a task with classes.
-pub(super) fn scores(
+/// State of a task with classes.
+pub(super) fn state(
     tables: &TaskTables,
     clusters: &Clusters<'_>,
     task: &TaskSpec,
     rule: Option<&TaskRule>,
-) -> Result<TaskScores, EvaluateError> {
+) -> Result<TaskState, EvaluateError> {
     let names = ClassNames::of(tables, task)?;
     let refused =
         |error: TaskError| EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)));
@@ -56,17 +53,19 @@ pub(super) fn scores(
             .push_positions(row.cluster, &[truth], &[predicted])
             .map_err(refused)?;
     }
-    let mut scores = empty(task, clusters).of_classes(&classes);
-    scores.notes.extend(names.note());
-    scores.notes.extend(unlabelled(left_out));
-    let with_scores = ScoreColumns::of(&tables.prediction, task, &names)?;
+    let mut state = empty(task, clusters);
+    state.classes = Some(classes);
+    state.notes.extend(names.note());
+    state.unlabelled = left_out as u64;
+    state.is_sequence = rule.is_some_and(|rule| rule.debounce.is_some());
+    let with_scores = ScoreColumns::of(tables, task, &names)?;
     if let Some(columns) = with_scores {
-        of_scores(&mut scores, &rows, &columns, &names, task).map_err(refused)?;
+        of_scores(&mut state, &rows, &columns, &names, task).map_err(refused)?;
     }
     if let (TaskKind::Event, Some(positive)) = (task.kind, positive) {
-        events::add(&mut scores, tables, &rows, positive, rule)?;
+        events::add(&mut state, tables, &rows, positive, rule)?;
     }
-    Ok(scores)
+    Ok(state)
 }
 
 /// Labelled rows in the order of the truth, and the number of rows without a label.
@@ -78,7 +77,7 @@ fn rows<'a>(
     is_by_threshold: bool,
 ) -> Result<(Vec<ClassRow<'a>>, usize), EvaluateError> {
     let of_truth = ClassColumn::of(&tables.truth, &task.name, names)?;
-    let columns = ScoreColumns::of(&tables.prediction, task, names)?;
+    let columns = ScoreColumns::of(tables, task, names)?;
     let of_prediction = match &columns {
         _ if is_by_threshold => None,
         Some(_) if !tables.prediction.has(&task.name) => None,
@@ -146,6 +145,7 @@ fn apply(
     };
     let negative = 1 - positive;
     if let Some(threshold) = rule.threshold {
+        check_threshold(threshold, rows, positive).map_err(refused)?;
         for row in rows.iter_mut() {
             let Some(score) = ScoreColumns::of_class(&row.scores, positive) else {
                 return Err(refused(format!(
@@ -167,9 +167,25 @@ fn apply(
     Ok(())
 }
 
-/// Adds the scores that ranks, probabilities and places of classes have.
+/// Refuses a threshold that no probability can cross. Log-odds have scores beyond 0 to 1, and take any threshold.
+fn check_threshold(threshold: f64, rows: &[ClassRow<'_>], positive: u32) -> Result<(), String> {
+    let scores = rows.iter();
+    let scores = scores.filter_map(|row| ScoreColumns::of_class(&row.scores, positive));
+    let scores: Vec<f64> = scores.collect();
+    let range = 0.0..=1.0;
+    let are_probabilities = !scores.is_empty() && scores.iter().all(|score| range.contains(score));
+    match are_probabilities && !range.contains(&threshold) {
+        false => Ok(()),
+        true => Err(format!(
+            "the threshold {threshold} is outside 0 to 1, but all scores of the positive class are within 0 to 1, so every row would get \
+             the same class: state a threshold from 0 to 1"
+        )),
+    }
+}
+
+/// Adds the states of ranks, probabilities and places of classes.
 fn of_scores(
-    scores: &mut TaskScores,
+    state: &mut TaskState,
     rows: &[ClassRow<'_>],
     columns: &ScoreColumns<'_>,
     names: &ClassNames,
@@ -183,7 +199,7 @@ fn of_scores(
                 ranking.push(row.cluster, score, row.truth == positive)?;
             }
         }
-        scores.scores.extend(ranking.scores());
+        state.ranking = Some(ranking);
     }
     if !columns.are_all() {
         return Ok(());
@@ -195,8 +211,7 @@ fn of_scores(
         probabilities.push(row.cluster, truth, &row.scores)?;
         places.push(row.cluster, truth, &row.scores)?;
     }
-    scores.scores.extend(probabilities.scores());
-    let some = PLACES.into_iter().filter(|k| *k < names.all().len() as u64);
-    scores.scores.extend(some.flat_map(|k| places.scores(k)));
+    state.probabilities = Some(probabilities);
+    state.places = Some(places);
     Ok(())
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::shown;
 use taceva_import::CsvTable;
-use taceva_tasks::TaskScores;
+use taceva_tasks::TaskState;
 use taceva_tasks::events::{EventError, EventRule, EventState, Frame};
 
 use super::classes::ClassRow;
@@ -44,9 +44,9 @@ pub(super) fn event_rule(rule: Option<&TaskRule>) -> Result<EventRule, EventErro
     Ok(found)
 }
 
-/// Adds the scores of onsets, or a remark if the truth has no times.
+/// Adds the state of onsets, or a remark if the truth has no times.
 pub(super) fn add(
-    scores: &mut TaskScores,
+    of_task: &mut TaskState,
     tables: &TaskTables,
     rows: &[ClassRow<'_>],
     positive: u32,
@@ -54,7 +54,7 @@ pub(super) fn add(
 ) -> Result<(), EvaluateError> {
     let truth = &tables.truth;
     if !truth.has(TIME) {
-        scores.notes.push(format!(
+        of_task.notes.push(format!(
             "onsets, delays and false alarms are skipped: the truth has no column `{TIME}` with the time in s"
         ));
         return Ok(());
@@ -88,7 +88,8 @@ pub(super) fn add(
             .push(cluster, &frames)
             .map_err(|error| of_sequence(truth, cluster, &error))?;
     }
-    scores.scores.extend(state.scores());
+    of_task.events = Some(state);
+    of_task.is_sequence = true;
     Ok(())
 }
 

@@ -2,10 +2,10 @@
 
 use taceva_core::shown;
 use taceva_import::CsvTable;
-use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
-use taceva_tasks::{TaskScores, Undefined};
+use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
+use taceva_tasks::{TaskState, WorstSample};
 
-use super::{Clusters, TaskSpec, TaskTables, empty, unlabelled};
+use super::{Clusters, TaskSpec, TaskTables, empty};
 use crate::error::EvaluateError;
 
 /// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
@@ -68,15 +68,17 @@ impl<'a> PoseColumns<'a> {
     }
 }
 
-/// Scores of a task of poses.
-pub(super) fn scores(
+/// State of a task of poses.
+pub(super) fn state(
     tables: &TaskTables,
     clusters: &Clusters<'_>,
     task: &TaskSpec,
-) -> Result<TaskScores, EvaluateError> {
+) -> Result<TaskState, EvaluateError> {
     let truth = PoseColumns::of(&tables.truth, &task.name)?;
     let prediction = PoseColumns::of(&tables.prediction, &task.name)?;
     let mut state = PoseState::new(definition(task)?);
+    let mut euler = EulerErrors::default();
+    let mut of_task = empty(task, clusters);
     let mut left_out = 0;
     for pair in &tables.pairs {
         let Some(true_pose) = truth.pose(pair.truth)? else {
@@ -90,15 +92,18 @@ pub(super) fn scores(
                 .refuse(pair.prediction, prediction.columns[0], expected);
             return Err(refused.into());
         };
-        state.push(clusters.cell(*pair)?, &true_pose, &predicted);
+        let cluster = clusters.cell(*pair)?;
+        state.push(cluster, &true_pose, &predicted);
+        euler.push(&true_pose, &predicted);
+        let error = true_pose.distance_mm(&predicted);
+        let sample = format!("row {}", pair.truth + 1);
+        let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
+        of_task.evidence.add_worst(worst);
     }
-    let mut scores = empty(task, clusters);
-    scores.notes.extend(unlabelled(left_out));
-    let found = state.scores().into_iter();
-    // No column has the points of an object.
-    let of_poses = found.filter(|score| score.estimate.value.err() != Some(Undefined::NoPoints));
-    scores.scores = of_poses.collect();
-    Ok(scores)
+    of_task.unlabelled = left_out;
+    of_task.pose = Some(state);
+    of_task.euler = Some(euler);
+    Ok(of_task)
 }
 
 fn definition(task: &TaskSpec) -> Result<PoseTask, EvaluateError> {

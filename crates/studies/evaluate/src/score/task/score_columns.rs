@@ -1,11 +1,12 @@
 //! Columns `NAME.p.CLASS`: scores of the classes of a task.
 
-use taceva_core::shown;
+use taceva_core::{nearest, shown};
 use taceva_import::CsvTable;
 
 use super::labels::ClassNames;
-use super::{TaskSpec, listed};
+use super::{TaskSpec, TaskTables, listed};
 use crate::error::EvaluateError;
+use crate::score::row_key::key_of;
 
 /// Beginning of the names of the columns with scores of `task`.
 pub(super) fn prefix(task: &TaskSpec) -> String {
@@ -20,16 +21,17 @@ pub(super) struct ScoreColumns<'a> {
 }
 
 impl<'a> ScoreColumns<'a> {
-    /// Columns of the scores of `task`; `None` if the table has none.
+    /// Columns of the scores of `task`; `None` if the predictions have none.
     ///
     /// # Errors
-    /// [`EvaluateError::Tables`] for a column of an unknown class, or if some classes have a column and others have none. Of two classes, the
-    /// positive one suffices.
+    /// [`EvaluateError`] for a column of an unknown class, or if some classes have a column and others have none. Of two classes, the positive
+    /// one suffices.
     pub(super) fn of(
-        table: &'a CsvTable,
+        tables: &'a TaskTables,
         task: &TaskSpec,
         names: &ClassNames,
     ) -> Result<Option<ScoreColumns<'a>>, EvaluateError> {
+        let table = &tables.prediction;
         let prefix = prefix(task);
         let refused = |problem: String| EvaluateError::Tables {
             path: table.path().to_owned(),
@@ -55,19 +57,17 @@ impl<'a> ScoreColumns<'a> {
         let columns: Vec<Option<usize>> = names.all().iter().map(position).collect();
         let positive = names.positive(task).map(|at| at as usize);
         let suffices = columns.len() == 2 && positive.is_some_and(|at| columns[at].is_some());
-        let missing = names
-            .all()
-            .iter()
-            .zip(&columns)
-            .find(|(_, column)| column.is_none());
-        match (missing, columns.iter().any(Option::is_some)) {
-            (_, false) => Ok(None),
-            (Some((class, _)), true) if !suffices => Err(refused(format!(
-                "no column `{}`, although other classes have scores: write a column for each class, or none",
-                shown(&format!("{prefix}{class}"))
-            ))),
-            _ => Ok(Some(ScoreColumns { table, columns })),
+        let classes = names.all().iter().map(String::as_str).zip(&columns);
+        let (missing, stated): (Vec<_>, Vec<_>) = classes.partition(|(_, column)| column.is_none());
+        if stated.is_empty() {
+            return Ok(None);
         }
+        if !missing.is_empty() && !suffices {
+            let [missing, stated] =
+                [missing, stated].map(|of| of.into_iter().map(|(class, _)| class).collect());
+            return Err(Unmatched { missing, stated }.refusal(tables, task));
+        }
+        Ok(Some(ScoreColumns { table, columns }))
     }
 
     /// True if each class has a column.
@@ -116,5 +116,76 @@ impl<'a> ScoreColumns<'a> {
             false => best,
         };
         Ok(places.fold((0, f64::NEG_INFINITY), first).0)
+    }
+}
+
+/// Classes without a column of scores, although others have one.
+struct Unmatched<'a> {
+    missing: Vec<&'a str>,
+    stated: Vec<&'a str>,
+}
+
+impl Unmatched<'_> {
+    /// Refusal of the label without a column. Names the column of a class that no row has, because either may be misspelt.
+    fn refusal(&self, tables: &TaskTables, task: &TaskSpec) -> EvaluateError {
+        let column = |class: &str| format!("{}{class}", prefix(task));
+        let first = self.missing[0];
+        let absent = |class: &&&str| Label::of(tables, task, class).is_none();
+        // Stated classes may occur by their positions, or not at all.
+        let stray = match task.names.is_empty() {
+            true => self.stated.iter().find(absent).copied(),
+            false => None,
+        };
+        let is_like = |class: &&&str| nearest(class, self.stated.iter().copied()).is_some();
+        let class = match stray {
+            Some(stray) => nearest(stray, self.missing.iter().copied()),
+            None => self.missing.iter().find(is_like).copied(),
+        };
+        let class = class.unwrap_or(first);
+        let lacking = column(class);
+        let Some(label) = Label::of(tables, task, class) else {
+            return EvaluateError::Tables {
+                path: tables.prediction.path().to_owned(),
+                problem: format!(
+                    "no column `{}`, although other classes have scores: write a column for each class, or none",
+                    shown(&lacking)
+                ),
+            };
+        };
+        let remedy = match (stray, nearest(class, self.stated.iter().copied())) {
+            (Some(stray), _) => format!(
+                ", and no row has the class of the column `{}`: write both alike",
+                shown(&column(stray))
+            ),
+            (None, Some(meant)) => format!(
+                "; did you mean `{}`? Correct the label, or write a column for each class",
+                shown(meant)
+            ),
+            (None, None) => ": write a column for each class, or none".to_owned(),
+        };
+        let expected = format!("no column `{}` has its scores{remedy}", shown(&lacking));
+        label
+            .table
+            .refuse(label.row, label.column, &expected)
+            .into()
+    }
+}
+
+/// First cell with a class.
+struct Label<'a> {
+    table: &'a CsvTable,
+    row: usize,
+    column: usize,
+}
+
+impl<'a> Label<'a> {
+    fn of(tables: &'a TaskTables, task: &TaskSpec, class: &str) -> Option<Label<'a>> {
+        let both = [&tables.truth, &tables.prediction].into_iter();
+        let mut labels = both.filter_map(|table| {
+            let column = table.position(&task.name).ok()?;
+            let row = (0..table.rows()).find(|row| key_of(table.cell(*row, column)) == class)?;
+            Some(Label { table, row, column })
+        });
+        labels.next()
     }
 }

@@ -30,11 +30,15 @@ pub struct TaskSpec {
     pub names: Vec<String>,
     /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose by its errors alone.
     pub thresholds: Option<PoseThresholds>,
+    /// Unit of predicted depths; `None` for mm.
+    pub unit: Option<String>,
+    /// Depth above which a pixel is in contact, mm, as a decimal; `None` for 0.02.
+    pub gate: Option<String>,
 }
 
 /// Form of a task, for messages.
-const FORM: &str = "expected NAME=KIND[:positive=CLASS][:names=A|B][:t=MM|MM][:r=DEG|DEG], such as slip=event:positive=slip or \
-     moved=pose:t=0.1|0.5|1:r=0.2|0.5|1";
+const FORM: &str = "expected NAME=KIND[:positive=CLASS][:names=A|B][:t=MM|MM][:r=DEG|DEG][:unit=UNIT][:gate=MM], such as \
+     slip=event:positive=slip, moved=pose:t=0.1|0.5|1:r=0.2|0.5|1 or shape=depth:unit=um";
 
 impl FromStr for TaskSpec {
     type Err = String;
@@ -52,6 +56,8 @@ impl FromStr for TaskSpec {
             positive: None,
             names: Vec::new(),
             thresholds: None,
+            unit: None,
+            gate: None,
         };
         for part in parts {
             match part.split_once('=') {
@@ -67,6 +73,8 @@ impl FromStr for TaskSpec {
                 Some(("r", cuts)) if !cuts.is_empty() => {
                     spec.thresholds.get_or_insert_default().r = listed(cuts);
                 }
+                Some(("unit", unit)) if !unit.is_empty() => spec.unit = Some(unit.to_owned()),
+                Some(("gate", gate)) if !gate.is_empty() => spec.gate = Some(gate.to_owned()),
                 _ => return Err(format!("`{}` of `{}`: {FORM}", shown(part), shown(word))),
             }
         }
@@ -78,8 +86,20 @@ impl FromStr for TaskSpec {
 impl TaskSpec {
     fn check(&self) -> Result<(), String> {
         let name = shown(&self.name);
+        let has_classes = self.positive.is_some() || !self.names.is_empty();
+        let has_maps = self.unit.is_some() || self.gate.is_some();
         match self.kind {
-            TaskKind::Pose if self.positive.is_some() || !self.names.is_empty() => Err(format!(
+            TaskKind::Place | TaskKind::Depth if has_classes || self.thresholds.is_some() => {
+                Err(format!(
+                    "`{name}`: a task of the kind {} has neither classes nor thresholds; omit `positive`, `names`, `t` and `r`",
+                    self.kind.name()
+                ))
+            }
+            kind if has_maps && kind != TaskKind::Depth => Err(format!(
+                "`{name}`: `unit` and `gate` are of depth maps, but its kind is {}",
+                kind.name()
+            )),
+            TaskKind::Pose if has_classes => Err(format!(
                 "`{name}`: a pose has no classes; omit `positive` and `names`"
             )),
             _ if self.names.iter().any(String::is_empty) => Err(format!(

@@ -19,6 +19,7 @@ impl Check<'_> {
             hysteresis,
             surface,
             idle,
+            slip,
         } = protocol;
         for (key, count) in [
             ("points", &calibration.points),
@@ -36,6 +37,8 @@ impl Check<'_> {
         // A single trial repeats nothing, and a single frame has no rate.
         self.count("trials", &repeatability.trials, 2, GREATEST_COUNT)?;
         self.count("frames", &idle.frames, 2, GREATEST_COUNT)?;
+        self.count("strokes", &slip.strokes, 0, GREATEST_COUNT)?;
+        self.count("window", &slip.window, 1, 64)?;
         for (key, length) in [
             ("indenter_radius_mm", &contact.indenter_radius_mm),
             ("step_mm", &contact.step_mm),
@@ -47,6 +50,10 @@ impl Check<'_> {
             ("depth_min_mm", &spatial.depth_min_mm),
             ("depth_step_mm", &repeatability.depth_step_mm),
             ("depth_step_mm", &hysteresis.depth_step_mm),
+            ("speed_mm_s", &slip.speed_mm_s),
+            ("rate_hz", &slip.rate_hz),
+            ("length_mm", &slip.length_mm),
+            ("depth_mm", &slip.depth_mm),
         ] {
             self.length(key, length)?;
         }
@@ -64,6 +71,7 @@ impl Check<'_> {
         // In contact, the tip must be able to stop within a step.
         self.range("speed_mm_s", &contact.speed_mm_s, 5.0)?;
         self.range("depth_fraction", &gratings.depth_fraction, 1.0)?;
+        self.range("friction", &slip.friction, 5.0)?;
         boards::spacings(gratings)
             .map(drop)
             .map_err(|refused| self.text.error(refused.at, refused.problem))

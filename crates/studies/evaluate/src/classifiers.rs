@@ -1,0 +1,110 @@
+//! Models that predict the labels of a task.
+
+use taceva_core::shown;
+use taceva_dataset::{Dataset, Task, TaskKind};
+use taceva_models::{Model, ModelSettings};
+
+use crate::error::EvaluateError;
+use crate::fit::FitRequest;
+
+/// Models that predict one of the labels of the training part.
+pub const CLASSIFIERS: [&str; 8] = [
+    "lda",
+    "linfa/logistic",
+    "smartcore/knn-classifier",
+    "cnn",
+    "resnet10",
+    "resnet18",
+    "resnet34",
+    "auto",
+];
+
+/// Number of [`CLASSIFIERS`] that predict no numbers, the first ones.
+const CLASSIFIERS_ALONE: usize = 3;
+
+/// Setting of models that predict either numbers or classes.
+const HEAD: &str = "head";
+
+/// Model of poses, and of classes, if the user names none.
+const USUAL: [&str; 2] = ["ridge", "lda"];
+
+/// Model for the task called `name` if the user names none.
+pub fn usual_model(dataset: &Dataset, name: &str) -> &'static str {
+    let [of_poses, of_classes] = USUAL;
+    let mut tasks = dataset.tasks().iter().map(|own| own.task());
+    match tasks.any(|task| task.name == name && task.kind == TaskKind::Pose) {
+        true => of_poses,
+        false => of_classes,
+    }
+}
+
+/// `fit` with the settings by which its model predicts the labels of `task`: classes, or the numbers of a pose.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a model of numbers and a task of classes, and the reverse.
+pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
+    if task.kind != TaskKind::Pose {
+        return as_classifier(fit, task);
+    }
+    let model = fit.model.name();
+    // The others predict numbers too.
+    let of_classes = CLASSIFIERS.iter().take(CLASSIFIERS_ALONE);
+    if of_classes.copied().any(|classifier| classifier == model) {
+        let [usual, _] = USUAL;
+        return Err(EvaluateError::Request(format!(
+            "task `{}`: {} predicts labels of the training part, and poses are numbers, expected another model, such as --model {usual}",
+            shown(&task.name),
+            shown(model)
+        )));
+    }
+    Ok(fit)
+}
+
+/// `fit` with the settings by which its model predicts the classes of `task`.
+///
+/// # Errors
+/// [`EvaluateError::Request`] for a model that is not one of [`CLASSIFIERS`].
+fn as_classifier(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
+    let model = fit.model.name();
+    if !CLASSIFIERS.contains(&model) {
+        return Err(EvaluateError::Request(format!(
+            "task `{}`: {} predicts numbers between the classes, expected a classifier: --model {}",
+            shown(&task.name),
+            shown(model),
+            CLASSIFIERS.join(" or --model ")
+        )));
+    }
+    if !fit.model.setting_keys().contains(&HEAD) {
+        return Ok(fit);
+    }
+    let words = fit.settings.words();
+    let words = words.filter(|word| !word.starts_with("head="));
+    let words: Vec<String> = words.chain([format!("{HEAD}=classes")]).collect();
+    Ok(FitRequest {
+        settings: ModelSettings::parse(words.iter().map(String::as_str))?,
+        ..fit
+    })
+}
+
+/// Dataset whose labels are those that `model` predicts: the classes of its task, if the dataset has the task; otherwise `None`.
+///
+/// # Errors
+/// [`EvaluateError::Unsuited`] for a task of the same name with other classes.
+pub fn labelled_for(dataset: &Dataset, model: &Model) -> Result<Option<Dataset>, EvaluateError> {
+    let Some(card) = &model.card().provenance.task else {
+        return Ok(None);
+    };
+    let mut tasks = dataset.tasks().iter().map(|own| own.task());
+    let Some(task) = tasks.find(|task| task.name == card.name) else {
+        return Ok(None);
+    };
+    if task.names != card.names {
+        return Err(EvaluateError::Unsuited(format!(
+            "it predicts the classes {} of the task `{}`, and the dataset has {}: import the dataset with the same `names` in its map",
+            card.names.join(", "),
+            shown(&card.name),
+            task.names.join(", ")
+        )));
+    }
+    Ok(Some(dataset.of_task(&card.name)?))
+}

@@ -1,0 +1,249 @@
+//! Depth maps of a dataset beside those of an array, as states of a task.
+
+use std::collections::BTreeMap;
+use std::fs::File;
+use std::path::Path;
+
+use taceva_core::{SourceUnit, Unit, counted, shown};
+use taceva_dataset::{Dataset, DatasetError, Digest, Task, TaskKind};
+use taceva_import::MapsFile;
+use taceva_models::Part;
+use taceva_tasks::depth::{DepthError, DepthMap, DepthState, DepthTask};
+use taceva_tasks::{TaskState, WorstSample};
+
+use super::mean_map::{mean_map, rows_of};
+use super::{TaskRequest, TaskSpec};
+use crate::error::EvaluateError;
+use crate::subject;
+use crate::task_state_file::TaskStates;
+
+/// States of the depth maps of the task `of`, whose truth is a dataset.
+pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates, EvaluateError> {
+    if request.tasks.len() > 1 {
+        return Err(EvaluateError::Request(format!(
+            "`{}` has depth maps, whose truth is a dataset: score it without other tasks",
+            shown(&of.name)
+        )));
+    }
+    if request.tables.key.is_some() {
+        return Err(EvaluateError::Request(format!(
+            "a key is given for the depth maps `{}`, which are paired in the order of the samples of the dataset: omit it",
+            shown(&of.name)
+        )));
+    }
+    let (truth, prediction) = (&request.tables.truth, &request.tables.prediction);
+    if !truth.is_dir() {
+        return Err(EvaluateError::Tables {
+            path: truth.clone(),
+            problem: format!(
+                "no dataset: the truth of the depth maps `{}` is a dataset with [task.{}], made by `taceva import`",
+                shown(&of.name),
+                shown(&of.name)
+            ),
+        });
+    }
+    let dataset = Dataset::open(truth)?;
+    let task = task_of(&dataset, of, request.cluster.as_deref())?;
+    let unit = unit_of(of)?;
+    let maps = MapsFile::open(prediction, None)?;
+    let rows = dataset.table().rows();
+    if maps.count() != rows as u64 {
+        return Err(EvaluateError::Tables {
+            path: prediction.clone(),
+            problem: format!(
+                "{} depth maps for {}: expected one for each sample of {}, in their order",
+                maps.count(),
+                counted(rows, "sample"),
+                shown(truth)
+            ),
+        });
+    }
+    let mut tables = BTreeMap::from([("truth".to_owned(), dataset.digest().to_string())]);
+    // A zarr is a folder, which has no digest of its own.
+    if prediction.is_file() {
+        tables.insert("prediction".to_owned(), digest_of(prediction)?.to_string());
+    }
+    let paired = "in the order of the samples of the dataset".to_owned();
+    let mut states = TaskStates::new(paired, tables);
+    states.sources.insert(subject::of(&dataset).source);
+    let scored = Scored {
+        dataset: &dataset,
+        task: &task,
+        maps: &maps,
+        unit,
+    };
+    states.tasks.push(scored.state(depth_task(of, &task)?)?);
+    Ok(states)
+}
+
+/// Content of both sides.
+struct Scored<'a> {
+    dataset: &'a Dataset,
+    task: &'a Task,
+    maps: &'a MapsFile,
+    /// Unit of the predicted depths.
+    unit: SourceUnit,
+}
+
+impl Scored<'_> {
+    fn state(&self, definition: DepthTask) -> Result<TaskState, EvaluateError> {
+        let task = self.task;
+        let (dataset, name) = (self.dataset, task.name.as_str());
+        let clusters = dataset.clusters_of(task);
+        let training = rows_of(dataset.table(), Part::Train);
+        let scored: Vec<usize> = match training.is_empty() {
+            true => (0..dataset.table().rows()).collect(),
+            false => rows_of(dataset.table(), Part::Test),
+        };
+        let mean = mean_map(dataset, name, &training)?;
+        let has_mean = mean.is_some();
+        let definition = match mean {
+            Some(mean) => definition.with_constant(mean),
+            None => definition,
+        };
+        let mut state = DepthState::new(definition);
+        let mut of_task = TaskState::new(name, task.kind.name(), task.cluster.as_str());
+        let mut left_out = 0;
+        for row in scored {
+            let Some(map) = dataset.depth_map(name, row)? else {
+                left_out += 1;
+                continue;
+            };
+            let sample = &dataset.table().samples()[row];
+            let cluster = clusters[row].as_deref().ok_or_else(|| {
+                EvaluateError::Request(format!(
+                    "task `{}`: the sample `{}` has no value in the cluster column `{}`: name another with --cluster COLUMN",
+                    shown(name),
+                    shown(sample),
+                    shown(&task.cluster)
+                ))
+            })?;
+            let refused = |error: DepthError| {
+                let sample = shown(sample);
+                EvaluateError::Request(format!(
+                    "task `{}`, sample `{sample}`: {error}",
+                    shown(name)
+                ))
+            };
+            let truth = DepthMap::new(map.rows, map.columns, map.mm).map_err(refused)?;
+            let [rows, columns] = self.maps.size();
+            let numbers = self.maps.map(row as u64)?.into_iter();
+            let depths = numbers.map(|depth| self.unit.convert(depth)).collect();
+            let predicted = DepthMap::new(rows, columns, depths).map_err(refused)?;
+            state
+                .push(cluster, row as u64 + 1, &truth, &predicted)
+                .map_err(refused)?;
+            if let Some(error) = mean_error_mm(&truth, &predicted) {
+                let worst = WorstSample::new(row, sample.as_str(), cluster, error, "mm");
+                of_task.evidence.add_worst(worst);
+            }
+        }
+        if state.maps() == 0 {
+            return Err(EvaluateError::Request(format!(
+                "task `{}`: no sample{} has a depth map",
+                shown(name),
+                match training.is_empty() {
+                    true => "",
+                    false => " of the declared test part",
+                }
+            )));
+        }
+        if left_out > 0 {
+            let samples = counted(left_out, "sample");
+            of_task
+                .notes
+                .push(format!("{samples} without a depth map, left out"));
+        }
+        if !training.is_empty() {
+            let constant = match has_mean {
+                true => "the constant is the mean map",
+                false => "there is no constant, because no map is",
+            };
+            of_task.notes.push(format!(
+                "only the declared test part is scored, and {constant} of {} of the training part",
+                counted(training.len(), "sample")
+            ));
+        }
+        of_task.depth = Some(state);
+        Ok(of_task)
+    }
+}
+
+/// Mean absolute error of a map over the pixels that are valid in both; `None` without such a pixel.
+fn mean_error_mm(truth: &DepthMap, predicted: &DepthMap) -> Option<f64> {
+    let pairs = truth.mm().iter().zip(predicted.mm());
+    let errors = pairs.map(|(truth, predicted)| (truth - predicted).abs());
+    let valid: Vec<f64> = errors.filter(|error| !error.is_nan()).collect();
+    (!valid.is_empty()).then(|| valid.iter().sum::<f64>() / valid.len() as f64)
+}
+
+/// The task of the dataset, with the clusters of the column `cluster` if that is named.
+fn task_of(dataset: &Dataset, of: &TaskSpec, cluster: Option<&str>) -> Result<Task, EvaluateError> {
+    let own = dataset.tasks().iter().map(|own| own.task());
+    let found = own.clone().find(|task| task.name == of.name);
+    let Some(task) = found.filter(|task| task.kind == TaskKind::Depth) else {
+        let maps = own.filter(|task| task.kind == TaskKind::Depth);
+        let maps: Vec<&str> = maps.map(|task| task.name.as_str()).collect();
+        return Err(EvaluateError::Request(format!(
+            "{} has no depth maps `{}`, expected one of its tasks of kind depth: {}",
+            shown(dataset.path()),
+            shown(&of.name),
+            match maps.as_slice() {
+                [] => "none".to_owned(),
+                maps => maps.join(", "),
+            }
+        )));
+    };
+    let mut task = task.clone();
+    if let Some(cluster) = cluster {
+        if dataset.table().as_text(cluster).is_none() {
+            return Err(EvaluateError::Request(format!(
+                "--cluster `{}`: {} has no such id or attribute",
+                shown(cluster),
+                shown(dataset.path())
+            )));
+        }
+        cluster.clone_into(&mut task.cluster);
+    }
+    Ok(task)
+}
+
+/// Unit of the predicted depths.
+fn unit_of(of: &TaskSpec) -> Result<SourceUnit, EvaluateError> {
+    let symbol = of.unit.as_deref().unwrap_or("mm");
+    let unit = SourceUnit::parse(symbol).ok();
+    let unit = unit.filter(|unit| unit.unit() == Unit::Millimetre);
+    unit.ok_or_else(|| {
+        EvaluateError::Request(format!(
+            "task `{}`: `unit={}` is not a unit of length, such as mm or um",
+            shown(&of.name),
+            shown(symbol)
+        ))
+    })
+}
+
+/// Definition with the gate of `of` and the size of a pixel of the dataset.
+fn depth_task(of: &TaskSpec, task: &Task) -> Result<DepthTask, EvaluateError> {
+    let refused =
+        |problem: String| EvaluateError::Request(format!("task `{}`: {problem}", shown(&of.name)));
+    let mut definition = DepthTask::default();
+    if let Some(gate) = &of.gate {
+        let gate_mm: f64 = gate
+            .parse()
+            .map_err(|_| refused(format!("`gate={}` is not a number of mm", shown(gate))))?;
+        definition = definition
+            .with_gate_mm(gate_mm)
+            .map_err(|error| refused(error.to_string()))?;
+    }
+    if let Some(pixel_mm) = task.maps.as_ref().and_then(|maps| maps.pixel_mm) {
+        definition = definition
+            .with_pixel_mm(pixel_mm)
+            .map_err(|error| refused(error.to_string()))?;
+    }
+    Ok(definition)
+}
+
+fn digest_of(path: &Path) -> Result<Digest, EvaluateError> {
+    let digest = File::open(path).and_then(|mut file| Digest::of_reader(&mut file));
+    Ok(digest.map_err(DatasetError::io("read", path))?)
+}
