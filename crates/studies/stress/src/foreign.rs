@@ -182,10 +182,8 @@ impl NewGel<'_> {
             },
             |_, found| {
                 // The first failure in the order of the rows ends the pass.
-                let found: Vec<Numbers> = found?.map_err(|reason| {
-                    failure = Some(reason.clone());
-                    reason
-                })?;
+                let found: Vec<Numbers> =
+                    found?.inspect_err(|reason| failure = Some(reason.clone()))?;
                 for (all, own) in all.iter_mut().zip(found) {
                     all.stale.extend(own.stale);
                     all.fresh.extend(own.fresh);

@@ -54,7 +54,7 @@ pub(super) fn section(studies: &[Study]) -> Option<(usize, Markup)> {
         (scroll("Scores of tasks", &table))
         @for note in &notes { p.note { (note) } "\n" }
     };
-    (!rows.is_empty()).then(|| (rows.len(), body))
+    (!rows.is_empty()).then_some((rows.len(), body))
 }
 
 #[cfg(test)]
