@@ -7,6 +7,7 @@ use taceva_core::GratingKind;
 
 use super::classifier::GratingClassifier;
 use super::depth_origin::DepthOrigin;
+use super::wear::WearSpec;
 use crate::text::Setting;
 
 /// Declares a table of settings with its defaults.
@@ -49,6 +50,8 @@ pub struct Protocol {
     pub surface: SurfaceMap,
     /// Frames without contact.
     pub idle: Idle,
+    /// Cycles of load between measured stages; `None` for a single stage.
+    pub wear: Option<WearSpec>,
 }
 
 table! {

@@ -1,0 +1,105 @@
+//! One cycle of a load that wears the gel, under the same supervision as every press.
+//!
+//! The tip descends segment by segment from the first contact until the force is reached, then keeps its height. A limit of the gel ends the cycle.
+
+use taceva_core::{Millimetre, Nanometre};
+
+use super::halt_reason::Trip;
+use super::tip::{SPARE_SEGMENTS, Step, Tip};
+use crate::press::LoadCycle;
+
+impl Tip<'_> {
+    /// Makes `cycle` at `place`, from the first contact to the last motion under load.
+    pub(super) fn load(&mut self, place: [Nanometre; 2], cycle: &LoadCycle) -> Step<()> {
+        self.press_until(cycle.force_n())?;
+        let height_mm = self.here().position.z.0;
+        self.stroke(place, cycle, height_mm)
+    }
+
+    /// Makes the sideways motions of `cycle` at `height_mm`.
+    pub(super) fn stroke(
+        &mut self,
+        place: [Nanometre; 2],
+        cycle: &LoadCycle,
+        height_mm: f64,
+    ) -> Step<()> {
+        for offset in cycle.offsets() {
+            let target = Tip::waypoint(place, offset, height_mm, Nanometre(0));
+            self.approach(target)?;
+        }
+        Ok(())
+    }
+
+    /// Descends by segments, each followed by a reading, until the normal force is at least `force_n`.
+    fn press_until(&mut self, force_n: f64) -> Step<()> {
+        let segment_mm = self.pace.segment_mm;
+        let mut patience = SPARE_SEGMENTS + 2.0 * self.pace.bearing.depth_max_mm / segment_mm;
+        while self.felt.normal_n < force_n {
+            let here_mm = self.here().position.z.0;
+            patience -= 1.0;
+            if patience < 0.0 {
+                let distance_mm = (self.target.position.z.0 - here_mm).abs();
+                return Err(self.halt_for(Trip::Diverged { distance_mm }));
+            }
+            let mut below = self.target;
+            below.position.z = Millimetre(here_mm + segment_mm);
+            self.go(below, self.pace.contact)?;
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::{Arc, Mutex};
+
+    use taceva_core::{Limit, PressOutcome};
+
+    use super::*;
+    use crate::press::Motion;
+    use crate::run::one_press::OnePress;
+    use crate::run::rig::{CONTACT_MM, SEGMENT_MM};
+    use crate::scene::WearLoad;
+
+    /// Outcome of one compression to `force` µN on a gel of `stiffness_n_mm`, and the greatest depth of the tip below the gel, in mm.
+    fn compressed(stiffness_n_mm: f64, force: u32) -> (PressOutcome, f64) {
+        let deepest_mm = Arc::new(Mutex::new(0.0_f64));
+        let seen = Arc::clone(&deepest_mm);
+        let felt = move |question: u32, height_mm: f64| {
+            let depth_mm = (height_mm - CONTACT_MM).max(0.0);
+            let mut deepest_mm = seen.lock().expect("whole");
+            *deepest_mm = deepest_mm.max(depth_mm);
+            Some(stiffness_n_mm * depth_mm + f64::from(question) * 1e-6)
+        };
+        let press = OnePress::to(Nanometre(0), felt, |plan| {
+            plan.presses[0].press.motion = Motion::Load(LoadCycle {
+                load: WearLoad::Compression,
+                force,
+                travel: Nanometre(0),
+            });
+        });
+        press.done.expect("a load is no fault");
+        let [record] = &press.log.records[..] else {
+            panic!("{} presses", press.log.records.len());
+        };
+        assert_eq!(record.samples.len(), 0);
+        let deepest_mm = *deepest_mm.lock().expect("whole");
+        (record.outcome, deepest_mm)
+    }
+
+    #[test]
+    fn a_load_ends_within_a_segment_of_its_force_and_gives_no_sample() {
+        let (outcome, deepest_mm) = compressed(0.5, 200_000);
+        assert_eq!(outcome, PressOutcome::Complete);
+        let greatest_mm = 0.4 + SEGMENT_MM + 1e-9;
+        assert!((0.399..greatest_mm).contains(&deepest_mm), "{deepest_mm}");
+    }
+
+    #[test]
+    fn a_gel_too_soft_for_the_force_ends_the_load_at_the_limit_of_depth() {
+        let (outcome, deepest_mm) = compressed(0.25, 1_000_000);
+        assert_eq!(outcome, PressOutcome::Limited(Limit::Depth));
+        // A step to the first contact, and the stated overshoot.
+        assert!(deepest_mm < 1.0 + 0.1 + 0.25, "{deepest_mm}");
+    }
+}
