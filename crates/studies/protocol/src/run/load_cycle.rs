@@ -8,10 +8,18 @@ use super::halt_reason::Trip;
 use super::tip::{SPARE_SEGMENTS, Step, Tip};
 use crate::press::LoadCycle;
 
+/// Rounding error of a depth, in mm.
+const ROUNDING_MM: f64 = 1e-9;
+
 impl Tip<'_> {
-    /// Makes `cycle` at `place`, from the first contact to the last motion under load.
-    pub(super) fn load(&mut self, place: [Nanometre; 2], cycle: &LoadCycle) -> Step<()> {
-        self.press_until(cycle.force_n())?;
+    /// Makes `cycle` at `place`, from the first contact at `contact_mm` to the last motion under load.
+    pub(super) fn load(
+        &mut self,
+        place: [Nanometre; 2],
+        cycle: &LoadCycle,
+        contact_mm: f64,
+    ) -> Step<()> {
+        self.press_until(cycle.force_n(), contact_mm)?;
         let height_mm = self.here().position.z.0;
         self.stroke(place, cycle, height_mm)
     }
@@ -30,19 +38,25 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Descends by segments, each followed by a reading, until the normal force is at least `force_n`.
-    fn press_until(&mut self, force_n: f64) -> Step<()> {
+    /// Descends by segments, each followed by a reading, until the normal force is at least `force_n`. At the greatest depth, it halts.
+    fn press_until(&mut self, force_n: f64, contact_mm: f64) -> Step<()> {
         let segment_mm = self.pace.segment_mm;
-        let mut patience = SPARE_SEGMENTS + 2.0 * self.pace.bearing.depth_max_mm / segment_mm;
+        let limit_mm = self.pace.bearing.depth_max_mm;
+        let mut patience = SPARE_SEGMENTS + 2.0 * limit_mm / segment_mm;
         while self.felt.normal_n < force_n {
             let here_mm = self.here().position.z.0;
+            let depth_mm = here_mm - contact_mm;
+            let left_mm = limit_mm - depth_mm;
+            if left_mm <= ROUNDING_MM {
+                return Err(self.halt_for(Trip::Depth { depth_mm, limit_mm }));
+            }
             patience -= 1.0;
             if patience < 0.0 {
                 let distance_mm = (self.target.position.z.0 - here_mm).abs();
                 return Err(self.halt_for(Trip::Diverged { distance_mm }));
             }
             let mut below = self.target;
-            below.position.z = Millimetre(here_mm + segment_mm);
+            below.position.z = Millimetre(here_mm + segment_mm.min(left_mm));
             self.go(below, self.pace.contact)?;
         }
         Ok(())
@@ -99,7 +113,7 @@ mod tests {
     fn a_gel_too_soft_for_the_force_ends_the_load_at_the_limit_of_depth() {
         let (outcome, deepest_mm) = compressed(0.25, 1_000_000);
         assert_eq!(outcome, PressOutcome::Limited(Limit::Depth));
-        // A step to the first contact, and the stated overshoot.
-        assert!(deepest_mm < 1.0 + 0.1 + 0.25, "{deepest_mm}");
+        // The depth of 1 mm counts from the first contact, at most two steps of 0.1 mm below the gel.
+        assert!((1.0..1.2).contains(&deepest_mm), "{deepest_mm}");
     }
 }

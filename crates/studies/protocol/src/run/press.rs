@@ -144,7 +144,7 @@ impl Run<'_> {
                 self.indent(planned, zero.height.0, gathered)
             }
             Motion::Load(cycle) => {
-                self.tip.load(press.place, cycle)?;
+                self.tip.load(press.place, cycle, height.0)?;
                 Ok(PressOutcome::Complete)
             }
             Motion::Touch | Motion::Rest { .. } => {

@@ -19,9 +19,9 @@ force = {{ driver = "faults/force" }}
 model = {{ name = "ridge" }}
 [protocol]
 contact = {{ clearance_mm = 0.5, search_mm = 1.0 }}
-calibration = {{ points = 5, indentations = 1 }}
-[metrics]
-want = ["sensitivity"]
+calibration = {{ points = 3, indentations = 1 }}
+hysteresis = {{ points = 2, depth_step_mm = 0.4 }}
+idle = {{ frames = 3 }}
 [protocol.wear]
 cycles = [{CYCLES}]
 {load}
@@ -87,7 +87,7 @@ fn on_a_hard_gel_the_limits_hold_during_loads_at_the_greatest_force() {
         assert_eq!(bench.shared.world().oracle.violations, []);
         let checks = bench.shared.world().oracle.checks;
         // The loads did come close to the limit.
-        assert!(checks.greatest_force > 0.8, "{checks:?}");
+        assert!(checks.greatest_force > 0.6, "{checks:?}");
     }
 }
 
