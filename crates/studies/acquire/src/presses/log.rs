@@ -47,11 +47,8 @@ impl RecordedPresses {
     }
 
     /// Schedules recorded presses of `unit` for repetition and comparison. A press is repeated if another press at the same place is missing.
-    /// Cycles of a load are not repeated: no sample records them, so there is nothing to compare.
     pub(super) fn relive(&mut self, plan: &Plan, unit: &str) {
-        let is_measured =
-            |press: &&PlannedPress| press.press.unit == unit && press.press.load().is_none();
-        let of_unit = || plan.presses.iter().filter(is_measured);
+        let of_unit = || plan.presses.iter().filter(|press| press.press.unit == unit);
         let is_recorded = |press: &&PlannedPress| self.has(press.id);
         let missing: BTreeSet<[Nanometre; 2]> = of_unit()
             .filter(|press| !is_recorded(press))
