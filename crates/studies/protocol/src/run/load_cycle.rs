@@ -45,9 +45,14 @@ impl Tip<'_> {
         let mut patience = SPARE_SEGMENTS + 2.0 * limit_mm / segment_mm;
         while self.felt.normal_n < force_n {
             let here_mm = self.here().position.z.0;
-            let depth_mm = here_mm - contact_mm;
-            let left_mm = limit_mm - depth_mm;
-            if left_mm <= ROUNDING_MM {
+            let left_mm = (limit_mm - (here_mm - contact_mm)).max(0.0);
+            let mut below = self.target;
+            below.position.z = Millimetre(here_mm + segment_mm.min(left_mm));
+            self.go(below, self.pace.contact)?;
+            let here_mm = self.here().position.z.0;
+            // In the last segment the tip may lag, as in every motion in contact.
+            if left_mm <= segment_mm + ROUNDING_MM && self.felt.normal_n < force_n {
+                let depth_mm = here_mm - contact_mm;
                 return Err(self.halt_for(Trip::Depth { depth_mm, limit_mm }));
             }
             patience -= 1.0;
@@ -55,9 +60,6 @@ impl Tip<'_> {
                 let distance_mm = (self.target.position.z.0 - here_mm).abs();
                 return Err(self.halt_for(Trip::Diverged { distance_mm }));
             }
-            let mut below = self.target;
-            below.position.z = Millimetre(here_mm + segment_mm.min(left_mm));
-            self.go(below, self.pace.contact)?;
         }
         Ok(())
     }
@@ -71,8 +73,9 @@ mod tests {
 
     use super::*;
     use crate::press::Motion;
+    use crate::run::error::StopCause;
     use crate::run::one_press::OnePress;
-    use crate::run::rig::{CONTACT_MM, SEGMENT_MM};
+    use crate::run::rig::{CONTACT_MM, Rig, SEGMENT_MM, nothing, with_tip};
     use crate::scene::WearLoad;
 
     /// Outcome of one compression to `force` µN on a gel of `stiffness_n_mm`, and the greatest depth of the tip below the gel, in mm.
@@ -115,5 +118,23 @@ mod tests {
         assert_eq!(outcome, PressOutcome::Limited(Limit::Depth));
         // The depth of 1 mm counts from the first contact, at most two steps of 0.1 mm below the gel.
         assert!((1.0..1.2).contains(&deepest_mm), "{deepest_mm}");
+    }
+
+    #[test]
+    fn a_tip_that_stays_above_its_target_reaches_the_limit_of_depth_too() {
+        let rig = Rig::new(CONTACT_MM, nothing);
+        rig.state().lag_mm = SEGMENT_MM / 8.0;
+        let cycle = LoadCycle {
+            load: WearLoad::Compression,
+            force: 1_000_000,
+            travel: Nanometre(0),
+        };
+        let ended = with_tip(&rig, |tip| {
+            tip.release()?;
+            tip.find_pose()?;
+            tip.load([Nanometre(0); 2], &cycle, CONTACT_MM)
+        });
+        let is_limit = matches!(ended, Err(StopCause::Tripped(Trip::Depth { .. })));
+        assert!(is_limit, "{ended:?}");
     }
 }
