@@ -148,7 +148,7 @@ impl<'a> Gather<'a> {
             (Some(limits), Some(footprint)) => {
                 self.depths(limits)?;
                 self.workspace(rig, &footprint)?;
-                self.wear(limits, &footprint)?;
+                self.wear(limits, &footprint, axes)?;
                 Some(PhaseInputs {
                     protocol: &scene.protocol,
                     footprint,

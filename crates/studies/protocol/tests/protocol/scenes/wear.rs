@@ -1,8 +1,9 @@
 //! Tests of `[protocol.wear]`: stages, cycles, presses on the gel, and wrong values.
 
-use taceva_protocol::{Plan, Scene, SourceInfo, WearLoad, plan};
+use taceva_core::{Axes, Facts, ForceFacts};
+use taceva_protocol::{Plan, RigInfo, Scene, SourceInfo, WearLoad, plan};
 
-use super::{GOOD, message, planned, rig, with};
+use super::{GOOD, descriptor, message, planned, rig, with};
 
 /// The valid scene with stages of wear by `lines`.
 fn worn(lines: &str) -> String {
@@ -169,6 +170,25 @@ fn a_travel_is_given_to_loads_that_have_one_and_stays_on_the_sensing_area() {
             "{error}"
         );
     }
+}
+
+#[test]
+fn a_load_that_moves_sideways_needs_a_transducer_that_measures_shear() {
+    let normal = || RigInfo {
+        force: Some(descriptor(
+            "sim/force-transducer",
+            Facts::Force(ForceFacts::default().with_axes(Axes::NORMAL)),
+        )),
+        ..rig()
+    };
+    let lines = "[protocol.wear]\nload = \"shear\"\ncycles = [10]\nforce_N = 1.0\ntravel_mm = 0.5";
+    let error = planned(lines, normal());
+    assert!(
+        error.starts_with("s.toml, line 10: the load `shear` moves sideways in contact"),
+        "{error}"
+    );
+    let lines = "[protocol.wear]\nload = \"compression\"\ncycles = [10]\nforce_N = 1.0";
+    assert!(planned(lines, normal()).starts_with("plan "));
 }
 
 #[test]
