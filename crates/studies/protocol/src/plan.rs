@@ -1,6 +1,6 @@
 //! Plans a study in pure passes. Passes remove and merge parts, never add any, and record the reason for each removal.
 //!
-//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass.
+//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass. `wear` puts loads before the presses.
 
 mod applicability;
 mod check;

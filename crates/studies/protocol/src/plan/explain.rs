@@ -20,7 +20,7 @@ impl fmt::Display for Plan {
             )?;
         }
         if let Some(wear) = &self.wear {
-            writeln!(f, "{}", wear.line())?;
+            writeln!(f, "load  gel     {wear}")?;
         }
         if !self.phases.is_empty() {
             writeln!(

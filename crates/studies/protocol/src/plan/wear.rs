@@ -1,5 +1,7 @@
 //! Cycles of load of a stage, put before its measured presses after all passes. The passes remove nothing of them.
 
+use std::fmt;
+
 use taceva_core::counted;
 
 use super::collect::PlannedPress;
@@ -41,19 +43,17 @@ pub struct PlannedWear {
     pub minutes: f64,
 }
 
-impl PlannedWear {
-    /// Line of a plan.
-    pub(super) fn line(&self) -> String {
-        format!(
-            "load  gel     {} of {} to {} N{}, ~{:.1} h; {} before the measured ones",
-            counted(self.cycles, "cycle"),
-            self.load,
-            self.force_n,
-            self.travel_mm
-                .map_or_else(String::new, |travel| format!(" over {travel} mm")),
-            self.minutes / 60.0,
-            counted(self.presses_since_gel, "press")
-        )
+/// The cycles, their time, and the presses before the measured ones.
+impl fmt::Display for PlannedWear {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let cycles = counted(self.cycles, "cycle");
+        write!(f, "{cycles} of {} to {} N", self.load, self.force_n)?;
+        if let Some(travel_mm) = self.travel_mm {
+            write!(f, " over {travel_mm} mm")?;
+        }
+        let presses = counted(self.presses_since_gel, "press");
+        let hours = self.minutes / 60.0;
+        write!(f, ", ~{hours:.1} h; {presses} before the measured ones")
     }
 }
 
