@@ -7,7 +7,7 @@ use crate::simulation::gel::Gel;
 use crate::simulation::scenario::planned_scene;
 use taceva_protocol::{Mode, PlannedPress};
 
-/// A rig before the last stage of a scene with `cycles` of `load`.
+/// A rig before the only stage of a scene with [`CYCLES`] of `load`.
 fn worn(gel: Gel, load: &str) -> Bench {
     let scene = format!(
         r#"
@@ -76,18 +76,20 @@ fn a_stopped_run_goes_on_at_the_cycle_where_it_stopped() {
 }
 
 #[test]
-fn on_a_hard_gel_the_limits_hold_during_loads_at_the_greatest_force() {
+fn on_a_hard_gel_the_limits_hold_during_loads_near_the_greatest_force() {
     for load in ["compression\"", "shear\"\ntravel_mm = 0.25"] {
-        let mut bench = worn(HARD, &format!("force_N = 1.5\nload = \"{load}"));
+        let mut bench = worn(HARD, &format!("force_N = 1.45\nload = \"{load}"));
+        // The measured presses reach the limit, too.
+        bench.plan.presses.retain(|press| is_load(&press));
         let mut log = Memory::default();
         let report = bench
             .run(Mode::Acquire, &mut log)
             .expect("limits are no faults");
-        assert_eq!(report.made, bench.plan.presses.len());
+        assert_eq!(report.made, CYCLES);
         assert_eq!(bench.shared.world().oracle.violations, []);
         let checks = bench.shared.world().oracle.checks;
         // The loads did come close to the limit.
-        assert!(checks.greatest_force > 0.6, "{checks:?}");
+        assert!(checks.greatest_force > 0.9, "{checks:?}");
     }
 }
 
