@@ -93,6 +93,9 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
         if let Some(line) = shifted(&study.plan) {
             context.say(format_args!("rig: {line}"));
         }
+        if let Some(wear) = &study.plan.wear {
+            context.say(format_args!("rig: {wear}"));
+        }
         if study.is_untaught(drivers) {
             context.say(format_args!(
                 "rig: `origin_mm` and `axes` still have the values of a new file: run `taceva rig teach {}` before a run",

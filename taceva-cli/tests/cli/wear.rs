@@ -131,3 +131,38 @@ fn one_recording_no_day_wrong_limits_and_models_are_refused_by_name() {
         "--model ridge: no such file",
     );
 }
+
+#[test]
+fn a_scene_with_loads_gives_a_recording_of_each_stage_that_states_the_presses_on_the_gel() {
+    let bench = Bench::new();
+    let scene = r#"scene_version = 1
+name = "gel"
+seed = 7
+sensor = { driver = "sim/vitactip:reduction=16" }
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+metrics = { want = ["sensitivity"] }
+[protocol]
+calibration = { points = 6, indentations = 1 }
+wear = { load = "compression", cycles = [0, 3], force_N = 0.2, presses_since_gel = 50 }
+"#;
+    bench.write("gel.toml", scene);
+    let plan = bench.ok("plan gel.toml");
+    assert!(plan.contains("3 cycles of compression to 0.2 N"), "{plan}");
+    bench.ok("run gel.toml --out worn -q");
+    let entries = fs::read_dir(bench.path("worn/recordings")).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("readable").path().join("dataset.toml"));
+    let mut paths: Vec<_> = paths.filter(|path| path.is_file()).collect();
+    paths.sort();
+    let headers = paths
+        .iter()
+        .map(|path| fs::read_to_string(path).expect("a header"));
+    let headers: Vec<String> = headers.collect();
+    // Six measured presses and three cycles lie between the two.
+    let presses = ["presses_since_gel = 50\n", "presses_since_gel = 59\n"];
+    assert_eq!(headers.len(), presses.len(), "{paths:?}");
+    for (header, presses) in headers.iter().zip(presses) {
+        assert!(header.contains("model = \"gel\""), "{header}");
+        assert!(header.contains(presses), "{header}");
+    }
+}

@@ -243,7 +243,12 @@ fn origin(study: &PlannedStudy, rig: &RigSpec, drivers: &Drivers) -> Source {
 fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> RecordingSpec {
     let plan = &study.plan;
     let gel = open.surroundings.gel.clone();
-    let mut sensor = SensorFacts::new(&plan.name).with_serial(plan.units.join(", "));
+    // All stages of wear press the same sensor.
+    let model = plan.wear.as_ref().map_or(&plan.name, |wear| &wear.sensor);
+    let pressed = plan.wear.as_ref().map(|wear| wear.presses_since_gel);
+    let mut sensor = SensorFacts::new(model)
+        .with_serial(plan.units.join(", "))
+        .with_presses_since_gel(pressed);
     sensor.opaque = plan.opaque.map_or(Known::Unknown, Known::Is);
     if let Some(gel) = gel {
         sensor = sensor.with_gel(gel);

@@ -25,8 +25,8 @@ pub use limits::{
     FROZEN_READINGS, Overshoot, RigLimits, SEGMENT_S, STALE_S, Signals, calm_threshold_n,
 };
 pub use phase_kind::PhaseKind;
-pub use plan::{Cost, Fit, Plan, PlannedMetric, PlannedPress, plan};
-pub use press::{Motion, Press, Waypoint};
+pub use plan::{Cost, Fit, Plan, PlannedMetric, PlannedPress, PlannedWear, plan};
+pub use press::{LoadCycle, Motion, Press, Waypoint};
 pub use reason::{Cause, PlanReason, PlanSkip, Subject};
 pub use rig_file::{
     Carried, Jogged, Latency, Registration, RigChangers, RigFile, RigForce, RigLatencies,
@@ -44,7 +44,7 @@ pub use scene::{
     BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, GratingClassifier, Gratings,
     Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec,
     PluginFaultSpec, Protocol, Repeatability, ReportSpec, Scene, SensorSpec, Slip, Spatial,
-    StressSpec, Study, SurfaceMap,
+    StressSpec, Study, SurfaceMap, WearLoad, WearSpec, WearStage,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

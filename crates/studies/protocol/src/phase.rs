@@ -9,14 +9,15 @@ mod repeatability;
 mod slip;
 mod spatial;
 mod surface_map;
+mod wear;
 
 use taceva_core::{Footprint, Nanometre, Phase, Specimen};
 
 use crate::draw::Draws;
 use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press, Waypoint};
-use crate::scene::Protocol;
 use crate::scene::spacings;
+use crate::scene::{Protocol, WearLoad, WearStage};
 
 /// Inputs for drawing presses.
 #[derive(Clone, Debug)]
@@ -90,6 +91,15 @@ impl PhaseInputs<'_> {
             }
             PhaseKind::Slip => u64::from(protocol.slip.strokes.value),
         }
+    }
+
+    /// Cycles of load before the measured presses of `stage`, in order.
+    pub(crate) fn loads(&self, stage: &WearStage) -> Vec<Press> {
+        let spec = self.protocol.wear.as_ref();
+        let load = spec.and_then(|spec| Some((spec, WearLoad::from_name(&spec.load.value)?)));
+        load.map_or_else(Vec::new, |(spec, load)| {
+            wear::presses(self, load, spec, stage)
+        })
     }
 
     fn draws(&self, kind: PhaseKind) -> Draws {

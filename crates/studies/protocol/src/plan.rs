@@ -1,6 +1,6 @@
 //! Plans a study in pure passes. Passes remove and merge parts, never add any, and record the reason for each removal.
 //!
-//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass.
+//! `collect → resolve → applicability → phases → merge → fields → check → cost`, one file for each pass. `wear` puts loads before the presses.
 
 mod applicability;
 mod check;
@@ -14,9 +14,11 @@ mod resolve;
 mod study_facts;
 #[cfg(test)]
 pub(crate) mod tests;
+mod wear;
 
 pub use collect::{Fit, PlannedMetric, PlannedPress};
 pub use cost::Cost;
+pub use wear::PlannedWear;
 
 use taceva_core::{
     Channel, Channels, FieldSet, Footprint, FrameInfo, Nanometre, Outline, SkipReason, Unit,
@@ -70,6 +72,8 @@ pub struct Plan {
     pub frame: Option<FrameInfo>,
     /// Size to which frames are reduced before storage; `None` stores full frames.
     pub kept_frames: Option<FrameSize>,
+    /// Cycles of load before the measured presses; `None` without `[protocol.wear]`.
+    pub wear: Option<PlannedWear>,
     /// Estimated cost.
     pub cost: Cost,
 }
@@ -194,9 +198,11 @@ pub(crate) fn plan_study(
         lights: &lights,
     };
     let facts = gather.facts()?;
-    let collected = check::is_drawable(&facts)
+    let refused = |problem| scene.text.error(None, problem);
+    let mut collected = check::is_drawable(&facts)
         .and_then(|()| refine(Collected::everything(needs, &facts), &facts))
-        .map_err(|problem| scene.text.error(None, problem))?;
+        .map_err(refused)?;
+    let wear = wear::put_before(&mut collected.presses, study, &facts).map_err(refused)?;
     let cost = cost::cost(&collected.presses, &facts);
     Ok(Plan {
         name: study.name.clone(),
@@ -215,6 +221,7 @@ pub(crate) fn plan_study(
         opaque: facts.opaque,
         frame: facts.frame,
         kept_frames: facts.kept_frames,
+        wear,
         cost,
     })
 }

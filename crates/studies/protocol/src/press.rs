@@ -3,6 +3,7 @@
 use taceva_core::{Footprint, Nanometre, Phase, Specimen};
 
 use crate::content_id::{ContentId, Hasher};
+use crate::scene::WearLoad;
 
 /// A press, which consists of an approach, waypoints in contact, and a retreat.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -35,6 +36,44 @@ pub enum Motion {
     Touch,
     /// First contact, followed by these waypoints in order.
     Indent(Vec<Waypoint>),
+    /// First contact, followed by a load that wears the gel. It gives no sample.
+    Load(LoadCycle),
+}
+
+/// One cycle of a load that wears the gel.
+///
+/// ```
+/// use taceva_core::Nanometre;
+/// use taceva_protocol::{LoadCycle, WearLoad};
+///
+/// let cycle = LoadCycle { load: WearLoad::Shear, force: 500_000, travel: Nanometre(250_000) };
+/// assert_eq!(cycle.force_n(), 0.5);
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoadCycle {
+    /// Load.
+    pub load: WearLoad,
+    /// Normal force at which the descent ends, in µN.
+    pub force: u32,
+    /// Sideways travel along x.
+    pub travel: Nanometre,
+}
+
+impl LoadCycle {
+    /// Normal force at which the descent ends, in N.
+    pub fn force_n(&self) -> f64 {
+        f64::from(self.force) / 1e6
+    }
+
+    /// Offsets from the place of the press that the tip visits under load, in order.
+    pub(crate) fn offsets(&self) -> Vec<[Nanometre; 2]> {
+        let to = |x: i64| [Nanometre(x), Nanometre(0)];
+        match self.load {
+            WearLoad::Compression => Vec::new(),
+            WearLoad::Shear => vec![to(self.travel.0), to(-self.travel.0), to(0)],
+            WearLoad::Abrasion => vec![to(self.travel.0)],
+        }
+    }
 }
 
 /// Position at which the tip rests for a sample. It is relative to the zero of the press.
@@ -76,6 +115,11 @@ impl Press {
                         .text(waypoint.phase.name())
                 })
             }
+            Motion::Load(cycle) => hasher
+                .text("load")
+                .text(cycle.load.name())
+                .whole(i64::from(cycle.force))
+                .whole(cycle.travel.0),
         }
         .finish()
     }
@@ -126,6 +170,7 @@ impl Press {
             Motion::Rest { frames } => usize::try_from(*frames).unwrap_or(usize::MAX),
             Motion::Touch => 1,
             Motion::Indent(waypoints) => waypoints.len(),
+            Motion::Load(_) => 0,
         }
     }
 
@@ -133,7 +178,15 @@ impl Press {
     pub fn waypoints(&self) -> &[Waypoint] {
         match &self.motion {
             Motion::Indent(waypoints) => waypoints,
-            Motion::Rest { .. } | Motion::Touch => &[],
+            Motion::Rest { .. } | Motion::Touch | Motion::Load(_) => &[],
+        }
+    }
+
+    /// The cycle of load that the press makes; `None` for a measured press.
+    pub fn load(&self) -> Option<&LoadCycle> {
+        match &self.motion {
+            Motion::Load(cycle) => Some(cycle),
+            Motion::Rest { .. } | Motion::Touch | Motion::Indent(_) => None,
         }
     }
 }
@@ -184,9 +237,17 @@ mod tests {
         assert_eq!(sheared(1_500_000, [5_000_000, 0]), [0, 0]);
     }
 
+    fn load(load: WearLoad, force: u32) -> Motion {
+        Motion::Load(LoadCycle {
+            load,
+            force,
+            travel: Nanometre(1),
+        })
+    }
+
     #[test]
     fn whatever_is_changed_changes_the_name() {
-        let changes: [fn(&mut Press); 8] = [
+        let changes: [fn(&mut Press); 11] = [
             |press| press.unit = "2".into(),
             |press| press.light = Some("S1".into()),
             |press| {
@@ -199,6 +260,9 @@ mod tests {
             |press| press.repeat = Some(0),
             |press| press.motion = Motion::Touch,
             |press| press.motion = Motion::Rest { frames: 1 },
+            |press| press.motion = load(WearLoad::Shear, 1),
+            |press| press.motion = load(WearLoad::Shear, 2),
+            |press| press.motion = load(WearLoad::Abrasion, 1),
         ];
         let mut ids: Vec<ContentId> = changes
             .iter()

@@ -20,6 +20,7 @@ mod event;
 mod force_zero;
 mod halt_reason;
 mod indent;
+mod load_cycle;
 mod load_limit;
 mod log;
 mod motion;

@@ -10,6 +10,7 @@ mod devices;
 mod metrics;
 mod stress;
 mod study;
+mod wear;
 
 pub use builtin::BuiltinScene;
 pub use classifier::GratingClassifier;
@@ -22,6 +23,7 @@ pub use devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
 pub use stress::{PluginFaultSpec, StressSpec};
 pub use study::Study;
+pub use wear::{WearLoad, WearSpec, WearStage};
 
 pub(crate) use boards::spacings;
 

@@ -4,6 +4,7 @@ mod bench;
 mod conduct;
 mod operator;
 mod seeds;
+mod wear;
 
 use std::collections::BTreeSet;
 

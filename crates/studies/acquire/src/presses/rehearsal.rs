@@ -23,8 +23,9 @@ pub fn rehearse_scene(scene: &PlannedScene, workshop: Workshop<'_>) -> Result<us
     let presses: usize = scene
         .studies
         .iter()
-        .map(|study| study.plan.presses.len())
-        .sum();
+        .flat_map(|study| &study.plan.presses)
+        .filter(|press| press.press.load().is_none() || press.press.repeat == Some(0))
+        .count();
     workshop.progress.begin("place", Some(presses as u64));
     let cancel = Cancel::new();
     let mut visited = 0;

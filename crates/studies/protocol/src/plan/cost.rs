@@ -51,6 +51,10 @@ pub(super) fn cost(presses: &[PlannedPress], facts: &StudyFacts<'_>) -> Cost {
             .limits
             .as_ref()
             .map_or(1.0, |limits| limits.overshoot.segment_mm),
+        depth_mm_per_n: facts
+            .limits
+            .as_ref()
+            .map_or(1.0, |limits| limits.depth_max.0 / limits.normal_max.0),
     };
     let mut from = [Nanometre(0); 2];
     let mut seconds = 0.0;
@@ -72,6 +76,8 @@ struct Price<'a> {
     frame_s: f64,
     travel_mm_s: f64,
     segment_mm: f64,
+    /// Assumed depth of a load, in mm, for each N.
+    depth_mm_per_n: f64,
 }
 
 impl Price<'_> {
@@ -94,6 +100,18 @@ impl Price<'_> {
                 }
                 let back = at.0.to_millimetres() + self.contact.clearance_mm.value;
                 seconds + back / self.travel_mm_s
+            }
+            Motion::Load(cycle) => {
+                let depth_mm = cycle.force_n() * self.depth_mm_per_n;
+                let (mut at, mut sideways_mm) = ([Nanometre(0); 2], 0.0);
+                for offset in cycle.offsets() {
+                    sideways_mm += distance(at, offset);
+                    at = offset;
+                }
+                let back = depth_mm + self.contact.clearance_mm.value;
+                let back = back + distance(at, [Nanometre(0); 2]);
+                let under_load = rest + self.guarded(depth_mm + sideways_mm);
+                travel + self.search() + under_load + back / self.travel_mm_s
             }
         }
     }
@@ -121,8 +139,8 @@ mod tests {
     use super::*;
     use crate::plan::plan_study;
     use crate::plan::tests::bench::{SMALL, paper_metrics, rig_of, sensor};
-    use crate::press::Waypoint;
-    use crate::scene::Scene;
+    use crate::press::{LoadCycle, Waypoint};
+    use crate::scene::{Scene, WearLoad};
     use crate::source::SourceInfo;
 
     /// Duration of a press, in s. The test press starts 5 mm away, and moves at 2 mm/s in contact and 8 mm/s in the air. The clearance is 1 mm and segments are
@@ -141,6 +159,7 @@ mod tests {
             frame_s: 0.25,
             travel_mm_s: 8.0,
             segment_mm: 0.125,
+            depth_mm_per_n: 0.5,
         };
         press.press.place = [Nanometre(4_000_000), Nanometre(-2_000_000)];
         press.press.motion = motion;
@@ -187,5 +206,26 @@ mod tests {
         let back = (0.25 + 1.0) / 8.0;
         let expected = 0.625 + search + 2.0 * waypoint + back;
         assert_takes(Motion::Indent(waypoints), true, expected);
+    }
+
+    #[test]
+    fn a_load_costs_its_way_down_its_way_sideways_and_the_way_back() {
+        let search = 0.5 + 8.0 * 0.005;
+        let load = |load| {
+            Motion::Load(LoadCycle {
+                load,
+                force: 500_000,
+                travel: Nanometre(500_000),
+            })
+        };
+        // 0.25 mm down at 2 mm/s with two readings, and 1.25 mm up.
+        let pressed = 0.625 + search + 0.5 + 0.125 + 2.0 * 0.005 + 1.25 / 8.0;
+        assert_takes(load(WearLoad::Compression), false, pressed);
+        // 0.5 mm sideways with four readings, and back in the air.
+        let stroke = 0.25 + 4.0 * 0.005 + 0.5 / 8.0;
+        assert_takes(load(WearLoad::Abrasion), false, pressed + stroke);
+        // 0.5 mm to one side, 1 mm to the other, 0.5 mm back.
+        let sheared = 1.0 + 16.0 * 0.005;
+        assert_takes(load(WearLoad::Shear), false, pressed + sheared);
     }
 }

@@ -19,6 +19,9 @@ impl fmt::Display for Plan {
                 limits.depth_max, limits.normal_max
             )?;
         }
+        if let Some(wear) = &self.wear {
+            writeln!(f, "load  gel     {wear}")?;
+        }
         if !self.phases.is_empty() {
             writeln!(
                 f,
@@ -169,7 +172,12 @@ impl Serialize for Plan {
                 reason: skip.reason.to_string(),
             })
             .collect();
-        let fields = 15 + usize::from(self.kept_frames.is_some()) + usize::from(self.adds_skill());
+        let optional = [
+            self.kept_frames.is_some(),
+            self.adds_skill(),
+            self.wear.is_some(),
+        ];
+        let fields = 15 + optional.into_iter().map(usize::from).sum::<usize>();
         let mut plan = serializer.serialize_struct("Plan", fields)?;
         plan.serialize_field("schema", "taceva.plan/1")?;
         plan.serialize_field("name", &self.name)?;
@@ -191,6 +199,9 @@ impl Serialize for Plan {
         // The recording depends on it, so a run with another frame size is another run.
         if let Some(kept) = &self.kept_frames {
             plan.serialize_field("kept_frames", kept)?;
+        }
+        if let Some(wear) = &self.wear {
+            plan.serialize_field("wear", wear)?;
         }
         let presses: Vec<_> = self.presses.iter().map(WrittenPress::of).collect();
         plan.serialize_field("presses", &presses)?;

@@ -2,6 +2,7 @@
 
 mod gel;
 mod surface;
+mod wear;
 
 use taceva_core::{
     Axes, Axis, Channel, Descriptor, DriverSource, Field, FieldSet, Footprint, FrameInfo,
@@ -147,6 +148,7 @@ impl<'a> Gather<'a> {
             (Some(limits), Some(footprint)) => {
                 self.depths(limits)?;
                 self.workspace(rig, &footprint)?;
+                self.wear(limits, &footprint, axes)?;
                 Some(PhaseInputs {
                     protocol: &scene.protocol,
                     footprint,

@@ -107,6 +107,9 @@ impl Run<'_> {
             let target = Tip::waypoint(press.place, waypoint.shear, height, waypoint.depth);
             self.tip.approach(target)?;
         }
+        if let Some(cycle) = press.load() {
+            self.tip.stroke(press.place, cycle, height)?;
+        }
         (self.events)(&Event::Rehearsed(planned.id));
         Ok(())
     }
@@ -139,6 +142,10 @@ impl Run<'_> {
                 };
                 gathered.zero = Some(zero);
                 self.indent(planned, zero.height.0, gathered)
+            }
+            Motion::Load(cycle) => {
+                self.tip.load(press.place, cycle, height.0)?;
+                Ok(PressOutcome::Complete)
             }
             Motion::Touch | Motion::Rest { .. } => {
                 let rested = self.tip.settle()?;

@@ -45,6 +45,8 @@ pub(super) struct State {
     pub(super) halted: bool,
     /// True if the robot reports motions that it does not make.
     pub(super) stuck: bool,
+    /// Distance above each target at which the tip stays, in mm.
+    pub(super) lag_mm: f64,
     /// Number of attempts to clear a halt that will time out.
     pub(super) unheard: u32,
     /// Height in mm of an obstacle that a guard thread reports once to this supervisor.
@@ -67,6 +69,7 @@ impl Rig {
             height_mm,
             halted: true,
             stuck: false,
+            lag_mm: 0.0,
             unheard: 0,
             obstacle: None,
             questions: 0,
@@ -149,7 +152,7 @@ impl Robot for Rig {
         }
         state.now_s += (to_mm - from_mm).abs() / speed_mm_s;
         if !state.stuck {
-            state.height_mm = to_mm;
+            state.height_mm = to_mm - state.lag_mm;
         }
         Ok(now(&state))
     }

@@ -147,7 +147,12 @@ impl<'a> Run<'a> {
         spec: &RunSpec<'_>,
         log: &mut dyn PressLog,
     ) -> Result<RunReport, RunError> {
-        let of_unit = |press: &&PlannedPress| press.press.unit == spec.unit;
+        // In the air, all cycles of a load are the same.
+        let is_made = |press: &PlannedPress| match (spec.mode, press.press.load()) {
+            (Mode::Rehearse { .. }, Some(_)) => press.press.repeat == Some(0),
+            _ => true,
+        };
+        let of_unit = |press: &&PlannedPress| press.press.unit == spec.unit && is_made(press);
         let presses: Vec<&PlannedPress> = self.plan.presses.iter().filter(of_unit).collect();
         let reference_scene = self.plan.lights.first();
         let is_seen = |press: &&&PlannedPress| {

@@ -24,7 +24,7 @@ use crate::plan::Plan;
 /// Deadline of every call except motions.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
 /// Number of additional segments of a motion, beyond twice those of its path, after which the robot counts as stuck.
-const SPARE_SEGMENTS: f64 = 8.0;
+pub(super) const SPARE_SEGMENTS: f64 = 8.0;
 
 /// Stage while the zero or the present force is unknown: only saturation of the transducer limits the force.
 pub(super) const ANY_FORCE: MotionStage = MotionStage::Retreat {

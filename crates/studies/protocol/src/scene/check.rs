@@ -5,6 +5,7 @@ mod protocol;
 mod recording;
 mod stress;
 mod study;
+mod wear;
 
 use taceva_core::shown;
 
@@ -40,6 +41,7 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
     check.stress(written.stress.as_ref())?;
     check.plugin_faults(&written)?;
     let studies = check.studies(&written)?;
+    let studies = check.stages(studies, written.protocol.wear.as_ref())?;
     Ok(Scene {
         name: written.name.value,
         seed: written.seed,

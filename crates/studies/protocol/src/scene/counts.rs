@@ -7,6 +7,7 @@ use taceva_core::GratingKind;
 
 use super::classifier::GratingClassifier;
 use super::depth_origin::DepthOrigin;
+use super::wear::WearSpec;
 use crate::text::Setting;
 
 /// Declares a table of settings with its defaults.
@@ -51,6 +52,8 @@ pub struct Protocol {
     pub idle: Idle,
     /// Strokes until the indenter slides; none unless the scene asks for them.
     pub slip: Slip,
+    /// Cycles of load between measured stages; `None` for a single stage.
+    pub wear: Option<WearSpec>,
 }
 
 table! {

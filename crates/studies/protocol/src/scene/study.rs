@@ -6,6 +6,7 @@ use taceva_core::DriverKind;
 
 use super::Scene;
 use super::devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
+use super::wear::WearStage;
 use crate::frame_size::FrameSize;
 use crate::limit_spec::LimitSpec;
 use crate::rig_file::RigFile;
@@ -33,6 +34,8 @@ pub struct Study {
     pub frames: Option<Setting<FrameSize>>,
     /// Rig file that names the devices, if any.
     pub rig: Option<Arc<RigFile>>,
+    /// Stage of wear; `None` without `[protocol.wear]`.
+    pub wear: Option<WearStage>,
 }
 
 impl Study {

@@ -4,6 +4,7 @@ mod certificates;
 mod on_a_rig;
 mod planning;
 mod reading;
+mod wear;
 
 use taceva_core::{
     Axes, Descriptor, DescriptorSpec, DriverKey, DriverSource, Facts, Footprint, ForceFacts,

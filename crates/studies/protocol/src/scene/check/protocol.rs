@@ -5,7 +5,7 @@ use crate::scene::boards;
 use crate::scene::counts::Protocol;
 
 /// Greatest count in a scene.
-const GREATEST_COUNT: u64 = 1_000_000;
+pub(super) const GREATEST_COUNT: u64 = 1_000_000;
 
 impl Check<'_> {
     pub(super) fn protocol(&self, protocol: &Protocol) -> Checked {
@@ -20,6 +20,7 @@ impl Check<'_> {
             surface,
             idle,
             slip,
+            wear,
         } = protocol;
         for (key, count) in [
             ("points", &calibration.points),
@@ -72,6 +73,7 @@ impl Check<'_> {
         self.range("speed_mm_s", &contact.speed_mm_s, 5.0)?;
         self.range("depth_fraction", &gratings.depth_fraction, 1.0)?;
         self.range("friction", &slip.friction, 5.0)?;
+        self.wear(wear.as_ref())?;
         boards::spacings(gratings)
             .map(drop)
             .map_err(|refused| self.text.error(refused.at, refused.problem))

@@ -110,6 +110,7 @@ impl Check<'_> {
             model: model.map(|model| model.value.clone()),
             frames: own.or(self.frames(&scene.recording)?),
             rig: None,
+            wear: None,
         })
     }
 
