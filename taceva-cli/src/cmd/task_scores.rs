@@ -1,6 +1,5 @@
 //! Output of the scores of tasks.
 
-use std::io::Write as _;
 use std::path::Path;
 
 use taceva_dataset::Dataset;
