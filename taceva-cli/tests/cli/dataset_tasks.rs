@@ -169,7 +169,7 @@ fn slip_of_the_force_set_of_sparsh_is_imported_by_its_preset_and_scored() {
     bench.ok(&format!(
         "import {drawn} --preset sparsh-force --out slips -q"
     ));
-    let report = bench.json("evaluate slips --task slip --no-cache");
+    let report = bench.json("evaluate slips --task slip --model lda --set size=16x12 --no-cache");
     crate::schema::check("tasks", &report);
     assert_eq!(report["tasks"][0]["positive"], "slip");
     let f1 = estimate(&report, "f1");

@@ -309,11 +309,16 @@ fn a_probability_up_to_one_half_is_refused() {
 fn settings_of_two_rules_are_refused() {
     let text = refusal("rule = \"guarded\"\nr = 1.0\np_conformity = 0.95");
     assert!(
-        text.starts_with("`p_conformity` with rule = \"guarded\""),
+        text.starts_with(
+            "`p_conformity` belongs to rule = \"probability\", but the rule is \"guarded\""
+        ),
         "{text}"
     );
     let text = refusal("r = 1.0");
-    assert!(text.starts_with("`r` with rule = \"simple\""), "{text}");
+    assert!(
+        text.starts_with("`r` belongs to rule = \"guarded\", but the rule is \"simple\""),
+        "{text}"
+    );
     assert_eq!(
         refusal("rule = \"shared\""),
         "rule = \"shared\" needs `most_uncertainty`"
