@@ -211,3 +211,19 @@ fn a_device_that_fails_stops_the_run_with_a_code_of_its_own() {
         "expected 2, 4 or 10 mm",
     );
 }
+
+#[test]
+fn a_lit_sensor_without_pictures_is_pressed_without_its_lamps() {
+    let bench = Bench::new();
+    let scene = r#"scene_version = 1
+name = "force"
+seed = 7
+sensor = { driver = "sim/vitactip:reduction=16" }
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+metrics = { want = ["sensitivity"] }
+protocol = { calibration = { points = 3, indentations = 1 } }
+"#;
+    bench.write("force.toml", scene);
+    bench.ok("run force.toml --out pressed -q");
+}

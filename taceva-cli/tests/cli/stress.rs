@@ -186,7 +186,7 @@ fn a_choice_for_a_rugged_sensor_reads_results_with_faults_and_names_untested_sen
     bench.ok(
         "stress unseen --model m.taceva --faults dust --by parameter --format json --out s.json -q",
     );
-    bench.ok("evaluate unseen --model m.taceva --format json --out e.json -q");
+    bench.ok("evaluate unseen --with m.taceva --format json --out e.json -q");
     let untested = bench.json("choose --need rugged --results e.json");
     assert_eq!(untested["unknown"].as_array().map(Vec::len), Some(1));
     for words in [

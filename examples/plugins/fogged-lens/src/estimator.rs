@@ -34,7 +34,7 @@ impl EstimatorFactory for Fog {
         Err(ModelError::new(ErrorKind::Unsupported, why))
     }
 
-    /// `saved.bytes` has a line for each of severity, seed, sample, width, height and full scale.
+    /// `saved.bytes` has a line for each of severity, seed, sample, width, height, full scale and numbers of a pixel.
     fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
         let severity = severity(saved.bytes).ok_or_else(|| {
             ModelError::new(ErrorKind::Protocol, "expected the lines of a fault with `severity` from 1 to 5")

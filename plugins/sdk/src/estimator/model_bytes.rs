@@ -6,6 +6,8 @@ use crate::failure::Failure;
 
 /// First bytes of every encoded model.
 const MAGIC: &[u8; 8] = b"TACEREG1";
+/// First line of the bytes of a fault of pictures. The host writes them, and every line belongs to the author.
+const FAULT: &str = "taceva.fault/1";
 
 /// Encodes `regressor`.
 pub(super) fn write(regressor: &dyn SavedRegressor) -> Result<Vec<u8>, Failure> {
@@ -39,6 +41,18 @@ pub(super) fn read<R>(
     load: impl FnOnce(&Saved<'_>) -> Result<R, Failure>,
 ) -> Result<R, Failure> {
     let foreign = || Failure::new(ErrorKind::Protocol, "the bytes are not a fitted model");
+    if let Some(numbers) = numbers_of_a_fault(bytes) {
+        let names: &[&str] = match numbers {
+            1 => &["gray"],
+            3 => &["red", "green", "blue"],
+            _ => return Err(foreign()),
+        };
+        let channels = names.iter().map(|name| channel(name));
+        let channels = channels.collect::<Result<Vec<Channel>, Failure>>()?;
+        let channels = Channels::new(channels)
+            .map_err(|error| Failure::new(ErrorKind::Protocol, error.to_string()))?;
+        return load(&Saved::new(bytes, &channels, FeatureShape::flat(numbers)));
+    }
     let mut rest = Rest(bytes);
     if rest.take(MAGIC.len()) != Some(MAGIC) {
         return Err(foreign());
@@ -66,6 +80,16 @@ pub(super) fn read<R>(
         return Err(foreign());
     }
     load(&Saved::new(rest.0, &channels, shape))
+}
+
+/// Numbers of a pixel by the line `numbers=3` of a fault of pictures; `None` for other bytes.
+fn numbers_of_a_fault(bytes: &[u8]) -> Option<usize> {
+    let mut lines = std::str::from_utf8(bytes).ok()?.lines();
+    lines.next().filter(|head| *head == FAULT)?;
+    lines
+        .find_map(|line| line.strip_prefix("numbers="))?
+        .parse()
+        .ok()
 }
 
 /// Channel called `name`. The six channels have their own units; any other channel has the unit 1.

@@ -44,12 +44,11 @@ impl PictureFault for PluginFault {
 
     fn apply(&self, frame: &Frame, severity: u8, sample: &str) -> Result<Frame, String> {
         let info = frame.info();
-        let scale = info.format.full_scale();
+        let (scale, depth) = (info.format.full_scale(), info.format.samples());
         let request = format!(
-            "taceva.fault/1\nseverity={severity}\nseed={}\nsample={sample}\nwidth={}\nheight={}\nfull_scale={scale}\n",
+            "taceva.fault/1\nseverity={severity}\nseed={}\nsample={sample}\nwidth={}\nheight={}\nfull_scale={scale}\nnumbers={depth}\n",
             self.seed, info.width, info.height
         );
-        let depth = info.format.samples();
         let numbers: Vec<f32> = frame.samples().map(f32::from).collect();
         let estimator = Arc::clone(&self.estimator);
         let (sender, receiver) = mpsc::channel();

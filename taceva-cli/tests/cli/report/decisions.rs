@@ -76,7 +76,7 @@ fn settings_of_no_rule_are_bad_input() {
         ),
         (
             "rule = \"guarded\"\nr = 1.0\np_conformity = 0.9",
-            "remove one of the two",
+            "remove the setting, or change the rule",
         ),
     ] {
         limit(&bench, rule, 1.0);

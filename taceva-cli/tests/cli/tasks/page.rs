@@ -42,7 +42,9 @@ fn the_page_of_an_evaluated_task_shows_pictures_of_its_errors() {
     let changed = format!("{},no_slip,{}", &labels[..at], &labels[at + 6..]);
     bench.write("table/labels.csv", &changed);
     bench.ok("import table --map table/map.toml --out changed -q");
-    bench.ok("evaluate changed --task slip --no-cache --html page.html -q");
+    bench.ok(
+        "evaluate changed --task slip --model lda --set size=16x12 --no-cache --html page.html -q",
+    );
     let page = std::fs::read_to_string(bench.path("page.html")).expect("written");
     assert!(page.contains("Pictures of errors"), "{page}");
     assert!(page.contains("no_slip as slip"), "{page}");

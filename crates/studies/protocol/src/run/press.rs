@@ -70,7 +70,9 @@ impl Run<'_> {
             }
             self.mounted = Some(press.specimen);
         }
-        if self.lit != press.light
+        // Without pictures there may be no camera, whose lamps are its own.
+        if planned.frames
+            && self.lit != press.light
             && let Some(light) = &press.light
         {
             self.set_light(light)?;

@@ -239,11 +239,9 @@ mod tests {
             let read = decode::<(u32, FirstWord)>(&bytes);
             assert_eq!(read, Ok((9, FirstWord::OfOtherWire(WIRE + 1))));
         }
-        let said = FirstWord::refusal(2);
-        assert!(
-            said.contains("version 1 of the wire, its host version 2"),
-            "{said}"
-        );
+        let said = FirstWord::refusal(WIRE + 1);
+        let versions = format!("version {WIRE} of the wire, its host version {}", WIRE + 1);
+        assert!(said.contains(&versions), "{said}");
         assert!(said.contains("install the package `taceva`"), "{said}");
     }
 

@@ -4,10 +4,13 @@ use super::columns::indexed;
 use crate::error::ImportError;
 use crate::foreign::{ForeignTable, cell_list};
 
-/// Cell of a row in the column `name`, or one element of a list in the cell: `ft[2]`.
+/// Cell of a row in the column `name`, its name among the members of a JSON object for `key`, or one element of a list in the cell: `ft[2]`.
 pub(super) fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, ImportError> {
     if table.has(name) {
         return Ok(cell_list::plain(&table.cell(row, name)?).to_owned());
+    }
+    if let Some(key) = table.key(row).filter(|_| name == "key") {
+        return Ok(key.to_owned());
     }
     let Some((base, index)) = indexed(name) else {
         return Err(table.no_column(name));
