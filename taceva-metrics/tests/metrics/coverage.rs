@@ -125,7 +125,7 @@ fn the_page_states_the_studies_that_the_example_draws() {
         ),
         (
             "const REPEATS: u32 = 2;",
-            "each point several times, with errors that spread more towards the rim",
+            "presses and releases at random locations, twice each",
         ),
         (
             "const FALLING: &str = \"tolerance_interval\";",
