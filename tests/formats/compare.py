@@ -277,6 +277,10 @@ def picked(column, name):
     return found
 
 
+# Clips alone, whose frames no package decodes to the pixels of their source.
+CLIPS = ["imageio2381"]
+
+
 def compared(source, dataset):
     """Counts equal numbers and pictures; raises at the first difference."""
     reader = next((reader for pattern, reader in READERS if re.fullmatch(pattern.replace("*", "[^/]*"), source)), None)
@@ -341,6 +345,9 @@ def main():
         dataset = Path(sys.argv[2]) / source.replace("/", "-") / "dataset"
         if not dataset.is_dir():
             print(f"{source}: not imported")
+            continue
+        if source in CLIPS:
+            print(f"{source}: clips alone are not compared")
             continue
         try:
             numbers, images, left = compared(source, dataset)

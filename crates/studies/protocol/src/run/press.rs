@@ -71,8 +71,8 @@ impl Run<'_> {
             self.mounted = Some(press.specimen);
         }
         // Without pictures there may be no camera, whose lamps are its own.
-        if planned.frames
-            && self.lit != press.light
+        if self.lit != press.light
+            && (planned.frames || self.has_lamps())
             && let Some(light) = &press.light
         {
             self.set_light(light)?;
@@ -83,6 +83,11 @@ impl Run<'_> {
         let turn = Degree(f64::from(press.turn_millidegrees) / 1e3);
         let height = -self.tip.pace.clearance_mm;
         self.tip.travel(place, turn, height)
+    }
+
+    fn has_lamps(&mut self) -> bool {
+        let camera = self.camera.as_mut();
+        self.lighting.is_some() || camera.is_some_and(|camera| camera.sensor.lighting().is_some())
     }
 
     fn set_light(&mut self, light: &str) -> Step<()> {
