@@ -117,7 +117,7 @@ fn each_table_of_the_page_names_each_fault_and_one_states_its_parameters() {
     };
     for fault in FAULTS {
         let name = format!("`{}`", fault.id);
-        assert_eq!(rows_of_page(&name).len(), 3, "{name}");
+        assert_eq!(rows_of_page(&name).len(), 5, "{name}");
         assert_eq!(numbers(&name), [fault.table.to_vec()], "{name}");
     }
     assert_eq!(numbers("stimulus"), [TARGETS.to_vec()]);
