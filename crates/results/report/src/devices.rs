@@ -20,7 +20,7 @@ pub(crate) struct DeviceKind {
     /// Prefix of the names of its settings.
     prefix: &'static str,
     pub(crate) name: &'static str,
-    /// Its work in a recording, as a predicate.
+    /// Predicate of its work in a recording.
     pub(crate) work: &'static str,
 }
 

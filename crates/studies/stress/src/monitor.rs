@@ -223,7 +223,7 @@ impl Monitor {
     /// Expected number of false alarms in `pictures` untouched pictures, an upper bound for limits that 200 pictures set. Fewer pictures raise it.
     ///
     /// The bound supposes untouched pictures without drift, whose order has no effect. The part of the brightness supposes normal flicker.
-    /// Those of pattern and detail hold for every distribution. Single lines have no part: no alarm is expected if their noise has no outliers. Flicker whose successive pictures are alike raises more alarms (docs/faults.md).
+    /// The parts of pattern and detail hold for every distribution. Single lines have no part: no alarm is expected if their noise has no outliers. Flicker whose successive pictures are alike raises more alarms (docs/faults.md).
     ///
     /// ```
     /// assert!(taceva_stress::Monitor::false_alarms(300_000) < 0.001);

@@ -5,7 +5,6 @@ mod depth;
 mod events;
 mod labels;
 mod mean_map;
-mod place;
 mod pose;
 mod rule;
 mod score_columns;
@@ -125,8 +124,7 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     for task in &request.tasks {
         let rule = request.rules.get(&task.name);
         states.tasks.push(match task.kind {
-            TaskKind::Pose => pose::state(&tables, &clusters, task)?,
-            TaskKind::Place => place::state(&tables, &clusters, task)?,
+            TaskKind::Pose | TaskKind::Place => pose::state(&tables, &clusters, task)?,
             _ => classes::state(&tables, &clusters, task, rule)?,
         });
     }

@@ -1,6 +1,7 @@
-//! Columns of poses, as states of a task.
+//! Columns of poses and places, as states of a task.
 
 use taceva_core::shown;
+use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
 use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
 use taceva_tasks::{TaskState, WorstSample};
@@ -11,51 +12,57 @@ use crate::error::EvaluateError;
 /// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
 const PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
-/// Positions of the seven columns of a pose.
+/// Columns of poses, or of places, which are poses without rotation.
 struct PoseColumns<'a> {
     table: &'a CsvTable,
-    columns: [usize; 7],
+    /// Positions of the columns of translation, and of the quaternion of a pose.
+    columns: Vec<usize>,
+    /// Noun for messages.
+    noun: &'static str,
 }
 
 impl<'a> PoseColumns<'a> {
-    fn of(table: &'a CsvTable, task: &str) -> Result<PoseColumns<'a>, EvaluateError> {
-        let mut columns = [0; 7];
-        for (column, part) in columns.iter_mut().zip(PARTS) {
-            *column = table.position(&format!("{task}.{part}"))?;
-        }
-        Ok(PoseColumns { table, columns })
+    fn of(table: &'a CsvTable, task: &TaskSpec) -> Result<PoseColumns<'a>, EvaluateError> {
+        let (parts, noun) = match task.kind {
+            TaskKind::Place => (&PARTS[..3], "place"),
+            _ => (&PARTS[..], "pose"),
+        };
+        let columns = parts.iter();
+        let columns = columns.map(|part| table.position(&format!("{}.{part}", task.name)));
+        Ok(PoseColumns {
+            table,
+            columns: columns.collect::<Result<_, _>>()?,
+            noun,
+        })
     }
 
-    /// Pose in a row; `None` if all seven cells are empty.
+    /// Pose in a row; `None` if all its cells are empty.
     fn pose(&self, row: usize) -> Result<Option<Pose>, EvaluateError> {
-        let mut numbers = [None; 7];
-        for (number, column) in numbers.iter_mut().zip(self.columns) {
-            *number = self.table.number(row, column)?;
-        }
-        let [
-            Some(x),
-            Some(y),
-            Some(z),
-            Some(qx),
-            Some(qy),
-            Some(qz),
-            Some(qw),
-        ] = numbers
-        else {
-            return match numbers.iter().position(Option::is_none) {
-                Some(missing) if numbers.iter().any(Option::is_some) => {
-                    let expected = "expected a number, as in the other columns of the pose";
-                    Err(self
-                        .table
-                        .refuse(row, self.columns[missing], expected)
-                        .into())
-                }
-                _ => Ok(None),
-            };
+        let cells = self.columns.iter();
+        let cells = cells.map(|column| self.table.number(row, *column));
+        let cells: Vec<Option<f64>> = cells.collect::<Result<_, _>>()?;
+        let numbers: Vec<f64> = cells.iter().copied().flatten().collect();
+        let (translation, quaternion) = match numbers[..] {
+            [x, y, z] if cells.len() == 3 => ([x, y, z], [0.0, 0.0, 0.0, 1.0]),
+            [x, y, z, qx, qy, qz, qw] => ([x, y, z], [qx, qy, qz, qw]),
+            _ => {
+                let missing = cells.iter().position(Option::is_none);
+                return match missing.filter(|_| !numbers.is_empty()) {
+                    Some(missing) => {
+                        let expected = format!(
+                            "expected a number, as in the other columns of the {}",
+                            self.noun
+                        );
+                        let column = self.columns[missing];
+                        Err(self.table.refuse(row, column, &expected).into())
+                    }
+                    None => Ok(None),
+                };
+            }
         };
         let number = row as u64 + 1;
-        Rotation::of_quaternion(number, [qx, qy, qz, qw])
-            .and_then(|rotation| Pose::new(number, [x, y, z], rotation))
+        Rotation::of_quaternion(number, quaternion)
+            .and_then(|rotation| Pose::new(number, translation, rotation))
             .map(Some)
             .map_err(|error| self.refused(&error))
     }
@@ -68,14 +75,14 @@ impl<'a> PoseColumns<'a> {
     }
 }
 
-/// State of a task of poses.
+/// State of a task of poses or places. A prediction at the origin is the constant.
 pub(super) fn state(
     tables: &TaskTables,
     clusters: &Clusters<'_>,
     task: &TaskSpec,
 ) -> Result<TaskState, EvaluateError> {
-    let truth = PoseColumns::of(&tables.truth, &task.name)?;
-    let prediction = PoseColumns::of(&tables.prediction, &task.name)?;
+    let truth = PoseColumns::of(&tables.truth, task)?;
+    let prediction = PoseColumns::of(&tables.prediction, task)?;
     let mut state = PoseState::new(definition(task)?);
     let mut euler = EulerErrors::default();
     let mut of_task = empty(task, clusters);
@@ -86,10 +93,9 @@ pub(super) fn state(
             continue;
         };
         let Some(predicted) = prediction.pose(pair.prediction)? else {
-            let expected = "expected a pose, because the truth has one";
-            let refused = prediction
-                .table
-                .refuse(pair.prediction, prediction.columns[0], expected);
+            let expected = format!("expected a {}, because the truth has one", prediction.noun);
+            let column = prediction.columns[0];
+            let refused = prediction.table.refuse(pair.prediction, column, &expected);
             return Err(refused.into());
         };
         let cluster = clusters.cell(*pair)?;
@@ -102,7 +108,7 @@ pub(super) fn state(
     }
     of_task.unlabelled = left_out;
     of_task.pose = Some(state);
-    of_task.euler = Some(euler);
+    of_task.euler = (task.kind != TaskKind::Place).then_some(euler);
     Ok(of_task)
 }
 
