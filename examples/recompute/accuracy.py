@@ -52,11 +52,11 @@ def skill(study, metric, label, _):
         for channel, (truth, predicted, ok) in pairs.items():
             y, p = truth[ok & kept], predicted[ok & kept]
             of_model += squares(y - p)
-            of_constant += squares(y - study.constants[channel])
+            of_constant += squares(y - study.constants.get(channel, mean(y) if len(y) else 0.0))
         return {"value": (of_constant - of_model) / of_constant if of_constant else Undefined("equal truth")}
 
     nodes = scored(rows, numbers, lambda kept: sum(int((ok & kept).sum()) for _, _, ok in pairs.values()), {"value": "below one"})
-    if len(pairs) == 1:
+    if len(pairs) == 1 and label in study.constants:
         nodes["constant"] = {"value": study.constants[label]}
     return score(nodes, min(int(ok.sum()) for _, _, ok in pairs.values()))
 

@@ -148,11 +148,12 @@ def tolerance(study, metric, label, _):
         return {"value": within(channel, kept, WITHIN) / n if n else Undefined("no samples")}
 
     nodes = by_channel(rows, label, one, count, {"value": "share"})
-    of_constant = []
-    for channel, (truth, _, ok) in pairs.items():
-        off = np.abs(truth[ok] - millionths(study.constants[channel]))
-        of_constant.append(int((off <= whole(WITHIN)).sum()) / int(ok.sum()))
-    nodes["of_constant"] = {"value": mean(of_constant)}
+    if study.constants:
+        of_constant = []
+        for channel, (truth, _, ok) in pairs.items():
+            off = np.abs(truth[ok] - millionths(study.constants[channel]))
+            of_constant.append(int((off <= whole(WITHIN)).sum()) / int(ok.sum()))
+        nodes["of_constant"] = {"value": mean(of_constant)}
     arrays = {}
     if len(pairs) == 1:
         n = count(label, rows.all)

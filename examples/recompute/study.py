@@ -167,9 +167,13 @@ class Study:
         if "split" not in self.results["provenance"]:
             self.parts = None
             return {}
+        predicted = [row for row in self.of_phase["calibration"] if self.is_predicted[row]]
+        if self.results["provenance"]["split"].startswith("cv:"):
+            # The models of the folds share no constant.
+            self.parts = [[], [], self.of_phase["calibration"]]
+            return {}
         self.parts = self.split()
         train, _, test = self.parts
-        predicted = [row for row in self.of_phase["calibration"] if self.is_predicted[row]]
         assert test == predicted, "the test part is not the part with predictions"
         return {channel: float(sum(Fraction(float(self.truth[channel][row])) for row in train) / len(train)) for channel in CHANNELS}
 

@@ -1,6 +1,7 @@
 //! A scene, end to end on the simulated bench: scores, and a folder that survives any interruption.
 
 mod faults;
+mod folds;
 mod limits;
 mod overrides;
 mod recorded;

@@ -57,6 +57,8 @@ pub struct Cache {
     is_of_many: bool,
     /// Features of whole recordings, for the folds of one call.
     memory: Option<features::Memory>,
+    /// Rows whose features are computed together; `None` for all rows with an input.
+    rows: Option<Vec<usize>>,
     /// True if entries are stored in the folder.
     is_on_disk: bool,
     /// Guard that removes leftovers of killed runs once.
@@ -75,6 +77,7 @@ impl Cache {
             models,
             is_of_many: false,
             memory: None,
+            rows: None,
             is_on_disk: true,
             cleared: Once::new(),
             notes: Mutex::default(),
@@ -103,6 +106,19 @@ impl Cache {
             is_of_many: true,
             ..Cache::new(folder, models)
         }
+    }
+
+    /// Cache for the folds of one call that read only the ascending `rows` of one recording. Other frames of the recording are not decoded.
+    pub fn of_folded_rows(outer: Option<&Cache>, rows: Vec<usize>) -> Cache {
+        Cache {
+            rows: Some(rows),
+            ..Cache::of_folds(outer)
+        }
+    }
+
+    /// Rows whose features are computed together; `None` for all rows with an input.
+    pub(crate) fn rows(&self) -> Option<&[usize]> {
+        self.rows.as_deref()
     }
 
     /// True if features are computed for whole recordings.

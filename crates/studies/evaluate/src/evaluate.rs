@@ -26,7 +26,7 @@ use crate::predict::{self, Target};
 use crate::work::Work;
 
 pub use callers_model::{GivenModel, GivenRequest, GivenRows};
-pub use divisions::{fold_divisions, scored_by_default, scored_of_task};
+pub use divisions::{FoldedRows, fold_divisions, scored_by_default, scored_of_task};
 pub use fit_task::fit_task;
 pub use plan::evaluate_plan;
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};

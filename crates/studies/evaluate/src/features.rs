@@ -84,8 +84,9 @@ fn of_whole(
     work: Work<'_>,
 ) -> Result<Features, EvaluateError> {
     let table = recording.table();
-    let all: Vec<usize> = match extractor.input() {
-        InputInfo::Signals(_) => recording.all_rows(),
+    let all: Vec<usize> = match (cache.rows(), extractor.input()) {
+        (Some(rows), _) => rows.to_vec(),
+        (None, InputInfo::Signals(_)) => recording.all_rows(),
         _ => (0..table.rows())
             .filter(|row| table.frames()[*row].is_some())
             .collect(),

@@ -55,9 +55,9 @@ pub use classifiers::{CLASSIFIERS, labelled_for, usual_model};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
-    Asked, Behind, EvaluateRequest, Evaluated, GivenModel, GivenRequest, GivenRows, ModelChoice,
-    TaskRows, evaluate, evaluate_plan, evaluate_task, evaluate_task_rows, fit_task, fold_divisions,
-    score, scored_by_default, scored_of_task, task_division,
+    Asked, Behind, EvaluateRequest, Evaluated, FoldedRows, GivenModel, GivenRequest, GivenRows,
+    ModelChoice, TaskRows, evaluate, evaluate_plan, evaluate_task, evaluate_task_rows, fit_task,
+    fold_divisions, score, scored_by_default, scored_of_task, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};
@@ -83,7 +83,7 @@ pub use report::skipped;
 pub use row_ledger::Taken;
 pub use rows::{DataPart, Divided, Need, require_samples, usable};
 pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
-pub use samples::{add_predictions, of as samples_of, protocol as protocol_words};
+pub use samples::{add_division, add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, TaskRequest,
     TaskRule, TaskSpec, UNKNOWN_ORIGIN, read_table, recount_tables, score_in_one_pass, score_tasks,

@@ -42,7 +42,7 @@ pub fn of(dataset: &Dataset, rows: &[usize]) -> Result<Samples, EvaluateError> {
 }
 
 /// Adds the group and the fold of each of `rows`, if `divided` makes groups or folds.
-pub(crate) fn add_division(samples: &mut Samples, rows: &[usize], divided: &Divided) {
+pub fn add_division(samples: &mut Samples, rows: &[usize], divided: &Divided) {
     if let Some(groups) = &divided.groups {
         let words = rows.iter().map(|&row| Some(groups[row].clone()));
         samples.push_words(Samples::GROUP, words.collect());

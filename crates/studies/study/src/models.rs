@@ -122,6 +122,12 @@ pub(crate) fn fit_request(
     Some(request())
 }
 
+/// Number of folds of the contact points, if the scene asks for a model for each fold.
+pub(crate) fn folds(planned: &PlannedStudy) -> Option<usize> {
+    let folds = planned.study.model.as_ref()?.folds.as_ref()?;
+    usize::try_from(folds.value).ok()
+}
+
 /// File of the fitted model that the scene names, relative to the folder of the scene.
 pub(crate) fn model_file(planned: &PlannedStudy) -> Option<&str> {
     let model = planned.study.model.as_ref()?;

@@ -2,6 +2,7 @@
 
 mod context;
 mod gratings;
+mod learnt;
 mod phase_rows;
 mod score;
 mod slip;
@@ -13,30 +14,24 @@ use taceva_core::Field;
 use taceva_dataset::{Dataset, RecordedSessions, frame_retries, frozen_frames};
 use taceva_files::{parent_of, replace};
 use taceva_metrics::Evaluation;
-use taceva_models::{Checkpoints, Model};
+use taceva_models::Model;
 use taceva_protocol::PhaseKind;
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::{
-    Bounded, Context, Note, ScoredRows, calibration, choices, depth_zeros, device_warnings, reduced,
-};
-use taceva_evaluate::{CachedStage, Key};
-use taceva_evaluate::{DataPart, Divided, Need, usable};
-use taceva_evaluate::{EvaluateError, StateFile};
-use taceva_evaluate::{FitPlan, FitRequest, Recipe};
-use taceva_evaluate::{Predicted, Predictor, Target, predicted_numbers, predicted_table};
-use taceva_evaluate::{
-    add_predictions, model_provenance, over_seeds as scores_over_seeds, protocol_words,
-    provenance_of, samples_of, subject_of,
+    Bounded, Context, Divided, Note, Predicted, ScoredRows, StateFile, add_division,
+    add_predictions, calibration, depth_zeros, device_warnings, over_seeds as scores_over_seeds,
+    protocol_words, provenance_of, reduced, samples_of, subject_of,
 };
 use taceva_results::Provenance;
 
 use crate::error::StudyError;
-use crate::finished::{FinishedStudy, FittedStudy};
-use crate::models::{classifier, fit_request, model_file};
+use crate::finished::FinishedStudy;
+use crate::models::classifier;
 pub(crate) use context::RunContext;
 use gratings::PredictedSpacings;
-use phase_rows::{PhaseRows, seen};
+use learnt::Learnt;
+use phase_rows::PhaseRows;
 use score::{Scores, StudyScores, score};
 
 /// Evaluates `recording` of `study`, and returns it with the report and the model.
@@ -51,7 +46,7 @@ pub(crate) fn assess(
     let first = scene.seeds.first().copied();
     let learnt = Learnt::new(scene, study, dataset, &phase_rows, context, first)?;
     if let (Some(learnt), Some(path)) = (&learnt, context.model) {
-        save_model(&learnt.model, path)?;
+        save_model(learnt.model(), path)?;
     }
     let predicted = learnt
         .as_ref()
@@ -131,20 +126,25 @@ pub(crate) fn assess(
         let jobs = context.work.jobs;
         notes.extend(calibration(dataset, predicted, rows, counts, jobs)?);
     }
-    notes.extend(learnt.iter().flat_map(|learnt| choices(&learnt.model)));
-    let divided = learnt.as_ref().and_then(|learnt| learnt.divided.as_ref());
+    let behind = learnt.as_ref().map(|learnt| learnt.behind(dataset));
+    let behind = behind.transpose()?;
+    notes.extend(behind.iter().flat_map(|behind| behind.notes.clone()));
+    let divided = learnt.as_ref().and_then(Learnt::division);
+    let folds = divided.filter(|divided| !divided.folds.is_empty());
+    notes.extend(
+        folds
+            .and_then(|folds| folds.split.note.clone())
+            .map(Note::Split),
+    );
     let frames_decoded = [
-        learnt.as_ref().map(|learnt| learnt.frames_decoded),
+        learnt.as_ref().map(Learnt::frames_decoded),
         predicted
             .as_ref()
             .map(|(predicted, _)| predicted.frames_decoded),
         spacings.as_ref().map(|spacings| spacings.frames_decoded),
     ];
     let provenance = Provenance {
-        model: learnt
-            .as_ref()
-            .map(|learnt| model_provenance(&learnt.model))
-            .transpose()?,
+        model: behind.map(|behind| behind.model),
         split: divided.map(|divided| divided.spec.to_string()),
         seed: Some(scene.scene.seed),
         phases,
@@ -156,6 +156,9 @@ pub(crate) fn assess(
     let mut samples = samples_of(dataset, &rows)?;
     if let Some(parts) = phase_rows.protocol() {
         samples.insert_protocol(protocol_words(&rows, &parts));
+    }
+    if let Some(folds) = folds {
+        add_division(&mut samples, &rows, folds);
     }
     if let Some((predicted, of_rows)) = &predicted {
         add_predictions(&mut samples, &rows, predicted, of_rows);
@@ -215,141 +218,4 @@ fn save_model(model: &Model, path: &Path) -> Result<(), StudyError> {
     };
     std::fs::create_dir_all(parent_of(path)).map_err(|error| failed(error.to_string()))?;
     model.save(path).map_err(|error| failed(error.to_string()))
-}
-
-/// Fitted or opened model of a study, and the split of its fit.
-struct Learnt {
-    model: Model,
-    divided: Option<Divided>,
-    frames_decoded: u64,
-}
-
-impl Learnt {
-    /// Fits or opens the model that the plan needs, with `seed` if given; `None` if no metric reads predictions.
-    fn new(
-        scene: &PlannedScene,
-        study: &PlannedStudy,
-        dataset: &Dataset,
-        phase_rows: &PhaseRows<'_>,
-        context: RunContext<'_>,
-        seed: Option<u64>,
-    ) -> Result<Option<Learnt>, EvaluateError> {
-        if !phase_rows.reads_predictions() {
-            return Ok(None);
-        }
-        if let Some(file) = model_file(study) {
-            let model = context
-                .models
-                .open(&scene.text.folder.join(file))
-                .map_err(|error| EvaluateError::Request(error.to_string()))?;
-            return Ok(Some(Learnt {
-                divided: Divided::by_model(dataset, &model)?,
-                model,
-                frames_decoded: 0,
-            }));
-        }
-        let Some(request) = fit_request(study, scene.scene.seed, context.models) else {
-            return Ok(None);
-        };
-        let mut request = FitRequest {
-            channels: phase_rows.predicted_channels(),
-            ..request?
-        };
-        if let Some(seed) = seed {
-            request = request.with_seed(seed)?;
-        }
-        let recipe = Recipe::of(&request)?;
-        let divided = phase_rows.divided(&request)?;
-        let mut plan = FitPlan::on(dataset, &request, recipe, divided.clone())?;
-        // Only one training keeps a checkpoint; the cache holds the finished ones of other seeds.
-        if seed == scene.seeds.first().copied() {
-            plan.keep_checkpoints(Checkpoints::at(context.checkpoint.to_owned()));
-        }
-        let key = Key::of(CachedStage::Fit)
-            .part("dataset", &dataset.digest().to_string())
-            .whole("request", &request)
-            .whole("divided", &divided)
-            .finish();
-        let frames_decoded = plan.frames_to_decode();
-        let model = context
-            .cache
-            .value(&key, || plan.run(context.work).map(|fitted| fitted.model))?;
-        Ok(Some(Learnt {
-            model,
-            divided: Some(divided),
-            frames_decoded,
-        }))
-    }
-
-    /// The model with the calibration samples that it has not seen.
-    fn into_fitted(self, dataset: &Dataset, phase_rows: &PhaseRows<'_>) -> FittedStudy {
-        let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
-        let mut rows = phase_rows.rows(PhaseKind::Calibration);
-        rows.retain(|row| seen.binary_search(row).is_err());
-        let need = Need {
-            frame: true,
-            labels: None,
-        };
-        let usable = usable(dataset, &rows, need);
-        let part = match self.divided {
-            Some(_) => DataPart::Test,
-            None => DataPart::All,
-        };
-        FittedStudy {
-            model: self.model,
-            unseen: Target {
-                part,
-                left_out: rows.len() - usable.len(),
-                rows: usable,
-                divided: self.divided,
-            },
-        }
-    }
-
-    /// Predictions of all rows that a metric reads, except the rows of the fit.
-    fn predict(
-        &self,
-        study: &PlannedStudy,
-        dataset: &Dataset,
-        phase_rows: &PhaseRows<'_>,
-        RunContext { work, cache, .. }: RunContext<'_>,
-    ) -> Result<(Predicted, Vec<usize>), EvaluateError> {
-        let seen = self.divided.as_ref().map_or_else(Vec::new, seen);
-        let phases = phase_rows.predicted_phases();
-        let mut rows: Vec<usize> = phases
-            .into_iter()
-            .flat_map(|kind| phase_rows.rows(kind))
-            .chain(phase_rows.of_other_units().iter().copied())
-            .collect();
-        rows.sort_unstable();
-        rows.dedup();
-        rows.retain(|row| seen.binary_search(row).is_err());
-        let need = Need {
-            frame: self.model.reads_features(),
-            labels: None,
-        };
-        let usable = usable(dataset, &rows, need);
-        if usable.is_empty() {
-            return Err(EvaluateError::Request(format!(
-                "study `{}` has no sample to predict",
-                study.plan.name
-            )));
-        }
-        let target = Target {
-            part: DataPart::All,
-            left_out: rows.len() - usable.len(),
-            rows: usable,
-            divided: None,
-        };
-        let key = Key::of(CachedStage::Predict)
-            .part("dataset", &dataset.digest().to_string())
-            .part("model", &self.model.digest()?)
-            .whole("rows", &target.rows)
-            .finish();
-        let numbers = cache.value(&key, || {
-            predicted_numbers(dataset, &self.model, &target, work)
-        })?;
-        let predicted = predicted_table(dataset, Predictor::of(&self.model), &target, &numbers)?;
-        Ok((predicted, target.rows))
-    }
 }

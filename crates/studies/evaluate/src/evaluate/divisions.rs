@@ -2,7 +2,7 @@
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Task};
-use taceva_models::SplitSpec;
+use taceva_models::{FoldGroups, FoldSpec, Fractions, SplitKind, SplitSpec};
 
 use super::{folds, task_division};
 use crate::error::EvaluateError;
@@ -26,6 +26,41 @@ pub fn fold_divisions(
         ))
     })?;
     Ok(folds.into_divisions())
+}
+
+/// Folds of some rows of a dataset.
+#[derive(Debug)]
+#[non_exhaustive]
+pub struct FoldedRows {
+    /// Division that combines the test parts of all folds.
+    pub whole: Divided,
+    /// Division of each fold.
+    pub folds: Vec<Divided>,
+}
+
+impl FoldedRows {
+    /// Divides the ascending `rows` of `dataset` into `count` folds by contact point. All other rows are in no part.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Split`] if the rows name no contact points, or fewer than `count`.
+    pub fn by_point(
+        dataset: &Dataset,
+        rows: &[usize],
+        count: usize,
+        seed: u64,
+    ) -> Result<FoldedRows, EvaluateError> {
+        let spec = FoldSpec {
+            count: Some(count),
+            by: FoldGroups::Points,
+        };
+        let whole = SplitSpec {
+            kind: SplitKind::Folds(spec.clone()),
+            fractions: Fractions::default(),
+        };
+        let folds = folds::Folds::of_groups(dataset, rows, whole, spec, seed)?;
+        let (whole, folds) = folds.into_parts();
+        Ok(FoldedRows { whole, folds })
+    }
 }
 
 /// Samples that [`evaluate`](crate::evaluate) scores if no split is named and the default is a cross-validation: the test part of the division. `None` if the

@@ -1,12 +1,13 @@
 //! Cross-validation. A model fitted on the other groups, or recordings, predicts each group of samples, or each recording.
 
+mod by_group;
 mod common_model;
 mod default_split;
 
 use std::collections::BTreeSet;
 
 use taceva_dataset::Dataset;
-use taceva_models::{FoldGroups, FoldSpec, Fractions, Split, SplitError, SplitKind, SplitSpec};
+use taceva_models::{Fractions, Split, SplitError, SplitKind, SplitSpec};
 
 use super::fold_progress::FoldProgress;
 use super::request::{EvaluateRequest, Evaluated};
@@ -16,13 +17,13 @@ use crate::cache::Cache;
 use crate::calibration_rows::PlannedRows;
 use crate::error::EvaluateError;
 use crate::fit::{FitPlan, FitRequest, Recipe};
-use crate::grouping::{Grouping, SplitFields, of_all_rows};
 use crate::note::Note;
 use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
-use common_model::together;
+pub(crate) use by_group::fold_name;
+pub(crate) use common_model::together;
 use default_split::default_split;
 
 /// Divisions that together test every sample.
@@ -98,7 +99,9 @@ pub(crate) fn of_spec<'a>(
         SplitKind::LeaveOneRecordingOut => Folds::of_recordings(dataset, spec, seed),
         SplitKind::Folds(folds) => {
             let folds = folds.clone();
-            Folds::of_groups(dataset, spec, folds, seed)
+            let planned = PlannedRows::of(dataset)?;
+            let rows = planned.map_or_else(|| dataset.all_rows(), |planned| planned.rows);
+            Folds::of_groups(dataset, &rows, spec, folds, seed)
         }
         _ => return Ok(None),
     }
@@ -161,81 +164,6 @@ impl<'a> Folds<'a> {
         })
     }
 
-    fn of_groups(
-        dataset: &'a Dataset,
-        spec: SplitSpec,
-        folds: FoldSpec,
-        seed: u64,
-    ) -> Result<Folds<'a>, EvaluateError> {
-        let planned = PlannedRows::of(dataset)?;
-        let rows = planned.map_or_else(|| dataset.all_rows(), |planned| planned.rows);
-        let by = match folds.by {
-            FoldGroups::Detected => Grouping::of(dataset, &rows).folds(),
-            by => by,
-        };
-        let folds = FoldSpec { by, ..folds };
-        let spec = SplitSpec {
-            kind: SplitKind::Folds(folds.clone()),
-            ..spec
-        };
-        let fields = SplitFields::of(dataset, &rows, &spec.kind);
-        let made = folds.folds(&fields.input(rows.len()), spec.fractions, seed)?;
-        let splits: Vec<&Split> = made.splits.iter().collect();
-        let neighbours = fields.neighbours(dataset, &rows, &spec.kind, &splits);
-        let groups = fields.groups_of_rows(dataset, &rows, &spec.kind);
-        let are_independent = fields.are_independent(dataset, &rows, &spec.kind);
-        let named = made.groups.iter().filter(|name| !name.is_empty());
-        let named = named.collect::<BTreeSet<_>>().len();
-        let (count, all) = (made.splits.len(), dataset.table().rows());
-        let are_several = folds.by != FoldGroups::Samples;
-        let groups_of_rows = are_several.then(|| of_all_rows(&made.groups, &rows, all));
-        let mut tested: Vec<usize> = splits.iter().flat_map(|split| split.test.clone()).collect();
-        tested.sort_unstable();
-        let tested: Vec<usize> = tested.into_iter().map(|at| rows[at]).collect();
-        let among = |split: &Split| split.test.iter().map(|&at| rows[at]).collect();
-        let tested_by_fold: Vec<Vec<usize>> = made.splits.iter().map(among).collect();
-        let left_out = (0..all).filter(|row| tested.binary_search(row).is_err());
-        let whole = Split {
-            left_out: left_out.collect(),
-            test: tested,
-            note: Some(format!(
-                "each sample was predicted once, by one of {count} models fitted without its group ({named} groups), whose settings were \
-                 chosen on the groups of its fit; the baseline of skill is the mean of the truth, because these models share no constant"
-            )),
-            ..Split::default()
-        };
-        let divided = |split| Divided {
-            spec: spec.clone(),
-            seed,
-            split,
-            neighbours: neighbours.clone(),
-            groups: groups.clone(),
-            are_independent,
-            folds: Vec::new(),
-        };
-        let folds = made
-            .splits
-            .into_iter()
-            .enumerate()
-            .map(|(number, split)| Fold {
-                name: format!("fold {}", number + 1),
-                divided: divided(match rows.len() < all {
-                    true => split.among(&rows, all),
-                    false => split,
-                }),
-            });
-        Ok(Folds {
-            dataset,
-            folds: folds.collect(),
-            whole: Divided {
-                folds: tested_by_fold,
-                ..divided(whole)
-            },
-            groups: groups_of_rows,
-            are_recordings: false,
-        })
-    }
-
     /// Group of every row of the dataset, if whole groups are left out; `None` for single samples and for recordings.
     pub(crate) fn groups(&self) -> Option<&[String]> {
         self.groups.as_deref()
@@ -244,6 +172,12 @@ impl<'a> Folds<'a> {
     /// Division that combines all folds: every sample of a group is in its test part.
     pub(crate) fn into_whole(self) -> Divided {
         self.whole
+    }
+
+    /// Division that combines all folds, and the division of each fold.
+    pub(crate) fn into_parts(self) -> (Divided, Vec<Divided>) {
+        let folds = self.folds.into_iter();
+        (self.whole, folds.map(|fold| fold.divided).collect())
     }
 
     /// Division of each fold.

@@ -8,6 +8,7 @@ use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::Model;
 use taceva_results::{ModelProvenance, Provenance, RecordingScores};
 
+use super::folds::{fold_name, together};
 use super::notes::{few_clusters, within};
 use super::passes::Passes;
 use super::request::{Asked, Evaluated};
@@ -39,9 +40,10 @@ pub(super) fn metrics(
 
 /// Description of the model, or of several models, behind a result.
 pub struct Behind {
-    pub(super) model: ModelProvenance,
+    /// Origin of the model.
+    pub model: ModelProvenance,
     /// Notes on the model.
-    pub(super) notes: Vec<Note>,
+    pub notes: Vec<Note>,
     /// Facts of the fit, if the model was fitted for this result.
     pub(super) fit: FitFacts,
 }
@@ -57,6 +59,13 @@ impl Behind {
             notes: choices(model).collect(),
             fit: FitFacts::default(),
         })
+    }
+
+    /// Description of the models of all folds of a cross-validation of `dataset`, in the order of the folds.
+    pub fn of_folds(dataset: &Dataset, models: Vec<Behind>) -> Behind {
+        let names: Vec<String> = (1..=models.len()).map(fold_name).collect();
+        let named = names.iter().map(String::as_str).zip(models);
+        together(dataset, named.collect())
     }
 }
 

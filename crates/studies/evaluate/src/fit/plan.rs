@@ -147,7 +147,7 @@ impl<'a> FitPlan<'a> {
     }
 
     /// Number of kinds of features. Every frame is decoded once for each kind.
-    pub(crate) fn passes(&self) -> u64 {
+    pub fn passes(&self) -> u64 {
         if self.closer.is_some() { 2 } else { 1 }
     }
 

@@ -106,7 +106,7 @@ impl Predicted {
     }
 
     /// Sorts the predictions of `rows` by row, the order of the recording. Also returns the sorted rows.
-    pub(crate) fn in_order_of(self, rows: Vec<usize>) -> (Vec<usize>, Predicted) {
+    pub fn in_order_of(self, rows: Vec<usize>) -> (Vec<usize>, Predicted) {
         let mut order: Vec<usize> = (0..rows.len()).collect();
         order.sort_by_key(|at| rows[*at]);
         let columns = |columns: Vec<Column>| -> Vec<Column> {

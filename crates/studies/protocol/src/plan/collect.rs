@@ -102,6 +102,8 @@ pub struct Fit {
     pub field: Field,
     /// Phase whose presses the model is fitted on.
     pub phase: PhaseKind,
+    /// Number of folds of the contact points, each predicted by a model of its own. `None` for one model.
+    pub folds: Option<u32>,
 }
 
 /// A plan in progress. It is complete at first, and becomes smaller with each pass.
@@ -159,10 +161,12 @@ impl Collected {
                 Fit {
                     field: Field::Prediction,
                     phase: PhaseKind::Calibration,
+                    folds: facts.folds,
                 },
                 Fit {
                     field: Field::PredictedSpacing,
                     phase: PhaseKind::Gratings,
+                    folds: None,
                 },
             ],
             // The protocol cannot press a taxel sensor yet.

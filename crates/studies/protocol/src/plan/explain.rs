@@ -45,7 +45,11 @@ impl fmt::Display for Plan {
             }
         }
         for fit in &self.fits {
-            writeln!(f, "fit   model   {} on {}", fit.field, fit.phase)?;
+            write!(f, "fit   model   {} on {}", fit.field, fit.phase)?;
+            match fit.folds {
+                Some(folds) => writeln!(f, ", a model for each of {folds} folds of its points")?,
+                None => writeln!(f)?,
+            }
         }
         let fields: Vec<String> = self.fields.iter().map(|field| field.to_string()).collect();
         if !fields.is_empty() {
@@ -162,6 +166,7 @@ impl Serialize for Plan {
             .map(|fit| WrittenFit {
                 predicts: fit.field.name(),
                 phase: fit.phase.name(),
+                folds: fit.folds,
             })
             .collect();
         let skipped: Vec<_> = self
@@ -220,6 +225,8 @@ struct WrittenMetric<'a> {
 struct WrittenFit {
     predicts: &'static str,
     phase: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    folds: Option<u32>,
 }
 
 #[derive(serde::Serialize)]

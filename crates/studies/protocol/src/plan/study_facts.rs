@@ -48,6 +48,8 @@ pub(crate) struct StudyFacts<'a> {
     pub(crate) opaque: Option<bool>,
     pub(crate) markers: Option<bool>,
     pub(crate) model: ModelChoice,
+    /// Number of folds of the contact points, if the scene asks for a model for each fold.
+    pub(crate) folds: Option<u32>,
     pub(crate) units: Vec<String>,
     pub(crate) lights: Vec<String>,
     /// Requested metrics; `None` for all.
@@ -172,6 +174,7 @@ impl<'a> Gather<'a> {
             opaque,
             markers,
             model: self.model(),
+            folds: self.folds(scene.protocol.calibration.points.value)?,
             units: self.units.to_vec(),
             lights: self.lights.to_vec(),
             wanted: self.wanted(),
@@ -195,6 +198,7 @@ impl<'a> Gather<'a> {
             opaque,
             markers: self.markers(None)?,
             model: self.model(),
+            folds: self.folds(u32::MAX)?,
             units: Vec::new(),
             lights: Vec::new(),
             wanted: self.wanted(),
@@ -266,6 +270,22 @@ impl<'a> Gather<'a> {
             Some(model) if model.file.is_some() => ModelChoice::Finished,
             Some(_) => ModelChoice::Estimator,
         }
+    }
+
+    /// Number of folds that the scene asks for, at most `points`.
+    fn folds(&self, points: u32) -> Result<Option<u32>, SceneError> {
+        let model = self.study.model.as_ref();
+        let Some(folds) = model.and_then(|model| model.folds.as_ref()) else {
+            return Ok(None);
+        };
+        if folds.value <= points {
+            return Ok(Some(folds.value));
+        }
+        let problem = SceneProblem::Contradiction(format!(
+            "`folds` is {}, but [protocol.calibration] presses {points} points and each fold tests at least one: expected 2 to {points}",
+            folds.value
+        ));
+        Err(self.refusal(folds.at(), problem))
     }
 
     /// Ids of the requested metrics. Their names were checked during parsing.

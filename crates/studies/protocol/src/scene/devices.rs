@@ -54,6 +54,8 @@ pub struct ModelSpec {
     /// Settings of the estimator, by name.
     #[serde(default)]
     pub set: BTreeMap<String, toml::Value>,
+    /// Number of folds of the calibration points. Each point is then predicted by a model fitted on other points. `None` predicts only a test part.
+    pub folds: Option<Setting<u32>>,
 }
 
 /// Driver key of a selector: the text before its arguments.

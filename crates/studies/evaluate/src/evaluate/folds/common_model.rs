@@ -8,7 +8,7 @@ use crate::evaluate::scores::Behind;
 use crate::note::Note;
 
 /// Combines the models of all folds: their common settings, and a digest of their digests.
-pub(super) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
+pub(crate) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let mut digests = String::new();
     let mut settings = models[0].1.model.settings.clone();
     let mut chosen_by = models[0].1.model.chosen_by.clone();

@@ -9,13 +9,16 @@ use super::recording::WrittenRecording;
 use super::{Check, Checked};
 use crate::frame_size::FrameSize;
 use crate::limit_spec::LimitSpec;
-use crate::scene::devices::{DeviceSpec, SensorSpec};
+use crate::scene::devices::{DeviceSpec, ModelSpec, SensorSpec};
+use crate::scene::metrics::ReportSpec;
 use crate::scene::study::Study;
 use crate::text::Setting;
 use crate::text::{SceneError, SceneProblem};
 
 /// Name of the table of the sensor.
 const SENSOR: &str = "[sensor]";
+/// Greatest number of folds. More folds cost more trainings and hardly more training points.
+const FOLDS_MAX: u64 = 20;
 
 impl Check<'_> {
     pub(super) fn studies(&self, written: &WrittenScene) -> Result<Vec<Study>, SceneError> {
@@ -89,6 +92,7 @@ impl Check<'_> {
                 "file",
                 &model.value.file,
             )?;
+            self.folds(&model.value, &scene.report)?;
         }
         let own = self.frames(&study.recording)?;
         if let (Some(dataset), Some(frames)) = (&sensor.value.dataset, &own)
@@ -112,6 +116,26 @@ impl Check<'_> {
             rig: None,
             wear: None,
         })
+    }
+
+    /// Checks the number of folds of `model`, and that the run need not choose one of their models.
+    fn folds(&self, model: &ModelSpec, report: &ReportSpec) -> Checked {
+        let Some(folds) = &model.folds else {
+            return Ok(());
+        };
+        self.count("folds", folds, 2, FOLDS_MAX)?;
+        if model.file.is_some() {
+            let problem = "`folds` fits a model for each fold, and `file` names a fitted model: remove one of them";
+            return self.contradiction(folds.at(), problem);
+        }
+        match report.keeps_models() {
+            true => self.contradiction(
+                folds.at(),
+                "`folds` fits a model for each fold, so the run has no single model to keep: remove `keep = [\"models\"]`, and fit one with \
+                 `taceva fit RECORDING`",
+            ),
+            false => Ok(()),
+        }
     }
 
     /// Size of stored frames in `recording`, if set.
