@@ -94,7 +94,7 @@ pub(crate) struct BundleMake {
 pub(crate) enum WithPart {
     /// Model files, so that the predictions can be computed again
     Model,
-    /// Pictures behind the predictions, so that the model predicts them again without --dataset: at most 3840 files and 2 GiB, with every label of their
+    /// The predicted pictures, so that the model predicts them again without --dataset: at most 3840 files and 2 GiB, with every label of their
     /// recording
     Frames,
 }

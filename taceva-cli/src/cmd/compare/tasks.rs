@@ -22,7 +22,7 @@ pub(super) fn run(args: &Compare) -> anyhow::Result<Option<u8>> {
     }
     if let Some(other) = others.first() {
         return Err(Usage::error(format!(
-            "{}: no scores of tasks, as the other results have; compare results of tasks and of channels in two commands",
+            "{}: no scores of tasks, but the other results have such scores; compare results of tasks and of channels in two commands",
             shown(other)
         )));
     }

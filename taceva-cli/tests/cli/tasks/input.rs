@@ -34,7 +34,7 @@ fn a_rule_of_three_classes_is_refused_instead_of_replacing_one_of_them() {
     bench.refused(
         &format!("{CLOTH}:positive=silk --debounce cloth=1"),
         2,
-        "needs two classes and a positive one, but the classes are denim, silk, wool",
+        "needs two classes and a positive class, but the classes are denim, silk, wool",
     );
 }
 

@@ -43,7 +43,7 @@ impl PairSpec {
     }
 }
 
-/// Counts and exact sums of the pairs of one channel.
+/// Counts and exact sums of the pairs of one channel. RN(x) is the binary64 nearest to x.
 ///
 /// The result depends only on the set of pairs, for any number of updates and merges in any order.
 ///

@@ -9,7 +9,9 @@ impl Recorder {
     pub(super) fn check(&self, sample: &Sample) -> Result<(), DatasetError> {
         let refused = |problem: String| DatasetError::sample(&sample.id, problem);
         if sample.id.is_empty() || self.has(&sample.id) {
-            return Err(refused("the name is empty or taken".to_owned()));
+            return Err(refused(
+                "the name is empty, or another sample has it".to_owned(),
+            ));
         }
         let (values, channels) = (sample.truth.as_slice(), self.table.channels());
         if values.len() > channels.len() {
@@ -54,7 +56,7 @@ impl Recorder {
             let (found, from) = (frame.info(), reduced.from);
             let eight_bits = from.format.of_eight_bits().name();
             return refused(format!(
-                "a frame of {found}, expected a frame reduced from {from}: at most as large, as {eight_bits}"
+                "a frame of {found}, expected a frame reduced from {from}: no larger, and in {eight_bits}"
             ));
         }
         match self.frame_info {
