@@ -43,7 +43,7 @@ impl FrameWindow {
     /// Greatest distance between two frames.
     pub const STRIDE_MAX: u32 = 1000;
 
-    /// Window of `frames` frames, each `stride` frames after the one before; `None` for a single frame and for numbers out of range.
+    /// Window of `frames` frames, each `stride` frames after the previous frame; `None` for a single frame and for numbers out of range.
     pub fn new(frames: u32, stride: u32) -> Option<FrameWindow> {
         let window = FrameWindow { frames, stride };
         window.is_valid().then_some(window)

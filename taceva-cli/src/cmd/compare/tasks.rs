@@ -59,7 +59,7 @@ fn check(args: &Compare, found: &[TaskResult]) -> anyhow::Result<()> {
     }
     if let Some(unknown) = TaskComparison::unknown_metric(found, &args.metrics) {
         return Err(Usage::error(format!(
-            "--metrics {}: no result has this score, expected one such as f1 or class_accuracy",
+            "--metrics {}: no result has this score, expected a score such as f1 or class_accuracy",
             shown(unknown)
         )));
     }
