@@ -282,6 +282,6 @@ fn networks_that_cannot_be_built_are_refused() {
     };
     assert!(
         refused(Architecture::residual(Depth::Ten, huge, 1))
-            .contains("expected sides and channels of at most")
+            .contains("within the network: expected at most")
     );
 }

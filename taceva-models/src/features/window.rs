@@ -24,7 +24,7 @@ const FRAMES: SettingInfo = SettingInfo {
     key: "window",
     accepts: "a number of frames from 1 to 64",
     default: "1",
-    about: "number of frames of every sample of a task: its own and earlier ones of its cluster, side by side, and their differences",
+    about: "number of frames of every sample of a task: its own and earlier frames of its cluster, side by side, and their differences",
 };
 const STRIDE: SettingInfo = SettingInfo {
     key: "stride",

@@ -50,7 +50,7 @@ fn a_rule_of_a_pose_and_a_second_rule_of_a_task_are_refused() {
     bench.refused(
         &format!("{SLIP} --threshold slip=0.4 --threshold slip=0.5"),
         2,
-        "--threshold `slip=0.5`: given before",
+        "--threshold `slip=0.5`: given twice",
     );
 }
 

@@ -9,9 +9,7 @@ impl Recorder {
     pub(super) fn check(&self, sample: &Sample) -> Result<(), DatasetError> {
         let refused = |problem: String| DatasetError::sample(&sample.id, problem);
         if sample.id.is_empty() || self.has(&sample.id) {
-            return Err(refused(
-                "the name is empty, or another sample has it".to_owned(),
-            ));
+            return Err(refused("the name is empty or taken".to_owned()));
         }
         let (values, channels) = (sample.truth.as_slice(), self.table.channels());
         if values.len() > channels.len() {
