@@ -141,7 +141,7 @@ pub(crate) fn compare_tasks(
     }
     if let Some(unknown) = TaskComparison::unknown_metric(&results, &metrics) {
         return Err(value_error(format_args!(
-            "metrics: no result has the score {unknown:?}, expected one such as \"f1\" or \"class_accuracy\""
+            "metrics: no result has the score {unknown:?}, expected a score such as \"f1\" or \"class_accuracy\""
         )));
     }
     let comparison = py.detach(|| TaskComparison::of(&results, &metrics, seed));

@@ -266,7 +266,7 @@ guarded_motion = false
 
 
 ARM_FAULTS = {
-    "has_no_halt": ("    def halt(self):\n        pass\n", "", "Arm has no halt(), expected one that stops its motion from any thread", "robot/says"),
+    "has_no_halt": ("    def halt(self):\n        pass\n", "", "Arm has no halt(), expected a method that stops the motion from any thread", "robot/says"),
     "says_no_pose": ("return self.stands, tp.now()", "return 1.0", "pose returned a float, expected (taceva.plugin.Pose(x, y, z), time)", "robot/says"),
     "has_another_pose": ("return self.stands, tp.now()", "return (1.0, 2.0), tp.now()", "not 3 or 6 numbers", "robot/says"),
     "stands_nowhere": ("return self.stands, tp.now()", "return (1.0, 2.0, math.nan), tp.now()", "NaN", "robot/says"),

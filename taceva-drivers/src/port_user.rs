@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::text::shown;
 
-/// Other processes that have the device `port` open, such as `1234 (octoprint)`. Only root sees those of other users. `processes` is `/proc`; without it the
-/// list is empty.
+/// Other processes that have the device `port` open, such as `1234 (octoprint)`. Only root sees processes of other users. `processes` is
+/// `/proc`; without it the list is empty.
 pub(crate) fn other_users(processes: &Path, port: &Path) -> Vec<String> {
     let Ok(port) = fs::metadata(port) else {
         return Vec::new();

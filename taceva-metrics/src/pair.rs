@@ -34,7 +34,7 @@ impl Paired<f64> {
         })
     }
 
-    /// d = RN(y − ŷ).
+    /// d = RN(y − ŷ): y − ŷ, rounded to the nearest binary64.
     #[inline]
     pub fn residual(self) -> f64 {
         self.reference - self.estimate

@@ -173,7 +173,10 @@ impl Architecture {
         }
         let sizes = [self.input.height, self.input.width, self.input.channels];
         if sizes.into_iter().any(|size| size > PICTURE_MAX) {
-            return refuse(format!("pictures of {}: too large", self.input));
+            return refuse(format!(
+                "pictures of {}: expected sides and channels of at most {PICTURE_MAX}",
+                self.input
+            ));
         }
         let mut picture = self.input;
         for stage in self.stages() {
@@ -192,7 +195,7 @@ impl Architecture {
                     .and_then(|pixels| pixels.checked_mul(picture.channels));
                 if numbers.is_none_or(|numbers| numbers > PICTURE_MAX) {
                     return refuse(format!(
-                        "pictures of {picture} within the network: too large"
+                        "pictures of {picture} within the network: expected at most {PICTURE_MAX} numbers with borders"
                     ));
                 }
             }

@@ -280,5 +280,8 @@ fn networks_that_cannot_be_built_are_refused() {
         width: 1 << 20,
         channels: 3,
     };
-    assert!(refused(Architecture::residual(Depth::Ten, huge, 1)).contains("too large"));
+    assert!(
+        refused(Architecture::residual(Depth::Ten, huge, 1))
+            .contains("within the network: expected at most")
+    );
 }

@@ -156,7 +156,7 @@ def gauge(
             reference = beside(truth, table.index, "truth")
             table.columns = {channel: values} if truth is None else {channel: reference, f"{channel}_predicted": values}
         elif truth is not None:
-            raise ValueError("truth: expected only beside an array of readings; a table holds it as the column of the channel")
+            raise ValueError("truth: expected only with an array of readings; in a table, the truth is the column of the channel")
         factors = {name: table.names(given, name) for name, given in {"part": part, "by": by, "trial": trial}.items()}
         options = _options(
             **factors,
@@ -307,7 +307,7 @@ def budget(
             path.write_text(_toml_text(_resolved(sources, has_gauge=gauge is not None)), encoding="utf-8")
             own[str(path)] = "sources"
         elif gauge is not None:
-            raise ValueError("gauge: expected only beside a mapping of sources; a file names its studies, gauge.json#operator")
+            raise ValueError("gauge: expected only with a mapping of sources; a file names its studies, gauge.json#operator")
         else:
             path = Path(os.path.abspath(sources))
         if gauge is not None:

@@ -100,7 +100,7 @@ def from_arrays(
     channels = list(SIX if channels is None else channels)
     listed = with_units(channels, dict(units or {}))
     if not channels and frames is None:
-        raise ValueError("no channels and no frames: nothing to record, expected one of them")
+        raise ValueError("no channels and no frames: nothing to record, expected channels or frames")
     points, times, scenes = beside(points, index, "points"), beside(times, index, "times"), beside(scenes, index, "scenes")
     # Checked before anything is copied.
     rows = len(real(labels, "labels"))

@@ -145,7 +145,7 @@ class Plugin:
                     f"{key!r}: expected a subclass of taceva.plugin.Sensor, Robot, Force, Lighting, Changer or Estimator, got {given!r}"
                 )
             if issubclass(given, Robot) and given.halt is Robot.halt:
-                raise TypeError(f"{key!r}: {given.__name__} has no halt(), expected one that stops its motion from any thread")
+                raise TypeError(f"{key!r}: {given.__name__} has no halt(), expected a method that stops the motion from any thread")
         if isinstance(needs, str):
             raise TypeError(f"needs: expected a list of texts, got {needs!r}")
         self.id = id

@@ -36,7 +36,7 @@ pub(crate) struct BundleMake {
     /// The bundle to write: one file if the name ends in .tar.gz, else a folder
     #[arg(long, required = true, value_name = "BUNDLE[.tar.gz]")]
     pub(crate) out: Option<PathBuf>,
-    /// A state behind the result, as --state-out writes it; may be repeated
+    /// A state of the result, as --state-out writes it; may be repeated
     #[arg(long = "state", value_name = "STATE")]
     pub(crate) states: Vec<PathBuf>,
     /// The table of the truth that was scored
@@ -48,13 +48,13 @@ pub(crate) struct BundleMake {
     /// The `--key` with which `taceva score` paired the rows of both tables
     #[arg(long, value_name = "NAME|order", requires = "truth")]
     pub(crate) key: Option<String>,
-    /// A recording behind the result, to add its dataset.toml, and its pictures by --with frames; not needed for a run; may be repeated
+    /// An evaluated recording, to add its dataset.toml, and its pictures by --with frames; not needed for a run; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     /// A text file to add to the bundle: scene.toml, rig.toml, map.toml, limits.toml or tasks.toml. The scene of a run is added without it; may be repeated
     #[arg(long = "text", value_name = "FILE")]
     pub(crate) texts: Vec<PathBuf>,
-    /// A model file behind the result, as fit writes it; implies --with model; may be repeated
+    /// A model file of the result, as fit writes it; implies --with model; may be repeated
     #[arg(long = "model", value_name = "FILE")]
     pub(crate) models: Vec<PathBuf>,
     /// Add files that are left out by default, separated by commas; models and pictures of a run come from its folder
@@ -94,7 +94,7 @@ pub(crate) struct BundleMake {
 pub(crate) enum WithPart {
     /// Model files, so that the predictions can be computed again
     Model,
-    /// Pictures behind the predictions, so that the model predicts them again without --dataset: at most 3840 files and 2 GiB, with every label of their
+    /// The predicted pictures, so that the model predicts them again without --dataset: at most 3840 files and 2 GiB, with every label of their
     /// recording
     Frames,
 }
@@ -113,8 +113,8 @@ pub(crate) struct BundleVerify {
     /// The level to reach; the exit code is 1 if a claim does not reach it [default: the deepest that the files allow]
     #[arg(long, value_enum, value_name = "LEVEL")]
     pub(crate) level: Option<LevelArg>,
-    /// A recording behind the results, which the level fit needs, and the level model if the bundle has no pictures: the model of the bundle predicts it
-    /// again; may be repeated
+    /// An evaluated recording, for the level fit, and for the level model if the bundle has no pictures: the model of the bundle predicts the
+    /// recording again; may be repeated
     #[arg(long = "dataset", value_name = "DATASET")]
     pub(crate) datasets: Vec<PathBuf>,
     /// The greatest difference between a claim and its recomputed number for the verdict `within`, in the unit of each score

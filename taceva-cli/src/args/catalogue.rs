@@ -44,7 +44,7 @@ pub(crate) struct CatalogueList {
 pub(crate) struct CatalogueShow {
     /// The name of the sensor
     pub(crate) name: String,
-    /// The folder of a catalogue, whose numbers follow the published ones; each number states the level of its verification
+    /// The folder of a catalogue, whose numbers follow the published numbers; each number states the level of its verification
     #[arg(long, value_name = "DIR")]
     pub(crate) catalogue: Option<PathBuf>,
     #[command(flatten)]

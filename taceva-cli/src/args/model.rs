@@ -35,7 +35,7 @@ pub(crate) struct Fit {
     pub(crate) out: PathBuf,
     #[command(flatten)]
     pub(crate) split_out: SplitOutArgs,
-    /// Seconds between two checkpoints of a training run, 0 for one after each step
+    /// Seconds between two checkpoints of a training run, 0 for a checkpoint after each step
     #[arg(long, value_name = "SECONDS", default_value_t = Checkpoints::EVERY.as_secs())]
     pub(crate) checkpoint_every: u64,
     #[command(flatten)]

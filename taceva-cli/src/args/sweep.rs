@@ -60,7 +60,7 @@ pub(crate) struct SweepRun {
     /// Retry tasks that failed before
     #[arg(long)]
     pub(crate) retry_failed: bool,
-    /// Only tasks that match: a key or its beginning, or terms such as "model = ridge and seed != 3"
+    /// Only tasks that match: a key of a task or its beginning, or terms such as "model = ridge and seed != 3"
     #[arg(long, value_name = "KEY|WHERE")]
     pub(crate) only: Option<String>,
     /// The engine that runs the tasks
@@ -126,7 +126,7 @@ pub(crate) struct SweepShow {
 pub(crate) struct SweepCollect {
     #[command(flatten)]
     pub(crate) of: SweepFolderArgs,
-    /// The list of tasks [default: that of the last call]
+    /// The list of tasks [default: the list of the last call]
     #[arg(long, value_name = "TASKS.json")]
     pub(crate) tasks: Option<PathBuf>,
 }

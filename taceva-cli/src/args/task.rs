@@ -27,11 +27,11 @@ pub(crate) struct TaskArgs {
     /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be repeated. The
     /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
     /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; the truth of NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions
-    /// are an array of maps (.npy, .npz, .h5). Refused beside it, as options of channels: --units, --periods, --allow-invalid, --shard,
+    /// are an array of maps (.npy, .npz, .h5). Refused with it, as options of channels: --units, --periods, --allow-invalid, --shard,
     /// --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
-    /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]
+    /// Column with the name of the trajectory, clip or object: intervals are over these names [default: point_id]
     #[arg(long, value_name = "COLUMN", requires = "task")]
     pub(crate) cluster: Option<String>,
     /// Predict the positive class where its score is above LIMIT, as NAME=LIMIT; may be repeated
@@ -40,7 +40,7 @@ pub(crate) struct TaskArgs {
     /// Predict the positive class from the Nth positive frame in a row on, as NAME=N; may be repeated
     #[arg(id = "debounce", long, value_name = "NAME=N", requires = "task")]
     pub(crate) debounces: Vec<String>,
-    /// Print the numbers of a public program too, each beside the right one with the reason for the difference: sparsh, touch-and-go, normalflow or
+    /// Also print numbers of a public program, each beside the correct number with the reason for the difference: sparsh, touch-and-go, normalflow or
     /// objectfolder
     #[arg(id = "as", long = "as", value_name = "PROGRAM", requires = "task")]
     pub(crate) program: Option<PublicProgram>,

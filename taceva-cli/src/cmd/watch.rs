@@ -79,7 +79,7 @@ fn say_what_is_known(monitor: &Monitor, path: &Path, context: &Context) {
             "{known}: they find changes of brightness from {level:.2} of the change by contact, of large parts from {pattern:.2}, of detail from {detail:.2}, of single lines from {lines:.2}"
         )),
         None => context.say(format_args!(
-            "{known}: a change since then is found only if it exceeds that by contact; the first {} watched pictures set the limits for later changes",
+            "{known}: a change since then is found only if it exceeds the change by contact; the first {} watched pictures set the limits for later changes",
             monitor.missing()
         )),
     }

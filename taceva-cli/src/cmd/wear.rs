@@ -54,7 +54,7 @@ fn limits(words: &[String]) -> anyhow::Result<ByChannel<Amount>> {
         let before = limits.insert(channel.to_owned(), Amount { value, unit });
         if before.is_some() {
             return Err(refused(
-                "a second limit of this channel, expected one for each channel",
+                "two limits of this channel, expected one for each channel",
             ));
         }
     }

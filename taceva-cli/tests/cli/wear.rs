@@ -118,7 +118,7 @@ fn one_recording_no_day_wrong_limits_and_models_are_refused_by_name() {
     bench.refused(
         &format!("{WEAR} --limit mae.Fz=0.1N --limit mae.Fz=0.2N"),
         2,
-        "a second limit of this channel",
+        "two limits of this channel",
     );
     bench.refused(
         &format!("{WEAR} --limit mae.Fz=1mm"),

@@ -105,7 +105,7 @@ impl fmt::Display for CertificateFault {
 
 impl Traceability {
     /// Contradictions of the certificate, the serial number first. `days` are the days of the labels, if known. Another certificate in `all`
-    /// that covers a day replaces this one on that day.
+    /// that covers a day replaces this certificate on that day.
     pub fn faults(
         &self,
         days: Option<&RangeInclusive<Date>>,

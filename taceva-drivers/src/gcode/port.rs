@@ -19,7 +19,7 @@ use crate::text::shown;
 pub(super) enum PortError {
     #[error("cannot open {}: {source}", shown(.path))]
     Open { path: String, source: io::Error },
-    #[error("{} is not a serial port, expected one such as /dev/ttyUSB0", shown(.path))]
+    #[error("{} is not a serial port, expected a port such as /dev/ttyUSB0", shown(.path))]
     NoTerminal { path: String },
     #[error("{} cannot be set to {baud} baud: {source}", shown(.path))]
     Speed {

@@ -46,9 +46,9 @@ pub enum SourceError {
         /// The fault and the expected value.
         problem: String,
     },
-    /// The frame differs in size or format from the first one.
+    /// The frame differs in size or format from the first frame.
     #[error(
-        "{}: a frame of {found}, expected {expected} like the first one",
+        "{}: a frame of {found}, expected {expected} like the first frame",
         shown(path)
     )]
     Size {

@@ -157,9 +157,9 @@ fn a_frame_of_another_size_is_refused_and_the_next_one_comes() {
     let error = capture(sensor.as_mut(), PATIENCE).expect_err("turned");
     assert_eq!(error.kind(), ErrorKind::Protocol);
     assert!(
-        error
-            .to_string()
-            .ends_with("frame 2.png: a frame of 6×8 gray8, expected 8×6 gray8 like the first one"),
+        error.to_string().ends_with(
+            "frame 2.png: a frame of 6×8 gray8, expected 8×6 gray8 like the first frame"
+        ),
         "{error}"
     );
     assert_eq!(capture(sensor.as_mut(), PATIENCE).expect("a frame").1, 3);

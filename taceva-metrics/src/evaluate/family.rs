@@ -28,7 +28,7 @@ pub(crate) struct FamilyKind {
     pub(crate) own_intervals: bool,
     /// Optional fields, read if samples have them.
     pub(crate) optional: FieldSet,
-    /// Reason against a value of the family's metrics, other than missing needs.
+    /// Reason why the family's metrics have no value, other than missing needs.
     pub(crate) obstacle: fn(&MetricPlan) -> Option<SkipReason>,
     /// Creates the family for a plan that contains one of its metrics.
     pub(crate) build: fn(&MetricPlan) -> Option<Box<dyn AnyFamily>>,

@@ -4,7 +4,7 @@ use crate::exact::merge::Merge;
 use crate::exact::record::Record;
 use crate::exact::{Dyadic, ExactSum};
 
-/// Count and exact sums of values and of their squares.
+/// Count and exact sums of values and of their squares. RN(x) is the binary64 nearest to x.
 ///
 /// ```
 /// use taceva_metrics::Moments;

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::BitOr;
 
-/// One summed quantity of a pair, with d = RN(y − ŷ), y the truth and ŷ the prediction.
+/// One summed quantity of a pair, with d = RN(y − ŷ), y the truth and ŷ the prediction. RN(x) is the binary64 nearest to x.
 ///
 /// ```
 /// use taceva_metrics::Stream;

@@ -35,7 +35,7 @@ pub struct Nearest {
     pub index: usize,
     /// Coordinates of the point.
     pub point: [f64; 3],
-    /// RN of the squared distance, as the rounded sum of three rounded squares.
+    /// Squared distance, as the rounded sum of three rounded squares.
     pub squared: f64,
 }
 

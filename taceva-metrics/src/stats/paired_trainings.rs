@@ -12,8 +12,8 @@ use super::trainings::TrainingSpread;
 
 /// Compares two models on the same samples, with the variation between trainings.
 ///
-/// With D the difference of the means over all samples, s its standard error between clusters (jackknife, G − 1 degrees of freedom) and
-/// sᵢ the standard errors between trainings, t = D / √(s² + Σ sᵢ²) follows Student's distribution. The degrees of freedom are those of Welch
+/// D is the difference of the means over all samples, s its standard error between clusters (jackknife, G − 1 degrees of freedom), and
+/// sᵢ are the standard errors between trainings. t = D / √(s² + Σ sᵢ²) follows Student's distribution. The degrees of freedom are those of Welch
 /// and Satterthwaite. This is not a sign-flip test, because signs of clusters cannot show the effect of another training.
 ///
 /// ```

@@ -22,7 +22,7 @@ pub struct Repeats {
 }
 
 impl Repeats {
-    /// Statistics of `values`; `None` for fewer than two, or if a value is not finite.
+    /// Statistics of `values`; `None` for fewer than two values, or if a value is not finite.
     ///
     /// ```
     /// let repeats = taceva_metrics::Repeats::of(&[1.0, 2.0, 3.0]).expect("three");

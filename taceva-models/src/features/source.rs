@@ -24,8 +24,8 @@ impl FeatureSpec {
     /// ```
     ///
     /// # Errors
-    /// [`FeatureError::TwoInputs`] if a recording has both inputs and no setting selects one. [`FeatureError::NoFrames`] or [`FeatureError::NoSignals`] if the
-    /// requested input is missing.
+    /// [`FeatureError::TwoInputs`] if a recording has both inputs and no setting selects an input. [`FeatureError::NoFrames`] or
+    /// [`FeatureError::NoSignals`] if the requested input is missing.
     pub fn on(
         self,
         settings: &ModelSettings,

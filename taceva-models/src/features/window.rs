@@ -1,10 +1,10 @@
-//! Windows of frames: a sample reads its own frame and earlier ones.
+//! Windows of frames: a sample reads its own frame and earlier frames.
 
 use serde::{Deserialize, Serialize};
 
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// Frames that one sample reads: its own, and earlier ones of the same sequence. No later frame is read.
+/// Frames that one sample reads: its own, and earlier frames of the same sequence. No later frame is read.
 ///
 /// ```
 /// use taceva_models::FrameWindow;
@@ -24,7 +24,7 @@ const FRAMES: SettingInfo = SettingInfo {
     key: "window",
     accepts: "a number of frames from 1 to 64",
     default: "1",
-    about: "number of frames of every sample of a task: its own and earlier ones of its cluster, side by side, and their differences",
+    about: "number of frames of every sample of a task: its own and earlier frames of its cluster, side by side, and their differences",
 };
 const STRIDE: SettingInfo = SettingInfo {
     key: "stride",
@@ -43,7 +43,7 @@ impl FrameWindow {
     /// Greatest distance between two frames.
     pub const STRIDE_MAX: u32 = 1000;
 
-    /// Window of `frames` frames, each `stride` frames after the one before; `None` for a single frame and for numbers out of range.
+    /// Window of `frames` frames, each `stride` frames after the previous frame; `None` for a single frame and for numbers out of range.
     pub fn new(frames: u32, stride: u32) -> Option<FrameWindow> {
         let window = FrameWindow { frames, stride };
         window.is_valid().then_some(window)
@@ -74,13 +74,13 @@ impl FrameWindow {
         self.stride
     }
 
-    /// Places in a sequence of the frames of the sample at `place`, the newest first. The first frame stands for those before it.
+    /// Places in a sequence of the frames of the sample at `place`, the newest first. The first frame of the sequence replaces missing frames.
     pub fn places(self, place: usize) -> impl Iterator<Item = usize> {
         let back = move |frame: u32| frame as usize * self.stride as usize;
         (0..self.frames).map(move |frame| place.saturating_sub(back(frame)))
     }
 
-    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change to each frame from the one
+    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change to each frame from the frame
     /// before follows.
     ///
     /// # Shapes

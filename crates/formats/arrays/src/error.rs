@@ -93,7 +93,7 @@ pub enum Problem {
         problem: String,
     },
     /// Array name that does not exist.
-    #[error("no such array; there are {there}")]
+    #[error("no such array; the file has {there}")]
     Absent {
         /// First names of existing arrays.
         there: String,
@@ -107,7 +107,7 @@ pub enum Problem {
         rows: u64,
     },
     /// Pickle that needs a class or function other than plain values and arrays. No code of the pickle was run.
-    #[error("byte {at}: needs `{global}`, which is not run here; {mend}")]
+    #[error("byte {at}: needs `{global}`, and code of a pickle is not run; {mend}")]
     Global {
         /// Offset, bytes.
         at: u64,

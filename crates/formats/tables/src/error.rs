@@ -78,7 +78,7 @@ pub enum TableError {
     },
     /// A column, a field or a topic that does not exist.
     #[error(
-        "{}: no `{}`, there are {}",
+        "{}: no `{}`, expected one of {}",
         core_shown(path),
         shown(name),
         shown_list(known)

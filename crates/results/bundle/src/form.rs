@@ -328,13 +328,15 @@ fn samples(
         ));
     }
     if found.studies.len() != reports.len() || SampleDigest::of(found.studies.clone()) != found {
-        return refused("its digest is not that of its studies".to_owned());
+        return refused("its digest does not match its studies".to_owned());
     }
     for ((files, report), stated) in manifest.studies.iter().zip(reports).zip(&found.studies) {
         let Some(table) = files.sample_table() else {
             let is_withheld = stated.by == "samples" && manifest.withholds_tables();
             if !is_withheld && *stated != StudySamples::of_provenance(report) {
-                return refused("without a table it names the provenance".to_owned());
+                return refused(
+                    "a study without a table: expected the digest of its provenance".to_owned(),
+                );
             }
             continue;
         };
@@ -344,7 +346,7 @@ fn samples(
         };
         if again != stated {
             return refused(format!(
-                "{} of {table}, expected {}",
+                "digest {} of {table}, expected {}",
                 again.digest, stated.digest
             ));
         }

@@ -203,7 +203,7 @@ fn frames(
     let refused = |problem: &str| Err(BundleError::input(path, problem));
     let Some(table) = table else {
         return refused(
-            "no table of samples, which names the predicted pictures: write it by --samples-out, or leave --with frames out",
+            "no table of samples, which names the predicted pictures: write it with --samples-out, or leave --with frames out",
         );
     };
     if recordings.is_empty() {

@@ -140,7 +140,7 @@ impl CalibrationCurve {
         }
         if self.rows_left_out > 0 {
             table.note(format!(
-                "{} left out, without a number or without a point.",
+                "{} left out: no number or no point.",
                 counted(self.rows_left_out, "row")
             ));
         }

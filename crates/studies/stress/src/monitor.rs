@@ -174,7 +174,7 @@ impl Monitor {
         let contact = scale.contact;
         match (scale.untouched.filter(|_| scale.is_reference), contact) {
             (None, _) => refused(
-                "the recording has no reference, expected a picture without contact; `taceva capture` records one, and a map names one as `reference`",
+                "the recording has no reference, expected a picture without contact; `taceva capture` records it, and a map names it as `reference`",
             ),
             (_, None) => refused(
                 "no picture of contact differs from the reference, so no change can be compared with contact; name a recording with presses",

@@ -104,7 +104,7 @@ fn require_pictures(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
     match dataset.header().frames {
         Some(_) => Ok(()),
         None => refused(
-            "the recording has no pictures, expected some, because faults and wear change pictures",
+            "the recording has no pictures, expected a recording with pictures, which faults and wear change",
         ),
     }
 }

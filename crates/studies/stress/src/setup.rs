@@ -54,7 +54,7 @@ impl StressRequest {
             || !severities.iter().all(|of| (1..=5).contains(of))
             || !severities.is_sorted_by(|one, next| one < next)
         {
-            return refused("severities: expected some numbers from 1 to 5, ascending");
+            return refused("severities: expected numbers from 1 to 5, ascending");
         }
         if self.draws == 0 {
             return refused("draws: found 0, expected at least 1");

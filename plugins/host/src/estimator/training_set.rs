@@ -34,7 +34,12 @@ impl<'a> Lent<'a> {
             return Err(refused("a feature or a target is not finite".to_owned()));
         }
         let narrow = |side: usize| {
-            u32::try_from(side).map_err(|_| refused(format!("a side of {side} features")))
+            u32::try_from(side).map_err(|_| {
+                refused(format!(
+                    "a side of {side} features, expected at most {}",
+                    u32::MAX
+                ))
+            })
         };
         Ok(Lent {
             set,

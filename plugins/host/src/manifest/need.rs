@@ -111,13 +111,9 @@ impl FromStr for Need {
             Some(("read", _)) => Err(refused(
                 "expected an absolute path outside /dev, /proc and /sys, without `..` or a component that is `*` alone, such as `read:/run/scale`",
             )),
-            Some(("listen", port)) => {
-                port_of(port)
-                    .map(|port| Need::Listen { port })
-                    .ok_or_else(|| {
-                        refused("expected a port from 1 to 65535 after it, such as `listen:5025`")
-                    })
-            }
+            Some(("listen", port)) => port_of(port)
+                .map(|port| Need::Listen { port })
+                .ok_or_else(|| refused("expected a port from 1 to 65535, such as `listen:5025`")),
             Some((kind @ ("tcp" | "udp"), peer)) => {
                 let (address, port) =
                     peer_of(peer).ok_or_else(|| refused("expected `ADDRESS:PORT` after it"))?;

@@ -54,6 +54,6 @@ pub enum MountError {
     #[error(transparent)]
     Board(#[from] GratingError),
     /// The tip is in the gel.
-    #[error("the tip is in the gel, expected it in the air")]
+    #[error("the tip is in the gel, expected the tip in the air")]
     InContact,
 }

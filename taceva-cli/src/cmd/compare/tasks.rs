@@ -22,7 +22,7 @@ pub(super) fn run(args: &Compare) -> anyhow::Result<Option<u8>> {
     }
     if let Some(other) = others.first() {
         return Err(Usage::error(format!(
-            "{}: no scores of tasks, as the other results have; compare results of tasks and of channels in two commands",
+            "{}: no scores of tasks, but the other results have such scores; compare results of tasks and of channels in two commands",
             shown(other)
         )));
     }
@@ -59,7 +59,7 @@ fn check(args: &Compare, found: &[TaskResult]) -> anyhow::Result<()> {
     }
     if let Some(unknown) = TaskComparison::unknown_metric(found, &args.metrics) {
         return Err(Usage::error(format!(
-            "--metrics {}: no result has this score, expected one such as f1 or class_accuracy",
+            "--metrics {}: no result has this score, expected a score such as f1 or class_accuracy",
             shown(unknown)
         )));
     }

@@ -67,7 +67,7 @@ fn set_once<T>(known: &mut Option<T>, value: T, option: &str, word: &str) -> any
     match known.replace(value) {
         None => Ok(()),
         Some(_) => Err(Usage::error(format!(
-            "{option} `{}`: given before for this task, expected it once for each task",
+            "{option} `{}`: given twice for this task, expected once",
             shown(word)
         ))),
     }

@@ -34,7 +34,7 @@ fn a_rule_of_three_classes_is_refused_instead_of_replacing_one_of_them() {
     bench.refused(
         &format!("{CLOTH}:positive=silk --debounce cloth=1"),
         2,
-        "needs two classes and a positive one, but the classes are denim, silk, wool",
+        "needs two classes and a positive class, but the classes are denim, silk, wool",
     );
 }
 
@@ -50,7 +50,7 @@ fn a_rule_of_a_pose_and_a_second_rule_of_a_task_are_refused() {
     bench.refused(
         &format!("{SLIP} --threshold slip=0.4 --threshold slip=0.5"),
         2,
-        "--threshold `slip=0.5`: given before",
+        "--threshold `slip=0.5`: given twice",
     );
 }
 

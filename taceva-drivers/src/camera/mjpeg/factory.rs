@@ -20,7 +20,7 @@ submit_builtin!(dyn Sensor, || Ok(Box::new(MjpegFactory::new()?)));
 ///   of that frame. The connection lasts until the sensor is dropped; `start` reconnects to a lost camera.
 /// - A frame is the newest image received; images not captured in time are missed. Its stamp is the arrival time of its first bytes, on the
 ///   monotonic clock. Exposure and compression in the camera happen earlier and are not included.
-/// - With `clock=server` the stamp is the time that the server writes with each picture (`X-Timestamp`, as `ustreamer` and `mjpg-streamer` do), plus the
+/// - With `clock=server` the stamp is the server's time of each picture (`X-Timestamp` of `ustreamer` and `mjpg-streamer`), plus the
 ///   least delay of the first 32 frames. Delays of the link then do not scatter the stamps, but a drift of that clock remains in them. A step of
 ///   that clock by more than 10 s, as after a restart, is an error until the sensor is opened again.
 /// - The driver sets nothing: exposure, gain, white balance and focus must be fixed at the camera's server.

@@ -24,9 +24,9 @@ submit_builtin!(dyn Robot, || Ok(Box::new(XarmFactory::new()?)));
 /// - Speeds and accelerations outside the limits of the controller's complete report are refused, because it would change them without an
 ///   error. Without that report the limits are unknown, and the driver gives a warning.
 /// - An expiring motion uses velocities that last 0.2 s (register 82, since firmware 1.10.0), renewed 20 times per second. Its last 0.1 s
-///   is a line. The mode of the controller changes for it and back, which stops the arm for a moment.
+///   is a line. For this the mode of the controller changes and back, which stops the arm for a moment.
 /// - A halt uses a separate connection, which is tested twice per second; without it no move begins. The controller confirms the halt.
-///   After 40 ms without an answer it is also sent over the other connection. `clear_halt` makes the controller ready again unless it has
+///   After 40 ms without an answer the halt is also sent over the other connection. `clear_halt` makes the controller ready again unless it has
 ///   an error.
 /// - The emergency stop, a collision, the safety boundary and every other error of the controller end a move with `DeviceFault`.
 ///

@@ -19,7 +19,7 @@ const TRIAL_EVERY: Duration = Duration::from_millis(500);
 /// Test interval of a connection that does not answer. The arm does not move until the connection answers.
 const RETRIAL_EVERY: Duration = Duration::from_millis(50);
 const TRIAL_PATIENCE: Duration = Duration::from_millis(20);
-/// Time after which unanswered commands on an abandoned connection count as lost. A run retries to end a halt for a longer time.
+/// Time after which unanswered commands on an abandoned connection count as lost. A run retries to end a halt for longer than this.
 const LOST_AFTER: Duration = Duration::from_secs(2);
 /// Polling interval for an answer of the connection.
 const GLANCE: Duration = Duration::from_millis(5);

@@ -85,7 +85,7 @@ impl MetricPlan {
         fields.iter().filter(|field| self.carries(*field)).collect()
     }
 
-    /// Reason against a value of `metric`; `None` if a value is possible.
+    /// Reason why `metric` can have no value; `None` if a value is possible.
     fn obstacle(&self, metric: &Metric) -> Option<SkipReason> {
         let absent_field = metric
             .needs

@@ -19,7 +19,7 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Avx2(());
 
 impl Avx2 {
-    /// Detects the features of this processor; `None` if it lacks one.
+    /// Detects the features of this processor; `None` if it lacks a needed feature.
     pub(in crate::exact) fn detect() -> Option<Avx2> {
         let found = is_x86_feature_detected!("avx2")
             && is_x86_feature_detected!("fma")

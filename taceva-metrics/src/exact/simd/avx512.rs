@@ -17,7 +17,7 @@ use crate::exact::vector::{Job, Vector};
 pub(crate) struct Avx512(());
 
 impl Avx512 {
-    /// Detects the features of this processor; `None` if it lacks one.
+    /// Detects the features of this processor; `None` if it lacks a needed feature.
     pub(in crate::exact) fn detect() -> Option<Avx512> {
         let found = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("popcnt");
         found.then_some(Avx512(()))

@@ -43,7 +43,7 @@ impl PairSpec {
     }
 }
 
-/// Counts and exact sums of the pairs of one channel.
+/// Counts and exact sums of the pairs of one channel. RN(x) is the binary64 nearest to x.
 ///
 /// The result depends only on the set of pairs, for any number of updates and merges in any order.
 ///
@@ -82,7 +82,7 @@ impl PairSums {
         }
     }
 
-    /// Replaces counts and sums by saved ones with the same specification.
+    /// Replaces counts and sums by saved counts and sums with the same specification.
     pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
         self.kept.set(counts, sums);
     }

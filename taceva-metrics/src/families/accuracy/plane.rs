@@ -125,7 +125,7 @@ impl Plane {
 }
 
 impl Plane {
-    /// Reason against a value: the axis that the channels of `plan` lack.
+    /// Reason for a missing value: the axis that the channels of `plan` lack.
     fn obstacle(plan: &MetricPlan) -> Option<SkipReason> {
         let axis = Plane::missing_axis(plan.channels())?;
         Some(SkipReason::ChannelAbsent(axis.to_owned()))

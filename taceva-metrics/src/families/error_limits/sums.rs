@@ -10,7 +10,7 @@ use crate::stats::{DifferenceLine, OneWaySums};
 pub(super) const MOST_CLUSTERS: u64 = 30_000;
 
 /// Greatest number of clusters of one hashed group of rows. A group of 1,501 is expected among 48,000 clusters, and its names would only
-/// take memory until the groups are merged. At 30,000 clusters a group has 937 of them, with a standard deviation of 30.
+/// take memory until the groups are merged. At 30,000 clusters a group has 937 clusters, with a standard deviation of 30.
 const MOST_OF_GROUP: u64 = 1500;
 
 /// Sums of one channel.

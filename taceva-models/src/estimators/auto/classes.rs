@@ -35,8 +35,8 @@ fn candidates<'a>(
 }
 
 impl Auto {
-    /// Fits each classifier to `training` and takes the one with the smallest share of wrong samples of `held`, averaged over its labels.
-    /// Takes the simplest of several with equal shares.
+    /// Fits each classifier to `training` and takes the classifier with the smallest share of wrong samples of `held`, averaged over its labels.
+    /// Takes the simplest of several classifiers with equal shares.
     ///
     /// # Errors
     /// [`ModelError`] without a validation part, if no classifier can be fitted, or if `progress` was cancelled.

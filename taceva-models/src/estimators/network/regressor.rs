@@ -24,7 +24,7 @@ pub struct NetworkRegressor {
     channels: Channels,
     card: NetworkCard,
     network: Network,
-    /// Idle predictors for reuse. Each prediction takes one, or builds one if none is idle.
+    /// Idle predictors for reuse. Each prediction takes an idle predictor, or builds a new predictor.
     spare: Mutex<Vec<Predictor>>,
 }
 

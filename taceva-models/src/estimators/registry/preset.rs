@@ -17,7 +17,7 @@ pub struct Preset {
     pub settings: &'static [(&'static str, &'static str)],
 }
 
-/// Settings that depend on the recording: the grid has as many cells as frames have pixels for. Colour frames use colours minus the contact-free frame, with
+/// Settings that depend on the recording: the grid has at most one cell per pixel. Colour frames use colours minus the contact-free frame, with
 /// light as signal. Other frames use markers.
 const COLOR: (&str, &str) = ("color", "auto");
 const DIFFERENCE: (&str, &str) = ("difference", "in-color");

@@ -43,7 +43,7 @@ pub enum FormatError {
     #[error("the model: {0}")]
     Seal(#[from] SealError),
     /// This TacEva does not support the format version.
-    #[error("format {found}: this TacEva reads {FORMAT}, a newer one may read both")]
+    #[error("format {found}: this TacEva reads {FORMAT}, a newer TacEva may read both")]
     Version {
         /// Format version of the file.
         found: String,

@@ -31,7 +31,7 @@ fn open(
 fn globals_beyond_numpy_are_refused_by_name_with_what_to_do() {
     let evil = refused("evil.pkl");
     assert!(
-        evil.contains("needs `posix.system`, which is not run here"),
+        evil.contains("needs `posix.system`, and code of a pickle is not run"),
         "{evil}"
     );
     assert!(!PathBuf::from("/tmp/pickle-was-executed").exists());

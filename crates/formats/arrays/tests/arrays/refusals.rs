@@ -29,7 +29,7 @@ fn names_and_rows_that_are_not_there_are_refused_with_those_that_are() {
     let file = opened("npz-stored/run.npz");
     let message = file.read("image", 0..1).expect_err("absent").to_string();
     assert!(
-        message.contains("`image`: no such array; there are images, ft, t, obj"),
+        message.contains("`image`: no such array; the file has images, ft, t, obj"),
         "{message}"
     );
     let error = file.read("ft", 20..25).expect_err("too many rows");

@@ -240,7 +240,7 @@ fn other_layouts_and_ways_out_of_the_folder_are_refused_in_words() {
         .expect_err("an image")
         .to_string();
     assert!(
-        message.contains("no `observation.images.tip`, there are observation.images.gel"),
+        message.contains("no `observation.images.tip`, expected one of observation.images.gel"),
         "{message}"
     );
     let message = dataset

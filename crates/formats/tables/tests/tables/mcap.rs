@@ -291,7 +291,7 @@ fn what_is_not_there_is_named_with_what_is() {
     let message = recording.table("/force").expect_err("none").to_string();
     assert!(
         message.ends_with(
-            "chunks.mcap: no `/force`, there are /array, /depth, /joints, /notes, /pose, /taxels"
+            "chunks.mcap: no `/force`, expected one of /array, /depth, /joints, /notes, /pose, /taxels"
         ),
         "{message}"
     );
@@ -301,7 +301,7 @@ fn what_is_not_there_is_named_with_what_is() {
         .expect_err("none")
         .to_string();
     assert!(
-        message.contains("no `pose.position.w`, there are log_time, "),
+        message.contains("no `pose.position.w`, expected one of log_time, "),
         "{message}"
     );
     let visit = |name: &str, rows: &[u64]| {

@@ -150,7 +150,10 @@ fn pictures_of_hugging_face_come_in_their_own_bytes() {
 fn what_is_not_there_is_named_with_what_is() {
     let table = ParquetTable::open(&recording("parquet-none").join("run.parquet")).expect("opens");
     for (name, expected) in [
-        ("pose.w", "no `pose.w`, there are t, ft, fixed, pose.x"),
+        (
+            "pose.w",
+            "no `pose.w`, expected one of t, ft, fixed, pose.x",
+        ),
         ("force", "no `force`"),
         ("ft.x", "no `ft.x`"),
         ("t[0]", "no `t[0]`"),

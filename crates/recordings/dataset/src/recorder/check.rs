@@ -54,7 +54,7 @@ impl Recorder {
             let (found, from) = (frame.info(), reduced.from);
             let eight_bits = from.format.of_eight_bits().name();
             return refused(format!(
-                "a frame of {found}, expected a frame reduced from {from}: at most as large, as {eight_bits}"
+                "a frame of {found}, expected a frame reduced from {from}: no larger, and in {eight_bits}"
             ));
         }
         match self.frame_info {

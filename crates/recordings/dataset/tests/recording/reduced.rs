@@ -100,7 +100,7 @@ fn a_frame_that_was_not_reduced_is_refused_with_what_was_expected() {
         let error = recorder.append(&sample(1).with_frame(foreign.clone()));
         let error = error.expect_err("not reduced").to_string();
         let expected = format!(
-            "a frame of {info}, expected a frame reduced from 9×5 rgb16: at most as large, as rgb8"
+            "a frame of {info}, expected a frame reduced from 9×5 rgb16: no larger, and in rgb8"
         );
         assert!(error.contains(&expected), "{error}");
         let error = recorder

@@ -28,7 +28,7 @@ pub(crate) enum TarError {
     Cut(u64),
     #[error("`{name}` at byte {at} states {size} bytes, more than the archive has left")]
     Size { name: String, at: u64, size: u64 },
-    #[error("the header at byte {0} has no number where one is expected")]
+    #[error("the header at byte {0} has no number where a number is expected")]
     Number(u64),
     #[error(
         "`{name}` is a link, which is not followed: write the archive with `tar --dereference`"

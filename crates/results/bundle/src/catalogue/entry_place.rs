@@ -62,7 +62,7 @@ impl EntryPlace {
         let mut all = entries.iter().map(|entry| &entry.sensor).chain(&built_in);
         if let Some(alike) = all.find(|sensor| sensor.is_called_like(name)) {
             return refused(format!(
-                "the name of the sensor `{}` resembles `{}`: expected one name for one sensor; if they are the same, write `aliases = [{}]` into {}",
+                "the name of the sensor `{}` resembles `{}`: expected one name for one sensor; if both are the same sensor, write `aliases = [{}]` into {}",
                 shown(name),
                 shown(&alike.name),
                 serde_json::Value::from(name),

@@ -167,7 +167,9 @@ impl Submission {
             rows.or_default().push(row);
         }
         match self.sensors.is_empty() {
-            true => Err(refused("it has no number: expected one or more".to_owned())),
+            true => Err(refused(
+                "no number of a sensor: expected one or more".to_owned(),
+            )),
             false => Ok(()),
         }
     }

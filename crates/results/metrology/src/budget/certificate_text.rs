@@ -74,7 +74,7 @@ impl Certificate {
         match (found.next(), found.next()) {
             (Some(only), None) => Ok(only),
             (Some(one), Some(other)) => Err(refused(format!(
-                "two certificates of a reference state {channel}, {} and {}; name a file with one of them",
+                "two certificates of a reference state {channel}, {} and {}; name a file with one certificate",
                 shown(&one.number),
                 shown(&other.number)
             ))),

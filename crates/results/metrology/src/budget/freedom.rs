@@ -33,7 +33,7 @@ pub enum Freedom {
 #[non_exhaustive]
 pub enum Undefined {
     /// Sources with finite degrees of freedom are correlated, but not through common rows. The Welch–Satterthwaite formula does not apply.
-    #[error("sources of finite freedom are correlated, but not through the same rows")]
+    #[error("sources with finite degrees of freedom are correlated, but not through common rows")]
     CorrelatedFreedom,
     /// The combined uncertainty is 0.
     #[error("no source has an uncertainty")]

@@ -166,7 +166,7 @@ impl Choice {
         }
         let mut steps = all().flat_map(|candidate| &candidate.steps);
         if steps.any(|step| step.property == Property::Width) {
-            table.note("The middle dimension is the middle one of width, depth and height, because sources order them differently; a diameter counts twice.");
+            table.note("The middle dimension is the median of width, depth and height, because sources order them differently; a diameter counts twice.");
         }
     }
 

@@ -21,7 +21,7 @@ pub enum DepthError {
         columns: usize,
     },
     /// A map without a pixel.
-    #[error("the map has {rows} x {columns} pixels, expected at least one")]
+    #[error("the map has {rows} x {columns} pixels, expected at least one pixel")]
     NoPixel {
         /// Number of rows of pixels.
         rows: usize,

@@ -29,7 +29,7 @@ pub enum EventError {
         value: f64,
     },
     /// A frame without a time in a sequence with times.
-    #[error("row {row}: no time, expected one as in the other rows of the sequence")]
+    #[error("row {row}: no time, expected a time as in the other rows of the sequence")]
     NoTime {
         /// Row of the frame.
         row: u64,

@@ -79,7 +79,7 @@ pub fn watch(
     dataset.require_view()?;
     let Some(touches) = touches(dataset, &framed(dataset)) else {
         return refused(
-            "no labels of Fz or Pz, expected some, because they show which pictures are untouched"
+            "no labels of Fz or Pz: expected labels of one, to show which pictures are untouched"
                 .to_owned(),
         );
     };

@@ -106,7 +106,7 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
         ));
     }
     table.note("Test MAE is the mean over seeds. The interval over seeds shows how that mean varies with other divisions and random \
-        numbers on the same recording. The interval over contact points shows how the MAE of one seed, beside it, varies with other \
-        presses and the same training. Do not add the two.");
+        numbers on the same recording. The interval over contact points shows how the MAE of one seed varies with other \
+        presses and the same training. Do not add the two intervals.");
     table
 }

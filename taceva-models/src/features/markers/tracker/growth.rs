@@ -137,7 +137,7 @@ impl<'a> Growth<'a> {
         Some([place[0] + right, place[1] + down])
     }
 
-    /// Seen markers among the neighbours of `own` and the neighbours of these.
+    /// Seen markers among the neighbours of `own` and their neighbours.
     fn around(&self, own: usize) -> Vec<Moved> {
         let neighbours = &self.tracker.neighbours;
         let further = neighbours[own].iter().flat_map(|near| &neighbours[*near]);

@@ -243,7 +243,7 @@ pub(super) fn rows_in(
     };
     if columns.is_empty() {
         return refuse(
-            "no column names coordinate frames, expected one such as `frame_id` or `header.frame_id`; remove `frame_id` from the map if the table has one frame"
+            "no column holds names of coordinate frames, expected a column such as `frame_id` or `header.frame_id`; remove `frame_id` from the map if the table has one frame"
                 .to_owned(),
         );
     }

@@ -58,7 +58,7 @@ fn a_file_with_two_certificates_of_a_channel_gives_none_of_them() {
     let message = Certificate::read(&both, "Fz", None).expect_err("two");
     assert_eq!(
         message.to_string(),
-        "`certificate`: two certificates of a reference state Fz, D-K-1 and D-K-2; name a file with one of them"
+        "`certificate`: two certificates of a reference state Fz, D-K-1 and D-K-2; name a file with one certificate"
     );
 }
 

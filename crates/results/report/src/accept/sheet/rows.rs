@@ -94,7 +94,7 @@ impl Acceptance<'_> {
             ];
             table.push(cells);
         }
-        table.note("U = k u is the expanded uncertainty at the coverage of the rule, 0.95 if it has none. On a logarithmic scale it is of first order.");
+        table.note("U = k u is the expanded uncertainty at the coverage of the rule, 0.95 if it has none. On a logarithmic scale U is a first-order approximation.");
         table
     }
 

@@ -139,7 +139,7 @@ fn apply(
     let refused = |problem: String| EvaluateError::Request(format!("task `{name}`: {problem}"));
     let Some(positive) = names.positive(task).filter(|_| names.all().len() == 2) else {
         return Err(refused(format!(
-            "a threshold or a debounce needs two classes and a positive one, but the classes are {}: state positive=CLASS, or omit the rule",
+            "a threshold or a debounce needs two classes and a positive class, but the classes are {}: state positive=CLASS, or omit the rule",
             listed(names.all().iter().map(String::as_str))
         )));
     };

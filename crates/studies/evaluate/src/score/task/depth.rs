@@ -155,14 +155,16 @@ impl Scored<'_> {
                 .push(format!("{samples} without a depth map, left out"));
         }
         if !training.is_empty() {
+            let samples = counted(training.len(), "sample");
             let constant = match has_mean {
-                true => "the constant is the mean map",
-                false => "there is no constant, because no map is",
+                true => format!("the constant is the mean map of {samples} of the training part"),
+                false => {
+                    format!("no constant, because no map is in the {samples} of the training part")
+                }
             };
-            of_task.notes.push(format!(
-                "only the declared test part is scored, and {constant} of {} of the training part",
-                counted(training.len(), "sample")
-            ));
+            of_task
+                .notes
+                .push(format!("only the declared test part is scored; {constant}"));
         }
         of_task.depth = Some(state);
         Ok(of_task)
@@ -230,7 +232,7 @@ fn depth_task(of: &TaskSpec, task: &Task) -> Result<DepthTask, EvaluateError> {
     if let Some(gate) = &of.gate {
         let gate_mm: f64 = gate
             .parse()
-            .map_err(|_| refused(format!("`gate={}` is not a number of mm", shown(gate))))?;
+            .map_err(|_| refused(format!("`gate={}`: expected a number in mm", shown(gate))))?;
         definition = definition
             .with_gate_mm(gate_mm)
             .map_err(|error| refused(error.to_string()))?;

@@ -44,7 +44,7 @@ impl<'a> ScoreColumns<'a> {
         for class in of_classes {
             if !names.all().iter().any(|name| name == class) {
                 return Err(refused(format!(
-                    "column `{}` has the scores of no class of the task, expected one of {}",
+                    "column `{}` names no class of the task, expected one of {}",
                     shown(&format!("{prefix}{class}")),
                     listed(names.all().iter().map(String::as_str))
                 )));

@@ -87,7 +87,7 @@ pub enum TapError {
     },
     /// The robot does not follow the requested speeds.
     #[error(
-        "the fast taps are {ratio:.2} times as fast as the slow ones, expected 3, so distance and latency cannot be separated: check whether the controller limits the speed"
+        "the fast taps are {ratio:.2} times as fast as the slow taps, expected 3, so distance and latency cannot be separated: check whether the controller limits the speed"
     )]
     OneSpeed {
         /// Greatest speed divided by the least.
