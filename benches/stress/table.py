@@ -122,9 +122,10 @@ def main():
                 row.append(cell)
             print(f"| `{fault}` | {' | '.join(row)} |")
         print()
-    print(f"Stimuli above that of the severity before: {ordered} of {stimuli}; degradations not below within intervals: {growing} of {degradations}.")
+    above = f"Stimulus greater than at the next lower severity: {ordered} of {stimuli}."
+    print(f"{above} Degradation not smaller than there, within intervals: {growing} of {degradations}.")
     for model in MODELS:
-        print(f"Unnoticed by check on some sensor and seed, {model}: {', '.join(sorted(unnoticed[model])) or 'none'}.")
+        print(f"Faults that check does not notice for at least one sensor and seed, {model}: {', '.join(sorted(unnoticed[model])) or 'none'}.")
     print(f"Processor time of all faults and severities, a sensor: {statistics.median(seconds):.1f} s, at most {max(seconds):.1f} s.", file=sys.stderr)
 
 

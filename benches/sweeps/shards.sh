@@ -41,12 +41,12 @@ case $(command -v taceva) in
     *) build=debug ;;
 esac
 megabytes=$(cat truth.csv pred.csv | wc -c | awk '{ print $1 / 1e6 }')
-printf 'By the %s build, one thread, one run each, seconds of the processor:\n\n' "$build"
+printf 'Processor time of the %s build, one thread, one run each:\n\n' "$build"
 echo "$one $two $sweep $megabytes $rows" | awk '{
     count = $5
     while (match(count, /[0-9][0-9][0-9][0-9]($|,)/)) count = substr(count, 1, RSTART) "," substr(count, RSTART + 1)
-    printf "| %s rows of four channels, %.0f MB of CSV | processor | to one pass |\n|---|---|---|\n", count, $4
+    printf "| %s rows of four channels, %.0f MB of CSV | processor time | relative to one pass |\n|---|---|---|\n", count, $4
     printf "| one pass | %.2f s | 1 |\n", $1
     printf "| two shards by hand, and `merge` | %.2f s | %.2f |\n", $2, $2 / $1
     printf "| a sweep of two shards, planned, scored and joined | %.2f s | %.2f |\n", $3, $3 / $1
-    printf "| 1e8 rows in a sweep of any number of shards, worked out | %.0f s | |\n", $3 * 1e8 / $5 }'
+    printf "| 1e8 rows in a sweep of any number of shards, computed | %.0f s | |\n", $3 * 1e8 / $5 }'

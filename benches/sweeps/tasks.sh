@@ -22,7 +22,7 @@ column() {
     tasks=$(ls "$1.sweep/results" | wc -l)
     echo "$whole $again $collect $seconds $sets $bytes $tasks" | awk '{
         printf "%d tasks\n---\n%.1f s\n%.1f s\n%.1f ms\n", $13, $1, $10, ($1 - $10) * 1000 / $13
-        printf "%.2f s, %.2f s of the processor\n%.2f s\n", $7, $8 + $9, $4
+        printf "%.2f s (processor time %.2f s)\n%.2f s\n", $7, $8 + $9, $4
         printf "%d\n%.1f MB\n%.0f MB\n", $11, $12 / 1e6, $12 / $13 / 100 }'
 }
 
@@ -31,20 +31,20 @@ make_recording tuesday 40 2 >> made.txt
 column 3 > few.txt
 column 30 > many.txt
 cat > what.txt << 'END'
-what
+measured
 ---
 the whole sweep
-tasks alone, by times.csv, over two workers
-all else, a task
-`sweep collect` alone: the table, the pages, the tests of the family
+tasks only (`times.csv`), divided by two workers
+other time of the sweep, per task
+`sweep collect` only: table, pages, tests
 the same command again
-sets of features made
+sets of features computed
 results and evaluations on disk
-the same of 10,000 tasks, worked out
+the same for 10,000 tasks, computed from these
 END
 case $(command -v taceva) in
     */release/*) build=release ;;
     *) build=debug ;;
 esac
-printf 'By the %s build on %d processors, two tasks at once, one run each:\n\n' "$build" "$(nproc)"
+printf 'Measured with the %s build on %d processors, two tasks at once, one run each:\n\n' "$build" "$(nproc)"
 paste -d '|' what.txt few.txt many.txt | sed 's/|/ | /g; s/^/| /; s/$/ |/; s/ --- /---/g'

@@ -106,7 +106,7 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     println!("|---|---|---|---|---|---|---|");
     for (what, unit, all) in [
         ("stopped after", "ms", &took_ms),
-        ("went on by", "mm", &went_mm),
+        ("moved on by", "mm", &went_mm),
     ] {
         let [median, most_of, nearly_all] = [500, 990, 999].map(|part| share(all, part));
         println!(

@@ -228,7 +228,7 @@ fn is_of_presses(rate: f64) -> bool {
 
 /// Line `pick` for these rates of the main and the joined table, Hz.
 fn pick_by_rates(own: f64, other: f64) -> String {
-    let both = format!("{} beside {} of the main table", in_hz(other), in_hz(own));
+    let both = format!("{} against {} of the main table", in_hz(other), in_hz(own));
     match is_slower(own, other) {
         true if is_of_presses(other) => format!(
             "pick = \"nearest\"   # {both}: its rows are single presses, and only rows at such a press are kept"
@@ -264,7 +264,7 @@ mod tests {
     fn a_slower_table_is_interpolated_and_a_faster_one_gives_its_nearest_row() {
         let slow = pick_by_rates(29.97, 5.0);
         assert!(
-            slow.starts_with("pick = \"linear\"   # 5 Hz beside 30 Hz of the main table: "),
+            slow.starts_with("pick = \"linear\"   # 5 Hz against 30 Hz of the main table: "),
             "{slow}"
         );
         for rate in [29.0, 30.0, 200.0] {

@@ -23,7 +23,7 @@ fn a_join_of_two_rates_states_both_and_interpolates_the_slower_table() {
     let text = draft(slow.path());
     let pick = line(&text, "pick = ");
     assert!(
-        pick.starts_with("pick = \"linear\"   # 5 Hz beside 30 Hz of the main table: "),
+        pick.starts_with("pick = \"linear\"   # 5 Hz against 30 Hz of the main table: "),
         "{text}"
     );
     // Texts are not interpolated between rows.
@@ -37,7 +37,7 @@ fn a_join_of_two_rates_states_both_and_interpolates_the_slower_table() {
     let text = draft(beside_forces(200).path());
     let pick = line(&text, "pick = ");
     assert!(
-        pick.starts_with("pick = \"nearest\"   # 200 Hz beside 30 Hz of the main table: "),
+        pick.starts_with("pick = \"nearest\"   # 200 Hz against 30 Hz of the main table: "),
         "{text}"
     );
     assert!(text.contains("object = \"ft.object\""), "{text}");
