@@ -66,7 +66,7 @@ impl Reader<'_> {
         self.place += self.rest().len() - self.rest().trim_start().len();
     }
 
-    /// Skips `mark` if it is next. Returns true if it was.
+    /// Skips `mark` if the remaining text begins with it. Returns true if `mark` was skipped.
     fn skips(&mut self, mark: &str) -> bool {
         self.blank();
         let is_here = self.rest().starts_with(mark);

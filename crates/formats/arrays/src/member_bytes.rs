@@ -101,7 +101,7 @@ pub(crate) struct PackedBytes {
     file: Arc<FileBytes>,
     member: Packed,
     is_held: bool,
-    /// True after the header was read. A checksum then covers all returned bytes, at the latest at the end of the member.
+    /// True after the header was read. From then on, the checksum of the member covers all returned bytes and is verified at the end of the member.
     is_listed: AtomicBool,
     read: Mutex<Read>,
 }
