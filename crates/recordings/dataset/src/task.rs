@@ -189,7 +189,8 @@ impl Task {
         parts.map(|part| format!("{column}.{part}")).collect()
     }
 
-    /// Channels of the labels after [`Dataset::of_task`](crate::Dataset::of_task): the position of the class, or translation and rotation vector of a pose. Places and depth maps have none.
+    /// Channels of the labels after [`Dataset::of_task`](crate::Dataset::of_task): the position of the class, or translation and rotation vector of a
+    /// pose. Tasks of places and of depth maps have no such channels.
     ///
     /// ```
     /// use taceva_dataset::{Task, TaskKind};
