@@ -40,8 +40,8 @@ pub(super) enum Role {
     Other,
 }
 
-/// Minimum number of rows counting up by one from which numbers are taken for a counter instead of a force. A larger minimum applies to a column with the name
-/// of the channel.
+/// Minimum number of rows that count up by one in a column that is a counter and not a force. A larger minimum applies to a column with the name of
+/// the channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 

@@ -81,7 +81,7 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, ImportErro
     Ok(grouped(files))
 }
 
-/// Groups of the pictures and clips among `groups`, and a group of `file` alone.
+/// Groups of the pictures and clips among `groups`, and a group that contains only `file`.
 pub(super) fn beside(mut groups: Vec<FileGroup>, file: &str) -> Vec<FileGroup> {
     groups.retain(|group| is_picture(&group.ending) || is_clip(&group.ending));
     let is_known = groups
