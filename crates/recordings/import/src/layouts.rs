@@ -49,7 +49,8 @@ const SECTION: &str = "[preset]\n";
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Need {
-    /// Alternative paths relative to the folder, with `*` for any characters within a name. The map names the first; an existing one is read.
+    /// Alternative paths relative to the folder, with `*` for any characters within a name. The map names the first path. The path that exists is
+    /// read.
     pub(crate) any_of: Vec<String>,
     pub(crate) what: String,
 }
