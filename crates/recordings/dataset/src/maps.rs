@@ -45,10 +45,10 @@ pub struct StoredMap {
 }
 
 impl StoredMap {
-    /// Map with the stored bytes `bytes`, whose numbers mean `facts`.
+    /// Map with the stored bytes `bytes`. `facts` states the unit and scale of the stored numbers.
     ///
     /// # Errors
-    /// The problem in words if the bytes are no map, or the facts have no length.
+    /// Error message if the bytes are not a map, or if the unit in `facts` is not a length.
     pub fn of(bytes: &[u8], facts: &MapFacts) -> Result<StoredMap, String> {
         let unit = facts.length()?;
         let parts = parts_of_map(bytes)?;

@@ -208,7 +208,7 @@ impl Task {
         }
     }
 
-    /// Definition as one line, without the source columns. Labels of two recordings are alike if their definitions are equal.
+    /// Definition as one line, without the source columns. Labels of two recordings have the same meaning if their definitions are equal.
     pub fn definition(&self) -> String {
         let own = Task {
             from: Vec::new(),

@@ -17,7 +17,7 @@ macro_rules! files {
     };
 }
 
-/// Preset files by name, in the order of recognition. Each contains the map, followed by its `[preset]` section.
+/// Preset files by name, in the order of recognition. Each file contains the map, followed by the `[preset]` section.
 const FILES: &[(&str, &str)] = files![
     "bristol",
     "py3dcal",

@@ -21,7 +21,7 @@ pub(crate) const MOST_NAME: usize = 200;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Author {
-    /// Name.
+    /// Name of the author.
     pub name: String,
     /// Identifier of the person at orcid.org, with its check digit.
     #[serde(default, skip_serializing_if = "Option::is_none")]

@@ -29,7 +29,7 @@ pub(crate) struct Environment {
     pub(crate) instruction_sets: Vec<String>,
     /// Number of threads. No result depends on it.
     pub(crate) threads: usize,
-    /// Plugins behind the results, as they name them.
+    /// Plugins behind the results, as the results name them.
     pub(crate) plugins: Vec<String>,
 }
 

@@ -31,7 +31,7 @@ pub(crate) struct Inputs {
     pub(crate) reports: Vec<EvaluationReport>,
     /// Files of each study.
     pub(crate) studies: Vec<StudyInputs>,
-    /// Texts, by their names in the bundle.
+    /// Text files, by their names in the bundle.
     pub(crate) texts: BTreeMap<String, String>,
     /// Headers of datasets.
     pub(crate) headers: Vec<String>,
@@ -215,7 +215,7 @@ fn frames(
     Ok(prediction_files(recordings, &report.provenance, &samples)?)
 }
 
-/// Rejects recordings with more files or bytes than a bundle holds.
+/// Rejects recordings with more files or bytes than a bundle may contain.
 fn check_frames(path: &Path, studies: &[StudyInputs]) -> Result<(), BundleError> {
     let (mut count, mut bytes) = (0_usize, 0_u64);
     for recording in studies.iter().flat_map(|study| &study.frames) {

@@ -26,7 +26,8 @@ const SAME_PICTURES: usize = 10;
 /// Minimum number of samples at the limit of a clipped force. `CUT_SHARE` is their minimum frequency.
 const CUT: usize = 10;
 const CUT_SHARE: usize = 20;
-/// Minimum ratio of the frequency of the limit to that of any other value, among at least `VALUES` values. Commanded levels have a lower ratio.
+/// Minimum ratio of the frequency of the limit to the frequency of any other value, among at least `VALUES` values. Commanded levels have a lower
+/// ratio.
 const TIMES: usize = 3;
 const VALUES: usize = 20;
 

@@ -86,8 +86,8 @@ impl Dataset {
     /// The same dataset with the additional task `task`. `classes` contains the position of the class of each row, or `None` for no label.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for joined recordings, if the dataset has a task of the same name, if the number of labels is not the number of
-    /// rows, and for a class that the task does not name.
+    /// [`DatasetError::Request`] for joined recordings, for a duplicate task name, if the number of labels is not the number of rows, or if a class
+    /// is unknown.
     pub fn with_task(&self, task: Task, classes: &[Option<u32>]) -> Result<Dataset, DatasetError> {
         if self.table.task(&task.name).is_some() {
             let name = shown(&task.name);

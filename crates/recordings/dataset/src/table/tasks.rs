@@ -196,7 +196,7 @@ impl Table {
         self.tasks.iter().find(|own| own.task.name == name)
     }
 
-    /// The same rows with the [channels](Task::channels) of the labels of `own` as the only channels.
+    /// The same rows, whose only channels are the [channels](Task::channels) of the task of `own`.
     ///
     /// # Errors
     /// [`ChannelError`] if the name of the task is invalid for a channel.

@@ -20,7 +20,7 @@ pub(super) use words::words;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Role {
     Channels(Vec<Candidate>),
-    /// Column with a name like that of a channel, but for another quantity.
+    /// Column whose name resembles a channel name but denotes another quantity.
     Excluded(Exclusion),
     /// Time in `unit`, since 1970 or another origin; `"?"` if the unit is unknown.
     Time {

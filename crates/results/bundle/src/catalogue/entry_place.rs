@@ -25,7 +25,7 @@ pub(super) struct EntryPlace {
 }
 
 impl EntryPlace {
-    /// Entry of the sensor called `name`: an entry with that name or alias, that of a built-in sensor, or a new one.
+    /// Entry of the sensor called `name`: an entry with that name or alias, the entry of a built-in sensor, or a new entry.
     ///
     /// # Errors
     /// [`CatalogueFolderError::Refused`] for a name that resembles another name, has two meanings, or is not a valid file name.

@@ -105,7 +105,7 @@ fn check_no_link(root: &Path, path: &str) -> Result<(), CatalogueFolderError> {
     }
 }
 
-/// Files in `folder` whose names have this ending, by name; none if there is no such folder.
+/// Files in `folder` whose names have this ending, sorted by name; empty if the folder does not exist.
 fn texts(
     root: &Path,
     folder: &str,

@@ -102,8 +102,7 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
 /// Sensors of all entries of the catalogue at `root`, by file name. Each number of a bundle equals the number in its manifest.
 ///
 /// # Errors
-/// [`CatalogueFolderError`] with file and line for an invalid entry, for a number that its manifest does not hold, and for a folder that is not a
-/// catalogue.
+/// [`CatalogueFolderError`] with file and line for an invalid entry or a number that its manifest lacks, and for a folder that is not a catalogue.
 pub fn entries(root: &Path) -> Result<Vec<Sensor>, CatalogueFolderError> {
     check_catalogue_folder(root)?;
     let manifests = manifests(root, &mut Vec::new(), &mut Index::default())?;

@@ -86,7 +86,7 @@ fn counted(name: &str) -> Option<(&str, u32)> {
     Some((stem, number.parse().ok()?))
 }
 
-/// True if `next` has the number after that of `name`.
+/// True if the number in `next` follows the number in `name`.
 fn follows(name: &str, next: &str) -> bool {
     let pair = counted(name).zip(counted(next));
     pair.is_some_and(|((stem, number), (next_stem, next_number))| {
