@@ -22,7 +22,7 @@ pub(crate) struct TableColumns {
 /// Column of a table.
 pub(crate) struct Column {
     pub(crate) name: String,
-    /// Type of Croissant: `sc:Float`.
+    /// Data type in Croissant: `sc:Float`.
     pub(crate) data_type: &'static str,
 }
 

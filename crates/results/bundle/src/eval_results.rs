@@ -12,7 +12,7 @@ pub(crate) fn text(manifest: &Manifest) -> String {
     yaml::block(&Value::Array(entries.collect()))
 }
 
-/// Number for the hub.
+/// Entry of one number for the hub.
 pub(crate) struct HubEntry<'a> {
     /// Digest of the samples, in place of a dataset on the hub. Equal digests mean equal samples.
     pub(crate) samples: &'a str,
@@ -20,7 +20,7 @@ pub(crate) struct HubEntry<'a> {
     pub(crate) value: f64,
     pub(crate) day: String,
     pub(crate) notes: String,
-    /// Address of the bundle.
+    /// URL of the bundle.
     pub(crate) address: Option<&'a str>,
 }
 

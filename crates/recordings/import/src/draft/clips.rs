@@ -15,7 +15,7 @@ use crate::source_folder::SourceFolder;
 
 /// The only clip of a folder.
 pub(super) struct OnlyClip {
-    /// File name of the clip without its ending.
+    /// File name of the clip without the filename extension.
     stem: String,
     frames: u64,
 }
