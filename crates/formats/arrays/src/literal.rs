@@ -35,7 +35,7 @@ impl Literal {
         found.map(|(_, literal)| literal)
     }
 
-    /// Lengths of axes, given as one number or several; `None` for another literal.
+    /// Lengths of axes, from one number or several numbers; `None` for other literals.
     pub(crate) fn shape(&self) -> Option<Vec<u64>> {
         match self {
             Literal::Whole(side) => Some(vec![*side]),
