@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io;
 use std::path::Path;
 
-/// Syncs the names in `folder` to disk. Does nothing on systems that cannot open a folder as a file, such as Windows.
+/// Syncs the directory entries of `folder` to disk. Does nothing on systems that cannot open a folder as a file, such as Windows.
 ///
 /// # Errors
 /// Errors of the file system.

@@ -12,12 +12,12 @@ use crate::temporary_folder::{FORMER, TemporaryFolder, clear, folders, is_living
 
 /// Name prefix of every staging folder.
 pub const STAGED: &str = ".taceva-staged-";
-/// Maximum number of waits for a process between its two renames.
+/// Maximum number of waits for another process that is between its two renames.
 const WAITS: u32 = 2_000;
 const PAUSE: Duration = Duration::from_millis(1);
-/// Age of a folder's modification time from which any later change gives a different time.
+/// Resolution of modification times, with a margin. Two changes further apart have different times.
 const CLOCK: Duration = Duration::from_secs(2);
-/// Attempts to stage a target that another process stages, and the base pause between them.
+/// Number of attempts to stage a target that another process stages, and the base pause between the attempts.
 const CLAIMS: u32 = 6;
 const CLAIM_PAUSE: Duration = Duration::from_millis(3);
 

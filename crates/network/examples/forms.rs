@@ -25,7 +25,7 @@ use taceva_network::{
     Architecture, ConvolutionForm, Depth, Isa, NetworkError, Picture, Recipe, Trainer,
 };
 
-/// Training samples and held-out samples.
+/// Number of training samples, and of held-out samples.
 const LEARNT: usize = 320;
 const HELD_OUT: usize = 160;
 

@@ -31,7 +31,7 @@ fn main() {
     }
 }
 
-/// Divides an empty task between this thread and another one. Returns after the other thread has begun its half.
+/// Divides an empty task between this thread and another thread. Returns after the other thread has begun its half.
 fn halves() {
     let begun = std::sync::atomic::AtomicBool::new(false);
     let order = std::sync::atomic::Ordering::Release;

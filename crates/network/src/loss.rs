@@ -71,7 +71,7 @@ impl Loss {
     }
 }
 
-/// Mean cross entropy of the softmax of `outputs`, and its gradient. Each sample counts as much as the weight of its class; all equally without `weights`.
+/// Mean cross entropy of the softmax of `outputs`, and its gradient. Each sample has the weight of its class, or weight 1 if `weights` is empty.
 ///
 /// # Shapes
 /// `outputs`, `gradient`: `[samples, width]`; `weights`: `[width]`, or empty.

@@ -133,7 +133,7 @@ impl Network {
         self.slot_lengths().into_iter().sum()
     }
 
-    /// Number of gradient slots.
+    /// Number of slots, each the index of a parameter tensor in a backward pass.
     pub(crate) fn slots(&self) -> usize {
         self.head.slot + Head::SLOTS
     }

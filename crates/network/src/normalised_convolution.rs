@@ -1,4 +1,4 @@
-//! Convolution with batch normalisation, which every stage is built from.
+//! Convolution with batch normalisation, the building block of every stage.
 
 use crate::batch_norm::{
     BatchNorm, ChannelSums, Gate, GradientSums, Moments, gradient_sums, input_gradient,

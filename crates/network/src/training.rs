@@ -124,7 +124,8 @@ impl<'a> Trainer<'a> {
         })
     }
 
-    /// Continues this training on the CPU, with the convolution algorithm `form`. The last digits of results depend on the algorithm. A checkpoint stores it.
+    /// Continues this training on the CPU, with the convolution algorithm `form`. The last digits of results depend on the algorithm. A checkpoint
+    /// stores the algorithm.
     ///
     /// # Errors
     /// Errors of the previous engine; [`NetworkError::Memory`].

@@ -62,8 +62,8 @@ pub fn check_with(text: &str, attached: &[(&str, &[u8])]) -> Result<Opened, Seal
     }
 }
 
-/// Accepts `text` in its present state: adds a history entry and a valid seal, and keeps all other entries with their order and formatting. Returns a text with
-/// a valid seal unchanged.
+/// Accepts `text` in its present state: adds a history entry and a valid seal, and keeps all other entries with their order and formatting. If `text`
+/// has a valid seal, returns it unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if `text` is not a JSON object; [`SealError::Alone`] if `text` contains only a seal.

@@ -53,7 +53,7 @@ pub fn check(text: &str) -> Result<Opened, SealError> {
     })
 }
 
-/// Accepts `text` in its present state: adds a history entry and a valid seal. Returns a text with a valid seal unchanged.
+/// Accepts `text` in its present state: adds a history entry and a valid seal. If `text` has a valid seal, returns it unchanged.
 ///
 /// # Errors
 /// [`SealError::Content`] if `text` is not TOML; [`SealError::Alone`] if `text` contains only a seal.

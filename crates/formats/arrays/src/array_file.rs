@@ -150,8 +150,8 @@ impl ArrayFile {
         found.copied()
     }
 
-    /// Full names of the groups of HDF5 and zarr that match `pattern`, in order. `*` matches any characters except `/`. Dictionaries within the dictionary of a
-    /// pickle are also groups, after dots: `trajectories.*`.
+    /// Full names of the groups of HDF5 and zarr that match `pattern`, sorted by name. `*` matches any characters except `/`. Dictionaries within the
+    /// dictionary of a pickle are also groups, after dots: `trajectories.*`.
     #[must_use]
     pub fn groups(&self, pattern: &str) -> Vec<String> {
         let mut groups = self.store.groups();

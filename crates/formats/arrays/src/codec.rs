@@ -1,4 +1,4 @@
-//! Decompressors of whole buffers. Each limits its output, in bytes, and fails above the limit.
+//! Decompressors of whole buffers. Each decompressor limits its output, in bytes, and fails above the limit.
 
 mod blosc;
 mod shuffle;

@@ -95,7 +95,7 @@ pub enum Problem {
     /// Array name that does not exist.
     #[error("no such array; the file has {there}")]
     Absent {
-        /// First names of existing arrays.
+        /// Names of the first existing arrays.
         there: String,
     },
     /// Rows beyond the end of the array.

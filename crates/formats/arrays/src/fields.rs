@@ -64,7 +64,7 @@ impl Item {
         Ok(item)
     }
 
-    /// Appends the fields of `descr`, with names below `name` and axes after `extent`.
+    /// Appends the fields of `descr`, with `name` before their names and `extent` before their axes.
     fn add(&mut self, descr: &Literal, name: &str, extent: &[u64]) -> Result<(), Problem> {
         let unknown = || {
             Problem::unsupported(

@@ -33,7 +33,7 @@ pub(crate) const DIRECTORY_BYTES: u64 = 64 << 20;
 pub(crate) const DEFLATE_RATIO: u64 = 1_032;
 /// Compression ratio above which a member is inflated only up to `INFLATED_BYTES`.
 pub(crate) const USUAL_RATIO: u64 = 200;
-/// Maximum inflated size of a member above `USUAL_RATIO`, bytes. Limits any small file to 300 MB and 20 s.
+/// Maximum inflated size of a member above `USUAL_RATIO`, bytes. Reading any small file thus takes at most 300 MB of memory and 20 s.
 pub(crate) const INFLATED_BYTES: u64 = 128 << 20;
 /// Maximum size of members and variables of one file that are inflated as a whole and kept in memory, bytes.
 pub(crate) const HELD_BYTES: u64 = 64 << 20;

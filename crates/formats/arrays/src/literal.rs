@@ -35,7 +35,7 @@ impl Literal {
         found.map(|(_, literal)| literal)
     }
 
-    /// Lengths of axes, given as one number or several; `None` for another literal.
+    /// Lengths of axes, from one number or several numbers; `None` for other literals.
     pub(crate) fn shape(&self) -> Option<Vec<u64>> {
         match self {
             Literal::Whole(side) => Some(vec![*side]),
@@ -66,7 +66,7 @@ impl Reader<'_> {
         self.place += self.rest().len() - self.rest().trim_start().len();
     }
 
-    /// Skips `mark` if it is next. Returns true if it was.
+    /// Skips `mark` if the remaining text begins with it. Returns true if `mark` was skipped.
     fn skips(&mut self, mark: &str) -> bool {
         self.blank();
         let is_here = self.rest().starts_with(mark);

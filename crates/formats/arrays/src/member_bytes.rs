@@ -93,15 +93,15 @@ impl Budget {
 
 /// Unpacked bytes of a member.
 ///
-/// Stored bytes are read in place, after their checksum is verified. Deflated members are inflated as a whole and kept in memory if together they take at most
-/// 64 MiB. Larger members are inflated from the end of the last rows, or from the beginning for earlier rows. Their checksum is verified when the last byte is
-/// reached.
+/// Stored bytes are read in place, after their checksum is verified. Deflated members are inflated as a whole and kept in memory if together they
+/// take at most 64 MiB. Inflation of larger members continues after the rows read last, or restarts at the beginning for earlier rows. Their checksum
+/// is verified when the last byte is reached.
 #[derive(Debug)]
 pub(crate) struct PackedBytes {
     file: Arc<FileBytes>,
     member: Packed,
     is_held: bool,
-    /// True after the header was read. A checksum then covers all returned bytes, at the latest at the end of the member.
+    /// True after the header was read. From then on, the checksum of the member covers all returned bytes and is verified at the end of the member.
     is_listed: AtomicBool,
     read: Mutex<Read>,
 }

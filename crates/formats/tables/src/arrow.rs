@@ -115,7 +115,7 @@ impl ArrowTable {
         self.rows
     }
 
-    /// Columns in the order of the schema. Members replace a structure, such as `pose.x`.
+    /// Columns in the order of the schema. A structure is listed by its members, such as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
@@ -169,8 +169,8 @@ impl ArrowTable {
         Ok(cells)
     }
 
-    /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory contains one cell
-    /// at a time, or one compressed buffer.
+    /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Keeps one cell
+    /// or one compressed buffer in memory.
     ///
     /// `sorted` must be ascending. A row listed twice is passed twice.
     ///

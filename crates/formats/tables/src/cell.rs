@@ -7,8 +7,8 @@ use crate::path::{indices, longest};
 
 /// Cell of a table: the value of one column in one row.
 ///
-/// A single-precision number is converted exactly to double precision and written in full: 0.3 as an `f32` is 0.30000001192092896. NumPy and pyarrow give the
-/// same number after widening. A label rounded to 0.3 would differ from theirs in the eighth digit.
+/// A single-precision number is converted exactly to double precision and written in full: 0.3 as an `f32` is 0.30000001192092896. NumPy and pyarrow
+/// give the same number after widening. A label rounded to 0.3 would differ from this number in the eighth digit.
 ///
 /// ```
 /// use taceva_tables::Cell;

@@ -69,8 +69,8 @@ impl LeRobot {
     /// Opens the dataset in `folder`. Reads its metadata, and the footers of all data files.
     ///
     /// # Errors
-    /// [`TableError::Unsupported`] for another version, or files outside the folder. [`TableError::Damaged`] if an episode has two takes, or a number of rows
-    /// that contradicts its description. Otherwise errors of [`ParquetTable::open`].
+    /// [`TableError::Unsupported`] for another version, or files outside the folder. [`TableError::Damaged`] if an episode was recorded twice, or its
+    /// number of rows contradicts its description. Otherwise errors of [`ParquetTable::open`].
     pub fn open(folder: &Path) -> Result<LeRobot, TableError> {
         let (source, json) = json_file(folder, "meta/info.json")?;
         let info = info::parse(&source, &json)?;
@@ -212,7 +212,7 @@ impl LeRobot {
         first.open()?.kind(name)
     }
 
-    /// Calls `each` with the rows `sorted` and their pictures of a feature with dtype `image`, or their bytes in another column. See
+    /// Calls `each` with each row of `sorted` and its picture in a feature with dtype `image`, or its bytes in another column. See
     /// [`ParquetTable::visit_bytes`].
     ///
     /// # Errors

@@ -1,5 +1,5 @@
-//! Memory limits. Larger files are rejected before memory is allocated for them. No file takes 512 MiB of memory, even if it states false sizes
-//! (`tests/hostile.rs`).
+//! Memory limits. Larger files are rejected before memory is allocated for them. Reading a file takes less than 512 MiB of memory, even if the file
+//! states false sizes (`tests/hostile.rs`).
 
 /// Maximum size of metadata, bytes: the footer of a Parquet file, or the summary of an MCAP file.
 pub(crate) const DESCRIPTION_BYTES: u64 = 32 << 20;

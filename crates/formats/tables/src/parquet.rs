@@ -112,7 +112,7 @@ impl ParquetTable {
         self.rows
     }
 
-    /// Columns in the order of the schema. Members replace a structure, such as `pose.x`.
+    /// Columns in the order of the schema. A structure is listed by its members, such as `pose.x`.
     pub fn names(&self) -> Vec<String> {
         names(&self.columns)
     }
@@ -185,8 +185,8 @@ impl ParquetTable {
         Ok(())
     }
 
-    /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Memory contains one cell
-    /// and its decoder, or one page if its encoding is not plain.
+    /// Calls `each` with each row of `sorted` and the bytes in the column `name`, such as `image.bytes`; [`None`] if the cell is null. Keeps one cell
+    /// and its decoder in memory, or one page if the encoding of the page is not plain.
     ///
     /// `sorted` must be ascending. A row listed twice is passed twice.
     ///

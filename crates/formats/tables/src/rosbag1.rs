@@ -299,7 +299,7 @@ impl<'a> Records<'a> {
             .bytes(&mut self.file, at, length, limits::PAGE_BYTES)
     }
 
-    /// Unpacked records of the chunk at `at`. Of a truncated uncompressed chunk, the records before its end.
+    /// Unpacked records of the chunk at `at`. For a truncated uncompressed chunk, only the records before its end.
     fn unpacked(&mut self, at: u64) -> Result<Arc<Vec<u8>>, TableError> {
         if let Some((kept, bytes)) = &self.kept
             && *kept == at

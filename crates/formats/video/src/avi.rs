@@ -65,7 +65,7 @@ impl Avi {
         })
     }
 
-    /// True if its packets are JPEG files.
+    /// True if the packets of the stream are JPEG files.
     pub(crate) fn is_motion_jpeg(&self) -> bool {
         matches!(
             self.stream.codec.to_ascii_uppercase().as_slice(),

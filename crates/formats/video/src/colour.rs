@@ -42,7 +42,7 @@ impl<'a> Planes<'a> {
     /// Planes without padding in the rows. Each chroma sample covers `1 << shifts[0]` by `1 << shifts[1]` pixels.
     ///
     /// # Panics
-    /// Panics if a plane is too small. Decoders check the sizes before.
+    /// Panics if a plane is too small. Decoders check the sizes first.
     pub(crate) fn new(
         width: u32,
         height: u32,

@@ -162,7 +162,7 @@ impl ForeignClip {
         Ok((info, clip))
     }
 
-    /// Calls `each` with the frames whose indices are in `sorted`. All must exist.
+    /// Calls `each` with the frames whose indices are in `sorted`. All these frames must exist.
     pub(crate) fn visit(
         &self,
         sorted: &[u64],

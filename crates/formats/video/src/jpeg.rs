@@ -110,7 +110,7 @@ pub(crate) fn with_tables(packet: Vec<u8>, header: &JpegHeader) -> Vec<u8> {
     whole
 }
 
-/// Tables K.3 to K.6 of ITU-T T.81. Each consists of its class and number, its counts of codes by length, and its values.
+/// Tables K.3 to K.6 of ITU-T T.81. Each table consists of its class and number, its counts of codes by length, and its values.
 #[rustfmt::skip]
 const STANDARD_TABLES: [u8; 416] = [
     0x00, 0x00, 0x01, 0x05, 0x01, 0x01, 0x01, 0x01, 0x01, 0x01, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x00, 0x01, 0x02,

@@ -66,7 +66,7 @@ pub(crate) enum Frames {
     Jpeg(JpegClip),
     H264 {
         clip: Box<H264Clip>,
-        /// Path of ffmpeg, for streams whose unsupported tools of the codec are detected only when a frame is decoded.
+        /// Path of ffmpeg, for streams with an unsupported codec feature that is detected only when a frame is decoded.
         else_by: Option<PathBuf>,
     },
     Av1(Box<Av1Clip>),
@@ -94,8 +94,8 @@ impl Video {
 
     /// Calls `each` with the frames in `sorted` and their indices. The indices count from 0 in presentation order and must be strictly ascending.
     ///
-    /// Decodes only from the key frame before a frame up to that frame. Memory contains one picture, and the pictures that the codec needs later. Threads may
-    /// share the clip, each with a separate visit.
+    /// Decodes only from the key frame before a frame up to that frame. Keeps one picture in memory, and the pictures that the codec needs later.
+    /// Threads may share the clip, each with a separate visit.
     ///
     /// # Errors
     /// [`VisitError::Video`] if a frame cannot be read. [`VisitError::Caller`] for an error of `each`.

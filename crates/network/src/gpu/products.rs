@@ -23,7 +23,7 @@ pub(crate) trait Products: Backend {
     fn product(left: Tensor<Self, 3>, right: Tensor<Self, 3>) -> Tensor<Self, 3>;
 }
 
-/// Minimum number of products per sum for double buffering. It is faster, but cubek 0.2 computes shorter sums wrongly with it.
+/// Minimum number of products per sum for double buffering. Double buffering is faster, but makes cubek 0.2 compute shorter sums wrongly.
 const LONG: usize = 128;
 
 impl<R, I, B> Products for CubeBackend<R, f32, I, B>

@@ -92,7 +92,7 @@ fn back(seen: [usize; 2], given: [usize; 2], kernel: usize, stride: usize) -> Ve
     positions(seen, given, kernel, place)
 }
 
-/// Index, computed by `place`, for each pixel of a picture of size `each` and each kernel position. It refers to a picture of size `of`.
+/// Index, computed by `place`, for each pixel of a picture of size `each` and each kernel position. The index refers to a picture of size `of`.
 fn positions(
     each: [usize; 2],
     of: [usize; 2],

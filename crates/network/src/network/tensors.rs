@@ -1,4 +1,4 @@
-//! Weights by name. The names are those of PyTorch.
+//! Weights by name, with the names of PyTorch.
 
 use std::collections::BTreeMap;
 

@@ -29,7 +29,7 @@ pub struct Summary {
     pub recipe: Recipe,
     /// Number of training samples.
     pub samples: usize,
-    /// Algorithm of convolutions on the CPU. It affects the last digits.
+    /// Algorithm of convolutions on the CPU. The algorithm affects the last digits of results.
     pub convolutions: ConvolutionForm,
     /// Progress and losses.
     pub state: TrainingState,

@@ -38,8 +38,8 @@ pub trait Engine: fmt::Debug + Send {
     fn moments(&self) -> Result<Moments, NetworkError>;
 }
 
-/// Optimiser state of each parameter, sorted by name. Either one list of velocities, or one of mean gradients and one of mean squared gradients. Empty before
-/// the first step.
+/// Optimiser state of each parameter, sorted by name. One list (velocities), or two lists (mean gradients, mean squared gradients). Empty before the
+/// first step.
 pub type Moments = Vec<Vec<NamedTensor>>;
 
 /// Samples and settings of one step.

@@ -11,7 +11,7 @@ use taceva_dataset::{Dataset, DatasetError, TaskLabel};
 pub struct DepthFacts {
     /// Name of the task.
     pub task: String,
-    /// Problem of the unit of its depths, in words; `None` for a length.
+    /// Problem with the unit of the depths, in words; `None` if the unit is a length.
     pub unit_problem: Option<String>,
     /// Statistics of each map, by row.
     pub maps: Vec<OneMap>,

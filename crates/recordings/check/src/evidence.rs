@@ -52,7 +52,7 @@ impl Evidence<'_> {
             .find_map(|name| channels.position(name))
     }
 
-    /// For each row, false if its label of depth shows contact. If every row has a positive depth, they may be positions and show nothing.
+    /// For each row, false if its depth label shows contact. If all depths are positive, they may be positions, and all rows are true.
     pub(crate) fn without_depth(&self) -> Vec<bool> {
         let rows = self.table.rows();
         let Some(depth) = self.table.channels().position("Pz") else {

@@ -2,7 +2,7 @@
 
 use crate::tiles::Tiles;
 
-/// Change of the untouched picture above which it is reported, as a fraction of the change by contact. Both are means over all tiles.
+/// Change of the untouched picture above which it is reported, as a fraction of the change by contact. Both changes are means over all tiles.
 const THIRD: f64 = 1.0 / 3.0;
 
 /// Change of the untouched picture since the reference, and the change by contact for comparison.

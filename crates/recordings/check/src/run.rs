@@ -176,7 +176,7 @@ pub(crate) fn check_seen(
     })
 }
 
-/// Division that scores each task of classes. A task of one cluster has none, and its evaluation is refused.
+/// Division that scores each task of classes. A task with a single cluster has no division and cannot be evaluated.
 fn of_tasks(
     dataset: &Dataset,
     request: &CheckRequest,

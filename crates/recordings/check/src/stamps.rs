@@ -120,8 +120,8 @@ pub(super) fn share(part: usize, whole: usize) -> f64 {
     part as f64 / whole.max(1) as f64
 }
 
-/// Rows with the same time as the previous row of their clock; `None` unless they are more than one in ten. The clock then counts whole seconds, or has
-/// stopped.
+/// Rows with the same time as the previous row of their clock; `None` unless more than one in ten rows repeat a time. The clock then counts whole
+/// seconds, or has stopped.
 pub(super) fn repeated(table: &Table) -> Option<Vec<usize>> {
     const SHARE: usize = 10;
     let times = table.t_s();

@@ -20,8 +20,8 @@ const VISITS: usize = 4;
 
 /// Rows of the densest group of similar pictures, whose centre is a picture with a low load; empty without such a group.
 ///
-/// Labels of force only select the candidates. After a force was zeroed again, some untouched pictures have a load but still belong to the
-/// group. A picture with a label of depth in the gel does not, however similar a light contact is.
+/// Labels of force only select the candidates. After a force was zeroed again, some untouched pictures have a load but still belong to the group. A
+/// picture with a depth label inside the gel does not belong to the group, even if it is similar.
 pub(crate) fn look_alikes(evidence: &Evidence<'_>) -> Vec<usize> {
     let Some(load) = evidence.load() else {
         return Vec::new();

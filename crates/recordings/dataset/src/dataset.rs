@@ -60,7 +60,7 @@ pub struct Dataset {
     folder: HeldFolder,
     header: Header,
     table: Table,
-    /// First frame of each pack read so far.
+    /// Decoded first frame of each pack that was read.
     firsts: Mutex<BTreeMap<String, Arc<Frame>>>,
     /// Reader of the signals file; `None` before the first request.
     signals: Mutex<Option<Arc<SignalsReader>>>,
@@ -68,7 +68,7 @@ pub struct Dataset {
     joined: Vec<JoinedRecording>,
     /// Indices of the selected views; empty if a row has one picture or no view was selected.
     seen: Vec<usize>,
-    /// Task whose labels take the place of the channels; `None` for measured channels.
+    /// Task whose labels replace the channels; `None` for measured channels.
     labelled_by: Option<Task>,
 }
 

@@ -204,8 +204,8 @@ fn unsupported(what: &str, found: &dyn std::fmt::Debug) -> String {
     format!("unsupported {what} type {found:?}; convert to gray or RGB")
 }
 
-/// True if a sequential JPEG codes each colour in a separate scan, so that its first scan has fewer components than its frame (ITU-T T.81, B.2.2
-/// and B.2.3).
+/// True if a sequential JPEG codes each colour in a separate scan (ITU-T T.81, B.2.2 and B.2.3). Its first scan then has fewer components than its
+/// frame.
 fn has_a_scan_a_component(bytes: &[u8]) -> bool {
     let mut of_frame = None;
     let mut rest = bytes.get(2..).unwrap_or(&[]);

@@ -4,7 +4,7 @@ use taceva_core::{Frame, FrameError};
 
 use crate::digest::{Digest, PartsDigest};
 
-/// Subtracts `first` from `frame`, value by value with wrapping. Both must have the same size and format.
+/// Subtracts `first` from `frame`, value by value with wrapping. Both frames must have the same size and format.
 pub(crate) fn less(frame: &Frame, first: &Frame) -> Result<Frame, FrameError> {
     mixed(frame, first, u8::wrapping_sub, u16::wrapping_sub)
 }

@@ -112,7 +112,7 @@ pub fn write_durable(path: &Path, bytes: &[u8]) -> Result<(), DatasetError> {
         .map_err(DatasetError::io("write", path))
 }
 
-/// Syncs the names in a folder to disk.
+/// Syncs the directory entries of a folder to disk.
 pub(crate) fn make_names_durable(folder: &Path) -> Result<(), DatasetError> {
     sync_folder(folder).map_err(DatasetError::io("make durable", folder))
 }

@@ -148,7 +148,7 @@ pub struct Header {
     pub frames: Option<FramesInfo>,
     /// Frames of each view, if samples have several pictures. `frames` then describes the selected views.
     pub views: Vec<ViewInfo>,
-    /// Number of presses by outcome, including those without a sample; empty without a protocol.
+    /// Number of presses by outcome, including presses without a sample; empty without a protocol.
     pub presses: BTreeMap<PressOutcome, u64>,
     /// Frame losses of a recorded stream; `None` for other recordings.
     pub stream: Option<StreamFacts>,

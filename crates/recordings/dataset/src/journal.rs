@@ -1,8 +1,8 @@
 //! Journal of a recording. A record survives a power cut once its append has returned.
 //!
-//! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers little-endian. The header check is the
-//! beginning of the SHA-256 of the preceding 13 bytes. It verifies the length before use. The chain is the SHA-256 of the previous chain, the header and the
-//! payload. It detects missing, changed or moved records.
+//! A record is `length: u32 · kind: u8 · sequence: u64 · header check: 8 bytes · payload · chain: 32 bytes`, numbers little-endian. The header check
+//! is the beginning of the SHA-256 of the preceding 13 bytes. This check verifies the length before use. The chain is the SHA-256 of the previous
+//! chain, the header and the payload. The chain detects missing, changed or moved records.
 //!
 //! Each record is durable before the next begins, so only the last can be torn. A torn last record is cut when the journal is opened. Damage before later
 //! records is an error, because the later records were acknowledged.

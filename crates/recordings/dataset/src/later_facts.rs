@@ -62,7 +62,7 @@ pub(crate) fn resume_on(
     kept.write(recording)
 }
 
-/// Adds warnings of the devices that make the unfinished recording at `recording`. Its header will contain each of them once.
+/// Adds warnings of the devices that make the unfinished recording at `recording`. The header will contain each warning once.
 ///
 /// # Errors
 /// Errors of the file system.
@@ -81,7 +81,7 @@ pub fn add_device_warnings(recording: &Path, warnings: &[String]) -> io::Result<
     }
 }
 
-/// Adds settings that were measured during a session of the unfinished recording at `recording`. They replace those of earlier sessions.
+/// Adds settings that were measured during a session of the unfinished recording at `recording`. They replace the settings of earlier sessions.
 ///
 /// # Errors
 /// Errors of the file system.

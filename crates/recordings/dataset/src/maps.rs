@@ -1,7 +1,7 @@
 //! Depth maps: the bytes of one map, and the file with all maps of a task.
 //!
-//! A map begins with its form, and with its numbers of rows and columns. One bit for each pixel follows, set for an invalid pixel, and then the numbers: as 32-bit
-//! floating point, little endian, or as a gray PNG.
+//! A map consists of its encoding, its numbers of rows and columns, a bit mask of invalid pixels, and the depths. The depths are little-endian 32-bit
+//! floating-point numbers, or a gray PNG.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{BufWriter, Write};
@@ -16,7 +16,7 @@ use crate::file::refuse_link;
 use crate::limits;
 use crate::task::{MapEntry, MapFacts};
 
-/// Bytes before the mask: the form, then the numbers of rows and of columns.
+/// Size of the header before the mask, bytes: the encoding, then the numbers of rows and of columns.
 const HEAD: usize = 9;
 
 /// Depth map of a sample, read from a dataset.
@@ -45,10 +45,10 @@ pub struct StoredMap {
 }
 
 impl StoredMap {
-    /// Map with the stored bytes `bytes`, whose numbers mean `facts`.
+    /// Map with the stored bytes `bytes`. `facts` states the unit and scale of the stored numbers.
     ///
     /// # Errors
-    /// The problem in words if the bytes are no map, or the facts have no length.
+    /// Error message if the bytes are not a map, or if the unit in `facts` is not a length.
     pub fn of(bytes: &[u8], facts: &MapFacts) -> Result<StoredMap, String> {
         let unit = facts.length()?;
         let parts = parts_of_map(bytes)?;
@@ -75,7 +75,7 @@ impl StoredMap {
     }
 }
 
-/// Form of the numbers of a map.
+/// Encoding of the depths of a map.
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MapForm {
@@ -89,7 +89,7 @@ pub enum MapForm {
 #[doc(hidden)]
 #[derive(Clone, Copy, Debug)]
 pub struct MapParts<'a> {
-    /// Form of the numbers.
+    /// Encoding of the depths.
     pub form: MapForm,
     /// Number of rows of pixels.
     pub rows: usize,
@@ -97,7 +97,7 @@ pub struct MapParts<'a> {
     pub columns: usize,
     /// One bit for each pixel, the lowest first; set for an invalid pixel.
     pub mask: &'a [u8],
-    /// The numbers.
+    /// Encoded depths.
     pub data: &'a [u8],
 }
 
@@ -202,7 +202,7 @@ pub fn map_of_png(png: &[u8], invalid: Option<f64>) -> Result<Vec<u8>, String> {
     Ok(bytes)
 }
 
-/// True if `number` is the number `invalid`, bit by bit except for the sign of zero.
+/// True if `number` equals the marker `invalid`, bit by bit except for the sign of zero.
 fn is_marker(number: f64, invalid: Option<f64>) -> bool {
     invalid.is_some_and(|invalid| (invalid + 0.0).to_bits() == (number + 0.0).to_bits())
 }
@@ -260,7 +260,7 @@ fn singles(data: &[u8]) -> impl Iterator<Item = f32> + '_ {
     numbers.map(|number| f32::from_le_bytes([number[0], number[1], number[2], number[3]]))
 }
 
-/// Numbers of a gray PNG of `size`, rows and columns.
+/// Pixel values of a gray PNG with the numbers of rows and columns in `size`.
 fn gray(png: &[u8], size: [usize; 2]) -> Result<Vec<f64>, String> {
     let (_, frame) = decode(png, ChannelOrder::Gray)?;
     let info = frame.info();

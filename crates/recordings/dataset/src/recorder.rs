@@ -51,18 +51,18 @@ pub use stream::Streamed;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct RecordingSpec {
-    /// Channels of the labels of each sample.
+    /// Facts about the recording that are known before the first sample.
     pub facts: RecordingFacts,
-    /// Taxels of the sensor; `None` for a sensor without taxels. With taxels, every sample must have signals.
+    /// Channels of the labels of each sample.
     pub channels: Channels,
-    /// Taxels of the sensor; if any, every sample must have their signals.
+    /// Taxels of the sensor; `None` without taxels. With taxels, every sample must have signals.
     pub signals: Option<SignalsSpec>,
     /// Original form of frames that were reduced before recording.
     pub reduced: Option<ReducedFrames>,
 }
 
 impl RecordingSpec {
-    /// Recording of a sensor with taxels. Every sample must have signals.
+    /// Recording without taxels, whose frames are not reduced.
     pub fn new(facts: RecordingFacts, channels: Channels) -> RecordingSpec {
         RecordingSpec {
             facts,
@@ -72,7 +72,7 @@ impl RecordingSpec {
         }
     }
 
-    /// Recording whose frames are reduced before they are recorded.
+    /// The same recording for a sensor with taxels. Every sample must have signals.
     #[must_use]
     pub fn with_signals(self, signals: SignalsSpec) -> RecordingSpec {
         RecordingSpec {
@@ -81,7 +81,7 @@ impl RecordingSpec {
         }
     }
 
-    /// The same recording for frames that differ from the frames of the camera.
+    /// The same recording for frames that are reduced before they are recorded.
     #[must_use]
     pub fn with_reduced(self, reduced: ReducedFrames) -> RecordingSpec {
         RecordingSpec {
@@ -130,7 +130,7 @@ pub struct Recorder {
     pack_end: PackEnd,
     /// First frame of the pack, and its digest.
     first: Option<(Digest, Frame)>,
-    /// Number of frames without contact recorded so far.
+    /// Number of recorded frames without contact.
     references: usize,
     /// Signals file, which is rewritten from the journal when a recording is resumed.
     signals: Option<SignalsWriter>,
@@ -262,7 +262,7 @@ impl Recorder {
         self.finished.contains(id)
     }
 
-    /// Samples recorded so far, in order.
+    /// Recorded samples, in order.
     pub fn table(&self) -> &Table {
         &self.table
     }
@@ -275,8 +275,8 @@ impl Recorder {
     /// Records a sample. Returns its number in the journal, from 1, once the sample is durable. Predictions are not recorded.
     ///
     /// # Errors
-    /// [`DatasetError::Sample`] if the name is empty or taken, a number is not finite, there are more values than channels, the signals do not match the
-    /// taxels, or the frame differs in size or format from the first. [`DatasetError::Io`], after which the recording must be resumed.
+    /// [`DatasetError::Sample`] if the name is empty or already used, a number is not finite, there are more values than channels, the signals do not
+    /// match the taxels, or the frame differs in size or format from the first. [`DatasetError::Io`], after which the recording must be resumed.
     pub fn append(&mut self, sample: &Sample) -> Result<u64, DatasetError> {
         self.check(sample)?;
         let entries = self.write_frames(std::slice::from_ref(sample))?;

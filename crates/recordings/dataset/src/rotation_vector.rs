@@ -1,6 +1,6 @@
 //! Rotations as three numbers that a model can predict.
 
-/// Rotation as its axis times its angle in degrees, of which the length is at most 180.
+/// Rotation as the product of its axis and its angle, degrees. The length is at most 180.
 ///
 /// ```
 /// use taceva_dataset::RotationVector;

@@ -75,8 +75,8 @@ impl StagedFolder {
         }
     }
 
-    /// Syncs the names in this folder and in `folders`, then renames the folder to its target. The rename is atomic if the target is free or the file system
-    /// can exchange names.
+    /// Syncs the directory entries of this folder and of `folders`, then renames the folder to its target. The rename is atomic if the target is free
+    /// or the file system can exchange names.
     pub fn put_in_place(self, folders: &[String]) -> Result<(), DatasetError> {
         for folder in folders {
             make_names_durable(&self.path().join(folder))?;

@@ -9,10 +9,10 @@ use serde::{Deserialize, Deserializer, Serialize};
 
 pub use maps::{MapEntry, MapFacts};
 
-/// Ends of the names of the channels of a pose: a translation, and a rotation vector.
+/// Suffixes of the channel names of a pose: a translation, and a rotation vector.
 const POSE_CHANNELS: [&str; 6] = ["tx", "ty", "tz", "rx", "ry", "rz"];
 
-/// Begin of the name of each column with labels of a task. Attributes and channels contain no `.`.
+/// Prefix of the name of each column with labels of a task. Attributes and channels contain no `.`.
 const PREFIX: &str = "task.";
 
 /// Parts of a pose, in the order of storage: a position in mm and a unit quaternion.
@@ -60,7 +60,7 @@ impl TaskKind {
         TaskKind::Depth,
     ];
 
-    /// Word for the kind in maps and headers.
+    /// Name of the kind in maps and headers.
     pub const fn name(self) -> &'static str {
         match self {
             TaskKind::Class => "class",
@@ -77,7 +77,7 @@ impl TaskKind {
         matches!(self, TaskKind::Class | TaskKind::Event | TaskKind::Outcome)
     }
 
-    /// Kind with the word `name`.
+    /// Kind called `name`.
     pub fn from_name(name: &str) -> Option<TaskKind> {
         TaskKind::ALL.into_iter().find(|kind| kind.name() == name)
     }
@@ -110,7 +110,7 @@ pub struct Task {
     /// Name of the class that a model should find; `None` if no class is preferred.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub positive: Option<String>,
-    /// Id or attribute with equal values in samples that resemble each other, such as a trajectory. Intervals and splits go by it.
+    /// Id or attribute that is equal in similar samples, such as a trajectory. Intervals and splits treat these samples as one cluster.
     pub cluster: String,
     /// True if the times of the samples are meaningful for the task.
     #[serde(rename = "time", default, skip_serializing_if = "std::ops::Not::not")]
@@ -158,7 +158,7 @@ impl PoseThresholds {
 }
 
 impl Task {
-    /// Task `name` without classes. Samples with the same value of `cluster` resemble each other.
+    /// Task `name` without classes. Samples with the same value of `cluster` are similar.
     pub fn new(name: impl Into<String>, kind: TaskKind, cluster: impl Into<String>) -> Task {
         Task {
             name: name.into(),
@@ -189,7 +189,8 @@ impl Task {
         parts.map(|part| format!("{column}.{part}")).collect()
     }
 
-    /// Channels of the labels after [`Dataset::of_task`](crate::Dataset::of_task): the position of the class, or translation and rotation vector of a pose. Places and depth maps have none.
+    /// Channels of the labels after [`Dataset::of_task`](crate::Dataset::of_task): the position of the class, or translation and rotation vector of a
+    /// pose. Tasks of places and of depth maps have no such channels.
     ///
     /// ```
     /// use taceva_dataset::{Task, TaskKind};
@@ -207,7 +208,7 @@ impl Task {
         }
     }
 
-    /// Definition as one line, without the source columns. Labels of two recordings are alike if their definitions are equal.
+    /// Definition as one line, without the source columns. Labels of two recordings have the same meaning if their definitions are equal.
     pub fn definition(&self) -> String {
         let own = Task {
             from: Vec::new(),
@@ -263,7 +264,7 @@ impl TaskLabel {
     }
 }
 
-/// Tasks of a header by name. A kind of a later minor version is skipped.
+/// Tasks of a header by name. Tasks of unknown kinds, from a later minor version, are skipped.
 pub(crate) fn known<'de, D: Deserializer<'de>>(
     deserializer: D,
 ) -> Result<BTreeMap<String, Task>, D::Error> {

@@ -30,7 +30,7 @@ impl Version {
     /// Format version of a dataset without tasks.
     pub const CURRENT: Version = Version { major: 1, minor: 0 };
 
-    /// Format version of a dataset with tasks. A reader of [`CURRENT`](Version::CURRENT) reads everything else of it.
+    /// Format version of a dataset with tasks. A reader of [`CURRENT`](Version::CURRENT) reads everything except the tasks.
     pub const WITH_TASKS: Version = Version {
         major: 1,
         minor: 11,

@@ -81,7 +81,7 @@ pub fn add_press_zero(recording: &Path, zero: &PressZero) -> io::Result<()> {
     table.flush()
 }
 
-/// Rows of the table beside the recording at `recording`; empty without a table. A row that a stop of the machine cut off is left out.
+/// Rows of the table beside the recording at `recording`; empty without a table. A last row that was truncated by a crash is skipped.
 #[doc(hidden)]
 pub fn press_zeros(recording: &Path) -> Vec<PressZero> {
     let table = csv::Reader::from_path(place(recording));
@@ -95,7 +95,7 @@ struct ZeroChanges {
     step_n: f64,
     /// Greatest range of a component between the presses, N.
     range_n: f64,
-    /// Number of presses that were repeated because the zero changed further.
+    /// Number of presses that were repeated because the zero changed too far.
     discarded: usize,
 }
 

@@ -219,8 +219,8 @@ fn stated_channels(table: &SeenTable<'_>) -> usize {
     }
 }
 
-/// Finds the table whose rows are the samples. Preferred are tables that name pictures, then tables with taxels, then with as many rows as the clip has frames,
-/// then with the most channels.
+/// Finds the table whose rows are the samples. Prefers tables that name pictures, then tables with taxels, then tables with one row per frame of the
+/// clip, then the most channels.
 fn main_table<'t, 'g>(
     folder: &SourceFolder,
     groups: &[FileGroup],

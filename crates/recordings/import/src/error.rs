@@ -128,7 +128,7 @@ impl ImportError {
         }
     }
 
-    /// The same error after `path` has mapped each path and `text` each message.
+    /// The same error, with `path` applied to each path and `text` to each message.
     pub(crate) fn with_paths(
         mut self,
         path: &dyn Fn(&Path) -> PathBuf,

@@ -138,7 +138,7 @@ pub enum ArrayLayout {
 }
 
 impl ArrayLayout {
-    /// Word for the layout in a map.
+    /// Name of the layout in a map.
     pub const fn name(self) -> &'static str {
         match self {
             ArrayLayout::Nhwc => "nhwc",

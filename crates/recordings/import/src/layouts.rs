@@ -17,7 +17,7 @@ macro_rules! files {
     };
 }
 
-/// Preset files by name, in the order of recognition. Each contains the map, followed by its `[preset]` section.
+/// Preset files by name, in the order of recognition. Each file contains the map, followed by the `[preset]` section.
 const FILES: &[(&str, &str)] = files![
     "bristol",
     "py3dcal",
@@ -49,7 +49,8 @@ const SECTION: &str = "[preset]\n";
 #[derive(Debug, Deserialize, PartialEq, Eq)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Need {
-    /// Alternative paths relative to the folder, with `*` for any characters within a name. The map names the first; an existing one is read.
+    /// Alternative paths relative to the folder, with `*` for any characters within a name. The map names the first path. The path that exists is
+    /// read.
     pub(crate) any_of: Vec<String>,
     pub(crate) what: String,
 }

@@ -13,10 +13,10 @@ pub(crate) struct TaxelCode {
 const GREATEST: [f64; 7] = [
     255.0, 1_023.0, 4_095.0, 32_767.0, 65_535.0, 99_999.0, 9_999.0,
 ];
-/// Minimum number of rows with a code. `SHARE` is its minimum frequency: one row in so many.
+/// Minimum number of rows with a code. At least one in `SHARE` rows must have the code.
 const LEAST: usize = 3;
 const SHARE: usize = 50;
-/// Distance of a negative code from the next number that no noise has.
+/// Minimum distance of a negative code from the next number. Noise has smaller distances.
 const FAR: f64 = 2.0;
 /// Minimum distance of a great code from the next number, as a fraction of the range of all other numbers.
 const FAR_SHARE: f64 = 0.25;

@@ -1,4 +1,4 @@
-//! A bundle as one file: `.tar.gz` with sorted names, zero times and no owner.
+//! A bundle as one file: `.tar.gz` with sorted names, time stamps of 0 and no owner.
 
 use std::cell::Cell;
 use std::fs::{self, File, OpenOptions};
@@ -18,12 +18,12 @@ use crate::name::{self, check_amount, check_case};
 
 /// First bytes of a packed file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
-/// Rule of entries.
+/// Rule for the entries of a packed bundle.
 const ENTRIES: &str = "a packed bundle holds regular files alone";
-/// Rule of the packed file.
+/// Rule for the packed file as a whole.
 const WHOLE: &str = "a packed bundle is one complete .tar.gz";
 
-/// Packs the files `names`, ascending, of the folder `root` into a new file at `path`. Equal files give equal bytes.
+/// Packs the files `names` of the folder `root`, sorted by name, into a new file at `path`. Equal files give equal bytes.
 ///
 /// # Errors
 /// [`io::Error`] if a file cannot be read or written.
@@ -47,11 +47,11 @@ pub(crate) fn pack(root: &Path, names: &[String], path: &Path) -> io::Result<()>
     file.flush()
 }
 
-/// Unpacks the bundle at `path` into the empty folder `into`. At most `most` bytes are unpacked, and no more than its size allows.
+/// Unpacks the bundle at `path` into the empty folder `into`. Unpacks at most `most` bytes, and fewer if the packed file is small.
 ///
 /// # Errors
 /// [`BundleError::Damaged`] for the first entry that is refused: a link, a device, a name that leads out of the bundle or occurs twice; for too many
-/// files or bytes, and for a file that is no `.tar.gz`.
+/// files or bytes, and for a file that is not a `.tar.gz`.
 pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleError> {
     // A pipe would be waited for if it was opened.
     let about = fs::metadata(path).map_err(BundleError::file(path))?;
@@ -195,7 +195,7 @@ fn unpack_all(mut archive: Archive<Capped>, into: &Path, most: u64) -> Result<()
     Ok(())
 }
 
-/// Copies `from` to its end; the number of bytes. An error of `into` is no fault of the archive.
+/// Copies `from` to its end. Returns the number of bytes. An error of `into` is not a fault of the archive.
 fn copy(from: &mut impl Read, into: &mut impl Write) -> Result<u64, Fault> {
     let (mut block, mut copied) = (vec![0; 1 << 16], 0);
     loop {
@@ -210,7 +210,7 @@ fn copy(from: &mut impl Read, into: &mut impl Write) -> Result<u64, Fault> {
     }
 }
 
-/// True if anything but zeros is left in `rest`, which is read to its end.
+/// True if `rest`, read to its end, contains a byte other than 0.
 fn has_more(mut rest: impl Read) -> io::Result<bool> {
     let (mut block, mut has_more) = (vec![0; 1 << 16], false);
     loop {

@@ -9,7 +9,7 @@ use taceva_core::shown;
 /// Longest name of an author or an organization, in bytes.
 pub(crate) const MOST_NAME: usize = 200;
 
-/// Person who hands in a bundle.
+/// Author of a bundle.
 ///
 /// ```
 /// use taceva_bundle::Author;
@@ -21,7 +21,7 @@ pub(crate) const MOST_NAME: usize = 200;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Author {
-    /// Name.
+    /// Name of the author.
     pub name: String,
     /// Identifier of the person at orcid.org, with its check digit.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -61,12 +61,12 @@ impl FromStr for Author {
 }
 
 impl Author {
-    /// True if the name can be printed and the identifier has its check digit.
+    /// True if the name is printable and the check digit of the identifier is correct.
     pub(crate) fn is_right(&self) -> bool {
         is_name(&self.name) && self.orcid.as_deref().is_none_or(is_orcid)
     }
 
-    /// Address of the identifier.
+    /// URL of the identifier.
     pub(crate) fn address(&self) -> Option<String> {
         let orcid = self.orcid.as_ref()?;
         Some(format!("https://orcid.org/{orcid}"))
@@ -82,7 +82,7 @@ impl fmt::Display for Author {
     }
 }
 
-/// True for a name of a person or an organization that can be printed.
+/// True for a printable name of a person or an organization.
 pub(crate) fn is_name(text: &str) -> bool {
     (1..=MOST_NAME).contains(&text.len()) && !text.contains(taceva_core::is_obeyed)
 }

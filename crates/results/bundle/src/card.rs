@@ -1,4 +1,4 @@
-//! Texts for readers of a bundle, generated from its manifest: the card, how to cite it, the licence.
+//! Texts for readers of a bundle, generated from its manifest: card, citation and licence.
 
 use serde_json::{Value, json};
 use taceva_core::{counted, shown};
@@ -9,7 +9,7 @@ use crate::yaml;
 
 /// Sentence on a bundle without a licence.
 pub(crate) const NO_LICENCE: &str = "No licence is stated, so nobody may copy these files.";
-/// Sentence on what a seal shows.
+/// Sentence on the meaning of a seal.
 pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. A bundle whose predictions, states and \
      results were all changed alike cannot be distinguished from an honest one without the model or the truth from elsewhere.";
 

@@ -11,7 +11,7 @@ use crate::level::Level;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Claim {
-    /// Study of the results, from 0.
+    /// Index of the study in the results, from 0.
     pub study: usize,
     /// Metric: `mae`.
     pub metric: String,
@@ -29,9 +29,9 @@ pub struct Claim {
     pub n: u64,
     /// Definition: `mae/1`.
     pub definition: String,
-    /// Files from which it can be computed.
+    /// Files from which the number can be computed.
     pub from: Vec<String>,
-    /// Level at which the bundle's maker computed it again.
+    /// Level to which the maker of the bundle verified the number.
     pub level: Level,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct Number {
 }
 
 impl Number {
-    /// Number of `score`, or of its variant; `None` if it is undefined or no single number.
+    /// Number of `score`, or of its variant; `None` if it is undefined or not a single number.
     pub(crate) fn of(score: &Score, variant: Option<&str>) -> Option<Number> {
         let (value, interval) = match variant {
             None => (&score.value, &score.interval),
@@ -193,7 +193,7 @@ fn unit_of(score: &Score, variant: Option<&str>) -> Option<Unit> {
     }
 }
 
-/// Claims of study `study`: every number of its scores and of their variants, at the level of the form.
+/// Claims of study `study`: every number of its scores and of their variants, at the level [`Level::Form`].
 pub(crate) fn claims(study: usize, report: &EvaluationReport, from: &[String]) -> Vec<Claim> {
     let mut claims = Vec::new();
     for score in &report.scores {

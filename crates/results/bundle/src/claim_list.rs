@@ -9,9 +9,9 @@ use crate::error::Damage;
 use crate::layout::MANIFEST;
 use crate::manifest::Manifest;
 
-/// First fault of the claims of `manifest`, whose studies are those of `reports`.
+/// First fault of the claims of `manifest`. `reports` contains one report for each study.
 ///
-/// A claim without a number in the results is no damage: it differs.
+/// A claim without a number in the results is a difference, not damage.
 pub(crate) fn fault(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     let damage = |problem: String| {
         let rule = "bundle.json claims each number of results.json once, with its files";

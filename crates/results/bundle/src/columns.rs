@@ -22,15 +22,15 @@ pub(crate) struct TableColumns {
 /// Column of a table.
 pub(crate) struct Column {
     pub(crate) name: String,
-    /// Type of Croissant: `sc:Float`.
+    /// Data type in Croissant: `sc:Float`.
     pub(crate) data_type: &'static str,
 }
 
 impl TableColumns {
-    /// Columns of `table`, which was read from the file at `path` and is called `name` in the bundle. So neither manifest nor
-    /// Croissant can state other columns.
+    /// Columns of `table`, which was read from the file at `path` and is called `name` in the bundle. The manifest and the Croissant file therefore
+    /// state the same columns.
     ///
-    /// `None` for a table with another separator than a comma, and for one without columns.
+    /// `None` for a table with a separator other than a comma, and for a table without columns.
     pub(crate) fn of_read(table: &CsvTable, path: &Path, name: &str) -> Option<TableColumns> {
         let names = table.names();
         if !name.ends_with(".parquet") && !has_commas(path, names) {
@@ -64,7 +64,7 @@ impl TableColumns {
     }
 }
 
-/// The first of `tables`, without those that exceed [`MOST_COLUMNS`] together.
+/// Tables in order, without each table with which the number of columns would exceed [`MOST_COLUMNS`] in total.
 pub(crate) fn bounded(tables: impl Iterator<Item = TableColumns>) -> Vec<TableColumns> {
     let mut left = MOST_COLUMNS;
     let within = tables.filter_map(|table| {

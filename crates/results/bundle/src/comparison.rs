@@ -19,7 +19,7 @@ pub const COMPARISON_SCHEMA: &str = "taceva.bundle-comparison/1";
 pub struct BundleComparison {
     /// [`COMPARISON_SCHEMA`].
     pub schema: &'static str,
-    /// Both bundles.
+    /// Facts about both bundles.
     pub bundles: [BundleFacts; 2],
     /// True if both were scored on the same samples, by the digests of their samples.
     pub has_same_samples: bool,

@@ -116,7 +116,7 @@ fn context() -> Value {
     own
 }
 
-/// Authors, year and name.
+/// Citation: authors, year and name.
 fn cited(manifest: &Manifest) -> String {
     let names = manifest.authors.iter().map(|author| author.name.as_str());
     let names: Vec<&str> = names.collect();
@@ -155,7 +155,8 @@ fn record_set(table: &TableColumns) -> Value {
     })
 }
 
-/// Field of a column. Identifiers contain no blanks, so a column with a blank in its name is numbered. So are names like such a number.
+/// Field of a column. Identifiers contain no blanks, so a column with a blank in its name is numbered. Names that begin like a numbered column are
+/// also numbered.
 fn field(table: &TableColumns, record_set: &str, position: usize, column: &Column) -> Value {
     let is_plain = |letter: char| letter.is_alphanumeric() || "_.-".contains(letter);
     let is_numbered = column.name.starts_with(NUMBERED) || !column.name.chars().all(is_plain);

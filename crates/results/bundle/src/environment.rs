@@ -25,11 +25,11 @@ pub(crate) struct Environment {
     pub(crate) os: String,
     /// Processor: `x86_64`.
     pub(crate) arch: String,
-    /// Instruction sets that the program can use here, the fastest first.
+    /// Instruction sets that the program can use on the machine, the fastest first.
     pub(crate) instruction_sets: Vec<String>,
     /// Number of threads. No result depends on it.
     pub(crate) threads: usize,
-    /// Plugins behind the results, as they name them.
+    /// Plugins behind the results, as the results name them.
     pub(crate) plugins: Vec<String>,
 }
 
@@ -52,13 +52,14 @@ impl Environment {
         }
     }
 
-    /// True if the program can use the same instruction sets here.
+    /// True if the program can use the same instruction sets on this machine.
     pub(crate) fn has_same_sets(&self) -> bool {
         self.arch == std::env::consts::ARCH && self.instruction_sets == instruction_sets()
     }
 }
 
-/// Instruction sets that the program can use here, the fastest first. `TACEVA_ISA` excludes those that are faster than its own.
+/// Instruction sets that the program can use on this machine, the fastest first. `TACEVA_ISA` excludes all sets that are faster than the set it
+/// names.
 fn instruction_sets() -> Vec<String> {
     let used = Isa::detect();
     let sets = Isa::available().into_iter();

@@ -17,7 +17,7 @@ pub enum BundleError {
     File {
         /// Path of the file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// The bundle is damaged, or the path is not a bundle.
@@ -28,7 +28,7 @@ pub enum BundleError {
     Results {
         /// Path of the results.
         path: PathBuf,
-        /// Reason.
+        /// Reason for the refusal.
         source: ResultsError,
     },
     /// A state or a table is refused.

@@ -6,21 +6,21 @@ use crate::claim::Claim;
 use crate::manifest::Manifest;
 use crate::yaml;
 
-/// Text of `.eval_results/taceva.yaml`. Its entries have no places for interval, unit and definition, so notes hold them.
+/// Text of `.eval_results/taceva.yaml`. Entries have no fields for interval, unit and definition, which are therefore in notes.
 pub(crate) fn text(manifest: &Manifest) -> String {
     let entries = manifest.claims.iter().map(|claim| entry(manifest, claim));
     yaml::block(&Value::Array(entries.collect()))
 }
 
-/// Number for the hub.
+/// Entry of one number for the hub.
 pub(crate) struct HubEntry<'a> {
-    /// Digest of the samples, as the dataset. They are on no hub, and equal digests are equal samples.
+    /// Digest of the samples, in place of a dataset on the hub. Equal digests mean equal samples.
     pub(crate) samples: &'a str,
     pub(crate) task: String,
     pub(crate) value: f64,
     pub(crate) day: String,
     pub(crate) notes: String,
-    /// Address of the bundle.
+    /// URL of the bundle.
     pub(crate) address: Option<&'a str>,
 }
 

@@ -1,4 +1,4 @@
-//! Form of a bundle: its files against the manifest, schemas, seals, and generated files.
+//! Checks the form of a bundle: files against the manifest, schemas, seals, and generated files.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -22,9 +22,9 @@ use crate::source::Source;
 use crate::table_facts::TableFacts;
 use crate::texts;
 
-/// Rule of tables of samples.
+/// Rule for tables of samples.
 const TABLE_RULE: &str = "the table of samples is that of the results";
-/// Rule of model files.
+/// Rule for model files.
 const MODEL_RULE: &str = "the model is that of the results";
 /// Maximum number of findings of damage that are listed.
 const MOST_DAMAGE: usize = 50;
@@ -93,7 +93,7 @@ pub(crate) fn results(source: &Source) -> Result<Vec<EvaluationReport>, Damage> 
     })
 }
 
-/// Faults of the form, except of states, of a bundle whose files are those of its manifest.
+/// Faults of the form of a bundle whose files match its manifest. Does not check states.
 pub(crate) fn form(
     source: &Source,
     manifest: &Manifest,
@@ -210,7 +210,7 @@ fn studies(source: &Source, manifest: &Manifest, reports: &[EvaluationReport]) -
     damage
 }
 
-/// Origin in the manifest, as a whole or of a study, that is not that of the results.
+/// Fault if an origin in the manifest, of the bundle or of a study, differs from the origin in the results.
 fn origin(manifest: &Manifest, reports: &[EvaluationReport]) -> Option<Damage> {
     let rule = "the origin of samples is that of the results";
     let (source, badge) = (source_of(reports), badge_of(reports));
@@ -265,14 +265,14 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
     Some(Damage::new(MANIFEST, rule, problem))
 }
 
-/// Position of the first author with the ORCID of an earlier one. Generated files identify authors by it.
+/// Position of the first author with the ORCID of an earlier author. Generated files identify authors by ORCID.
 fn repeated(authors: &[Author]) -> Option<usize> {
     let mut known = BTreeSet::new();
     let mut orcids = authors.iter().map(|author| author.orcid.as_ref());
     orcids.position(|orcid| orcid.is_some_and(|own| !known.insert(own)))
 }
 
-/// Rejects a header without its seal, and one of a dataset that is not in `known`.
+/// Rejects a header without its seal, and a header of a dataset that is not in `known`.
 fn dataset_header(source: &Source, name: &str, known: &[&str]) -> Result<(), Damage> {
     let text = source.text(name, MOST_TEXT)?;
     let rule = "headers of datasets have their seal";

@@ -27,7 +27,7 @@ pub(crate) fn digest(text: &str) -> Result<String, String> {
     Ok(digest.unwrap_or_default().to_owned())
 }
 
-/// The fault of a header of another dataset than those in `known`.
+/// Fault of a header whose dataset is not in `known`.
 pub(crate) fn fault(digest: &str, known: &[&str]) -> Option<String> {
     (!known.contains(&digest)).then(|| {
         format!(

@@ -31,7 +31,7 @@ pub(crate) struct Inputs {
     pub(crate) reports: Vec<EvaluationReport>,
     /// Files of each study.
     pub(crate) studies: Vec<StudyInputs>,
-    /// Texts, by their names in the bundle.
+    /// Text files, by their names in the bundle.
     pub(crate) texts: BTreeMap<String, String>,
     /// Headers of datasets.
     pub(crate) headers: Vec<String>,
@@ -193,7 +193,7 @@ fn studies(
     Ok(studies)
 }
 
-/// Files of those of `recordings` that are behind the predictions in `table`, the table of samples of `report`.
+/// Files of the `recordings` whose pictures were predicted in `table`, the table of samples of `report`.
 fn frames(
     recordings: &[PathBuf],
     path: &Path,
@@ -215,7 +215,7 @@ fn frames(
     Ok(prediction_files(recordings, &report.provenance, &samples)?)
 }
 
-/// Rejects recordings with more files or bytes than a bundle holds.
+/// Rejects recordings with more files or bytes than a bundle may contain.
 fn check_frames(path: &Path, studies: &[StudyInputs]) -> Result<(), BundleError> {
     let (mut count, mut bytes) = (0_usize, 0_u64);
     for recording in studies.iter().flat_map(|study| &study.frames) {
@@ -259,7 +259,7 @@ fn check_not_swapped(tables: &ScoredTables, report: &EvaluationReport) -> Result
     }
 }
 
-/// Model files of `reports`, by digest: those given, and those of a run.
+/// Model files of `reports`, by digest: the given files and the files of a run.
 fn models(
     request: &BundleRequest,
     run: Option<&Path>,
@@ -323,7 +323,7 @@ fn tables_in(folder: &Path, wanted: &[&String]) -> Result<BTreeMap<String, PathB
     Ok(known)
 }
 
-/// Headers of the datasets of `request`, and of the recordings of a run, which must be those of the results.
+/// Headers of the datasets of `request`, and of the recordings of a run, which must be the datasets of the results.
 fn headers(
     request: &BundleRequest,
     run: Option<&Path>,

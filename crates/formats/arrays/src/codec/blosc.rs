@@ -7,7 +7,7 @@ use super::{lz4, zlib, zstd};
 use crate::error::Problem;
 
 const HEADER_BYTES: usize = 16;
-/// Maximum number of streams of a block. Blocks of larger elements or fewer elements are not split into streams.
+/// Maximum size of an element, bytes, and minimum number of elements of a block that is split into one stream per byte of an element.
 const MOST_STREAMS: usize = 16;
 const LEAST_ELEMENTS: usize = 128;
 

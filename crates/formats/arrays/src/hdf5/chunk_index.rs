@@ -20,10 +20,10 @@ pub(super) struct ChunkIndex {
 }
 
 impl ChunkIndex {
-    /// Reads the index of `dataset` with chunks of the lengths `chunk`; `None` for the only unsupported kind of index.
+    /// Reads the index of `dataset` with chunks of the lengths `chunk`; `None` if `hdf5-pure` does not support the kind of index.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] for a chunk off the grid, outside the extent or duplicate. [`Problem::Structure`] for an invalid index.
+    /// [`Problem::Damaged`] for a duplicate chunk, or a chunk off the grid or outside the extent. [`Problem::Structure`] for an invalid index.
     pub(super) fn read(
         dataset: &Dataset,
         shape: &[u64],

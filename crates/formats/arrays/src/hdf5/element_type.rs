@@ -19,7 +19,7 @@ pub enum WrittenElement {
     F32,
     /// Numbers of double precision; NaN for a missing value.
     F64,
-    /// UTF-8 texts of at most this many bytes, padded with zeros.
+    /// UTF-8 texts of at most `bytes` bytes, padded with zeros.
     Text {
         /// Size of one text, bytes, at least 1.
         bytes: u32,

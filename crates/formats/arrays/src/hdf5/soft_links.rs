@@ -1,6 +1,7 @@
 //! Soft links of groups with symbol tables, the default of HDF5.
 //!
-//! `hdf5-pure` treats soft links as damage. They are therefore replaced by hard links to their targets, in the bytes that are read and not in the file.
+//! `hdf5-pure` treats soft links as damage. This module therefore replaces soft links by hard links to their targets, in the bytes that are read and
+//! not in the file.
 //!
 //! A group has a B-tree of symbol nodes, and a local heap with names. The format specification of HDF5 3.0 describes both in III.A, C and D.
 

@@ -6,7 +6,7 @@ use std::sync::{Mutex, PoisonError};
 use crate::error::Problem;
 use crate::limits;
 
-/// Unpacked size of each dataset opened so far, bytes.
+/// Unpacked size of each opened dataset, bytes.
 #[derive(Debug, Default)]
 pub(super) struct UnpackedSizes(Mutex<BTreeMap<usize, u64>>);
 

@@ -1,8 +1,8 @@
 //! Writer of HDF5 files with contiguous arrays, one after another. Rows are written to the disk as they arrive. The metadata follows at the end.
 //!
-//! `hdf5-pure` is used for reading only. Its writer accepts an array of several axes only in memory, and a recording of pictures is larger. The output is the
-//! minimum of HDF5 File Format Specification, version 3: superblock 2, object headers 2 with checksums, and links in the header of the root group. Every HDF5
-//! library since 1.8 reads this format.
+//! `hdf5-pure` is used for reading only. Its writer accepts an array of several axes only in memory, and a recording of pictures is larger. The
+//! output uses the minimum of HDF5 File Format Specification, version 3: superblock 2, object headers 2 with checksums, and links in the header of
+//! the root group. Every HDF5 library since 1.8 reads this format.
 
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
@@ -80,8 +80,8 @@ impl Hdf5Writer {
     /// Begins the array `name`, with texts as its attributes. The previous array must be complete.
     ///
     /// # Errors
-    /// [`Problem::Damaged`] if the previous array is incomplete. [`Problem::Unsupported`] for a name that is empty, taken or contains `/`, a shape above 64
-    /// bits, or an attribute above 1 MiB. [`Problem::Io`] if the file cannot be written.
+    /// [`Problem::Damaged`] if the previous array is incomplete. [`Problem::Unsupported`] for a name that is empty, duplicate or contains `/`, a size
+    /// above 64 bits, or an attribute above 1 MiB. [`Problem::Io`] if the file cannot be written.
     pub fn begin(
         &mut self,
         name: &str,

@@ -1,4 +1,4 @@
-//! Content of a matrix: numbers or letters.
+//! Content of a matrix: numbers or characters.
 
 use std::sync::Arc;
 
@@ -84,7 +84,7 @@ pub(crate) fn numbers(source: &Arc<dyn ByteSource>, matrix: Matrix) -> Result<Va
     Ok(Variable::Numbers { element, block })
 }
 
-/// Matrix of letters, which are stored column by column. Each line becomes a text.
+/// Character matrix, stored column by column. Each row becomes a text.
 pub(crate) fn text(source: &dyn ByteSource, matrix: &Matrix) -> Result<Variable, Problem> {
     let lines_count = matrix.shape.first().copied().unwrap_or(0);
     let width = product(matrix.shape.get(1..).unwrap_or(&[])).unwrap_or(u64::MAX);

@@ -1,4 +1,4 @@
-//! Beginning of a matrix of a MATLAB file: class, flags, lengths of axes and name.
+//! Header of a matrix in a MATLAB file: class, flags, lengths of axes and name.
 
 use super::element::{Place, TYPE_MATRIX, content, tag, words};
 use crate::error::Problem;
@@ -6,7 +6,7 @@ use crate::limits;
 use crate::scalar::shown;
 use crate::source::ByteSource;
 
-/// Beginning of a matrix.
+/// Header of a matrix.
 #[derive(Debug)]
 pub(crate) struct Matrix {
     pub(crate) class: u32,

@@ -14,7 +14,7 @@ use crate::values::{ArrayData, ArrayValues};
 pub(crate) enum Variable {
     /// Numbers. MATLAB stores them in the narrowest type that can represent them.
     Numbers { element: Element, block: Block },
-    /// Lines of a matrix of letters.
+    /// Rows of a character matrix, each as a text.
     Text { shape: Vec<u64>, lines: Vec<String> },
     /// One variable for each cell, row by row. All have the same shape and type.
     Cells {
@@ -74,7 +74,8 @@ impl Variable {
     }
 }
 
-/// Joins cells of the same shape and type to one array, whose first axes are the axes of the cell matrix. Cells of one number or one line add no axes.
+/// Joins cells of the same shape and type to one array, whose first axes are the axes of the cell matrix. Cells with a single number or a single text
+/// add no axes.
 pub(crate) fn cells_of(shape: &[u64], cells: Vec<Variable>) -> Result<Variable, Problem> {
     let Some(first) = cells.first() else {
         return Err(Problem::unsupported(

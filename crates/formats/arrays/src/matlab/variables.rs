@@ -14,7 +14,7 @@ const CLASS_CELL: u32 = 1;
 const CLASS_STRUCTURE: u32 = 2;
 const CLASS_TEXT: u32 = 4;
 
-/// Variables found so far.
+/// Found variables.
 #[derive(Debug, Default)]
 pub(crate) struct Found {
     pub(crate) variables: Vec<(String, Variable)>,

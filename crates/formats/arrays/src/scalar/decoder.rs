@@ -5,7 +5,7 @@ use crate::error::Problem;
 use crate::source::{ByteSource, bytes_of};
 use crate::values::ArrayValues;
 
-/// Number of bytes decoded at once. They fit the processor cache, and memory is not allocated twice for the whole.
+/// Number of bytes decoded at once. A piece fits the processor cache, and no second buffer for the whole array is needed.
 const PIECE_BYTES: usize = 128 << 10;
 
 impl Scalar {

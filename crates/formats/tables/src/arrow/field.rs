@@ -93,7 +93,7 @@ pub(super) fn schema(header: Table<'_>) -> Result<Schema, String> {
     })
 }
 
-/// Counts of fields and buffers so far.
+/// Numbers of fields and buffers that were parsed.
 struct Made {
     buffers: usize,
     fields: usize,

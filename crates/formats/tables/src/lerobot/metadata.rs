@@ -21,7 +21,7 @@ const NUMBERS: [&str; 8] = [
     "meta/episodes/file_index",
 ];
 
-/// Writes the texts of tasks to `path`, as the index of a pandas data frame, because LeRobot looks them up there.
+/// Writes the texts of tasks to `path`, as the index of a pandas data frame, because LeRobot searches the texts there.
 pub(super) fn describe_tasks(path: &Path, tasks: &[String]) -> Result<(), TableError> {
     const INDEX: &str = "__index_level_0__";
     let column = |name: &str, field: &str, kind: [&str; 2]| json!({ "name": (name != INDEX).then_some(name), "field_name": field, "pandas_type": kind[0], "numpy_type": kind[1], "metadata": null });

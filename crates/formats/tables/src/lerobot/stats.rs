@@ -2,8 +2,8 @@
 
 use serde_json::{Value, json};
 
-/// Minimum, maximum, mean and standard deviation of each element of a feature, in the unit of the feature. Policies use them for normalisation. They are not
-/// scores, and rounding errors accumulate with each row.
+/// Minimum, maximum, mean and standard deviation of each element of a feature, in the unit of the feature. Policies use them for normalisation. The
+/// statistics are not scores, and rounding errors accumulate with each row.
 ///
 /// ```
 /// use taceva_tables::FeatureStats;

@@ -1,4 +1,5 @@
-//! Checks the rows of each episode against its description. Otherwise two takes with one episode number would both get the pictures of the first take.
+//! Checks the rows of each episode against its description. Otherwise two recordings with the same episode number would both get the pictures of the
+//! first.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +10,15 @@ use crate::cell::Cell;
 use crate::error::{Place, TableError};
 use crate::source::Source;
 
-/// Rows of one take of an episode in the data files.
+/// Rows of one continuous recording of an episode in the data files.
 #[derive(Clone, Copy)]
 struct Take {
     rows: u64,
     last_s: f64,
 }
 
-/// Checks that every episode is one take, with the number of rows in its description. Datasets without episode numbers are not checked.
+/// Checks that every episode is one continuous recording, with the number of rows in its description. Datasets without episode numbers are not
+/// checked.
 pub(super) fn check(dataset: &LeRobot) -> Result<(), TableError> {
     let has = |name: &str| dataset.names.iter().any(|known| known == name);
     if !has("episode_index") {

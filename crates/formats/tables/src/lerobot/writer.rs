@@ -16,7 +16,7 @@ use crate::parquet::{ParquetWriter, WrittenColumn, WrittenKind, huggingface_feat
 
 /// Size of a data file from which the next episode starts a new file, MiB.
 const FILE_MB: u64 = 100;
-/// Number of data files in one folder.
+/// Maximum number of data files in one folder.
 pub(super) const FILES_A_CHUNK: u64 = 1000;
 /// Columns that LeRobot defines, written after the features.
 const OWN: [(&str, WrittenKind, &str); 5] = [
@@ -33,7 +33,7 @@ pub(super) struct Episode {
     pub(super) task: usize,
     pub(super) first: u64,
     pub(super) end: u64,
-    /// Index of its data file over all chunks.
+    /// Index of the data file of the episode over all chunks.
     pub(super) file: u64,
 }
 
@@ -78,7 +78,7 @@ pub struct LeRobotWriter {
     episodes: Vec<Episode>,
     rows: u64,
     data: Option<DataFile>,
-    /// Folders created so far.
+    /// Created folders.
     folders: Vec<String>,
 }
 

@@ -154,7 +154,7 @@ fn narrow(node: &Node, rest: &str) -> Option<Node> {
     })
 }
 
-/// Names of all columns. Members replace a structure.
+/// Names of all columns. A structure is listed by its members.
 pub(crate) fn names(columns: &[Node]) -> Vec<String> {
     let mut names = Vec::new();
     for node in columns {

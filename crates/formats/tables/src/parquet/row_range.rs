@@ -9,8 +9,8 @@ use crate::cell::Cell;
 use crate::error::TableError;
 
 impl ParquetTable {
-    /// Calls `each` with each cell of `rows` in the column `name`. Row groups outside `rows` are not read, and pages before the first row are skipped. Memory
-    /// contains a few hundred cells at a time.
+    /// Calls `each` with each cell of `rows` in the column `name`. Row groups outside `rows` are not read, and pages before the first row are
+    /// skipped. Keeps at most a few hundred cells in memory.
     ///
     /// ```
     /// use taceva_tables::{Cell, ParquetTable};

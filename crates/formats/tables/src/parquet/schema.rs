@@ -173,7 +173,8 @@ fn content(field: &Type, levels: Levels, leaves: &mut usize, depth: usize) -> Re
 
 /// Element of a list. `repeated` is its repeated group.
 ///
-/// The element is the only field of the group. It is the group itself if the group has several fields, or a name that older writers repeat.
+/// The element is the only field of the group. The group itself is the element if it has several fields, or a name that older writers give to
+/// elements.
 fn element(
     list: &Type,
     repeated: &Type,

@@ -21,7 +21,7 @@ const GROUP_ROWS: usize = 1000;
 /// Memory of cells at which a row group ends early, bytes.
 const GROUP_BYTES: u64 = 16 << 20;
 
-/// Writer of a Parquet file. Memory contains one row group, which is compressed with snappy when it is full. Equal rows give equal bytes.
+/// Writer of a Parquet file. Keeps one row group in memory and compresses it with snappy when it is full. Equal rows give equal bytes.
 ///
 /// ```
 /// use taceva_tables::{Cell, ParquetTable, ParquetWriter, WrittenColumn, WrittenKind};

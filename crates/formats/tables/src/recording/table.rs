@@ -193,8 +193,8 @@ impl TopicTable {
         Ok(self.columns(&[name])?.pop().unwrap_or_default())
     }
 
-    /// Calls `each` with each row of `sorted` and the picture in the field `name`, such as `data` of `sensor_msgs/Image` and `sensor_msgs/CompressedImage`.
-    /// Memory contains two chunks at a time.
+    /// Calls `each` with each row of `sorted` and the picture in the field `name`, such as `data` of `sensor_msgs/Image` and
+    /// `sensor_msgs/CompressedImage`. Keeps at most two chunks in memory.
     ///
     /// `sorted` must be ascending. A row listed twice is passed twice.
     ///

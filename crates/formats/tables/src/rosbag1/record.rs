@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::bytes::Bytes;
 use crate::message::{Channel, Schema};
 
-/// Nanoseconds of a second.
+/// Number of nanoseconds per second.
 pub(super) const NANO: u64 = 1_000_000_000;
 
 /// Codes of records.

@@ -20,14 +20,14 @@ const TILES_AT_ONCE: usize = 32;
 /// Number of tiles per step if the weights exceed the cache. Each step reads the weights once.
 const TILES_AT_ONCE_OF_MANY_WEIGHTS: usize = 48;
 
-/// Number of channels per partial sum. Without partial sums, rounding errors would grow with the number of channels, and exceed those of the transforms. Errors
-/// are smallest if inner and outer sums have equally many terms. The count is therefore the square root of the number of channels, or the next larger power of
-/// two: 8 of 64, 16 of 128 and 256, 32 of 512.
+/// Number of channels per partial sum. Without partial sums, rounding errors would grow with the number of channels, and exceed the errors of the
+/// transforms. Errors are smallest if inner and outer sums have equally many terms. The count is therefore the square root of the number of channels,
+/// or the next larger power of two: 8 for 64 channels, 16 for 128 and 256, 32 for 512.
 ///
-/// This count is the most exact of 4, 8, 16, 32 and all in each layer of a ResNet, to within a few hundredths. `tests/blocks.rs` prints and checks
-/// the errors against double precision. One count for all layers is less exact: 8 by a fifth at 512 channels, 16 by a twentieth at 64. Errors were
-/// not the only criterion. With 16 everywhere, `two_hundred_steps_go_as_pytorch_s` diverges from PyTorch at step 11, perhaps at a ReLU whose input is
-/// near zero. Of five settings tried, 8 everywhere and this count pass the test.
+/// In each layer of a ResNet, this count has the smallest error of 4, 8, 16, 32 and all channels, to within a few percent. `tests/blocks.rs` prints
+/// and checks the errors against double precision. A single count for all layers has larger errors: 8 by a fifth at 512 channels, 16 by a twentieth
+/// at 64. Errors were not the only criterion. With 16 everywhere, `two_hundred_steps_go_as_pytorch_s` diverges from PyTorch at step 11, perhaps at a
+/// ReLU whose input is near zero. Of five tested settings, only 8 everywhere and this count pass the test.
 pub(super) const fn channels_at_once(channels: usize) -> usize {
     1 << channels.next_power_of_two().ilog2().div_ceil(2)
 }

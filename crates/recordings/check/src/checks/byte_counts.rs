@@ -25,7 +25,7 @@ const JUMP: f64 = 200.0;
 /// Number of changes, before and after a jump, which show that the force continues if the jump is removed. The force does not continue after a release or a new
 /// staircase.
 const NEAR: usize = 3;
-/// Maximum change of a slowly varying force between neighbours, in counts. At most one change in `SHARE` may exceed it.
+/// Maximum change of a slowly varying force between consecutive samples, in counts. At most one change in `SHARE` may exceed it.
 const SLOW: f64 = 64.0;
 const SHARE: usize = 8;
 /// Tolerance for rounded values, in counts.

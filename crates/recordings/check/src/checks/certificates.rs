@@ -1,4 +1,4 @@
-//! TAC028: instruments of the labels without a certificate, or with a certificate that contradicts the instrument or the days of the labels.
+//! TAC028: measuring instruments without a certificate, or with a certificate that contradicts the instrument or the days of the labels.
 
 use taceva_core::{Instrument, Traceability};
 use taceva_dataset::Source;

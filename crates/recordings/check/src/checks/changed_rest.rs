@@ -23,7 +23,7 @@ const LEAST: usize = 3;
 /// Limits below which there is no contact: force, N, and depth, mm.
 const UNTOUCHED_N: f64 = 0.02;
 const UNTOUCHED_MM: f64 = 0.01;
-/// Minimum change since the reference, in noises: three standard deviations of normal noise, whose median magnitude is 0.674 of one.
+/// Minimum change since the reference, as a multiple of the median noise. For normal noise this is three standard deviations.
 const NOISES: f64 = 4.5;
 /// Fraction of the greatest load above which a picture shows contact.
 const PRESSED: f64 = 0.5;
@@ -83,7 +83,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     vec![evidence.found(Severity::Warning, message, &rows)]
 }
 
-/// Difference that noise makes between an untouched picture and the mean of many, from consecutive pictures. A single fault between them hardly changes it.
+/// Median noise of an untouched picture, estimated from consecutive untouched pictures. A single faulty picture hardly changes the estimate.
 fn noise(rest: &[(usize, &Tiles)], of: fn(&Tiles, &Tiles) -> f64) -> f64 {
     let consecutive = rest.windows(2).map(|pair| of(pair[0].1, pair[1].1));
     lower_median(consecutive) / std::f64::consts::SQRT_2

@@ -24,8 +24,8 @@ const JUMP_STEPS: f64 = 100.0;
 const JUMP_S: f64 = 1.0;
 /// Maximum frequency of jumps in recordings without contact points: a single jump, or one in this many steps. More jumps are pauses between presses.
 const SELDOM: usize = 100;
-/// Maximum step of a regular stream, in usual steps, for nine in ten steps. Recordings without contact points are searched for jumps only if they are regular
-/// streams.
+/// Maximum length of nine in ten steps of a regular stream, as a multiple of the usual step. Recordings without contact points are searched for jumps
+/// only if they are regular streams.
 const REGULAR_STEPS: f64 = 3.0;
 /// Difference between consecutive time stamps that indicates two clocks, s: twelve days. A Unix clock and an uptime clock are 54 years apart.
 const TWO_CLOCKS_S: f64 = 1e6;

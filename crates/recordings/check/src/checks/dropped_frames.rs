@@ -17,19 +17,20 @@ pub(super) static CHECK: Check = Check {
 
 /// Lengths of steps that count as gaps, in frame periods. Longer steps are pauses.
 const GAP: std::ops::Range<f64> = 1.5..10.5;
-/// Maximum relative deviation of a step from the usual step in a regular stream. `REGULAR` is the minimum fraction of steps within it.
+/// Maximum relative deviation of a step from the usual step in a regular stream. `REGULAR` is the minimum fraction of steps within this deviation.
 const NEAR: f64 = 0.25;
 const REGULAR: f64 = 0.75;
-/// Quantile of short steps, near which the period is searched in streams with many missing frames: one step in this many is shorter.
+/// In streams with many missing frames, the period is searched near the quantile 1 / `SHORT` of the steps.
 const SHORT: usize = 10;
 /// Minimum fraction of steps that are one period long.
 const SINGLE: f64 = 0.3;
-/// Maximum deviation of a step from a multiple of the period, in periods. `MULTIPLES` is the minimum fraction of steps within it.
+/// Maximum deviation of a step from a multiple of the period, in periods. `MULTIPLES` is the minimum fraction of steps within this deviation.
 const WHOLE: f64 = 0.2;
 const MULTIPLES: f64 = 0.9;
 /// Resolutions to which time stamps are truncated, s. For example, a steady stream of 60 Hz in hundredths of a second has steps of one and two hundredths.
 const PLACES: [f64; 4] = [1.0, 0.1, 0.01, 0.001];
-/// Maximum relative deviation of a period from one of these resolutions. `STRAY` is the maximum drift of truncated time stamps from an even pace, in periods.
+/// Maximum relative deviation of a period from one of these resolutions. `STRAY` is the maximum drift of truncated time stamps from a constant
+/// period, in periods.
 const AT_PLACE: f64 = 0.01;
 const STRAY: f64 = 2.0;
 /// Fraction of missing frames above which the finding is a warning.
@@ -139,7 +140,7 @@ fn period(stream: &Stream) -> Option<f64> {
     (is_period && !is_cut(stream, period)).then_some(period)
 }
 
-/// True if the steps fit an even pace whose time stamps are truncated to a decimal place near `period`.
+/// True if the steps fit a constant period, with time stamps truncated to a decimal place near `period`.
 fn is_cut(stream: &Stream, period: f64) -> bool {
     let is_pause = |step: &Step| step.seconds / period >= GAP.end;
     let steps = stream.steps.iter().filter(|step| !is_pause(step));

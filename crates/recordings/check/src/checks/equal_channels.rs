@@ -69,7 +69,7 @@ fn equal(evidence: &Evidence<'_>, one: usize, other: usize) -> Option<(usize, f6
         .map(|sign| (pairs.len(), sign))
 }
 
-/// Column from which `label` was imported; `None` for a recording, and for several columns.
+/// Column from which `label` was imported; `None` if `label` was recorded, or imported from several columns.
 fn source(evidence: &Evidence<'_>, label: &str) -> Option<String> {
     let mut columns = evidence.header.columns.iter();
     let column = columns.find(|column| column.label == label)?;

@@ -19,7 +19,7 @@ pub(super) static CHECK: Check = Check {
 const LEAST: usize = 3;
 /// Maximum plausible depth of a press, mm. The thickest gels on sale have 10 mm.
 const DEEPEST_MM: f64 = 12.0;
-/// Fraction of the greatest depth. Depths that never fall below this fraction, and exceed a length in mm, are distances.
+/// Depths are distances if none falls below this fraction of the greatest depth, and all exceed `DISTANCE_MM`.
 const NEVER_BELOW: f64 = 0.5;
 const DISTANCE_MM: f64 = 5.0;
 

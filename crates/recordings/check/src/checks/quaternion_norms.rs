@@ -1,4 +1,4 @@
-//! TAC032: poses of a task whose quaternion is no rotation.
+//! TAC032: poses of a task whose quaternion does not have norm 1.
 
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};

@@ -18,7 +18,7 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
-/// Minimum number of runs with one label.
+/// Minimum number of runs of rows with the same label.
 const LEAST: usize = 5;
 /// Minimum median length of a run, rows. Nine in ten runs must be at most `ALIKE` medians long, because levels held on purpose vary more.
 const ROWS: usize = 2;

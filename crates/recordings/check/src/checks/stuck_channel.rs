@@ -21,12 +21,13 @@ const STILL_SHARE: usize = 10;
 /// Minimum number of steps outside the stretch. At most one step in `HELD` may repeat its value, because a channel that is often held is not stuck.
 const BESIDE: usize = 10;
 const HELD: usize = 10;
-/// Maximum frequency of repeated pictures in the stretch: one in this many. If the pictures also freeze, the whole recording does.
+/// Maximum frequency of repeated pictures in the stretch: one in this many. If the pictures also freeze, the whole recording is frozen.
 const SAME_PICTURES: usize = 10;
 /// Minimum number of samples at the limit of a clipped force. `CUT_SHARE` is their minimum frequency.
 const CUT: usize = 10;
 const CUT_SHARE: usize = 20;
-/// Minimum ratio of the frequency of the limit to that of any other value, among at least `VALUES` values. Commanded levels have a lower ratio.
+/// Minimum ratio of the frequency of the limit to the frequency of any other value, among at least `VALUES` values. Commanded levels have a lower
+/// ratio.
 const TIMES: usize = 3;
 const VALUES: usize = 20;
 

@@ -105,7 +105,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     found
 }
 
-/// True if the times begin anew with every contact point, such as an episode. A clock that was set once goes back at one of many.
+/// True if the times restart at every contact point, such as an episode. A clock that was set back once restarts at one contact point only.
 fn starts_anew(table: &Table, pairs: &[(usize, usize)]) -> bool {
     let times = table.t_s();
     let points = table.point_id();

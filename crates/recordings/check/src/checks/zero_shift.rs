@@ -120,7 +120,7 @@ struct Step {
 }
 
 impl Step {
-    /// Best step in `values`, which are in order of time. `least` is the scatter that rounding alone causes.
+    /// Best step in `values`, which must be in order of time. `least` is the scatter due to rounding.
     fn of(values: &[f64], least: f64) -> Option<Step> {
         let mut sums = vec![(0.0, 0.0)];
         for value in values {

@@ -114,7 +114,7 @@ impl Dataset {
     /// Original bytes of a frame, verified.
     ///
     /// # Errors
-    /// [`DatasetError::Digest`] if the bytes differ from the recorded ones; [`DatasetError::Io`].
+    /// [`DatasetError::Digest`] if the bytes differ from the recorded digest; [`DatasetError::Io`].
     pub fn frame_bytes(&self, entry: &FrameEntry) -> Result<Vec<u8>, DatasetError> {
         if let Some((recording, entry)) = self.entry_of(entry) {
             return recording.frame_bytes(&entry);

@@ -13,8 +13,8 @@ impl Dataset {
     /// Depth map of a row for the task called `task`, in mm; `None` if the row has none.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for an unknown task or row, and for a task of another kind; [`DatasetError::Digest`] if the map differs from the recorded
-    /// digest; [`DatasetError::Damaged`] if its bytes are no map; [`DatasetError::Io`].
+    /// [`DatasetError::Request`] for an unknown task or row, and for a task of another kind; [`DatasetError::Digest`] if the map differs from the
+    /// recorded digest; [`DatasetError::Damaged`] if its bytes are not a map; [`DatasetError::Io`].
     pub fn depth_map(&self, task: &str, row: usize) -> Result<Option<StoredMap>, DatasetError> {
         let Some(bytes) = self.depth_map_bytes(task, row)? else {
             return Ok(None);

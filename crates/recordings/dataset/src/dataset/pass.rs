@@ -116,7 +116,7 @@ impl Dataset {
     /// Decodes the frame of each row and calls `work` with it on one of several threads. Calls `take` with the results in
     /// order on the calling thread.
     ///
-    /// Memory contains at most a few frames for each thread. The result does not depend on the number of threads.
+    /// Keeps at most a few frames per thread in memory. The result does not depend on the number of threads.
     ///
     /// # Errors
     /// Errors of [`frame`](Dataset::frame), for the first failing row in order; [`DatasetError::Request`] if a row has no frame; [`DatasetError::Sink`] if

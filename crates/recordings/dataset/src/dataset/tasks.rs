@@ -18,7 +18,8 @@ impl Dataset {
         self.table.tasks()
     }
 
-    /// Cluster of each row for `task`: rows with equal texts resemble each other. A cluster of joined recordings is named by its recording too.
+    /// Cluster of each row for `task`. Rows of the same cluster are similar. In joined recordings, the name of the recording precedes the name of the
+    /// cluster.
     pub fn clusters_of(&self, task: &Task) -> Vec<Option<String>> {
         let absent = || vec![None; self.table.rows()];
         let mut clusters = self.table.as_text(&task.cluster).unwrap_or_else(absent);
@@ -33,9 +34,9 @@ impl Dataset {
         clusters
     }
 
-    /// The same dataset with the [channels](Task::channels) of the task called `name` in the place of all others.
+    /// The same dataset, with all channels replaced by the [channels](Task::channels) of the task called `name`.
     ///
-    /// These are the position of its class, or translation (mm) and rotation vector (degrees) of its pose.
+    /// The channels are the position of the class in the list of names, or the translation (mm) and rotation vector (degrees) of the pose.
     ///
     /// A row without a label of the task has no label. The digest depends on the dataset and on the task.
     ///
@@ -82,11 +83,11 @@ impl Dataset {
         own.ok_or_else(|| self.unknown_task(name))
     }
 
-    /// The same dataset with the labels `classes` of `task` beside those of its own tasks: a position for each row, or none.
+    /// The same dataset with the additional task `task`. `classes` contains the position of the class of each row, or `None` for no label.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for joined recordings, for a task of the same name, for another number of labels than rows, and for a class that the
-    /// task does not name.
+    /// [`DatasetError::Request`] for joined recordings, for a duplicate task name, if the number of labels is not the number of rows, or if a class
+    /// is unknown.
     pub fn with_task(&self, task: Task, classes: &[Option<u32>]) -> Result<Dataset, DatasetError> {
         if self.table.task(&task.name).is_some() {
             let name = shown(&task.name);
@@ -115,7 +116,7 @@ impl Dataset {
         })
     }
 
-    /// Task whose labels take the place of the channels, after [`of_task`](Dataset::of_task); `None` for measured channels.
+    /// Task whose labels replace the channels, after [`of_task`](Dataset::of_task); `None` for measured channels.
     pub fn labelled_by(&self) -> Option<&Task> {
         let first = self.joined.first();
         let of_first = first.and_then(|own| own.dataset().labelled_by());

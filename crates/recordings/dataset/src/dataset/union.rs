@@ -172,7 +172,7 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
 /// Digest of a frame, and its labels by channel name, bit for bit.
 type Shared = (Digest, Vec<Option<u64>>);
 
-/// Number of different pictures, shared under other labels, from which two recordings overlap. No camera takes the same picture twice.
+/// Minimum number of shared pictures with different labels for an overlap of two recordings. No camera takes the same picture twice.
 const SAME_PICTURES: usize = 3;
 
 /// Rejects recordings that share a sample: equal frame bytes and labels, or at least [`SAME_PICTURES`] pictures under other labels, as in two imports of one

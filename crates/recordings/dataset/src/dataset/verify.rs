@@ -53,8 +53,8 @@ impl Dataset {
         check_digest(path, predictions.sha256, found)
     }
 
-    /// Checks that header and table agree and that all paths are valid. The digest of the header is still that without tasks. Later reads of frames need no
-    /// further check.
+    /// Checks that header and table agree and that all paths are valid. At this point, the digest of the header does not cover the tasks yet. Later
+    /// reads of frames need no further check.
     pub(super) fn check_consistency(&self) -> Result<(), DatasetError> {
         let damaged =
             |name: &str, problem: String| DatasetError::damaged(&self.path().join(name), problem);

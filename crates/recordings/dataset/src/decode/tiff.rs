@@ -12,8 +12,8 @@ use crate::limits;
 
 /// Decodes a TIFF file. Returns its format and its pixels, with interleaved colours and little-endian 16-bit values.
 ///
-/// Other number types (signed, floating point, other bit depths), colours (palettes, CMYK, YCbCr) and compressions (JPEG, fax) are rejected
-/// by name, and so are several pictures in one file.
+/// Rejects other number types (signed, floating point, other bit depths), colours (palettes, CMYK, YCbCr), compressions (JPEG, fax), and several
+/// pictures in one file. The error names the unsupported content.
 pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let mut allowed = Limits::default();
     let most = most_of(bytes);

@@ -1,4 +1,4 @@
-//! Bits of a deflate stream, the lowest of each number first.
+//! Bit writer for deflate streams. The lowest bit of each number comes first.
 
 /// Up to 16 bits.
 #[derive(Clone, Copy, Debug, Default)]
@@ -8,13 +8,13 @@ pub(super) struct Bits {
 }
 
 impl Bits {
-    /// The lowest `count` bits of `value`, whose other bits are zero.
+    /// The lowest `count` bits of `value`. All other bits of `value` must be zero.
     pub(super) const fn new(value: u16, count: u8) -> Bits {
         Bits { value, count }
     }
 }
 
-/// Bytes of a stream of known length.
+/// Bit writer to a buffer of known length.
 #[derive(Debug)]
 pub(super) struct BitWriter {
     bytes: Vec<u8>,
@@ -24,7 +24,7 @@ pub(super) struct BitWriter {
 }
 
 impl BitWriter {
-    /// Writer behind `bytes`, for at most `more` further bytes.
+    /// Writer that appends at most `more` bytes to `bytes`.
     pub(super) fn behind(mut bytes: Vec<u8>, more: usize) -> BitWriter {
         let length = bytes.len();
         // Eight bytes are stored at once, of which the later ones do not count yet.
@@ -42,7 +42,7 @@ impl BitWriter {
         self.store();
     }
 
-    /// Puts the word of each of `symbols`, of at most 15 bits.
+    /// Writes the code words of `symbols`. Each word has at most 15 bits.
     pub(super) fn put_words(&mut self, words: &[Bits; 256], symbols: &[u8]) {
         // Three words and less than a byte that is held already fit into 64 bits.
         let (threes, rest) = symbols.as_chunks::<3>();
@@ -57,7 +57,7 @@ impl BitWriter {
         }
     }
 
-    /// Puts zeros up to the next byte, and then `bytes`.
+    /// Pads with zeros to the next byte, then writes `bytes`.
     pub(super) fn put_bytes(&mut self, bytes: &[u8]) {
         self.held_bits = self.held_bits.next_multiple_of(u8::BITS);
         self.store();
@@ -76,7 +76,7 @@ impl BitWriter {
         self.held_bits += u32::from(bits.count);
     }
 
-    /// Stores all whole bytes that are held.
+    /// Moves the complete bytes of the bit buffer to the output.
     fn store(&mut self) {
         let bytes = self.held.to_le_bytes();
         self.bytes[self.length..self.length + bytes.len()].copy_from_slice(&bytes);

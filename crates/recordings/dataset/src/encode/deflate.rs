@@ -5,20 +5,20 @@
 use super::bits::{BitWriter, Bits};
 use super::huffman;
 
-/// Bytes of a block; each block has a code of its own.
+/// Size of a block, bytes. Each block has a separate Huffman code.
 const BLOCK: usize = 31 * 1024 + 1;
-/// Shorter blocks have the code of the format, as they do not repay the lengths of a code of their own.
+/// Size of a block, bytes, from which a separate code is used. Shorter blocks use the fixed code of the format.
 const SHORTEST_CODED: usize = 48;
-/// Symbols of a code: each byte, and the end of a block.
+/// Number of symbols of a code: each byte, and the end of a block.
 const SYMBOLS: usize = 257;
 const END: usize = 256;
-/// Deflate in a window of 32 KiB, and the number that makes both bytes a multiple of 31.
+/// Zlib header: deflate with a window of 32 KiB, and check bits that make the header a multiple of 31.
 const HEADER: [u8; 2] = [0x78, 0x01];
 
-/// Zlib stream of some bytes, not yet written.
+/// Planned zlib stream, not yet written.
 #[derive(Debug)]
 pub(super) struct Stream {
-    /// Code of each block; `None` for a block that no code shortens.
+    /// Code of each block; `None` for a block that is stored uncompressed.
     blocks: Vec<Option<Coding>>,
     length: usize,
 }
@@ -38,12 +38,12 @@ impl Stream {
         }
     }
 
-    /// Length in bytes.
+    /// Length of the stream, bytes.
     pub(super) fn len(&self) -> usize {
         self.length
     }
 
-    /// Writes the stream of `bytes`, which are those that it was planned for, behind `file`.
+    /// Appends the stream to `file`. `bytes` must be the bytes for which the stream was planned.
     pub(super) fn write(&self, bytes: &[u8], file: Vec<u8>) -> Vec<u8> {
         let mut out = BitWriter::behind(file, self.length);
         out.put_bytes(&HEADER);
@@ -61,13 +61,13 @@ impl Stream {
     }
 }
 
-/// Blocks of `bytes`. The last one is shorter than the others, and may be empty.
+/// Blocks of `bytes`. The last block is shorter than the others, and may be empty.
 fn blocks(bytes: &[u8]) -> impl Iterator<Item = &[u8]> {
     let whole = bytes.len() / BLOCK * BLOCK;
     bytes[..whole].chunks(BLOCK).chain([&bytes[whole..]])
 }
 
-/// Code of a block whose type begins behind `bits` of the stream, and the length in bits from there.
+/// Code and length, bits, of a block. The type of the block begins at bit `bits` of the stream. The length counts from there.
 fn plan_block(block: &[u8], bits: usize) -> (Option<Coding>, usize) {
     let counts = counts(block);
     let coding = if block.len() < SHORTEST_CODED {
@@ -85,7 +85,7 @@ fn plan_block(block: &[u8], bits: usize) -> (Option<Coding>, usize) {
     }
 }
 
-/// Number of each byte in `block`, and one end.
+/// Frequency of each byte in `block`, and 1 for the end of the block.
 fn counts(block: &[u8]) -> [u32; SYMBOLS] {
     // Equal neighbours are counted apart, as each count waits for the one before it.
     let mut apart = [[0_u32; 256]; 4];
@@ -105,7 +105,7 @@ fn counts(block: &[u8]) -> [u32; SYMBOLS] {
     counts
 }
 
-/// Bytes as they are, behind their number and its complement.
+/// Writes a stored block: length, complement of the length, and bytes.
 fn write_stored(block: &[u8], out: &mut BitWriter) {
     const STORED: Bits = Bits::new(0, 2);
     out.put(STORED);
@@ -115,17 +115,17 @@ fn write_stored(block: &[u8], out: &mut BitWriter) {
     out.put_bytes(block);
 }
 
-/// Code of a block.
+/// Huffman code of a block.
 #[derive(Debug)]
 struct Coding {
-    /// Type of the block, and for a code of its own the lengths of its words.
+    /// Type of the block. For a separate code, also the lengths of its code words.
     header: Vec<Bits>,
     literals: [Bits; 256],
     end: Bits,
 }
 
 impl Coding {
-    /// Code that the format states, which needs no lengths.
+    /// Fixed code of the format, which is stored without lengths.
     fn of_format() -> Coding {
         let mut lengths = [8; 288];
         lengths[144..256].fill(9);
@@ -149,7 +149,7 @@ impl Coding {
         }
     }
 
-    /// Bits of a block with `counts`.
+    /// Length of a block with the symbol frequencies `counts`, bits.
     fn bits(&self, counts: &[u32; SYMBOLS]) -> usize {
         let header: usize = self.header.iter().map(|bits| usize::from(bits.count)).sum();
         let words = self.literals.iter().chain([&self.end]);
@@ -168,9 +168,9 @@ impl Coding {
     }
 }
 
-/// Header of a block with a code of its own: the lengths of its words, themselves in a code.
+/// Header of a block with a separate code: the lengths of its code words, compressed with another code.
 fn lengths_header(lengths: &[u8; SYMBOLS]) -> Vec<Bits> {
-    /// Order of the format for the lengths of lengths.
+    /// Order in which the format stores the code that compresses the lengths.
     const ORDER: [usize; 19] = [
         16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15,
     ];
@@ -205,7 +205,7 @@ fn lengths_header(lengths: &[u8; SYMBOLS]) -> Vec<Bits> {
     header
 }
 
-/// Symbols for `sizes`: each is a size, or a number of repetitions that stands in the bits behind it.
+/// Run-length encoding of `sizes`. Each symbol is a size, or a repetition with its count in the following bits.
 fn runs(sizes: &[u8]) -> Vec<(u8, Bits)> {
     let mut runs = Vec::new();
     for run in sizes.chunk_by(|one, next| one == next) {
@@ -233,10 +233,10 @@ fn runs(sizes: &[u8]) -> Vec<(u8, Bits)> {
     runs
 }
 
-/// Checksum of zlib: the sum of bytes from 1 on, and the sum of these sums.
+/// Adler-32 checksum of zlib: 1 plus the sum of the bytes, and the sum of the partial sums.
 fn adler32(bytes: &[u8]) -> u32 {
     const MODULUS: u32 = 65_521;
-    /// Bytes whose sums fit into 32 bits.
+    /// Number of bytes whose sums fit into 32 bits.
     const PART: usize = 1 << 12;
     const LANES: usize = 16;
     let (mut sum, mut sums) = (1, 0);

@@ -1,8 +1,8 @@
-//! Huffman codes with a limit on the length of their words.
+//! Huffman codes with a maximum length of their code words.
 
 use super::bits::Bits;
 
-/// Length of the word of each symbol in the shortest code for `counts`, at most `longest` bits. Symbols without a count have length 0.
+/// Length of the code word of each symbol for the frequencies `counts`, at most `longest` bits. Unused symbols have length 0.
 pub(super) fn lengths<const SYMBOLS: usize>(
     counts: &[u32; SYMBOLS],
     longest: usize,
@@ -20,7 +20,7 @@ pub(super) fn lengths<const SYMBOLS: usize>(
     lengths
 }
 
-/// Words of the canonical code with these lengths, of at most 15 bits.
+/// Code words of the canonical code with these lengths, of at most 15 bits.
 pub(super) fn words<const SYMBOLS: usize>(lengths: &[u8; SYMBOLS]) -> [Bits; SYMBOLS] {
     let mut words = [Bits::default(); SYMBOLS];
     let mut next: u16 = 0;
@@ -40,7 +40,7 @@ pub(super) fn words<const SYMBOLS: usize>(lengths: &[u8; SYMBOLS]) -> [Bits; SYM
     words
 }
 
-/// Number of words of each length, for `counts` in ascending order.
+/// Number of code words of each length, for the frequencies `counts` in ascending order.
 fn words_by_length(counts: &[u32], longest: usize) -> Vec<usize> {
     let mut words = vec![0; longest + 1];
     for depth in leaf_depths(counts) {
@@ -60,7 +60,8 @@ fn words_by_length(counts: &[u32], longest: usize) -> Vec<usize> {
     words
 }
 
-/// Depth of each leaf of the tree that joins the two rarest nodes until one is left. Of equal nodes a leaf is joined before a joined node.
+/// Depth of each leaf of the Huffman tree, which joins the two rarest nodes until one node is left. Among equally rare nodes, leaves are joined
+/// first.
 fn leaf_depths(counts: &[u32]) -> Vec<usize> {
     let leaves = counts.len();
     if leaves < 2 {

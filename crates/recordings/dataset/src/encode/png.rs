@@ -11,9 +11,9 @@ use super::deflate::Stream;
 use crate::limits;
 
 const SIGNATURE: &[u8; 8] = b"\x89PNG\r\n\x1a\n";
-/// Bytes of a chunk beside its data: length, kind and checksum.
+/// Size of a chunk without its data, bytes: length, type and checksum.
 const CHUNK: usize = 12;
-/// Bytes of the first chunk's data: the form of the picture.
+/// Size of the data of the header chunk `IHDR`, bytes.
 const FORM: usize = 13;
 
 /// PNG file of a frame, whose length is known before it is written.
@@ -74,7 +74,7 @@ impl PngFile {
         Ok(file)
     }
 
-    /// Length in bytes.
+    /// Length of the file, bytes.
     pub(crate) fn len(&self) -> usize {
         SIGNATURE.len() + CHUNK + FORM + CHUNK + self.stream.len() + CHUNK
     }
@@ -140,7 +140,7 @@ fn filtered(samples: &[u8], row: usize, pixel: usize) -> Vec<u8> {
 
 /// Sum of the magnitudes of `bytes`, read as signed numbers.
 fn magnitude(bytes: &[u8]) -> u64 {
-    /// Magnitudes whose sum fits into 32 bits.
+    /// Number of magnitudes whose sum fits into 32 bits.
     const PART: usize = 1 << 24;
     let parts = bytes.chunks(PART).map(|part| {
         let magnitudes = part.iter().map(|byte| (*byte).min(byte.wrapping_neg()));
@@ -152,7 +152,7 @@ fn magnitude(bytes: &[u8]) -> u64 {
 /// Number of filters: none, left, above, the mean of both, and Paeth's choice of three, in the order of the format.
 const FILTERS: u8 = 5;
 
-/// Filters a row below `above`, for pixels of `pixel` bytes.
+/// Applies filter number `filter` to the row `current` below the row `above`. A pixel has `pixel` bytes.
 fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]) {
     match filter {
         0 => into.copy_from_slice(current),
@@ -163,7 +163,8 @@ fn apply(filter: u8, current: &[u8], above: &[u8], pixel: usize, into: &mut [u8]
     }
 }
 
-/// Subtracts from each byte of a row what `expected` makes of its neighbours to the left, above and in the corner. Those outside are zero.
+/// Subtracts from each byte of a row the prediction `expected`, computed from the bytes to the left, above, and above left. Bytes outside the picture
+/// are zero.
 fn predict(
     current: &[u8],
     above: &[u8],

@@ -31,7 +31,7 @@ pub struct MappedColumn {
     /// Factors of the columns after subtraction of the offsets. The products are summed. Empty for none.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub factors: Vec<f64>,
-    /// Number that means "not measured". A row is left out if all columns with a placeholder contain theirs.
+    /// Number that means "not measured". A row is left out if every column with a placeholder contains its placeholder.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub placeholder: Option<f64>,
     /// Order of taxels: `place-first` or `channel-first`.

@@ -27,7 +27,7 @@ pub struct Extension {
 }
 
 impl Extension {
-    /// Addition to a recording of `rows` rows with this digest. The rows come from the folder `from` and were added on `date`.
+    /// Addition to a recording that had `rows` rows and the digest `digest`. The rows come from the folder `from` and were added on `date`.
     pub fn new(
         rows: u64,
         digest: Digest,

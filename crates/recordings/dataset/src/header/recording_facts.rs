@@ -113,7 +113,8 @@ impl RecordingFacts {
         })
     }
 
-    /// Difference between the instruments and those of `now`, as text; `path` is the begun recording. Earlier builds stored no instruments.
+    /// Difference between these instruments and the instruments of `now`, as text; `path` is the begun recording. Earlier builds stored no
+    /// instruments.
     pub(crate) fn other_instrument(&self, now: &RecordingFacts, path: &Path) -> Option<String> {
         if self.traceability.is_empty() || self.traceability == now.traceability {
             return None;

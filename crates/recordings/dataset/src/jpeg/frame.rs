@@ -1,4 +1,4 @@
-//! Frame header of a JPEG, and the coefficient bits coded by its scans so far.
+//! Frame header of a JPEG, and the coefficient bits that the parsed scans code.
 
 use super::bits::big_endian;
 

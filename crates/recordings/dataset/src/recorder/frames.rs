@@ -172,7 +172,7 @@ impl Recorder {
             .map_err(|problem| DatasetError::image(&self.path.join(relative), problem))
     }
 
-    /// Properties shared by all frames recorded so far.
+    /// Properties shared by all recorded frames.
     pub(super) fn frames_info(&self) -> Option<FramesInfo> {
         let info = self.frame_info?;
         let is_gray = info.format.samples() == 1;

@@ -153,7 +153,7 @@ impl WrittenPress {
     }
 }
 
-/// Frames of a stream as written, with the losses so far.
+/// Frames of a stream as written, with the losses up to these frames.
 #[derive(Serialize, Deserialize)]
 pub(super) struct WrittenStream {
     pub(super) stream: StreamFacts,

@@ -28,8 +28,8 @@ impl Recorder {
     /// Records a press, its outcome and all its samples, possibly none. Returns the number of the journal record once the record is durable.
     ///
     /// # Errors
-    /// Errors of [`append`](Recorder::append), for the first rejected sample; [`DatasetError::Sample`] if the name of the press is empty or taken;
-    /// [`DatasetError::Request`] for more samples than fit into one record, some thousands. Nothing is recorded after an error.
+    /// Errors of [`append`](Recorder::append), for the first rejected sample; [`DatasetError::Sample`] if the name of the press is empty or already
+    /// used; [`DatasetError::Request`] for more samples than fit into one record, some thousands. Nothing is recorded after an error.
     pub fn append_press(
         &mut self,
         press: &str,

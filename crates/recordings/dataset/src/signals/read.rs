@@ -123,7 +123,7 @@ impl std::fmt::Debug for SignalsReader {
     }
 }
 
-/// First row of each group. Checks schema and sizes against `info` before memory is allocated by these sizes.
+/// First row of each group. Checks schema and sizes against `info` before memory of these sizes is allocated.
 fn starts(
     file: &SerializedFileReader<File>,
     info: &SignalsInfo,

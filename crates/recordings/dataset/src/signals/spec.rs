@@ -32,7 +32,7 @@ impl SignalsSpec {
     /// Taxels of `info`, each with values called `channels`, without rows marked as without contact.
     ///
     /// # Errors
-    /// Error message if the number of names is not the number of values per taxel, or if a name is duplicate or invalid for a column.
+    /// Error message if the number of names is not the number of values per taxel, or a name is duplicate or invalid.
     pub fn new<N: Into<String>>(
         info: SignalInfo,
         channels: impl IntoIterator<Item = N>,

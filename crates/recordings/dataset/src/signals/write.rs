@@ -1,4 +1,4 @@
-//! Writer of signals, row by row. Memory contains at most one row group.
+//! Writer of signals, row by row. Keeps at most one row group in memory.
 
 use std::fs::File;
 use std::io::BufWriter;

@@ -196,10 +196,10 @@ impl Table {
         self.tasks.iter().find(|own| own.task.name == name)
     }
 
-    /// The same rows with the [channels](Task::channels) of the labels of `own` as the only channels.
+    /// The same rows, whose only channels are the [channels](Task::channels) of the task of `own`.
     ///
     /// # Errors
-    /// [`ChannelError`] for a name of a task that no channel can have.
+    /// [`ChannelError`] if the name of the task is invalid for a channel.
     pub(crate) fn labelled_by(&self, own: &TaskColumn) -> Result<Table, ChannelError> {
         let columns = match &own.cells {
             TaskCells::Classes(classes) => {
@@ -231,7 +231,7 @@ impl Table {
         })
     }
 
-    /// The same table with labels of one more task, which must name every class.
+    /// The same table with the labels `classes` of the additional task `task`, which must name every class.
     pub(crate) fn with_classes(&self, task: Task, classes: &[Option<u32>]) -> Table {
         let mut own = TaskColumn::new(task);
         own.cells = TaskCells::Classes(classes.to_vec());

@@ -29,7 +29,7 @@ pub struct MapFacts {
     /// Distances of neighbouring columns and of neighbouring rows of pixels, mm; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pixel_mm: Option<[f64; 2]>,
-    /// Number of an invalid pixel besides NaN; `None` if no other number marks one.
+    /// Number that marks an invalid pixel, besides NaN; `None` if only NaN does.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub invalid: Option<f64>,
 }

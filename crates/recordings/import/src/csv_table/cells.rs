@@ -26,7 +26,7 @@ pub(super) struct RowSplitter {
     /// Maximum number of rows to find.
     most: usize,
     rows: usize,
-    /// Number of line ends so far, including blank lines.
+    /// Number of line ends found, including blank lines.
     lines: u64,
     /// For each row, the start of each cell, then the position after the end of the last cell, bytes.
     bounds: Vec<u32>,

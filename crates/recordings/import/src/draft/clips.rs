@@ -15,13 +15,13 @@ use crate::source_folder::SourceFolder;
 
 /// The only clip of a folder.
 pub(super) struct OnlyClip {
-    /// File name of the clip without its ending.
+    /// File name of the clip without the filename extension.
     stem: String,
     frames: u64,
 }
 
 impl OnlyClip {
-    /// Evidence that each row of `table` is a frame, from 0 to 2. 1: the clip has as many frames as rows. 2: its file name also agrees.
+    /// Evidence that each row of `table` is a frame, from 0 to 2. 1: the clip has as many frames as the table has rows. 2: the file names also agree.
     pub(super) fn fit(&self, table: &SeenTable<'_>) -> u8 {
         let is_as_many = table.rows as u64 == self.frames && table.group.paths.len() == 1;
         let is_named = table.group.stem().starts_with(&self.stem);
@@ -29,7 +29,7 @@ impl OnlyClip {
     }
 }
 
-/// Clip among `groups` if there is only one and it can be opened.
+/// The only clip among `groups`; `None` if there are several clips, or if the clip cannot be opened.
 pub(super) fn only(folder: &SourceFolder, groups: &[FileGroup]) -> Option<OnlyClip> {
     let mut clips = groups.iter().filter(|group| is_clip(&group.ending));
     let (clip, others) = (clips.next()?, clips.next());
@@ -58,7 +58,7 @@ pub(super) struct BareClip<'g> {
 /// Maximum number of clips that are opened to find a readable one.
 const OPENED: usize = 16;
 
-/// First clip among `groups` that can be opened and states the time of each frame; only the clip `asked`, if one is.
+/// First clip among `groups` that can be opened and states the time of each frame; only the clip `asked`, if it is given.
 pub(super) fn bare<'g>(
     folder: &SourceFolder,
     groups: &'g [FileGroup],

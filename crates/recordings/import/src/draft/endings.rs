@@ -1,11 +1,11 @@
-//! Kinds of files by their endings.
+//! Kinds of files by their filename extensions.
 
-/// True for the ending of a picture, in lower case.
+/// True for the filename extension of a picture, in lower case.
 pub(super) fn is_picture(ending: &str) -> bool {
     matches!(ending, "png" | "jpg" | "jpeg" | "tif" | "tiff")
 }
 
-/// True for the ending of a clip, in lower case.
+/// True for the filename extension of a clip, in lower case.
 pub(super) fn is_clip(ending: &str) -> bool {
     matches!(ending, "avi" | "mp4" | "mkv" | "mov" | "webm")
 }

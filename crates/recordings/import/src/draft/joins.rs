@@ -176,7 +176,7 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     Some(lines)
 }
 
-/// Time step between rows from which each row is taken for a single press, ms; rows of a stream are closer.
+/// Minimum time step between rows that are single presses, ms. Rows of a stream are closer.
 const PRESSES_MS: f64 = 1_000.0;
 
 /// Fraction of the time step between rows within which a row of the same press is expected.

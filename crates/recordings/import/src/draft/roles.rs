@@ -20,7 +20,7 @@ pub(super) use words::words;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Role {
     Channels(Vec<Candidate>),
-    /// Column with a name like that of a channel, but for another quantity.
+    /// Column whose name resembles a channel name but denotes another quantity.
     Excluded(Exclusion),
     /// Time in `unit`, since 1970 or another origin; `"?"` if the unit is unknown.
     Time {
@@ -40,8 +40,8 @@ pub(super) enum Role {
     Other,
 }
 
-/// Minimum number of rows counting up by one from which numbers are taken for a counter instead of a force. A larger minimum applies to a column with the name
-/// of the channel.
+/// Minimum number of rows that count up by one in a column that is a counter and not a force. A larger minimum applies to a column with the name of
+/// the channel.
 const COUNTED: usize = 4;
 const COUNTED_BY_NAME: usize = 16;
 

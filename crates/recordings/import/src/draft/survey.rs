@@ -35,7 +35,7 @@ impl FileGroup {
         }
     }
 
-    /// Name of the first file without its ending.
+    /// Name of the first file without its extension.
     pub(super) fn stem(&self) -> &str {
         let name = self.first().rsplit('/').next().unwrap_or_default();
         name.split('.').next().unwrap_or(name)
@@ -81,7 +81,7 @@ pub(super) fn groups(folder: &SourceFolder) -> Result<Vec<FileGroup>, ImportErro
     Ok(grouped(files))
 }
 
-/// Groups of the pictures and clips among `groups`, and a group of `file` alone.
+/// Groups of the pictures and clips among `groups`, and a group that contains only `file`.
 pub(super) fn beside(mut groups: Vec<FileGroup>, file: &str) -> Vec<FileGroup> {
     groups.retain(|group| is_picture(&group.ending) || is_clip(&group.ending));
     let is_known = groups
@@ -96,13 +96,13 @@ pub(super) fn beside(mut groups: Vec<FileGroup>, file: &str) -> Vec<FileGroup> {
     groups
 }
 
-/// Ending of a name, in lower case.
+/// Filename extension of a name, in lower case.
 fn ending_of(name: &str) -> String {
     let ending = name.rsplit_once('.').map_or("", |(_, ending)| ending);
     ending.to_ascii_lowercase()
 }
 
-/// Groups files of one ending and depth whose names differ only in numbers and words.
+/// Groups files of one extension and folder depth whose names differ only in numbers and words.
 fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     let mut by_shape: BTreeMap<(String, usize, String), Vec<String>> = BTreeMap::new();
     for path in files {
@@ -126,7 +126,7 @@ fn grouped(files: Vec<String>) -> Vec<FileGroup> {
     groups.collect()
 }
 
-/// True if files with this ending may be tables. Tables whose names differ in the last word usually contain different data.
+/// True if files with this extension may be tables. Tables whose names differ in the last word usually contain different data.
 fn is_table_ending(ending: &str) -> bool {
     !matches!(
         ending,
@@ -134,7 +134,7 @@ fn is_table_ending(ending: &str) -> bool {
     )
 }
 
-/// Last word of a name before the ending, without digits: `forces` of `cube_1_forces.csv`.
+/// Last word of a name before the extension, without digits: `forces` of `cube_1_forces.csv`.
 fn last_word(name: &str) -> String {
     let stem = name.split('.').next().unwrap_or(name);
     let last = stem.rsplit(['_', '-', ' ']).next().unwrap_or(stem);

@@ -28,7 +28,7 @@ pub(super) struct SeenTable<'g> {
     /// Value of `table` in a map for this table.
     pub(super) written: String,
     pub(super) is_single_array: bool,
-    /// True if channels are guessed from the number of columns alone.
+    /// True if channels are guessed only from the number of columns.
     pub(super) has_guessed_channels: bool,
     /// Comment on the guessed header, or on the end of a truncated recording.
     pub(super) header_guess: Option<String>,
@@ -51,7 +51,7 @@ pub(super) struct SeenColumn {
     pub(super) cells: Vec<String>,
     /// Cell of the last row.
     pub(super) last: String,
-    /// Shape of the lists in the first cell, if they contain as many numbers as taxels do.
+    /// Shape of the lists in the first cell, if the lists contain enough numbers for taxels.
     pub(super) taxels: Option<Vec<usize>>,
     /// Number of empty cells among the first million rows.
     pub(super) empty: usize,

@@ -29,7 +29,7 @@ impl ExportForm {
         ExportForm::LeRobot,
     ];
 
-    /// Word for the form on the command line.
+    /// Name of the form on the command line.
     pub const fn name(self) -> &'static str {
         match self {
             ExportForm::Csv => "csv",

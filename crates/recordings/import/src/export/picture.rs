@@ -12,7 +12,7 @@ pub(super) struct Pictures<'a> {
     dataset: &'a Dataset,
     /// Colour order in the exported files.
     pub(super) order: ChannelOrder,
-    /// True if every picture is encoded again; otherwise only pictures stored as differences are.
+    /// True if every picture is encoded again; false if only pictures stored as differences are encoded again.
     is_anew: bool,
     /// True if the form stores pixels instead of image files.
     is_pixels: bool,

@@ -142,7 +142,7 @@ pub(crate) struct ColumnTable {
     most_bytes: usize,
 }
 
-/// Columns read so far.
+/// Columns that were read.
 #[derive(Debug, Default)]
 struct ReadColumns {
     by_name: BTreeMap<String, Arc<Vec<String>>>,

@@ -14,7 +14,8 @@ pub(crate) struct DepthPixels {
 }
 
 impl DepthPixels {
-    /// Pixels of `codes` in `range`, mm. Without a range, pixels are whole millimetres, and an error is returned for codes that these cannot represent.
+    /// Pixels of `codes` in `range`, mm. Without a range, pixels are whole millimetres, and an error is returned for distances that whole millimetres
+    /// cannot represent.
     pub(crate) fn new(codes: DepthCodes, range: Option<PixelRange>) -> Result<DepthPixels, String> {
         let [least, greatest] = codes.ends_mm();
         let whole = PixelRange::new([0.0, 65_535.0], 16)

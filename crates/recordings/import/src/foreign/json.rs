@@ -156,7 +156,7 @@ impl JsonRows {
         }
     }
 
-    /// True if there is a value at the pointer `name` and all of these values are integers.
+    /// True if a row has a value at the pointer `name`, and all values at this pointer are integers.
     pub(super) fn holds_integers(&self, name: &str) -> bool {
         let found = (0..self.rows.len()).filter_map(|row| self.at(row, name));
         let mut found = found.filter(|value| !value.is_null()).peekable();

@@ -105,7 +105,7 @@ pub(crate) struct Members<T> {
     /// Number of unread bytes of the last member, including padding.
     left: u64,
     count: u64,
-    /// Number of empty files and folders so far.
+    /// Number of empty files and folders found.
     empty: u64,
 }
 

@@ -56,9 +56,9 @@ pub struct ImportReport {
 impl ImportPlan {
     /// Writes the dataset to `target` on `jobs` threads. The bytes are the same for any number of threads.
     ///
-    /// Encoded frames keep their bytes; pixels from an array or a clip become PNG. A JPEG is decoded to its end. This detects missing or changed data, unless
-    /// every code is still valid and the last one ends at the same place. A bit changed before the import may therefore change the picture without an error.
-    /// The digests detect all damage after the import.
+    /// Encoded frames keep their bytes; pixels from an array or a clip become PNG. A JPEG is decoded to its end. This detects missing or changed
+    /// data, unless every code is still valid and the last code ends at the same place. A bit changed before the import may therefore change the
+    /// picture without an error. The digests detect all damage after the import.
     ///
     /// # Errors
     /// [`ImportError::Named`] naming the image and the row if a frame does not decode or differs in size or format from the first; [`ImportError::Dataset`]

@@ -35,7 +35,7 @@ enum MapSource {
 }
 
 impl PlannedMaps {
-    /// Depth maps of every task that has them, without a row.
+    /// Depth maps of each task with depth maps, still without rows.
     pub(super) fn of_tasks(
         map: &ImportMap,
         folder: &SourceFolder,
@@ -54,7 +54,7 @@ impl PlannedMaps {
         opened.collect()
     }
 
-    /// Adds a kept row. `number` counts rows over all tables. Returns the file of the map, if the row has its own.
+    /// Adds a kept row. `number` counts rows over all tables. Returns the file of the map, if the row has a separate file.
     pub(super) fn take(
         &mut self,
         rows: &MappedTable<'_>,
@@ -165,7 +165,7 @@ impl PlannedMaps {
         Ok(pack.finish()?)
     }
 
-    /// Bytes of the map in a file of its own.
+    /// Bytes of a map that has a separate file.
     fn of_file(&self, path: &Path, place: &Place) -> Result<Vec<u8>, ImportError> {
         let is_png = path
             .extension()
@@ -210,7 +210,7 @@ pub(super) fn write_maps(
     Ok(Some(layout::MAPS.to_owned()))
 }
 
-/// Array of the maps of `own`, if it has one.
+/// Opened array of the depth maps of the task `own`, if the maps are in an array.
 fn opened(own: &TaskMap, folder: &SourceFolder) -> Result<Option<MapsFile>, ImportError> {
     let Some(array) = &own.array else {
         return Ok(None);

@@ -117,7 +117,7 @@ impl ImportSummary {
         }
     }
 
-    /// Writes the unmapped columns; columns that rate their rows get a line each.
+    /// Writes the unmapped columns; columns with quality ratings get a separate line each.
     fn write_unmentioned(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if self.unmentioned_columns.is_empty() {
             return Ok(());

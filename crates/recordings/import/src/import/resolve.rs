@@ -48,7 +48,7 @@ pub(super) struct Resolved {
     pub(super) joins: Vec<JoinMatches>,
     /// Unwritten chunks of the arrays read, by file and array.
     pub(super) absent_chunks: BTreeMap<String, u64>,
-    /// Taxel values of every row; `None` unless they are in columns of the table.
+    /// Main table, as read from its file.
     pub(super) main: ForeignTable,
     /// Taxel values of every row, if they are in columns.
     pub(super) signals: Option<ColumnSignals>,

@@ -20,7 +20,7 @@ use taceva_dataset::{DatasetError, SignalsInfo, SignalsSpec};
 pub(super) struct FoundSignals<'a> {
     map: &'a SignalsMap,
     from: Found,
-    /// Number of kept rows so far.
+    /// Number of rows that were kept.
     kept: u64,
     /// Ranges of kept rows without contact.
     rest: Vec<[u64; 2]>,
@@ -175,7 +175,7 @@ impl PlannedSignals {
         Ok(writer.finish()?)
     }
 
-    /// Appends the signals to `writer`. Memory contains only some rows of an array at a time.
+    /// Appends the signals to `writer`. Keeps only some rows of an array in memory.
     pub(super) fn write_to(
         &self,
         writer: &mut SignalsWriter,

@@ -27,7 +27,7 @@ pub enum ImportWarning {
         column: String,
         /// Example cell.
         example: String,
-        /// Number of cells that look so.
+        /// Number of such cells.
         cells: u64,
     },
     /// Text times have no time zone, and the map states no time zone for a clock that counts from 1970.
@@ -93,7 +93,7 @@ pub enum ImportWarning {
         join: String,
         /// Number of rows of the main table with a lag above 100 ms.
         rows: u64,
-        /// Number of these rows at whose own time the joined table has a row.
+        /// Number of these rows for which the joined table has a row at the same time.
         equal: u64,
     },
     /// Most rows of both tables have no match by time.

@@ -29,13 +29,13 @@ pub struct Addition {
     pub unknown: u64,
     /// Number of rows in `[[simulated]]`.
     pub simulated: u64,
-    /// Least level of the rows.
+    /// Lowest verification level of the rows.
     pub level: String,
     /// Statement on samples that were not measured.
     pub badge: Option<String>,
 }
 
-/// Adds a bundle to a catalogue. An entry is replaced as a whole, and its text stays as it is above the new rows.
+/// Adds a bundle to a catalogue. Appends the new rows to the entries, whose existing text is unchanged. Each file is replaced atomically.
 ///
 /// ```no_run
 /// use std::path::Path;
@@ -53,7 +53,8 @@ pub struct Addition {
 ///
 /// # Errors
 /// [`CatalogueFolderError`] if the bundle is not verified, is a draft or is in the catalogue already. An invalid entry is an error too, as is a file
-/// that cannot be written. The catalogue is then as it was, unless only some of several entries could be written; the same command completes it.
+/// that cannot be written. After an error the catalogue is unchanged, unless only some of several entries could be written. Repeat the call to
+/// complete them.
 pub fn add(request: &AddRequest) -> Result<Addition, CatalogueFolderError> {
     let submission = Submission::read(request)?;
     let root = request.catalogue.as_path();
@@ -104,7 +105,7 @@ fn changed(
     Ok(texts)
 }
 
-/// Rejects a bundle with the results of another one in the catalogue.
+/// Rejects a bundle with the results of another bundle in the catalogue.
 fn check_new(
     root: &Path,
     submission: &Submission,

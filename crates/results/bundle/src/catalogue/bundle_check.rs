@@ -15,12 +15,12 @@ use crate::layout::{MANIFEST, MOST_BYTES, MOST_MANIFEST};
 use crate::source::Source;
 use crate::verify::{VerifyRequest, verify};
 
-/// Verifies `bundles` as deep as their files allow. The manifest of each must be that in the catalogue at `root`, byte for byte.
+/// Verifies `bundles` to the deepest level that their files allow. Each manifest must equal the copy in the catalogue at `root`, byte for byte.
 ///
 /// The manifest states the level of each claim, which limits the level of its row. So a row cannot state a deeper level than its bundle reaches.
 ///
 /// # Errors
-/// [`CatalogueFolderError::Bundle`] for a bundle that cannot be read. A damaged bundle and a number that differs are no errors: they are listed.
+/// [`CatalogueFolderError::Bundle`] for a bundle that cannot be read. Damaged bundles and differing numbers are not errors: they are listed.
 pub fn check_bundles(
     root: &Path,
     bundles: &[PathBuf],

@@ -11,24 +11,24 @@ use super::folder::{EntryFile, entry_path};
 
 /// Page names that no sensor may have.
 const RESERVED: [&str; 2] = ["index", "measured"];
-/// Longest name of a sensor, in bytes. Tables cut names of 80 letters, and origin, level and bundle follow this one.
+/// Maximum length of a sensor name, bytes. Tables cut longer texts after 80 letters, including the origin, level and bundle after the name.
 const MOST_NAME: usize = 40;
 /// Names that [`is_name`] accepts, for messages.
 pub(super) const NAME_RULE: &str = "expected a name of at most 40 bytes with Latin letters or digits, without control characters, without blanks at its ends, other than `index` and `measured`";
 
-/// File of an entry, with the text that rows are appended to.
+/// File of an entry, with the text to which rows are appended.
 pub(super) struct EntryPlace {
     /// Path in the catalogue: `entries/gelsight.toml`.
     pub(super) path: String,
-    /// Text as it is, or the head of a new entry.
+    /// Existing text of the entry, or the head of a new entry.
     pub(super) text: String,
 }
 
 impl EntryPlace {
-    /// Entry of the sensor called `name`: an entry with that name or alias, that of a built-in sensor, or a new one.
+    /// Entry of the sensor called `name`: an entry with that name or alias, the entry of a built-in sensor, or a new entry.
     ///
     /// # Errors
-    /// [`CatalogueFolderError::Refused`] for a name that resembles another one, has two meanings, or is not a valid file name.
+    /// [`CatalogueFolderError::Refused`] for a name that resembles another name, has two meanings, or is not a valid file name.
     pub(super) fn of(
         name: &str,
         entries: &[EntryFile],
@@ -108,7 +108,7 @@ impl EntryPlace {
     }
 }
 
-/// True for a name that makes a page of its own and fits into tables.
+/// True for a name that is valid for a separate page and fits into tables.
 pub(super) fn is_name(name: &str) -> bool {
     let slug = Sensor::slug_of(name);
     let has_letter = slug.chars().any(|letter| letter.is_ascii_alphanumeric());

@@ -17,7 +17,7 @@ pub enum CatalogueFolderError {
     File {
         /// Path of the file.
         path: PathBuf,
-        /// Error of the system.
+        /// Error of the operating system.
         source: io::Error,
     },
     /// A file or a bundle breaks a rule of the catalogue.
@@ -33,7 +33,7 @@ pub enum CatalogueFolderError {
     Unverified {
         /// Path of the bundle.
         path: PathBuf,
-        /// The number, and the command that lists all.
+        /// The number, and the command that lists all such numbers.
         problem: String,
     },
     /// An entry is invalid.

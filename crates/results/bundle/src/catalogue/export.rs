@@ -151,7 +151,7 @@ fn task(row: &Measured) -> String {
     format!("{}{variant}_{}", row.metric, row.channel)
 }
 
-/// Content of a catalogue in words, with the sentence on samples that nobody measured.
+/// Content of a catalogue in words, with the sentence on samples that were not measured.
 fn description(sensors: &[Sensor]) -> String {
     let rows = || sensors.iter().flat_map(Sensor::all_rows);
     let bundles: BTreeSet<&str> = rows().map(|row| row.bundle.as_str()).collect();
@@ -167,7 +167,7 @@ fn description(sensors: &[Sensor]) -> String {
 
 /// Folder of a catalogue, described as a bundle is.
 struct Folder {
-    /// Name, day, authors and files. It claims nothing.
+    /// Manifest with name, day, authors and files, but without claims.
     manifest: Manifest,
     description: String,
     /// Licences of the bundles, each once.

@@ -13,16 +13,16 @@ use crate::layout::{MOST_MANIFEST, MOST_TEXT};
 pub(super) const ENTRIES: &str = "entries";
 /// Folder of the manifests.
 pub(super) const BUNDLES: &str = "bundles";
-/// Ending of an entry.
+/// Filename extension of an entry.
 const TOML: &str = ".toml";
-/// Ending of a manifest.
+/// Filename extension of a manifest.
 const JSON: &str = ".json";
 
 /// Text of a file in a catalogue.
 pub(super) struct TextFile {
     /// Path in the catalogue: `entries/gelsight.toml`.
     pub(super) path: String,
-    /// Name without its ending.
+    /// Name without its extension.
     pub(super) stem: String,
     /// Text, or the reason why it cannot be read.
     pub(super) text: Result<String, String>,
@@ -105,7 +105,7 @@ fn check_no_link(root: &Path, path: &str) -> Result<(), CatalogueFolderError> {
     }
 }
 
-/// Files in `folder` whose names have this ending, by name; none if there is no such folder.
+/// Files in `folder` with this filename extension, sorted by name; empty if the folder does not exist.
 fn texts(
     root: &Path,
     folder: &str,

@@ -1,4 +1,4 @@
-//! Check of a catalogue: entries, names, manifests, and each number against the manifest that holds it. It needs no network.
+//! Check of a catalogue: entries, names, manifests, and each number against its manifest. No network is needed.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -32,7 +32,7 @@ pub struct CatalogueCheck {
     pub entries: u64,
     /// Number of bundles.
     pub bundles: u64,
-    /// Number of rows of bundles.
+    /// Number of rows from bundles.
     pub numbers: u64,
     /// Text of the index.
     index: String,
@@ -99,11 +99,10 @@ pub fn check_catalogue(root: &Path) -> Result<CatalogueCheck, CatalogueFolderErr
     })
 }
 
-/// Sensors of all entries of the catalogue at `root`, by file name. Each number of a bundle is that of its manifest.
+/// Sensors of all entries of the catalogue at `root`, by file name. Each number of a bundle equals the number in its manifest.
 ///
 /// # Errors
-/// [`CatalogueFolderError`] with file and line for an invalid entry, for a number that its manifest does not hold, and for a folder that is
-/// no catalogue.
+/// [`CatalogueFolderError`] with file and line for an invalid entry or a number that its manifest lacks, and for a folder that is not a catalogue.
 pub fn entries(root: &Path) -> Result<Vec<Sensor>, CatalogueFolderError> {
     check_catalogue_folder(root)?;
     let manifests = manifests(root, &mut Vec::new(), &mut Index::default())?;
@@ -181,7 +180,7 @@ fn manifests(
     Ok(known)
 }
 
-/// Fault of a manifest with `rows` in entries for its `claims`; `None` if each number has its row.
+/// Fault of a manifest with `claims` numbers, of which entries contain `rows`; `None` if entries contain all.
 fn rows_fault(rows: u64, claims: u64) -> Option<String> {
     match rows {
         0 => {

@@ -23,11 +23,11 @@ use crate::source::Source;
 use crate::verification::{ClaimCheck, Outcome, Verdict, Verification};
 use crate::verify::{VerifyRequest, verify};
 
-/// Text of a bundle that states the protocol.
+/// File of a bundle that states the protocol.
 const SCENE: &str = "scene.toml";
 /// Maximum size of authors and certificates together, bytes.
 const MOST_REPEATED: usize = 4096;
-/// Name of a sensor that no result states.
+/// Sensor name in results that state no sensor.
 const UNKNOWN: &str = "unknown";
 
 /// Verified bundle with the rows of its numbers.

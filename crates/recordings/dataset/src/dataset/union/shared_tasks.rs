@@ -17,10 +17,10 @@ struct Known<'a> {
     task: &'a Task,
 }
 
-/// Tasks of all recordings, each once. A recording may lack a task of another one.
+/// Tasks of all recordings, each once. A recording may lack a task of another recording.
 ///
 /// # Errors
-/// [`OtherDefinition`] if two recordings define a task differently, because a position in other names is another class.
+/// [`OtherDefinition`] if two recordings define a task differently, because the same position in another list of names is another class.
 pub(super) fn shared_tasks<'a>(
     recordings: impl Iterator<Item = &'a [TaskColumn]>,
 ) -> Result<Vec<Task>, OtherDefinition> {

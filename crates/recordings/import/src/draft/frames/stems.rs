@@ -1,4 +1,4 @@
-//! Columns whose cells are picture names without the ending: `000012` for `000012.png`.
+//! Columns whose cells are picture names without the filename extension: `000012` for `000012.png`.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -29,7 +29,7 @@ impl Match<'_> {
     }
 }
 
-/// Frame lines for pictures whose names without the ending are the cells of a column. Prefers pictures below the folder of the table.
+/// Frame lines for pictures whose names without the extension are the cells of a column. Prefers pictures below the folder of the table.
 pub(super) fn of(
     folder: &SourceFolder,
     groups: &[FileGroup],
@@ -104,7 +104,7 @@ pub(super) fn may_name(column: &SeenColumn) -> bool {
     is_free && !column.name.contains(['{', '}'])
 }
 
-/// Names of the pictures without their ending, by folder and ending.
+/// Names of the pictures without their extension, by folder and extension.
 fn stems(groups: &[FileGroup]) -> BTreeMap<(&str, &str), HashSet<&str>> {
     let mut found: BTreeMap<(&str, &str), HashSet<&str>> = BTreeMap::new();
     let pictures = groups.iter().filter(|group| is_picture(&group.ending));

@@ -2,7 +2,7 @@
 
 use crate::draft::roles::words;
 
-/// Comment that shows how the first column called after slip becomes a task; `None` without such a column.
+/// Comment that shows how the first column whose name contains `slip` becomes a task; `None` without such a column.
 pub(super) fn suggestion<'n>(names: impl Iterator<Item = &'n str>) -> Option<String> {
     let mut names = names.filter(|name| words(name).iter().any(|word| word == "slip"));
     let name = names.next()?;

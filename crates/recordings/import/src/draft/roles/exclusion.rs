@@ -1,4 +1,4 @@
-//! Columns that are no channel: counters, magnitudes, other quantities, commands.
+//! Columns that do not contain a channel: counters, magnitudes, other quantities, commands.
 
 use std::fmt;
 
@@ -23,7 +23,7 @@ impl fmt::Display for Exclusion {
     }
 }
 
-/// Words for quantities that are no channel, anywhere in a name.
+/// Words for quantities without a channel. They are searched anywhere in a name.
 const QUANTITIES: &[(&[&str], &str)] = &[
     (
         &[

@@ -9,7 +9,7 @@ const UNIX_END_S: f64 = 2.2e9;
 /// Maximum step between rows with times since 1970, s.
 const UNIX_STEP_S: f64 = 3_600.0;
 
-/// Units of times, with the number of each in a second.
+/// Time units, each with the number of units per second.
 const UNITS: [(&str, f64); 4] = [("ns", 1e9), ("us", 1e6), ("ms", 1e3), ("s", 1.0)];
 
 /// Role of a time column. The unit follows from the last word of the name, from the size of recent dates, or from the step between rows.

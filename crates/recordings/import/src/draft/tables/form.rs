@@ -98,7 +98,7 @@ pub(super) fn form_of(path: &Path, group: &FileGroup) -> Option<(TableForm, Stri
 /// Number of lines of a text that must consist of numbers to be taken for a table.
 const LINES: usize = 20;
 
-/// True if each cell in the first lines of a text is a number. The text is then a table without a header, and no prose.
+/// True if each cell in the first lines of a text is a number. The text is then a table without a header, not prose.
 fn is_numeric(path: &Path) -> bool {
     let Some(text) = beginning(path) else {
         return false;

@@ -31,7 +31,7 @@ pub(crate) struct Taxels {
     pub(crate) is_named: bool,
 }
 
-/// Minimum number of numbered columns that are not times, whatever their name: `t0`, `t1`, `t2`.
+/// Minimum number of columns `t0`, `t1`, `t2`, … that are taken for numbers and not for times.
 const LEAST_SERIES: usize = 3;
 
 /// Words in the names of taxel columns.
@@ -52,7 +52,7 @@ const WORDS: [&str; 14] = [
     "array",
 ];
 
-/// Shape of the lists in the cells of a column; `None` unless all non-empty cells have the same shape and as many numbers as taxels.
+/// Shape of the lists in the cells of a column; `None` unless all non-empty cells have the same shape and enough numbers for taxels.
 pub(super) fn taxels_of(role: &Role, cells: &[String]) -> Option<Vec<usize>> {
     let is_open = matches!(role, Role::Numbers(_) | Role::Other | Role::Channels(_));
     let first = cells.iter().find(|cell| !cell.is_empty())?;
@@ -86,7 +86,7 @@ fn counted(name: &str) -> Option<(&str, u32)> {
     Some((stem, number.parse().ok()?))
 }
 
-/// True if `next` has the number after that of `name`.
+/// True if the number in `next` follows the number in `name`.
 fn follows(name: &str, next: &str) -> bool {
     let pair = counted(name).zip(counted(next));
     pair.is_some_and(|((stem, number), (next_stem, next_number))| {

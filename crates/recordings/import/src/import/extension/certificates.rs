@@ -9,7 +9,7 @@ use taceva_dataset::{Dataset, RecordingFacts};
 use super::Addition;
 use crate::error::ImportError;
 
-/// Rejects rows whose labels have a different certificate than the labels of the dataset, or lack one that these have.
+/// Rejects rows whose labels have a different certificate than the labels of the dataset, or lack a certificate that the labels of the dataset have.
 pub(super) fn check_certificates(
     before: &Dataset,
     facts: &RecordingFacts,

@@ -9,12 +9,12 @@ use taceva_dataset::{Dataset, Digest, FrameEntry, SignalsInfo, Table, ViewFrames
 
 use crate::error::ImportError;
 
-/// Number of different repeated pictures that excludes chance, because no camera takes the same picture twice.
+/// Minimum number of different repeated pictures for a duplicate. No camera takes the same picture twice by chance.
 const SAME_PICTURES: usize = 3;
 
 /// Rejects new rows of `table` that duplicate rows of `before`: the same sample name, or equal labels, time, frame and signals.
 ///
-/// Rows without frame, signals and time are rejected only if the dataset already has every new row, because single rows may have equal labels by chance.
+/// Rows without frame, signals and time are rejected only if the dataset already has every new row. Single rows may have equal labels by chance.
 pub(super) fn refuse_twice(
     before: &Dataset,
     table: &Table,

@@ -1,4 +1,4 @@
-//! Checks a map beyond its types. Each problem has its line.
+//! Checks of a map that its types cannot express. Each problem states its line.
 
 use std::path::Path;
 

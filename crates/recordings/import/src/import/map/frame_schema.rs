@@ -63,7 +63,7 @@ struct WrittenReferenceColumn {
     column: ColumnName,
 }
 
-/// Array: the name of an array in the file of the table, or a separate file with an array. In map version 1, the name is that of the file.
+/// Array: the name of an array in the file of the table, or a separate file with an array. In map version 1, the name is the file name.
 #[derive(Deserialize)]
 #[serde(
     untagged,

@@ -77,7 +77,7 @@ pub(crate) enum Pick {
 }
 
 impl Pick {
-    /// Word for the choice in a map.
+    /// Name of the choice in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Pick::Nearest => "nearest",
@@ -98,7 +98,7 @@ pub(crate) enum Unmatched {
 }
 
 impl Unmatched {
-    /// Word for the handling in a map.
+    /// Name of the handling in a map.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Unmatched::Drop => "drop",

@@ -1,4 +1,4 @@
-//! Schema of a map, and checks beyond its types.
+//! Schema of a map, and checks that its types cannot express.
 
 use std::collections::BTreeMap;
 use std::path::Path;

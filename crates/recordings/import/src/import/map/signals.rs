@@ -13,9 +13,9 @@ pub(crate) struct SignalsMap {
     pub(crate) from: SignalsFrom,
     /// Unit of the source.
     pub(crate) unit: SourceUnit,
-    /// Taxels in the stored unit, without the rows without contact, which are set later.
+    /// Taxels in the stored unit. The ranges of rows without contact are set later.
     pub(crate) spec: SignalsSpec,
-    /// Numbers that mean "not measured", before conversion. A row that contains one of them is left out.
+    /// Numbers that mean "not measured", before conversion. A row that contains such a number is left out.
     pub(crate) placeholders: Vec<f64>,
     /// True if values are grouped by channel; false if values are grouped by taxel position.
     pub(crate) is_channel_first: bool,

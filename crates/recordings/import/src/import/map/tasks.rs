@@ -19,13 +19,14 @@ use taceva_dataset::{DatasetError, PoseThresholds, Task, TaskKind};
 
 pub(crate) use names::no_name;
 
-/// Column with the imported table of each row, which is there without a line of the map.
+/// Column with the imported table of each row, which exists without a map entry.
 const SOURCE_TABLE: &str = "source_table";
 
 /// Task with its source.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct TaskMap {
-    /// Definition, with one source column for classes and files of depth maps, three for places, and seven or, with a rotation matrix, twelve for poses.
+    /// Definition of the task. It has 1 source column for classes and depth-map files, 3 for places, 7 for poses, and 12 for poses with a rotation
+    /// matrix.
     pub(crate) task: Task,
     /// Units of the positions x, y, z of a pose or a place; empty for other tasks.
     pub(crate) units: Vec<SourceUnit>,
@@ -205,7 +206,7 @@ impl Check<'_> {
         Err(self.at(written.span().start, &problem))
     }
 
-    /// Id or attribute of samples that resemble each other: the stated one, otherwise the contact point.
+    /// Cluster of a task: the stated id or attribute, otherwise the contact point.
     fn cluster(
         &self,
         name: &str,
@@ -379,7 +380,7 @@ impl Check<'_> {
         units.map(|symbol| self.length(symbol, at)).collect()
     }
 
-    /// Unit of length with the symbol `symbol`, which stands at `at`.
+    /// Unit of length with the symbol `symbol`. `at` is the offset of the symbol in the map.
     fn length(&self, symbol: &str, at: usize) -> Result<SourceUnit, DatasetError> {
         let unit = SourceUnit::parse(symbol).map_err(|error| error.to_string());
         let unit = unit.and_then(|unit| match unit.unit() {

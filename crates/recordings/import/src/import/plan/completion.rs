@@ -145,7 +145,7 @@ impl Reading<'_> {
         }
     }
 
-    /// Searches for images beside those that rows name.
+    /// Searches for images that no row names.
     fn find_unnamed(&mut self) {
         let mut frames = self.map.frames.iter();
         let are_files = |frame: &FrameMap| {

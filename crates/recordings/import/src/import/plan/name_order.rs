@@ -10,7 +10,7 @@ pub(super) fn counted_otherwise(files: &[PathBuf]) -> Option<[&Path; 2]> {
     Some([&pair[0], &pair[1]])
 }
 
-/// Compares two names by letters, and digits at the same place as numbers.
+/// Compares two names letter by letter. Digits at the same place are compared as numbers.
 fn by_numbers(one: &Path, other: &Path) -> Ordering {
     let [one, other] = [one, other].map(|path| path.to_string_lossy());
     let (mut one, mut other) = (&*one, &*other);

@@ -4,7 +4,7 @@ use super::columns::indexed;
 use crate::error::ImportError;
 use crate::foreign::{ForeignTable, cell_list};
 
-/// Cell of a row in the column `name`, its name among the members of a JSON object for `key`, or one element of a list in the cell: `ft[2]`.
+/// Cell of a row in the column `name`. The name `key` means the row's name in a JSON object, and `ft[2]` one element of the list in the cell.
 pub(super) fn cell_of(table: &ForeignTable, row: usize, name: &str) -> Result<String, ImportError> {
     if table.has(name) {
         return Ok(cell_list::plain(&table.cell(row, name)?).to_owned());

@@ -4,7 +4,7 @@ use super::table::ResolvedTable;
 use crate::error::ImportError;
 use crate::import::map::RotationMap;
 
-/// Minimum distance that equivalent numbers must gain, in the unit of the cells.
+/// Minimum decrease in distance for which equivalent numbers are preferred, in the unit of the cells.
 const LEAST_GAIN: f64 = 1e-9;
 
 /// Replaces each rotation by the equivalent rotation nearest to the previous row. Robots alternate between v and -v near half a turn.

@@ -1,4 +1,4 @@
-//! Times that a file marks as times or writes as text. They are always converted to seconds, without a scale of the map.
+//! Times that a file marks as times or writes as text. Such times are always converted to seconds, without a scale of the map.
 
 use taceva_core::SourceUnit;
 

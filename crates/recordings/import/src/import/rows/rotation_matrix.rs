@@ -2,9 +2,9 @@
 
 use taceva_dataset::TaskLabel;
 
-/// Quaternion x, y, z, w, with w of 0 or more, of the matrix with these numbers row by row; `None` if it is no rotation.
+/// Quaternion x, y, z, w, with w of 0 or more, of the matrix with these numbers row by row; `None` if the matrix is not a rotation.
 ///
-/// The greatest of the four parts is computed first (Shepperd 1978), so that no small number is divided by.
+/// The greatest of the four parts is computed first (Shepperd 1978), so that no division by a small number occurs.
 pub(super) fn quaternion(matrix: [f64; 9]) -> Option<[f64; 4]> {
     let [a, b, c, d, e, f, g, h, i] = matrix;
     if !is_rotation([[a, b, c], [d, e, f], [g, h, i]]) {

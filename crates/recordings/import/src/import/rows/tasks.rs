@@ -74,7 +74,7 @@ impl MappedTable<'_> {
         (!name.is_empty()).then(|| (name, self.table.place(row, column)))
     }
 
-    /// Pose in seven cells, or twelve with a rotation matrix, or place in three; `None` if all of them are empty.
+    /// Pose in 7 cells, or in 12 cells with a rotation matrix, or place in 3 cells; `None` if all cells are empty.
     fn numbers(
         &self,
         row: usize,

@@ -18,8 +18,7 @@ fn place(name: &str) -> Option<(&str, usize)> {
     Some((stem, number.checked_mul(COUNT)? + axis))
 }
 
-/// Complete series among columns called `names`, each by the positions of its columns: one text before the axis, every axis of every
-/// number, in order.
+/// Complete series among columns called `names`, each as the positions of its columns in order. A complete series has every axis for every number.
 pub(super) fn series<'n>(names: impl Iterator<Item = &'n str>) -> Vec<Vec<usize>> {
     let mut found: BTreeMap<&str, Vec<(usize, usize)>> = BTreeMap::new();
     for (position, name) in names.enumerate() {

@@ -12,7 +12,7 @@ use taceva_dataset::internal::{listed, shown};
 const NAMES: usize = 4_096;
 const NAME_BYTES: usize = 128;
 
-/// Text that lists `names`, and the nearest of them to `wrong`.
+/// Text for an error that lists `names` and suggests the name nearest to `wrong`.
 pub(crate) fn no_name(wrong: &str, names: &[String]) -> String {
     let guess = nearest(wrong, names.iter().map(String::as_str));
     let guess = guess.map_or_else(

@@ -58,13 +58,13 @@ pub(super) struct Timing {
     first_swapped: Option<usize>,
 }
 
-/// Numbers of rows with a long lag, and of those at whose time the joined table has a row.
+/// Number of rows with a long lag, and numbers of these rows for which the joined table has a row at the compared time.
 #[derive(Clone, Debug, Default)]
 struct Lagged {
     rows: u64,
     without_lag: u64,
     with_lag: u64,
-    /// Number of rows with an equal time after a shift by whole steps, by chance.
+    /// Number of rows with an equal time only by chance, after a shift by whole steps.
     by_chance: u64,
 }
 
@@ -218,7 +218,8 @@ impl Lagged {
         self.by_chance += u64::from(steps.any(|step| has(row.time_s + step * usual_s, near_s)));
     }
 
-    /// True if nearly all rows have a joined row at their own time. Few rows may have one at the time with their lag, or by a regular clock.
+    /// True if nearly all rows have a joined row at their own time. At most half of the rows may have a joined row after a shift by the lag or by
+    /// whole steps.
     fn is_of_one_clock(&self) -> bool {
         self.rows >= LEAST
             && 10 * self.without_lag >= 9 * self.rows
