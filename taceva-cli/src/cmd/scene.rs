@@ -214,7 +214,7 @@ pub(super) fn tested_presses(plan: &Plan) -> Option<Vec<&PlannedPress>> {
 }
 
 /// Text of the scene `named`. A file with this name has priority over a built-in scene.
-fn text(named: &str) -> anyhow::Result<SceneText> {
+pub(super) fn text(named: &str) -> anyhow::Result<SceneText> {
     let path = Path::new(named);
     if path.is_file() {
         return Ok(SceneText::read(path)?);
