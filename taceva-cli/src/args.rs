@@ -30,7 +30,7 @@ use std::path::PathBuf;
 use anyhow::anyhow;
 use clap::{Args, CommandFactory as _, FromArgMatches as _, Parser, Subcommand};
 
-pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchSubject};
+pub(crate) use self::bench::{Bench, BenchKernels, BenchModels, BenchStudy, BenchSubject};
 pub(crate) use self::budget::Budget;
 pub(crate) use self::bundle::{
     Bundle, BundleDiff, BundleMake, BundleSubject, BundleVerify, LevelArg, WithPart, WithoutPart,

@@ -20,6 +20,7 @@ mod recordings;
 pub(crate) mod rig;
 mod scores;
 pub(crate) mod stress;
+pub(crate) mod study_bench;
 mod tasks;
 mod text;
 pub(crate) mod thumbnail;

@@ -20,6 +20,8 @@ pub(crate) enum BenchSubject {
     Kernels(BenchKernels),
     /// Models: times of the fit, of all predictions and of one prediction, against the error
     Models(BenchModels),
+    /// Whole studies: processor time of presses, fits and scores against the widths of the intervals
+    Study(BenchStudy),
 }
 
 /// Compares naive, two-pass, pairwise, Kahan, Neumaier and Welford sums with the sums of TacEva on every instruction set. The inputs are chosen
@@ -64,6 +66,50 @@ pub(crate) struct BenchModels {
     pub(crate) figure: FigureArgs,
     #[command(flatten)]
     pub(crate) output: Output,
+}
+
+/// Runs a study of the simulated bench for each combination of points, folds and models, without a cache. The table has processor seconds of this
+/// process, without those of plugins in processes of their own. Mean absolute errors have 95 % intervals by contact point, and a width is
+/// ln(upper end / lower end). A row is on the front if no other row has both less time and a lower mean width. Coverage is not printed, because it
+/// needs repetitions of each study over many seeds.
+#[derive(Debug, Args)]
+pub(crate) struct BenchStudy {
+    /// A file, or the name of a built-in scene: quick, paper. All its devices must be simulated
+    #[arg(value_name = "SCENE", default_value = "quick")]
+    pub(crate) scene: String,
+    /// The study of the scene [default: MagicTac, or the first study of a scene without it]
+    #[arg(long, value_name = "NAME")]
+    pub(crate) study: Option<String>,
+    /// Numbers of calibration points, separated by commas
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_values = ["80", "160", "320"])]
+    pub(crate) points: Vec<u32>,
+    /// Numbers of folds, separated by commas: none scores a tenth of the points by one model, 5 scores all points by five models
+    #[arg(long, value_name = "K,…", value_delimiter = ',', value_parser = Folds::read, default_values = ["none", "3", "5"])]
+    pub(crate) folds: Vec<Folds>,
+    /// Models, separated by commas. The scene's own model has the settings of the scene, others their defaults
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', default_values = ["ridge", "cnn"])]
+    pub(crate) models: Vec<String>,
+    /// The seed of all random numbers, instead of the scene's
+    #[arg(long, value_name = "N")]
+    pub(crate) seed: Option<u64>,
+    #[command(flatten)]
+    pub(crate) output: Output,
+}
+
+/// Number of folds; `None` for one test part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Folds(pub(crate) Option<u32>);
+
+impl Folds {
+    fn read(text: &str) -> Result<Folds, String> {
+        match text {
+            "none" => Ok(Folds(None)),
+            _ => text
+                .parse()
+                .map(|folds| Folds(Some(folds)))
+                .map_err(|_| "expected none or a whole number".to_owned()),
+        }
+    }
 }
 
 #[derive(Debug, Args)]

@@ -2,6 +2,7 @@
 
 mod bench_recording;
 mod models;
+mod study;
 
 use taceva_study::bench::{KernelRequest, kernels};
 
@@ -13,6 +14,7 @@ pub(crate) fn run(args: &Bench, context: &Context) -> anyhow::Result<u8> {
     match &args.subject {
         BenchSubject::Kernels(args) => run_kernels(args, context),
         BenchSubject::Models(args) => models::run(args, context),
+        BenchSubject::Study(args) => study::run(args, context),
     }
 }
 

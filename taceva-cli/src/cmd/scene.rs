@@ -185,9 +185,10 @@ pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
     }
 }
 
-/// Number of contact points in the test part of the fit; `None` if no metric uses predictions of the test part.
+/// Number of contact points in the test part of the fit; `None` if no metric uses predictions of the test part, or if folds test every point.
 fn tested_points(plan: &Plan) -> Option<usize> {
-    let is_fitted = plan.fits.iter().any(|fit| fit.field == Field::Prediction);
+    let mut fits = plan.fits.iter();
+    let is_fitted = fits.any(|fit| fit.field == Field::Prediction && fit.folds.is_none());
     let mut metrics = plan.metrics.iter();
     if !is_fitted || !metrics.any(|metric| metric.phase == PhaseKind::Calibration) {
         return None;
@@ -214,7 +215,7 @@ pub(super) fn tested_presses(plan: &Plan) -> Option<Vec<&PlannedPress>> {
 }
 
 /// Text of the scene `named`. A file with this name has priority over a built-in scene.
-fn text(named: &str) -> anyhow::Result<SceneText> {
+pub(super) fn text(named: &str) -> anyhow::Result<SceneText> {
     let path = Path::new(named);
     if path.is_file() {
         return Ok(SceneText::read(path)?);

@@ -3,6 +3,7 @@
 //! Modules whose tests mostly wait, for emulated devices in real time or a cluster, are below [`waiting`].
 
 mod bench_models;
+mod bench_study;
 mod budget;
 mod bundle;
 mod cache;

@@ -1,7 +1,7 @@
 //! Scenes in a sweep: acquired once, before any task, on the simulated bench alone.
 
 mod acquired;
-mod refused;
+pub(crate) mod refused;
 mod stopped;
 
 use std::fs;

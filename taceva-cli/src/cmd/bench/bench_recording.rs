@@ -47,7 +47,15 @@ pub(super) struct Pressed {
 }
 
 /// Temporary folder of this process, removed on drop.
-struct Folder(PathBuf);
+pub(super) struct Folder(pub(super) PathBuf);
+
+impl Folder {
+    /// Folder that does not exist yet.
+    pub(super) fn new() -> Folder {
+        let name = format!("taceva-bench-{}", std::process::id());
+        Folder(std::env::temp_dir().join(name))
+    }
+}
 
 impl Drop for Folder {
     fn drop(&mut self) {
@@ -72,8 +80,7 @@ impl Pressed {
         };
         let drivers = context.drivers(None::<&Path>)?;
         let planned = PlannedScene::new(text, &drivers, Some(seed))?;
-        let name = format!("taceva-bench-{}", std::process::id());
-        let folder = Folder(std::env::temp_dir().join(name));
+        let folder = Folder::new();
         let run = RunFolder::open(&folder.0, &planned, Existing::Refuse)?;
         let workshop = Workshop {
             drivers: &drivers,

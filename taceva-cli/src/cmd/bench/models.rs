@@ -121,12 +121,17 @@ fn race(
     Ok(bench)
 }
 
-/// Description of this machine.
-pub(super) fn machine(context: &Context) -> BenchMachine {
+/// This machine, with the threads of this command.
+pub(super) fn here(context: &Context) -> Machine {
     let isa = Isa::available()
         .into_iter()
         .map(|isa| isa.name().to_owned());
-    let machine = Machine::here(context.jobs.get(), isa.collect());
+    Machine::here(context.jobs.get(), isa.collect())
+}
+
+/// Description of this machine.
+pub(super) fn machine(context: &Context) -> BenchMachine {
+    let machine = here(context);
     BenchMachine {
         cpu: machine.cpu,
         cores: machine.cores,

@@ -68,7 +68,7 @@ fn folds_without_enough_points_or_with_a_kept_model_are_refused_before_a_press()
     let bench = with_small();
     let refused = |scene: &str, words: &str| {
         bench.write("small.toml", scene);
-        bench.refused("plan small.toml", 2, words);
+        bench.refused("plan small.toml", 3, words);
     };
     refused(&folded(17), "expected 2 to 16");
     refused(&folded(1), "`folds` is 1");
@@ -77,4 +77,25 @@ fn folds_without_enough_points_or_with_a_kept_model_are_refused_before_a_press()
     bench.write("small.toml", &folded(3));
     let planned = bench.ok("plan small.toml");
     assert!(planned.contains("a model for each of 3 folds"), "{planned}");
+}
+
+#[test]
+fn a_typed_model_keeps_the_folds_of_the_scene() {
+    let bench = with_small();
+    bench.write("small.toml", &folded(3));
+    let run = bench.json("run small.toml --model baseline --out r");
+    let provenance = &run["studies"][0]["provenance"];
+    assert_eq!(provenance["model"]["name"], "baseline");
+    assert_eq!(provenance["split"], "cv:3 by-point 70/20/10");
+}
+
+#[test]
+fn few_points_are_no_reason_for_a_warning_if_folds_test_all_of_them() {
+    let bench = with_small();
+    let warning = "the test part has";
+    let one = bench.run("plan small.toml");
+    assert!(one.err.contains(warning), "{}", one.err);
+    bench.write("small.toml", &folded(3));
+    let all = bench.run("plan small.toml");
+    assert!(!all.err.contains(warning), "{}", all.err);
 }

@@ -122,7 +122,7 @@ fn a_scene_that_cannot_be_meant_and_a_sweep_that_cannot_are_refused_before_any_p
 }
 
 /// A rig of real devices; none of them is opened.
-const LAB: &str = r#"rig_version = 1
+pub(crate) const LAB: &str = r#"rig_version = 1
 [robot]
 driver = "ufactory/xarm:host=127.0.0.1"
 carries = "indenter"
@@ -138,7 +138,8 @@ latency_ms = 38.0
 [limits]
 speed_max_mm_s = 20.0
 "#;
-const REAL: &str = r#"scene_version = 1
+/// A scene on that rig.
+pub(crate) const REAL: &str = r#"scene_version = 1
 name = "real"
 seed = 7
 rig = "lab.toml"

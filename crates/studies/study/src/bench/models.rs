@@ -214,7 +214,7 @@ fn measure(
 }
 
 /// Calls `run`, and returns its result and its processor time in s.
-fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
+pub(super) fn cpu_s<T>(run: impl FnOnce() -> T) -> (T, Option<f64>) {
     let start = process_time();
     let outcome = run();
     let took = process_time().zip(start);

@@ -1,0 +1,275 @@
+//! Whole studies on the simulated bench: processor time against the widths of the intervals of their errors.
+
+use std::path::Path;
+
+use serde::Serialize;
+use taceva_acquire::{AcquireError, Workshop};
+use taceva_core::{Progress, Unit};
+use taceva_results::{EvaluationReport, Interval};
+
+use super::models::{cpu_s, unfitted};
+use super::study_grid::{StudyEntry, StudyVariant};
+use super::{BENCH_SCHEMA, Machine};
+use crate::error::StudyError;
+use crate::run::{Existing, RunFolder, RunSetup, acquire_scene, run_scene};
+
+/// Metric of the comparison.
+const METRIC: &str = "mae";
+/// Channels and planes of a benchmark of studies.
+pub const STUDY_CHANNELS: [&str; 4] = ["Pz", "Fz", "Pxy", "Fxy"];
+
+/// Whole studies with their times and errors, with the schema [`BENCH_SCHEMA`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StudyBench {
+    /// Always [`BENCH_SCHEMA`].
+    pub schema: &'static str,
+    /// Always `study`.
+    pub subject: &'static str,
+    /// Machine that ran the benchmark.
+    pub machine: Machine,
+    /// Name of the scene.
+    pub scene: String,
+    /// Name of its study.
+    pub study: String,
+    /// Seed of all random draws.
+    pub seed: u64,
+    /// One row for each combination, in the order of the entries.
+    pub rows: Vec<StudyTrial>,
+}
+
+/// Time and errors of one study.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StudyTrial {
+    /// Points, folds and model.
+    #[serde(flatten)]
+    pub variant: StudyVariant,
+    /// Processor time of this process for the presses, in s. `None` if the system does not report processor time.
+    pub press_cpu_s: Option<f64>,
+    /// Processor time of this process for fits, predictions and scores, in s.
+    pub assess_cpu_s: Option<f64>,
+    /// Number of contact points behind the intervals; `None` without intervals.
+    pub scored_points: Option<usize>,
+    /// Error of each channel; empty if the model could not be fitted.
+    pub errors: Vec<StudyChannel>,
+    /// Mean of the widths of all channels; `None` if a channel has no width.
+    pub mean_width: Option<f64>,
+    /// True if no other row has both less processor time and a lower mean width. False without time or width.
+    pub pareto: bool,
+    /// Reason why the model could not be fitted or scored.
+    pub failed: Option<String>,
+}
+
+/// Mean absolute error of one channel or plane.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct StudyChannel {
+    /// Name of the channel or plane.
+    pub channel: String,
+    /// Unit of the error and its interval.
+    pub unit: Unit,
+    /// Mean absolute error.
+    pub mae: f64,
+    /// 95 % interval by contact point; `None` with too few points.
+    pub ci95: Option<[f64; 2]>,
+    /// Logarithmic width of the interval: ln(upper end / lower end).
+    pub width: Option<f64>,
+    /// Number of samples.
+    pub n: u64,
+}
+
+impl StudyBench {
+    /// JSON with the schema [`BENCH_SCHEMA`].
+    pub fn json(&self) -> String {
+        let text = serde_json::to_string_pretty(self).expect("names are texts and numbers finite");
+        text + "\n"
+    }
+}
+
+impl StudyTrial {
+    /// Processor time of the whole study, in s.
+    pub fn cpu_s(&self) -> Option<f64> {
+        Some(self.press_cpu_s? + self.assess_cpu_s?)
+    }
+
+    /// Error of the channel or plane `channel`.
+    pub fn error(&self, channel: &str) -> Option<&StudyChannel> {
+        self.errors.iter().find(|error| error.channel == channel)
+    }
+
+    /// True if `other` has both less processor time and a lower mean width.
+    fn is_beaten_by(&self, other: &StudyTrial) -> bool {
+        let less = |own: Option<f64>, other: Option<f64>| {
+            own.zip(other).is_some_and(|(own, other)| other < own)
+        };
+        less(self.cpu_s(), other.cpu_s()) && less(self.mean_width, other.mean_width)
+    }
+}
+
+/// Runs the study of each of `entries` in the folder of a run at `folder`, which each replaces, and without a cache.
+///
+/// A model that cannot be fitted becomes a row with the reason.
+///
+/// # Errors
+/// [`StudyError`] as [`run_scene`], and if there are no entries.
+pub fn studies(
+    entries: &[StudyEntry],
+    folder: &Path,
+    machine: Machine,
+    setup: RunSetup<'_>,
+) -> Result<StudyBench, StudyError> {
+    let Some(first) = entries.first() else {
+        let empty = "no study to compare: name points, folds and models".to_owned();
+        return Err(AcquireError::Request(empty).into());
+    };
+    let progress = setup.workshop.progress;
+    let whole = WholeStudies(progress);
+    let setup = RunSetup {
+        workshop: Workshop {
+            progress: &whole,
+            ..setup.workshop
+        },
+        cache: None,
+        ..setup
+    };
+    let steps: u64 = entries.iter().map(|entry| entry.variant.steps()).sum();
+    progress.begin("points fitted", Some(steps));
+    let mut rows = Vec::with_capacity(entries.len());
+    for entry in entries {
+        rows.push(trial(entry, folder, setup)?);
+        progress.advance(entry.variant.steps());
+    }
+    progress.end();
+    mark(&mut rows);
+    let scene = &first.scene;
+    Ok(StudyBench {
+        schema: BENCH_SCHEMA,
+        subject: "study",
+        machine,
+        scene: scene.scene.name.clone(),
+        study: scene.studies[0].plan.name.clone(),
+        seed: scene.scene.seed,
+        rows,
+    })
+}
+
+/// Progress without the stages of a study, whose steps would replace those of the benchmark.
+struct WholeStudies<'a>(&'a dyn Progress);
+
+impl Progress for WholeStudies<'_> {
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}
+
+fn trial(entry: &StudyEntry, folder: &Path, setup: RunSetup<'_>) -> Result<StudyTrial, StudyError> {
+    let scene = &entry.scene;
+    let run = RunFolder::open(folder, scene, Existing::Replace)?;
+    let (acquired, press_cpu_s) = cpu_s(|| acquire_scene(scene, &run, setup));
+    drop(acquired?);
+    // Finds the finished recording.
+    let (finished, assess_cpu_s) = cpu_s(|| run_scene(scene, &run, setup));
+    let (report, failed) = match finished {
+        Ok(studies) => (studies.into_iter().next().map(|study| study.report), None),
+        Err(StudyError::Evaluate(error)) => (None, unfitted(Err(error))?),
+        Err(error) => return Err(error),
+    };
+    let errors = report.as_ref().map_or_else(Vec::new, errors_of);
+    let widths: Option<Vec<f64>> = errors.iter().map(|error| error.width).collect();
+    let widths = widths.filter(|widths| !widths.is_empty());
+    Ok(StudyTrial {
+        variant: entry.variant.clone(),
+        press_cpu_s,
+        assess_cpu_s,
+        scored_points: report.as_ref().and_then(scored_points),
+        errors,
+        mean_width: widths.map(|widths| widths.iter().sum::<f64>() / widths.len() as f64),
+        pareto: false,
+        failed,
+    })
+}
+
+/// Errors of the channels that `report` scores.
+fn errors_of(report: &EvaluationReport) -> Vec<StudyChannel> {
+    let error = |channel: &str| {
+        let score = report.score(METRIC, channel)?;
+        let ci95 = score.interval.as_ref().and_then(Interval::ends);
+        Some(StudyChannel {
+            channel: channel.to_owned(),
+            unit: score.unit,
+            mae: score.value.number()?,
+            ci95,
+            width: ci95.and_then(width),
+            n: score.n,
+        })
+    };
+    STUDY_CHANNELS.into_iter().filter_map(error).collect()
+}
+
+/// Greatest number of contact points behind an interval of `report`.
+fn scored_points(report: &EvaluationReport) -> Option<usize> {
+    let clusters = |channel: &str| {
+        let score = report.score(METRIC, channel)?;
+        score.interval.as_ref()?.clusters()
+    };
+    STUDY_CHANNELS.into_iter().filter_map(clusters).max()
+}
+
+/// Logarithmic width of an interval; `None` for an interval that reaches 0.
+fn width([low, high]: [f64; 2]) -> Option<f64> {
+    (low > 0.0 && high.is_finite()).then(|| (high / low).ln())
+}
+
+/// Marks the rows that no other row beats in both time and width.
+fn mark(rows: &mut [StudyTrial]) {
+    let is_on_front = |own: &StudyTrial| {
+        let is_known = own.cpu_s().is_some() && own.mean_width.is_some();
+        is_known && !rows.iter().any(|other| own.is_beaten_by(other))
+    };
+    let marks: Vec<bool> = rows.iter().map(is_on_front).collect();
+    for (row, mark) in rows.iter_mut().zip(marks) {
+        row.pareto = mark;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(cpu_s: Option<f64>, mean_width: Option<f64>) -> StudyTrial {
+        StudyTrial {
+            variant: StudyVariant {
+                points: 80,
+                folds: None,
+                model: "ridge".to_owned(),
+            },
+            press_cpu_s: Some(0.0),
+            assess_cpu_s: cpu_s,
+            scored_points: None,
+            errors: Vec::new(),
+            mean_width,
+            pareto: false,
+            failed: None,
+        }
+    }
+
+    #[test]
+    fn a_study_is_on_the_front_unless_another_is_faster_and_narrower() {
+        let mut rows = [
+            row(Some(1.0), Some(0.5)),
+            row(Some(2.0), Some(0.3)),
+            row(Some(3.0), Some(0.4)),
+            // As wide as a faster study, which is therefore not narrower.
+            row(Some(4.0), Some(0.3)),
+            row(None, Some(0.1)),
+            row(Some(0.5), None),
+        ];
+        mark(&mut rows);
+        let marks = rows.map(|row| row.pareto);
+        assert_eq!(marks, [true, true, false, true, false, false]);
+    }
+
+    #[test]
+    fn an_interval_that_reaches_zero_has_no_width() {
+        assert_eq!(width([0.0, 1.0]), None);
+        assert_eq!(width([2.0, 2.0]), Some(0.0));
+    }
+}

@@ -1,0 +1,192 @@
+//! Scenes of a benchmark of studies: one study of a scene with each combination of points, folds and model.
+
+use std::fmt;
+
+use serde::Serialize;
+use taceva_acquire::{AcquireError, PlannedScene, SceneText};
+use taceva_core::{counted, shown, suggestion};
+use taceva_evaluate::EvaluateError;
+use taceva_models::ModelSettings;
+use toml::{Table, Value};
+
+use crate::error::StudyError;
+use crate::models::check_models;
+use crate::run::RunSetup;
+
+/// Study of the built-in scenes that is benchmarked if the request names none.
+const USUAL: &str = "MagicTac";
+
+/// Combinations of a benchmark of studies.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StudyGrid {
+    /// Name of the study in the scene. `None` takes MagicTac, or the first study of a scene without it.
+    pub study: Option<String>,
+    /// Seed of all random draws instead of the scene's.
+    pub seed: Option<u64>,
+    /// Numbers of calibration points.
+    pub points: Vec<u32>,
+    /// Numbers of folds; `None` for one test part.
+    pub folds: Vec<Option<u32>>,
+    /// Names of models. The scene's settings apply to its own model, and default settings to others.
+    pub models: Vec<String>,
+}
+
+/// Combination of a benchmark of studies.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct StudyVariant {
+    /// Number of calibration points.
+    pub points: u32,
+    /// Number of folds of the points; `None` for one test part.
+    pub folds: Option<u32>,
+    /// Name of the model.
+    pub model: String,
+}
+
+/// Planned scene of one combination.
+#[derive(Debug)]
+pub struct StudyEntry {
+    /// The combination.
+    pub variant: StudyVariant,
+    /// Scene with one study.
+    pub scene: PlannedScene,
+}
+
+impl StudyGrid {
+    /// Plans the scene in `text` with each combination, models within folds within points.
+    ///
+    /// # Errors
+    /// [`StudyError`] for an invalid scene or combination, an unknown study or model, and for a scene that does not press on the simulated bench.
+    pub fn entries(
+        &self,
+        text: &SceneText,
+        setup: RunSetup<'_>,
+    ) -> Result<Vec<StudyEntry>, StudyError> {
+        // Faults of the scene itself are reported with its own lines.
+        let whole = self.planned(text.clone(), setup)?;
+        let drivers = setup.workshop.drivers;
+        whole.check_simulated(drivers).map_err(|error| {
+            AcquireError::Request(format!(
+                "{}: {error}; this benchmark presses only on the simulated bench: use `taceva run` for this scene",
+                shown(&text.name)
+            ))
+        })?;
+        let study = self.study_of(&whole)?;
+        for name in &self.models {
+            let known = setup.models.asked(name, ModelSettings::default());
+            known.map_err(EvaluateError::from)?;
+        }
+        let mut entries = Vec::new();
+        for points in &self.points {
+            for folds in &self.folds {
+                for model in &self.models {
+                    let variant = StudyVariant {
+                        points: *points,
+                        folds: *folds,
+                        model: model.clone(),
+                    };
+                    let text = variant.applied_to(text, study);
+                    let scene = self.planned(text, setup).map_err(unplaced)?;
+                    entries.push(StudyEntry { variant, scene });
+                }
+            }
+        }
+        Ok(entries)
+    }
+
+    /// Plans the scene in `text`, and checks its models.
+    fn planned(&self, text: SceneText, setup: RunSetup<'_>) -> Result<PlannedScene, StudyError> {
+        let scene = PlannedScene::new(text, setup.workshop.drivers, self.seed)?;
+        check_models(&scene, setup.models)?;
+        Ok(scene)
+    }
+
+    /// Name of the benchmarked study of `scene`.
+    fn study_of<'a>(&self, scene: &'a PlannedScene) -> Result<&'a str, StudyError> {
+        let names = scene.studies.iter().map(|study| study.plan.name.as_str());
+        let names: Vec<&str> = names.collect();
+        let named = |wanted: &str| names.iter().copied().find(|name| *name == wanted);
+        let found = match &self.study {
+            Some(study) => named(study),
+            None => named(USUAL).or(names.first().copied()),
+        };
+        found.ok_or_else(|| {
+            let study = self.study.as_deref().unwrap_or(USUAL);
+            StudyError::from(AcquireError::Request(format!(
+                "{}: no study is called `{}`: {}",
+                shown(&scene.text.name),
+                shown(study),
+                suggestion(study, &names)
+            )))
+        })
+    }
+}
+
+/// Combination in words: `80 points, 3 folds, ridge`.
+impl fmt::Display for StudyVariant {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let points = counted(self.points, "point");
+        let folds = self.folds.map(|folds| counted(folds, "fold"));
+        let folds = folds.unwrap_or_else(|| "no folds".to_owned());
+        write!(f, "{points}, {folds}, {}", shown(&self.model))
+    }
+}
+
+impl StudyVariant {
+    /// Points times fits, which the time of a study roughly follows.
+    pub(super) fn steps(&self) -> u64 {
+        u64::from(self.points) * u64::from(self.folds.unwrap_or(1))
+    }
+
+    /// Text of a scene with this combination and only the study `study` of the valid scene `text`.
+    fn applied_to(&self, text: &SceneText, study: &str) -> SceneText {
+        let mut scene: Table = toml::from_str(&text.text).expect("the scene was parsed before");
+        // The benchmark writes no report, and folds leave no single model to keep.
+        scene.remove("report");
+        let named =
+            |table: &Value, name: &str| table.get("name").and_then(Value::as_str) == Some(name);
+        let mut own = None;
+        if let Some(studies) = scene.get_mut("study").and_then(Value::as_array_mut) {
+            studies.retain(|one| named(one, study));
+            own = studies
+                .iter_mut()
+                .find_map(|one| one.as_table_mut()?.remove("model"));
+        }
+        let own = own.or(scene.remove("model"));
+        let mut model = match own.filter(|own| named(own, &self.model)) {
+            Some(Value::Table(own)) => own,
+            _ => Table::from_iter([("name".to_owned(), Value::String(self.model.clone()))]),
+        };
+        model.remove("folds");
+        if let Some(folds) = self.folds {
+            model.insert("folds".to_owned(), Value::Integer(i64::from(folds)));
+        }
+        scene.insert("model".to_owned(), Value::Table(model));
+        let protocol = subtable(&mut scene, "protocol");
+        if let Some(calibration) = protocol.and_then(|own| subtable(own, "calibration")) {
+            let points = Value::Integer(i64::from(self.points));
+            calibration.insert("points".to_owned(), points);
+        }
+        SceneText {
+            name: format!("{} with {self}", text.name),
+            text: toml::to_string(&scene).expect("a table that was read can be written"),
+            folder: text.folder.clone(),
+        }
+    }
+}
+
+/// Table `key` of `table`, created if it is absent.
+fn subtable<'a>(table: &'a mut Table, key: &str) -> Option<&'a mut Table> {
+    let empty = || Value::Table(Table::new());
+    table.entry(key).or_insert_with(empty).as_table_mut()
+}
+
+/// `error` without its line, because the text is not that of the user.
+fn unplaced(error: StudyError) -> StudyError {
+    match error {
+        StudyError::Acquire(AcquireError::Scene(mut scene)) => {
+            scene.line = None;
+            AcquireError::Scene(scene).into()
+        }
+        other => other,
+    }
+}

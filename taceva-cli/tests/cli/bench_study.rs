@@ -1,0 +1,128 @@
+//! Studies of the simulated bench, compared by processor time and the widths of their intervals.
+
+use crate::run::SMALL;
+use crate::support::Bench;
+use crate::sweep_scenes::refused::{LAB, REAL};
+
+/// The small scene with one metric, and so only calibration presses.
+fn with_small() -> Bench {
+    let bench = Bench::new();
+    let scene = format!("{SMALL}metrics = {{ want = [\"mae\"] }}\n");
+    bench.write("small.toml", &scene);
+    bench
+}
+
+#[test]
+fn each_combination_is_a_study_and_a_row_without_a_width_is_not_on_the_front() {
+    let bench = with_small();
+    let found = bench.json("bench study small.toml --points 16 --folds none,3 --models ridge");
+    crate::schema::check("bench-study", &found);
+    assert_eq!(
+        (&found["study"], &found["seed"]),
+        (&"small".into(), &7.into())
+    );
+    let rows = found["rows"].as_array().expect("rows");
+    let folds: Vec<_> = rows.iter().map(|row| row["folds"].as_u64()).collect();
+    assert_eq!(folds, [None, Some(3)]);
+    // A tenth of 16 points is too few for an interval; with folds, every point is scored.
+    let scored = rows.iter().map(|row| row["scored_points"].as_u64());
+    assert_eq!(scored.collect::<Vec<_>>(), [None, Some(16)]);
+    let marks = rows.iter().map(|row| row["pareto"].as_bool());
+    assert_eq!(marks.collect::<Vec<_>>(), [Some(false), Some(true)]);
+    for row in rows {
+        assert_eq!(
+            (&row["points"], &row["model"]),
+            (&16.into(), &"ridge".into())
+        );
+        let channels = row["errors"].as_array().expect("errors").iter();
+        let channels: Vec<_> = channels
+            .filter_map(|error| error["channel"].as_str())
+            .collect();
+        assert_eq!(channels, ["Pz", "Fz", "Pxy", "Fxy"]);
+        assert!(row["press_cpu_s"].as_f64().is_some_and(|time| time > 0.0));
+        assert!(row["assess_cpu_s"].as_f64().is_some_and(|time| time > 0.0));
+    }
+    let error = &rows[1]["errors"][0];
+    let end = |at: usize| error["ci95"][at].as_f64().expect("an end");
+    let width = error["width"].as_f64().expect("a width");
+    assert!((width - (end(1) / end(0)).ln()).abs() < 1e-12, "{error}");
+}
+
+#[test]
+fn a_model_that_cannot_be_fitted_says_why_and_the_others_continue() {
+    let bench = with_small();
+    // A batch larger than the training part.
+    let scene = std::fs::read_to_string(bench.path("small.toml")).expect("written");
+    let own = "name = \"ridge\", set = { size = \"8x8\" }";
+    let network = "name = \"cnn\", set = { size = \"16x16\", batch = 4096 }";
+    bench.write("small.toml", &scene.replace(own, network));
+    let words = "bench study small.toml --points 16 --folds 3 --models cnn,baseline";
+    let found = bench.json(words);
+    crate::schema::check("bench-study", &found);
+    let failed = found["rows"][0]["failed"].as_str().expect("said");
+    assert!(failed.ends_with("fewer than a batch of 4096"), "{failed}");
+    assert_eq!(found["rows"][0]["pareto"], false);
+    assert_eq!(found["rows"][1]["scored_points"], 16);
+    assert!(found["rows"][1]["failed"].is_null());
+}
+
+#[test]
+fn csv_has_a_row_for_each_combination() {
+    let bench = with_small();
+    let words = "bench study small.toml --points 16 --folds 3 --models ridge,baseline";
+    let csv = bench.ok(&format!("{words} --format csv -q"));
+    let lines: Vec<&str> = csv.lines().collect();
+    assert_eq!(lines.len(), 3, "{csv}");
+    assert!(lines[0].starts_with("points,folds,model,presses"), "{csv}");
+    assert!(lines[0].ends_with(",mean width,front"), "{csv}");
+    assert!(lines[1].starts_with("16,3,ridge,"), "{csv}");
+    assert!(lines[2].starts_with("16,3,baseline,"), "{csv}");
+}
+
+#[test]
+fn real_devices_recordings_and_unknown_names_are_refused_before_a_press() {
+    let bench = with_small();
+    bench.write("lab.toml", LAB);
+    bench.write("real.toml", REAL);
+    bench.refused(
+        "bench study real.toml",
+        2,
+        "real.toml: study `real`: it uses a real rig",
+    );
+    bench.refused(
+        "bench study real.toml",
+        2,
+        "use `taceva run` for this scene",
+    );
+    bench.record("monday", 24);
+    bench.write(
+        "recorded.toml",
+        "scene_version = 1\nname = \"recorded\"\nsensor = { dataset = \"monday\" }\nmodel = { name = \"ridge\" }\n",
+    );
+    bench.refused(
+        "bench study recorded.toml",
+        2,
+        "it uses a recording and acquires no data",
+    );
+    bench.refused(
+        "bench study --study GelSigt",
+        2,
+        "quick: no study is called `GelSigt`: did you mean `GelSight`?",
+    );
+    bench.refused("bench study --models rigde", 2, "did you mean `ridge`");
+    bench.refused(
+        "bench study --folds some",
+        2,
+        "expected none or a whole number",
+    );
+    bench.refused(
+        "bench study small.toml --points 16 --folds 17 --models ridge",
+        3,
+        "small.toml with 16 points, 17 folds, ridge: ",
+    );
+    bench.refused(
+        "bench study small.toml --points 16 --folds 17",
+        3,
+        "expected 2 to 16",
+    );
+}
