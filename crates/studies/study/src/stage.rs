@@ -5,6 +5,7 @@ mod gratings;
 mod phase_rows;
 mod score;
 mod slip;
+mod task;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -181,10 +182,8 @@ pub(crate) fn assess(
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
     let mut report = taceva_evaluate::assess(rows, beyond, context)?.report;
-    match slip {
-        Some(Ok(scores)) => report.tasks.push(scores),
-        Some(Err(skip)) => report.skipped.push(skip),
-        None => {}
+    if let Some(task) = slip {
+        task.add_to(&mut report);
     }
     let fitted = learnt.map(|learnt| learnt.into_fitted(dataset, &phase_rows));
     Ok(FinishedStudy {
