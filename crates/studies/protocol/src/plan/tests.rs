@@ -3,6 +3,7 @@
 pub(crate) mod bench;
 mod explained;
 mod reached;
+mod shapes_and_poses;
 mod skipped;
 mod strokes;
 
