@@ -63,7 +63,7 @@ impl PhaseKind {
     }
 
     /// True for the phase of a task, whose presses are planned if the scene states their number.
-    pub(crate) const fn is_of_task(self) -> bool {
+    pub const fn is_of_task(self) -> bool {
         matches!(self, PhaseKind::Slip | PhaseKind::Shape | PhaseKind::Pose)
     }
 }

@@ -88,6 +88,7 @@ fn scores_of_tasks_take_their_phases_and_the_fit_that_they_need() {
     ];
     assert_eq!(plans[0].phases, expected, "{}", plans[0]);
     assert!(plans[0].metrics.is_empty());
+    assert!(plans[0].to_string().contains("add   metric  skill"));
     let fields: Vec<Field> = plans[0].fits.iter().map(|fit| fit.field).collect();
     assert_eq!(fields, [Field::Prediction]);
 }
