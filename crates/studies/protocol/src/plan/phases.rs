@@ -59,7 +59,10 @@ fn unpredicted(
     facts: &StudyFacts<'_>,
 ) -> Option<PlanReason> {
     let field = Field::Prediction;
-    if let Some(reason) = collected.reason_of(&Subject::Field(field)) {
+    // A field that no metric needs still has a source.
+    if let Some(reason @ PlanReason::Unresolved { .. }) =
+        collected.reason_of(&Subject::Field(field))
+    {
         return Some(reason.clone());
     }
     let is_fitted = kind != PhaseKind::Pose || facts.model != ModelChoice::Finished;
