@@ -141,13 +141,15 @@ fn shifted(plan: &Plan) -> Option<String> {
     })
 }
 
-/// Rejects a scene without any metric to measure.
+/// Rejects a scene without any metric or task to measure.
 ///
 /// # Errors
 /// [`Usage`] with the missing line of the footprint, or otherwise the most frequent reason for a skipped metric.
 pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
     let studies = &planned.studies;
-    if studies.iter().any(|study| !study.plan.metrics.is_empty()) {
+    let is_measured =
+        |plan: &Plan| !plan.metrics.is_empty() || plan.phases.iter().any(|kind| kind.is_of_task());
+    if studies.iter().any(|study| is_measured(&study.plan)) {
         return Ok(());
     }
     let mut reasons: BTreeMap<String, usize> = BTreeMap::new();

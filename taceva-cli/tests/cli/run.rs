@@ -8,6 +8,7 @@ mod recorded;
 mod reduced;
 mod resume;
 mod slip;
+mod tasks;
 
 use std::fs;
 use std::path::Path;

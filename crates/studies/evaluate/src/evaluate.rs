@@ -1,6 +1,8 @@
 //! Scores of a dataset, step by step: divide, fit, predict, score.
 
 mod callers_model;
+mod clustered_rows;
+mod contact_shape;
 mod divisions;
 mod fit_task;
 mod fold_progress;
@@ -8,6 +10,7 @@ pub(crate) mod folds;
 mod notes;
 mod passes;
 mod plan;
+mod pose_pairs;
 mod pose_task;
 mod request;
 mod scores;
@@ -26,9 +29,11 @@ use crate::predict::{self, Target};
 use crate::work::Work;
 
 pub use callers_model::{GivenModel, GivenRequest, GivenRows};
+pub use contact_shape::{BallPresses, contact_shapes};
 pub use divisions::{FoldedRows, fold_divisions, scored_by_default, scored_of_task};
 pub use fit_task::fit_task;
 pub use plan::evaluate_plan;
+pub use pose_pairs::{PosePair, evaluate_pose_pairs};
 pub use request::{Asked, EvaluateRequest, Evaluated, ModelChoice};
 pub use scores::{Behind, score};
 pub use task::{evaluate_task, task_division};

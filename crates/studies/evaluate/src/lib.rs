@@ -55,9 +55,10 @@ pub use classifiers::{CLASSIFIERS, labelled_for, usual_model};
 pub use effort::Effort;
 pub use error::EvaluateError;
 pub use evaluate::{
-    Asked, Behind, EvaluateRequest, Evaluated, FoldedRows, GivenModel, GivenRequest, GivenRows,
-    ModelChoice, TaskRows, evaluate, evaluate_plan, evaluate_task, evaluate_task_rows, fit_task,
-    fold_divisions, score, scored_by_default, scored_of_task, task_division,
+    Asked, BallPresses, Behind, EvaluateRequest, Evaluated, FoldedRows, GivenModel, GivenRequest,
+    GivenRows, ModelChoice, PosePair, TaskRows, contact_shapes, evaluate, evaluate_plan,
+    evaluate_pose_pairs, evaluate_task, evaluate_task_rows, fit_task, fold_divisions, score,
+    scored_by_default, scored_of_task, task_division,
 };
 pub use features::{FeatureTable, blank, extract, extractor, feature_table};
 pub use fit::{FitPlan, FitRequest, Fitted, Recipe, fit};

@@ -43,8 +43,8 @@ pub use run::{
 pub use scene::{
     BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, GratingClassifier, Gratings,
     Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec,
-    PluginFaultSpec, Protocol, Repeatability, ReportSpec, Scene, SensorSpec, Slip, Spatial,
-    StressSpec, Study, SurfaceMap, WearLoad, WearSpec, WearStage,
+    PluginFaultSpec, PosePairs, Protocol, Repeatability, ReportSpec, Scene, SensorSpec,
+    ShapePresses, Slip, Spatial, StressSpec, Study, SurfaceMap, WearLoad, WearSpec, WearStage,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

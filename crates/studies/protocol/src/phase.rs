@@ -5,7 +5,9 @@ mod gratings;
 mod idle;
 mod light_sweep;
 mod load_unload;
+mod pose;
 mod repeatability;
+mod shape;
 mod slip;
 mod spatial;
 mod surface_map;
@@ -59,6 +61,8 @@ impl PhaseInputs<'_> {
             PhaseKind::LoadUnload => load_unload::presses(self),
             PhaseKind::Gratings => gratings::presses(self),
             PhaseKind::Slip => slip::presses(self),
+            PhaseKind::Shape => shape::presses(self),
+            PhaseKind::Pose => pose::presses(self),
         }
     }
 
@@ -90,6 +94,8 @@ impl PhaseInputs<'_> {
                 (spacings * spec.kinds.value.len()) as u64 * u64::from(spec.presses.value)
             }
             PhaseKind::Slip => u64::from(protocol.slip.strokes.value),
+            PhaseKind::Shape => u64::from(protocol.shape.presses.value),
+            PhaseKind::Pose => 2 * u64::from(protocol.pose.pairs.value),
         }
     }
 

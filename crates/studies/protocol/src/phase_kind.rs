@@ -23,11 +23,15 @@ pub enum PhaseKind {
     Gratings,
     /// Strokes along the gel until the indenter slides.
     Slip,
+    /// Presses of the ball whose contact shape is predicted.
+    Shape,
+    /// Pairs of presses of a board, between which it is shifted and turned.
+    Pose,
 }
 
 impl PhaseKind {
     /// All kinds, in the order of their execution.
-    pub const ALL: [PhaseKind; 9] = [
+    pub const ALL: [PhaseKind; 11] = [
         PhaseKind::Idle,
         PhaseKind::SurfaceMap,
         PhaseKind::Calibration,
@@ -37,6 +41,8 @@ impl PhaseKind {
         PhaseKind::LoadUnload,
         PhaseKind::Gratings,
         PhaseKind::Slip,
+        PhaseKind::Shape,
+        PhaseKind::Pose,
     ];
 
     /// Name of the phase in plans.
@@ -51,7 +57,14 @@ impl PhaseKind {
             PhaseKind::LoadUnload => "load-unload",
             PhaseKind::Gratings => "gratings",
             PhaseKind::Slip => "slip",
+            PhaseKind::Shape => "shape",
+            PhaseKind::Pose => "pose",
         }
+    }
+
+    /// True for the phase of a task, whose presses are planned if the scene states their number.
+    pub const fn is_of_task(self) -> bool {
+        matches!(self, PhaseKind::Slip | PhaseKind::Shape | PhaseKind::Pose)
     }
 }
 

@@ -30,7 +30,7 @@ use crate::frame_size::FrameSize;
 use crate::limits::RigLimits;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, PlanSkip, Subject};
-use crate::scene::{Contact, DepthOrigin, Scene, Study};
+use crate::scene::{Contact, DepthOrigin, Scene, Study, phase_of_task};
 use crate::source::SourceInfo;
 use crate::text::{SceneError, SceneProblem};
 use collect::Collected;
@@ -146,10 +146,10 @@ impl Plan {
             .with_frame_size(self.frame.map(|frame| [frame.width, frame.height]))
     }
 
-    /// True if a metric reads depths.
+    /// True if a metric or the shape of a contact reads depths.
     pub(crate) fn reads_depth(&self) -> bool {
         let reads = |metric: &PlannedMetric| metric.channels.iter().any(|name| name == "Pz");
-        self.metrics.iter().any(reads)
+        self.metrics.iter().any(reads) || self.phases.contains(&PhaseKind::Shape)
     }
 
     /// Presses of one phase, in order.
@@ -238,13 +238,35 @@ fn refine(collected: Collected, facts: &StudyFacts<'_>) -> Result<Collected, Sce
 
 /// Rejects a metric that the scene requests by name but no study can compute.
 fn refuse_the_impossible(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError> {
-    let named = scene.metrics.want.iter().flatten();
-    for name in named.filter(|name| catalogue::find(&name.value).is_some()) {
-        let kept = |plan: &Plan| plan.metrics.iter().any(|metric| metric.id == name.value);
+    for name in scene.metrics.want.iter().flatten() {
+        let phase = phase_of_task(&name.value);
+        if phase.is_none() && catalogue::find(&name.value).is_none() {
+            continue;
+        }
+        let kept = |plan: &Plan| match &phase {
+            Some(phase) => plan.phases.contains(phase),
+            None => plan.metrics.iter().any(|metric| metric.id == name.value),
+        };
         if plans.iter().any(kept) {
             continue;
         }
-        let subject = Subject::Metric(name.value.clone());
+        if phase.is_some() && plans.iter().all(|plan| plan.limits.is_none()) {
+            let problem = format!(
+                "`{}` is a score of presses, and no study of the scene has a robot: `taceva evaluate DATASET --task NAME` scores a task of a recording",
+                name.value
+            );
+            let problem = SceneProblem::Contradiction(problem);
+            return Err(scene.text.error(name.at(), problem));
+        }
+        let subject = match phase {
+            Some(phase) => Subject::Phase(phase),
+            None => Subject::Metric(name.value.clone()),
+        };
+        let unread = match phase {
+            // A robot presses only on a known surface.
+            Some(_) => SkipReason::FactAbsent("footprint"),
+            None => SkipReason::NothingReadsIt,
+        };
         let skips = plans.iter().flat_map(|plan| &plan.skipped);
         let reason = skips
             .filter(|skip| skip.subject == subject)
@@ -252,7 +274,7 @@ fn refuse_the_impossible(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError
             .next();
         let problem = SceneProblem::NeverApplies {
             metric: name.value.clone(),
-            reason: reason.unwrap_or(PlanReason::Skip(SkipReason::NothingReadsIt)),
+            reason: reason.unwrap_or(PlanReason::Skip(unread)),
         };
         return Err(scene.text.error(name.at(), problem));
     }

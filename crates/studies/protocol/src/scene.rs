@@ -10,13 +10,14 @@ mod devices;
 mod metrics;
 mod stress;
 mod study;
+mod task_metrics;
 mod wear;
 
 pub use builtin::BuiltinScene;
 pub use classifier::GratingClassifier;
 pub use counts::{
-    Calibration, Contact, Gratings, Hysteresis, Idle, LightSweep, Protocol, Repeatability, Slip,
-    Spatial, SurfaceMap,
+    Calibration, Contact, Gratings, Hysteresis, Idle, LightSweep, PosePairs, Protocol,
+    Repeatability, ShapePresses, Slip, Spatial, SurfaceMap,
 };
 pub use depth_origin::DepthOrigin;
 pub use devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
@@ -25,7 +26,8 @@ pub use stress::{PluginFaultSpec, StressSpec};
 pub use study::Study;
 pub use wear::{WearLoad, WearSpec, WearStage};
 
-pub(crate) use boards::spacings;
+pub(crate) use boards::{spacing_of, spacings};
+pub(crate) use task_metrics::phase_of_task;
 
 use std::sync::Arc;
 

@@ -17,7 +17,10 @@ use crate::settings::settings_of;
 /// [`AcquireError::Scene`](taceva_acquire::AcquireError::Scene) with the line.
 pub fn check_models(scene: &PlannedScene, models: &Models) -> Result<(), StudyError> {
     for planned in &scene.studies {
-        let (Some(model), false) = (&planned.study.model, planned.plan.fits.is_empty()) else {
+        let plan = &planned.plan;
+        // Changes of pose have a fit of their own.
+        let is_fitted = !plan.fits.is_empty() || plan.phases.contains(&PhaseKind::Pose);
+        let (Some(model), true) = (&planned.study.model, is_fitted) else {
             continue;
         };
         let request = fit_request(planned, scene.scene.seed, models);

@@ -4,8 +4,11 @@ mod context;
 mod gratings;
 mod learnt;
 mod phase_rows;
+mod pose;
 mod score;
+mod shape;
 mod slip;
+mod task;
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -170,7 +173,11 @@ pub(crate) fn assess(
     if let Some(digests) = dataset.table().as_text(digest) {
         samples.push_words(digest, digests);
     }
-    let slip = slip::of(scene, dataset, &phase_rows, context)?;
+    let tasks = [
+        slip::of(scene, dataset, &phase_rows, context)?,
+        shape::of(scene, study, dataset, &phase_rows, predicted.as_ref())?,
+        pose::of(scene, study, dataset, &phase_rows, context)?,
+    ];
     let mut subject = subject_of(dataset);
     if let Some((unit, note)) = phase_rows.measured_unit() {
         subject.serial = unit;
@@ -184,10 +191,8 @@ pub(crate) fn assess(
     };
     let rows = ScoredRows::Finished(Box::new(evaluation));
     let mut report = taceva_evaluate::assess(rows, beyond, context)?.report;
-    match slip {
-        Some(Ok(scores)) => report.tasks.push(scores),
-        Some(Err(skip)) => report.skipped.push(skip),
-        None => {}
+    for task in tasks.into_iter().flatten() {
+        task.add_to(&mut report);
     }
     let fitted = learnt.map(|learnt| learnt.into_fitted(dataset, &phase_rows));
     Ok(FinishedStudy {

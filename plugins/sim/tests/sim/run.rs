@@ -61,8 +61,14 @@ const NOISE_N: f64 = 0.05;
 #[test]
 fn every_part_of_a_study_runs_to_its_end_on_every_sensor() {
     for model in Model::ALL {
-        let strokes = "[protocol.slip]\nstrokes = 2\nlength_mm = 0.4\n";
-        let trial = Trial::new(model, &(scene(model) + strokes));
+        let tasks = "[protocol]\nslip = { strokes = 2, length_mm = 0.4 }\nshape = { presses = 2 }\npose = { pairs = 1 }\n";
+        let trial = Trial::new(
+            model,
+            &scene(model).replace(
+                "[protocol.calibration]",
+                &format!("{tasks}[protocol.calibration]"),
+            ),
+        );
         let mut log = Log::default();
         for unit in ["1", "2"] {
             trial.run(unit, &mut log, usize::MAX);

@@ -46,7 +46,7 @@ impl Started {
 }
 
 /// Kills a run at each of these recorded sizes, resumes it, and compares it with an uninterrupted run.
-fn survives(bench: &Bench, moments: &[u64]) {
+pub(super) fn survives(bench: &Bench, moments: &[u64]) {
     bench.ok("run small.toml --out whole -q");
     let whole = reports(&bench.path("whole"));
     for bytes in moments {

@@ -7,7 +7,7 @@ use super::union::SEPARATOR;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
 use crate::table::TaskColumn;
-use crate::task::Task;
+use crate::task::{Task, TaskKind, TaskLabel};
 
 /// Columns whose values [`Dataset::joined`] makes distinct between recordings.
 const DISTINCT: [&str; 2] = ["sample", "point_id"];
@@ -83,31 +83,41 @@ impl Dataset {
         own.ok_or_else(|| self.unknown_task(name))
     }
 
-    /// The same dataset with the additional task `task`. `classes` contains the position of the class of each row, or `None` for no label.
+    /// The same dataset with the additional task `task`. `labels` contains the class or the pose of each row, or `None` for no label.
     ///
     /// # Errors
-    /// [`DatasetError::Request`] for joined recordings, for a duplicate task name, if the number of labels is not the number of rows, or if a class
-    /// is unknown.
-    pub fn with_task(&self, task: Task, classes: &[Option<u32>]) -> Result<Dataset, DatasetError> {
+    /// [`DatasetError::Request`] for joined recordings, for a duplicate task name, if the number of labels is not the number of rows, for a label of another
+    /// kind than the task, or if a class is unknown.
+    pub fn with_task(
+        &self,
+        task: Task,
+        labels: &[Option<TaskLabel>],
+    ) -> Result<Dataset, DatasetError> {
         if self.table.task(&task.name).is_some() {
             let name = shown(&task.name);
             let problem = format!("the recording has a task `{name}`, expected another name");
             return Err(DatasetError::request(self.path(), problem));
         }
-        let is_named = |class: &u32| (*class as usize) < task.names.len();
-        let are_named = classes.iter().flatten().all(is_named);
-        if !self.joined.is_empty() || classes.len() != self.table.rows() || !are_named {
+        let suits = |label: &TaskLabel| match label {
+            TaskLabel::Class(class) => {
+                task.kind.has_classes() && (*class as usize) < task.names.len()
+            }
+            TaskLabel::Pose(_) => task.kind == TaskKind::Pose,
+            TaskLabel::Place(_) | TaskLabel::Map(_) => false,
+        };
+        let do_all_suit = labels.iter().flatten().all(suits);
+        if !self.joined.is_empty() || labels.len() != self.table.rows() || !do_all_suit {
             return Err(DatasetError::request(
                 self.path(),
                 format!(
-                    "the task `{}` has {} labels, expected one of its classes or none for each of {} rows of a single recording",
+                    "the task `{}` has {} labels, expected one of its classes or poses or none for each of {} rows of a single recording",
                     shown(&task.name),
-                    classes.len(),
+                    labels.len(),
                     self.table.rows()
                 ),
             ));
         }
-        let table = self.table.with_classes(task, classes);
+        let table = self.table.with_labels(task, labels);
         let mut header = self.header.clone();
         header.digest = table.with_tasks_digest(header.digest);
         Ok(Dataset {

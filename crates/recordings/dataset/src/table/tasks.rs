@@ -231,10 +231,10 @@ impl Table {
         })
     }
 
-    /// The same table with the labels `classes` of the additional task `task`, which must name every class.
-    pub(crate) fn with_classes(&self, task: Task, classes: &[Option<u32>]) -> Table {
+    /// The same table with `labels` of the additional task `task`, all of the kind of the task.
+    pub(crate) fn with_labels(&self, task: Task, labels: &[Option<TaskLabel>]) -> Table {
         let mut own = TaskColumn::new(task);
-        own.cells = TaskCells::Classes(classes.to_vec());
+        labels.iter().for_each(|label| own.push(*label));
         let mut table = self.clone();
         table.tasks.push(own);
         table

@@ -75,6 +75,6 @@ fn definition(task: &Task) -> Result<PoseTask, EvaluateError> {
     Ok(PoseTask::default().with_thresholds(thresholds))
 }
 
-fn refused(task: &Task, error: &PoseError) -> EvaluateError {
+pub(super) fn refused(task: &Task, error: &PoseError) -> EvaluateError {
     EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
 }

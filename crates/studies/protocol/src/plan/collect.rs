@@ -152,7 +152,7 @@ impl Collected {
             phases: match &facts.phase_inputs {
                 Some(inputs) => PhaseKind::ALL
                     .into_iter()
-                    .filter(|kind| *kind != PhaseKind::Slip || inputs.count(*kind) > 0)
+                    .filter(|kind| !kind.is_of_task() || inputs.count(*kind) > 0)
                     .collect(),
                 None => Vec::new(),
             },
@@ -194,8 +194,8 @@ impl Collected {
 
     /// True if a planned metric or model of phase `kind` reads frames.
     pub(crate) fn looks_at_pictures(&self, kind: PhaseKind) -> bool {
-        // The idle phase measures the timing of frames, and slip is predicted from frames.
-        if matches!(kind, PhaseKind::Idle | PhaseKind::Slip) {
+        // The idle phase measures the timing of frames, and tasks are predicted from frames.
+        if kind == PhaseKind::Idle || kind.is_of_task() {
             return self.phases.contains(&kind);
         }
         let seen = |fields: FieldSet| PICTURES.into_iter().any(|field| fields.contains(field));

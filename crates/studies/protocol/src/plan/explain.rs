@@ -6,6 +6,7 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 use taceva_core::{Field, SkipReason, counted};
 
 use super::{Plan, PlannedMetric, PlannedPress};
+use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, PlanSkip, Subject};
 
 impl fmt::Display for Plan {
@@ -37,12 +38,12 @@ impl fmt::Display for Plan {
                 .map(|metric| metric.id.as_str())
                 .collect();
             writeln!(f, "run   metric  {}", metrics.join(", "))?;
-            if self.adds_skill() {
-                writeln!(
-                    f,
-                    "add   metric  {SKILL}: decides whether predictions take part in verdicts"
-                )?;
-            }
+        }
+        if self.adds_skill() {
+            writeln!(
+                f,
+                "add   metric  {SKILL}: decides whether predictions take part in verdicts"
+            )?;
         }
         for fit in &self.fits {
             write!(f, "fit   model   {} on {}", fit.field, fit.phase)?;
@@ -81,10 +82,12 @@ impl fmt::Display for Plan {
 const SKILL: &str = "skill";
 
 impl Plan {
-    /// True if the model skill is added because a metric reads predictions.
+    /// True if the model skill is added because a metric or a contact shape reads predictions.
     fn adds_skill(&self) -> bool {
         let reads = |metric: &PlannedMetric| metric.fields.contains(Field::Prediction);
-        self.metrics.iter().any(reads) && !self.metrics.iter().any(|metric| metric.id == SKILL)
+        let is_predicted =
+            self.metrics.iter().any(reads) || self.phases.contains(&PhaseKind::Shape);
+        is_predicted && !self.metrics.iter().any(|metric| metric.id == SKILL)
     }
 }
 
@@ -245,7 +248,7 @@ struct WrittenPress<'a> {
     place_mm: [f64; 2],
     samples: usize,
     frames: bool,
-    phases: &'a [crate::phase_kind::PhaseKind],
+    phases: &'a [PhaseKind],
 }
 
 impl WrittenPress<'_> {

@@ -30,8 +30,12 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
         true => needed.with(Field::Stamp),
         false => needed,
     };
-    let needed = match collected.phases.contains(&PhaseKind::Slip) {
+    let needed = match collected.phases.iter().any(|kind| kind.is_of_task()) {
         true => needed.with(Field::Truth),
+        false => needed,
+    };
+    let needed = match collected.phases.contains(&PhaseKind::Shape) {
+        true => needed.with(Field::Prediction),
         false => needed,
     };
     let inputs = facts.phase_inputs.as_ref();

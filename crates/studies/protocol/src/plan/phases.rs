@@ -1,19 +1,29 @@
 //! Pass 3: removes phases and models that no planned metric needs.
 
-use taceva_core::SkipReason;
+use taceva_core::{Field, SkipReason};
 
 use super::collect::{Collected, Fit};
 use super::study_facts::{ModelChoice, StudyFacts};
 use crate::phase_kind::PhaseKind;
-use crate::reason::{PlanReason, Subject};
+use crate::reason::{Cause, PlanReason, Subject};
 
 /// Removes models that no metric reads, then phases that no metric or model uses.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
+    for kind in [PhaseKind::Shape, PhaseKind::Pose] {
+        if collected.phases.contains(&kind)
+            && let Some(reason) = unpredicted(kind, &collected, facts)
+        {
+            collected.phases.retain(|planned| *planned != kind);
+            collected.skip(Subject::Phase(kind), reason);
+        }
+    }
+    let are_shapes_predicted = collected.phases.contains(&PhaseKind::Shape);
     for fit in std::mem::take(&mut collected.fits) {
         let is_read = collected
             .metrics
             .iter()
-            .any(|metric| metric.fields.contains(fit.field));
+            .any(|metric| metric.fields.contains(fit.field))
+            || (are_shapes_predicted && fit.field == Field::Prediction);
         match (is_read, facts.model) {
             (true, ModelChoice::Finished) => {
                 let reason = PlanReason::Skip(SkipReason::AlreadyThere);
@@ -26,8 +36,8 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     for kind in std::mem::take(&mut collected.phases) {
         let metric = collected.metrics.iter().any(|metric| metric.phase == kind);
         let fit = collected.fits.iter().any(|fit: &Fit| fit.phase == kind);
-        // Slip is no metric: the scene asks for its strokes.
-        if metric || fit || kind == PhaseKind::Slip {
+        // A task is no metric: the scene asks for its presses.
+        if metric || fit || kind.is_of_task() {
             collected.phases.push(kind);
         } else {
             collected.skip(Subject::Phase(kind), PlanReason::NoMetricNeeds);
@@ -39,4 +49,25 @@ pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collecte
     }
     collected.presses.retain(|press| !press.phases.is_empty());
     collected
+}
+
+/// Reason why no model predicts the presses of the task `kind`; `None` if one does. Shapes need the model of the study, and changes of pose one of
+/// their own, which is fitted to them.
+fn unpredicted(
+    kind: PhaseKind,
+    collected: &Collected,
+    facts: &StudyFacts<'_>,
+) -> Option<PlanReason> {
+    let field = Field::Prediction;
+    // A field that no metric needs still has a source.
+    if let Some(reason @ PlanReason::Unresolved { .. }) =
+        collected.reason_of(&Subject::Field(field))
+    {
+        return Some(reason.clone());
+    }
+    let is_fitted = kind != PhaseKind::Pose || facts.model != ModelChoice::Finished;
+    (!is_fitted).then_some(PlanReason::Unresolved {
+        field,
+        cause: Cause::NoEstimator,
+    })
 }

@@ -15,7 +15,7 @@ use crate::frame_size::FrameSize;
 use crate::limits::{RigLimits, limits};
 use crate::phase::PhaseInputs;
 use crate::phase_kind::PhaseKind;
-use crate::scene::{Scene, Study};
+use crate::scene::{Scene, Study, phase_of_task};
 use crate::source::{RecordingInfo, RigInfo, SourceInfo};
 use crate::text::{SceneError, SceneProblem};
 
@@ -233,12 +233,15 @@ impl<'a> Gather<'a> {
     /// Rejects depths and thresholds of the protocol that exceed their limits.
     fn depths(&self, limits: &RigLimits) -> Result<(), SceneError> {
         let protocol = &self.scene.protocol;
-        for (key, depth) in [
+        let shape = Some(("depth_min_mm", protocol.shape.depth_min_mm));
+        let shape = shape.filter(|_| protocol.shape.presses.value > 0);
+        let always = [
             ("depth_min_mm", protocol.calibration.depth_min_mm),
             ("depth_min_mm", protocol.spatial.depth_min_mm),
             ("depth_step_mm", protocol.repeatability.depth_step_mm),
             ("depth_step_mm", protocol.hysteresis.depth_step_mm),
-        ] {
+        ];
+        for (key, depth) in always.into_iter().chain(shape) {
             if depth.value > limits.depth_max.0 {
                 let problem = SceneProblem::BeyondLimit {
                     key,
@@ -288,10 +291,11 @@ impl<'a> Gather<'a> {
         Err(self.refusal(folds.at(), problem))
     }
 
-    /// Ids of the requested metrics. Their names were checked during parsing.
+    /// Ids of the requested metrics, without scores of tasks. Their names were checked during parsing.
     fn wanted(&self) -> Option<Vec<&'static str>> {
         let want = self.scene.metrics.want.as_ref()?;
         let names = want.iter().map(|name| name.value.as_str());
+        let names = names.filter(|name| phase_of_task(name).is_none());
         let metrics = taceva_metrics::catalogue::select(names).unwrap_or_default();
         Some(metrics.iter().map(|metric| metric.id).collect())
     }

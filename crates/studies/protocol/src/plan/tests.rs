@@ -3,6 +3,7 @@
 pub(crate) mod bench;
 mod explained;
 mod reached;
+mod shapes_and_poses;
 mod skipped;
 mod strokes;
 
@@ -79,7 +80,8 @@ fn every_reason_has_its_golden_line_in_the_text_of_a_plan() {
 fn planning_twice_changes_nothing() {
     let opaque = sensor().with_opaque(true).with_markers(false);
     for (facts, axes) in [(sensor(), Axes::FORCE), (opaque, Axes::NORMAL)] {
-        let scene = Scene::parse("small", SMALL).expect("a scene");
+        let scene = shapes_and_poses::with_both(SMALL);
+        let scene = Scene::parse("small", &scene).expect("a scene");
         let source = SourceInfo::Rig(Box::new(rig_of(facts, axes)));
         let study = &scene.studies[0];
         let (units, lights) = (

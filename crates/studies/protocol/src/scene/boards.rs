@@ -3,7 +3,7 @@
 use taceva_core::Nanometre;
 
 use crate::scene::Gratings;
-use crate::text::SceneProblem;
+use crate::text::{SceneProblem, Setting};
 
 /// Finest spacing of the catalogue (TacEva 2025, spatial resolution).
 const FINEST: Nanometre = Nanometre(250_000);
@@ -21,6 +21,21 @@ pub(crate) struct RefusedGratings {
     pub(crate) problem: SceneProblem,
 }
 
+/// Spacing of a board, checked against the catalogue.
+pub(crate) fn spacing_of(written: &Setting<f64>) -> Result<Nanometre, RefusedGratings> {
+    let in_catalogue = |length: &Nanometre| {
+        (FINEST..=COARSEST).contains(length) && (length.0 - FINEST.0) % STEP.0 == 0
+    };
+    let length = Nanometre::from_millimetres(written.value);
+    length.filter(in_catalogue).ok_or(RefusedGratings {
+        at: written.at(),
+        problem: SceneProblem::Grating {
+            found: written.value,
+            catalogue: CATALOGUE,
+        },
+    })
+}
+
 /// Spacings that `gratings` requests, checked against the catalogue.
 pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGratings> {
     let Gratings {
@@ -30,22 +45,7 @@ pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGra
         kinds,
         ..
     } = gratings;
-    let in_catalogue = |length: Nanometre| {
-        (FINEST..=COARSEST).contains(&length) && (length.0 - FINEST.0) % STEP.0 == 0
-    };
-    let mut ends = [Nanometre(0); 2];
-    for (end, written) in ends.iter_mut().zip([from_mm, to_mm]) {
-        let length = Nanometre::from_millimetres(written.value);
-        *end = length
-            .filter(|length| in_catalogue(*length))
-            .ok_or(RefusedGratings {
-                at: written.at(),
-                problem: SceneProblem::Grating {
-                    found: written.value,
-                    catalogue: CATALOGUE,
-                },
-            })?;
-    }
+    let (from, to) = (spacing_of(from_mm)?, spacing_of(to_mm)?);
     let step = Nanometre::from_millimetres(step_mm.value)
         .filter(|step| step.0 > 0 && step.0 % STEP.0 == 0)
         .ok_or_else(|| RefusedGratings {
@@ -55,7 +55,6 @@ pub(crate) fn spacings(gratings: &Gratings) -> Result<Vec<Nanometre>, RefusedGra
                 step_mm.value
             )),
         })?;
-    let [from, to] = ends;
     if from > to {
         return Err(RefusedGratings {
             at: from_mm.at(),

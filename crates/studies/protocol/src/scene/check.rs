@@ -12,6 +12,7 @@ use taceva_core::shown;
 use taceva_metrics::{Settings, catalogue};
 
 use super::metrics::{MetricsSpec, ReportSpec};
+use super::task_metrics::{phase_of_task, task_metrics};
 use super::{NamedBy, Scene};
 use crate::limit_spec::LimitSpec;
 use crate::text::Setting;
@@ -37,6 +38,7 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
     check.limits(&written.limits)?;
     check.metrics(&written.metrics)?;
     check.protocol(&written.protocol)?;
+    check.tasks(&written.metrics, &written.protocol)?;
     check.report(&written.report)?;
     check.stress(written.stress.as_ref())?;
     check.plugin_faults(&written)?;
@@ -128,8 +130,10 @@ impl Check<'_> {
 
     fn metrics(&self, metrics: &MetricsSpec) -> Checked {
         for name in metrics.want.iter().flatten() {
-            if catalogue::select([name.value.as_str()]).is_err() {
-                let known = catalogue::names().collect();
+            let is_known = catalogue::select([name.value.as_str()]).is_ok()
+                || phase_of_task(&name.value).is_some();
+            if !is_known {
+                let known = catalogue::names().chain(task_metrics()).collect();
                 return Err(self
                     .text
                     .unknown_name(name.at(), "metric", &name.value, known));

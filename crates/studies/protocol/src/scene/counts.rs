@@ -52,6 +52,10 @@ pub struct Protocol {
     pub idle: Idle,
     /// Strokes until the indenter slides; none unless the scene asks for them.
     pub slip: Slip,
+    /// Presses of the ball whose contact shape is predicted; none unless the scene asks for them.
+    pub shape: ShapePresses,
+    /// Pairs of presses between which a board moves; none unless the scene asks for them.
+    pub pose: PosePairs,
     /// Cycles of load between measured stages; `None` for a single stage.
     pub wear: Option<WearSpec>,
 }
@@ -198,5 +202,37 @@ table! {
         friction: f64 = 1.0,
         /// Number of frames from which a frame is predicted.
         window: u32 = 5,
+    }
+}
+
+table! {
+    /// Presses of the ball at drawn places and depths. The predicted place and depth of the ball give a predicted depth map.
+    ShapePresses {
+        /// Number of presses, each at its own place; 0 for none.
+        presses: u32 = 0,
+        /// Number of depths of each press.
+        depths: u32 = 3,
+        /// Least depth, in mm.
+        depth_min_mm: f64 = 0.1,
+        /// Side of a pixel of the depth maps, in mm.
+        pixel_mm: f64 = 0.25,
+    }
+}
+
+table! {
+    /// Pairs of presses of one board, between which it is shifted along the gel and turned about its axis.
+    PosePairs {
+        /// Number of pairs; 0 for none.
+        pairs: u32 = 0,
+        /// Greatest shift along x and along y, in mm, below the spacing of the board.
+        shift_mm: f64 = 0.5,
+        /// Greatest turn, in degrees.
+        turn_degrees: f64 = 10.0,
+        /// Relief of the board.
+        kind: GratingKind = GratingKind::Dot,
+        /// Spacing of the board, in mm.
+        spacing_mm: f64 = 1.75,
+        /// Depth of each press, as a fraction of the greatest depth.
+        depth_fraction: f64 = 0.5,
     }
 }

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use taceva_core::{Field, Unit};
 use taceva_dataset::Dataset;
 use taceva_metrics::{Metric, catalogue};
-use taceva_protocol::{PhaseKind, Plan, PlannedMetric, PlannedPress};
+use taceva_protocol::{PhaseKind, Plan, PlanSkip, PlannedMetric, PlannedPress, Subject};
 
 use taceva_acquire::PlannedStudy;
 use taceva_evaluate::EvaluateError;
@@ -25,6 +25,8 @@ pub(super) struct PhaseRows<'a> {
 
 /// Word of the protocol for rows of repeated presses on further units.
 const OTHER_UNITS: &str = "other-units";
+/// Channels of the place and depth of the ball, from which contact shapes follow.
+const OF_SHAPES: [&str; 3] = ["Px", "Py", "Pz"];
 
 impl<'a> PhaseRows<'a> {
     pub(super) fn new(study: &'a PlannedStudy, dataset: &'a Dataset) -> PhaseRows<'a> {
@@ -79,7 +81,21 @@ impl<'a> PhaseRows<'a> {
         planned.filter_map(|metric| Some((metric, catalogue::find(&metric.id)?)))
     }
 
-    /// True if any planned metric compares predictions with the truth.
+    /// True if contact shapes are planned, whose maps are those of predicted places and depths.
+    fn has_shapes(&self) -> bool {
+        self.plan.phases.contains(&PhaseKind::Shape)
+    }
+
+    /// Reason why the plan skips the phase `kind`; `None` if it does not.
+    pub(super) fn skipped(&self, kind: PhaseKind) -> Option<String> {
+        let is_own = |skip: &&PlanSkip| skip.subject == Subject::Phase(kind);
+        let is_planned = self.plan.phases.contains(&kind);
+        let skip = self.plan.skipped.iter().find(is_own);
+        skip.filter(|_| !is_planned)
+            .map(|skip| skip.reason.to_string())
+    }
+
+    /// True if a planned metric or task compares predictions with the truth.
     pub(super) fn reads_predictions(&self) -> bool {
         !self.predicted_phases().is_empty()
     }
@@ -90,12 +106,13 @@ impl<'a> PhaseRows<'a> {
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
     }
 
-    /// Phases of the protocol with needed predictions: the phases of metrics, and the calibration, which gives the skill of the model.
+    /// Phases of the protocol with needed predictions: the phases of metrics and of contact shapes, and the calibration, which gives the skill of the model.
     /// Loading and unloading are among them if their presses have frames.
     pub(super) fn predicted_phases(&self) -> BTreeSet<PhaseKind> {
         let metrics = self.metrics();
         let predicted = metrics.filter(|(_, metric)| metric.reads_predictions());
         let mut phases: BTreeSet<PhaseKind> = predicted.map(|(planned, _)| planned.phase).collect();
+        phases.extend(self.has_shapes().then_some(PhaseKind::Shape));
         if !phases.is_empty() {
             phases.insert(PhaseKind::Calibration);
             let mut branches = self.plan.presses_of(PhaseKind::LoadUnload);
@@ -122,11 +139,13 @@ impl<'a> PhaseRows<'a> {
             let position = table.channels().position(channel);
             let is_force =
                 position.is_some_and(|at| table.channels().as_slice()[at].unit() == Unit::Newton);
-            metrics.any(|(planned, metric)| {
-                metric.reads_predictions()
-                    && planned.channels.contains(channel)
-                    && (is_force || !metric.is_of_forces())
-            })
+            let is_of_shape = self.has_shapes() && OF_SHAPES.contains(&channel.as_str());
+            is_of_shape
+                || metrics.any(|(planned, metric)| {
+                    metric.reads_predictions()
+                        && planned.channels.contains(channel)
+                        && (is_force || !metric.is_of_forces())
+                })
         };
         let channels = self.plan.channels.iter();
         let predicted = channels.filter(is_predicted);

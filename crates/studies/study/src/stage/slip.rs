@@ -1,14 +1,14 @@
 //! Scores of slip on the strokes of a study.
 
 use taceva_acquire::PlannedScene;
-use taceva_dataset::{Dataset, Task, TaskKind};
+use taceva_dataset::{Dataset, Task, TaskKind, TaskLabel};
 use taceva_evaluate::{EvaluateError, FitRequest, TaskRows, evaluate_task_rows};
 use taceva_models::ModelSettings;
 use taceva_protocol::PhaseKind;
-use taceva_results::{Skip, StudyTask};
 
 use super::context::RunContext;
 use super::phase_rows::PhaseRows;
+use super::task::TaskOutcome;
 use crate::error::StudyError;
 
 /// Name of the task.
@@ -26,7 +26,7 @@ pub(super) fn of(
     dataset: &Dataset,
     phase_rows: &PhaseRows<'_>,
     context: RunContext<'_>,
-) -> Result<Option<Result<StudyTask, Skip>>, StudyError> {
+) -> Result<Option<TaskOutcome>, StudyError> {
     let rows = phase_rows.rows(PhaseKind::Slip);
     let spec = &scene.scene.protocol.slip;
     // Without a plan, every row of a recording belongs to every phase.
@@ -34,13 +34,9 @@ pub(super) fn of(
     if spec.strokes.value == 0 || rows.is_empty() || !is_planned {
         return Ok(None);
     }
-    let skip = |reason: String| Skip {
-        what: format!("task:{SLIP}"),
-        reason,
-    };
     let Some(labels) = labels(dataset, &rows, spec.friction.value) else {
         let reason = "slip is labelled by Fx, Fy and Fz, and the rig does not measure all of them";
-        return Ok(Some(Err(skip(reason.to_owned()))));
+        return Ok(Some(TaskOutcome::skipped(SLIP, reason)));
     };
     let mut task = Task::new(SLIP, TaskKind::Event, "point_id");
     task.names = vec!["no_slip".to_owned(), SLIP.to_owned()];
@@ -65,19 +61,12 @@ pub(super) fn of(
         rows: &rows,
         rate_hz: spec.rate_hz.value,
     };
-    match evaluate_task_rows(&labelled, SLIP, of, request()?, context.work) {
-        Ok(scores) => {
-            let task = serde_json::to_value(&scores);
-            let task = task.map_err(|error| EvaluateError::Request(error.to_string()))?;
-            Ok(Some(Ok(StudyTask::new(task))))
-        }
-        Err(EvaluateError::Request(reason)) => Ok(Some(Err(skip(reason)))),
-        Err(error) => Err(error.into()),
-    }
+    let scores = evaluate_task_rows(&labelled, SLIP, of, request()?, context.work);
+    TaskOutcome::of(SLIP, scores).map(Some)
 }
 
-/// Position of the class of each row of the dataset: 1 for slip; none outside `rows` and without contact. `None` if a force is not measured.
-fn labels(dataset: &Dataset, rows: &[usize], friction: f64) -> Option<Vec<Option<u32>>> {
+/// Class of each row of the dataset: 1 for slip; none outside `rows` and without contact. `None` if a force is not measured.
+fn labels(dataset: &Dataset, rows: &[usize], friction: f64) -> Option<Vec<Option<TaskLabel>>> {
     let table = dataset.table();
     let [x, y, z] = ["Fx", "Fy", "Fz"].map(|name| table.channels().position(name));
     let [x, y, z] = [x?, y?, z?].map(|position| table.truth(position));
@@ -86,7 +75,7 @@ fn labels(dataset: &Dataset, rows: &[usize], friction: f64) -> Option<Vec<Option
         let forces = x.get(row).zip(y.get(row)).zip(z.get(row));
         if let Some(((x, y), z)) = forces.filter(|(_, z)| z.abs() > 0.0) {
             let slips = x.hypot(y) >= SHARE * friction * z.abs();
-            labels[row] = Some(u32::from(slips));
+            labels[row] = Some(TaskLabel::Class(u32::from(slips)));
         }
     }
     Some(labels)

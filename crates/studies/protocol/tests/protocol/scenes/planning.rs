@@ -1,6 +1,6 @@
 //! Tests of scenes that contradict their devices.
 
-use taceva_core::{Descriptor, Facts, FrameInfo, LightingFacts, PixelFormat};
+use taceva_core::{Descriptor, Facts, FrameInfo, LightingFacts, Newton, PixelFormat, SensorFacts};
 use taceva_protocol::{Plan, RigInfo, Scene, SceneProblem, SourceInfo, plan};
 
 use super::{GOOD, descriptor, planned, rig, with};
@@ -151,6 +151,58 @@ fn a_metric_that_can_never_apply_is_refused_by_its_line_if_it_was_named_by_itsel
     assert!(
         explained.contains("skip  metric  mae, r2, smape"),
         "{explained}"
+    );
+}
+
+#[test]
+fn bad_settings_of_tasks_are_refused_with_what_is_expected() {
+    for (line, said) in [
+        ("[protocol.shape]\npress = 3", "`press`: unknown key"),
+        ("[protocol.shape]\npixel_mm = 0.01", "from 0.05 to 5"),
+        ("[protocol.shape]\ndepths = 0", "`depths` is 0"),
+        (
+            "[protocol.pose]\nshift_mm = 2.0",
+            "expected a number below 1.75",
+        ),
+        (
+            "[protocol.pose]\nspacing_mm = 0.33",
+            "gratings of 0.33 mm are not in the catalogue",
+        ),
+        (
+            "[protocol.pose]\nturn_degrees = 91.0",
+            "`turn_degrees` is 91",
+        ),
+        ("[protocol.pose]\nkind = \"ball\"", "`line`"),
+        (
+            "[metrics]\nwant = [\"depth_rms\"]",
+            "did you mean `depth_rmse`?",
+        ),
+    ] {
+        let error = with(line);
+        assert!(error.contains(said), "{line}: {error}");
+    }
+}
+
+#[test]
+fn a_score_of_a_task_needs_presses_of_the_scene_and_a_surface() {
+    let error = with("[metrics]\nwant = [\"f1\"]");
+    assert_eq!(
+        error,
+        "s.toml, line 10: `f1` needs presses of the phase slip, and the scene has none: write `slip = { strokes = 40 }` under [protocol]"
+    );
+    let lines = "[protocol.slip]\nstrokes = 3\n[metrics]\nwant = [\"f1\"]";
+    let mut unknown = rig();
+    unknown.sensor = Some(descriptor(
+        "sim/gelsight",
+        Facts::Sensor(Box::new(
+            SensorFacts::default().with_force_max(Newton(1.83)),
+        )),
+    ));
+    let limited = format!("[limits]\nPz_max_mm = 1.0\n{lines}");
+    let error = planned(&limited, unknown);
+    assert!(
+        error.contains("`f1` can never apply: the sensor's `footprint`"),
+        "{error}"
     );
 }
 

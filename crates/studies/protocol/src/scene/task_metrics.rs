@@ -1,0 +1,62 @@
+//! Metrics of tasks that a scene may request, with the phase that measures each.
+
+use super::counts::Protocol;
+use crate::phase_kind::PhaseKind;
+
+/// Scores of slip.
+const OF_SLIP: [&str; 12] = [
+    "class_accuracy",
+    "balanced_accuracy",
+    "f1",
+    "f1_macro",
+    "precision",
+    "recall",
+    "specificity",
+    "kappa",
+    "mcc",
+    "onset_f1",
+    "onset_delay",
+    "false_alarms",
+];
+/// Scores of contact shapes.
+const OF_SHAPE: [&str; 6] = [
+    "depth_mae",
+    "depth_rmse",
+    "depth_bias",
+    "depth_max",
+    "contact_iou",
+    "normal_angle",
+];
+/// Scores of changes of pose.
+const OF_POSE: [&str; 3] = ["pose_translation", "pose_axis", "pose_rotation"];
+
+/// Every phase of a task with its scores.
+const PHASES: [(PhaseKind, &[&str]); 3] = [
+    (PhaseKind::Slip, &OF_SLIP),
+    (PhaseKind::Shape, &OF_SHAPE),
+    (PhaseKind::Pose, &OF_POSE),
+];
+
+/// Phase whose presses `metric` scores; `None` for a metric that is no score of a task.
+pub(crate) fn phase_of_task(metric: &str) -> Option<PhaseKind> {
+    let mut phases = PHASES.into_iter();
+    let of = phases.find(|(_, metrics)| metrics.contains(&metric));
+    of.map(|(phase, _)| phase)
+}
+
+/// Names of all scores of tasks.
+pub(super) fn task_metrics() -> impl Iterator<Item = &'static str> {
+    let phases = PHASES.into_iter();
+    phases.flat_map(|(_, metrics)| metrics.iter().copied())
+}
+
+/// Line that requests presses of `phase`, if `protocol` has none; `None` if it has some, and for other phases.
+pub(super) fn missing_line(phase: PhaseKind, protocol: &Protocol) -> Option<&'static str> {
+    let (count, line) = match phase {
+        PhaseKind::Slip => (&protocol.slip.strokes, "slip = { strokes = 40 }"),
+        PhaseKind::Shape => (&protocol.shape.presses, "shape = { presses = 40 }"),
+        PhaseKind::Pose => (&protocol.pose.pairs, "pose = { pairs = 40 }"),
+        _ => return None,
+    };
+    (count.value == 0).then_some(line)
+}
