@@ -208,4 +208,5 @@ mod tests {
         let found = [0.5, 0.5, 0.04, 0.5].map(|number| limited.push(number));
         let excess = found[3].expect("a change");
         assert!((excess - 0.48).abs() < 1e-12, "{excess}");
-    }}
+    }
+}

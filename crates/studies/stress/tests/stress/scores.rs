@@ -329,7 +329,7 @@ fn a_plan_names_faults_and_frames_and_reads_none() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
     let request = by_parameter(&["tear", "stale_frames"]);
-    let plan = stress_plan(&dataset, &model, &request).expect("planned");
+    let plan = stress_plan(&dataset, &model, &request, &[]).expect("planned");
     let text = plan.to_string();
     assert!(text.contains("60 frames of the part `all`"), "{text}");
     assert!(text.contains("fault    tear: a disc"), "{text}");
