@@ -2,7 +2,9 @@
 
 use taceva_core::{Frame, FrameInfo};
 use taceva_evaluate::Target;
-use taceva_stress::{By, OtherFaults, PictureFault, StressReport, StressRequest, stress_unseen};
+use taceva_stress::{
+    By, NEVER, OtherFaults, PictureFault, StressReport, StressRequest, stress_unseen,
+};
 
 use crate::drawing::{WORK, unseen};
 
@@ -10,6 +12,8 @@ use crate::drawing::{WORK, unseen};
 enum Answer {
     /// The picture, with each number less by ten times the severity.
     Darker,
+    /// The picture.
+    Same,
     /// A picture of one pixel.
     Small,
     /// No picture.
@@ -35,6 +39,7 @@ impl PictureFault for Drawn {
                 let bytes = bytes.map(|byte| byte.saturating_sub(10 * severity));
                 Frame::new(info, bytes.collect())
             }
+            Answer::Same => Ok(frame.clone()),
             Answer::Small => {
                 let info = FrameInfo {
                     width: 1,
@@ -89,6 +94,24 @@ fn a_fault_of_a_plugin_stands_beside_those_of_the_list() {
     let listed = tested(&[], &["dust"]);
     assert_eq!(named.list.name, listed.list.name);
     assert_ne!(named.list.digest, listed.list.digest);
+}
+
+#[test]
+fn a_fault_that_returns_each_picture_has_a_degradation_of_exactly_one() {
+    let report = tested(&[&Drawn("same", Answer::Same)], &[]);
+    let same = &report.faults[0];
+    assert_eq!(same.severities.len(), 2);
+    for of in &same.severities {
+        assert_eq!(of.stimulus, Some(0.0));
+        let fresh = of.fresh.as_ref().expect("the model reads differences");
+        for score in of.stale.values().chain(fresh.values()) {
+            assert_eq!(score.degradation.value, Some(1.0));
+            assert_eq!(score.degradation.ci95, Some([1.0, 1.0]));
+        }
+    }
+    let means = same.mean.values().chain(report.mean.values());
+    assert!(means.clone().count() > 0 && means.clone().all(|of| of.value == Some(1.0)));
+    assert_eq!(same.breaks_at["Fz"], Some(NEVER));
 }
 
 #[test]

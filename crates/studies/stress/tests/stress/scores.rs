@@ -294,7 +294,7 @@ fn pictures_are_decoded_once_for_all_cells_and_jobs_change_no_byte() {
     assert!(decoded <= u64::from(PRESSES) + 33, "{decoded}");
     assert!(decoded >= u64::from(PRESSES), "{decoded}");
     let work = Work {
-        jobs: NonZeroUsize::new(4).expect("four"),
+        jobs: NonZeroUsize::new(16).expect("sixteen"),
         ..WORK
     };
     let other = stress(&dataset, &model, &request, work).expect("tested");
