@@ -48,6 +48,7 @@ fn peak() -> String {
 
 #[test]
 #[ignore = "runs in a process of its own, started by the last test"]
+#[expect(clippy::print_stdout, reason = "read by the last test")]
 fn an_evaluation() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
@@ -64,6 +65,7 @@ fn an_evaluation() {
 
 #[test]
 #[ignore = "runs in a process of its own, started by the last test"]
+#[expect(clippy::print_stdout, reason = "read by the last test")]
 fn sixty_cells() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
