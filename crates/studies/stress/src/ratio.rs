@@ -157,6 +157,8 @@ fn interval(value: f64, terms: &[Term<'_>], clean: &Errors) -> Result<[f64; 2], 
 
 #[cfg(test)]
 mod tests {
+    use taceva_core::random::{SplitMix64, open_unit};
+
     use super::*;
 
     fn errors(of: impl Fn(u32) -> f64) -> Errors {
@@ -205,34 +207,20 @@ mod tests {
         let two = Errors::of(&[Some(1.0), Some(3.0), None], Some(&names));
         assert_eq!(ratio(&two, &two).reason, Some(Undefined::TooFewClusters));
     }
-    /// Random numbers by SplitMix64.
-    struct Random(u64);
-
-    impl Random {
-        /// A number between 0 and 1.
-        fn unit(&mut self) -> f64 {
-            self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-            let mut bits = self.0;
-            bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-            bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-            (((bits ^ (bits >> 31)) >> 11) as f64 + 0.5) / 2.0_f64.powi(53)
-        }
-
-        /// A number of the standard normal distribution.
-        fn normal(&mut self) -> f64 {
-            let radius = (-2.0 * self.unit().ln()).sqrt();
-            radius * (std::f64::consts::TAU * self.unit()).cos()
-        }
+    /// A number of the standard normal distribution.
+    fn normal(random: &mut SplitMix64) -> f64 {
+        let radius = (-2.0 * open_unit(random.next_u64()).ln()).sqrt();
+        radius * (std::f64::consts::TAU * open_unit(random.next_u64())).cos()
     }
 
     /// True if the interval of `clusters` simulated contact points with five samples each contains the true ratio. Errors of a sample with and without
     /// the fault are correlated, and a contact point has large errors or small ones.
-    fn is_covered(random: &mut Random, clusters: u32, truth: f64) -> bool {
+    fn is_covered(random: &mut SplitMix64, clusters: u32, truth: f64) -> bool {
         let (mut clean, mut faulty, mut names) = (Vec::new(), Vec::new(), Vec::new());
         for cluster in 0..clusters {
-            let size = (0.5 * random.normal()).exp();
+            let size = (0.5 * normal(random)).exp();
             for _ in 0..5 {
-                let (one, other) = (random.normal(), random.normal());
+                let (one, other) = (normal(random), normal(random));
                 clean.push(Some(one.abs() * size));
                 faulty.push(Some(truth * (0.8 * one + 0.6 * other).abs() * size));
                 names.push(format!("p{cluster}"));
@@ -246,7 +234,7 @@ mod tests {
     #[test]
     fn intervals_contain_the_true_ratio_of_simulated_predictors_in_93_to_97_of_100_cases() {
         for (clusters, truth) in [(12, 3.0), (20, 2.0)] {
-            let mut random = Random(1);
+            let mut random = SplitMix64::new(1);
             let covered = (0..2000).filter(|_| is_covered(&mut random, clusters, truth));
             let share = covered.count() as f64 / 2000.0;
             assert!((0.93..=0.97).contains(&share), "{clusters}: {share}");
