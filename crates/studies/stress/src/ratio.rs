@@ -207,6 +207,7 @@ mod tests {
         let two = Errors::of(&[Some(1.0), Some(3.0), None], Some(&names));
         assert_eq!(ratio(&two, &two).reason, Some(Undefined::TooFewClusters));
     }
+
     /// A number of the standard normal distribution.
     fn normal(random: &mut SplitMix64) -> f64 {
         let radius = (-2.0 * open_unit(random.next_u64()).ln()).sqrt();

@@ -1,5 +1,4 @@
-//! The checks of a recording with faults of the simulated MagicTac, without the check of untouched pictures (TAC034). Only that check compares pictures with
-//! those from before the fault, so the others notice few faults.
+//! Recordings of the simulated MagicTac with faults: what the checks find, and what a new untouched picture corrects.
 
 use std::collections::BTreeSet;
 use std::num::NonZeroUsize;
@@ -11,9 +10,10 @@ use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFac
 use taceva_sim::Model;
 use taceva_sim::contact::{Indentation, Solid};
 use taceva_sim::optics::{Bits, Camera, OpticsSpec, Stimulus, View};
-use taceva_stress::{FAULTS, Fault, Stress};
+use taceva_stress::{FAULTS, Fault, Stress, StressRequest, Undefined, stress};
 
 use crate::bench_monitor::taken;
+use crate::drawing::{WORK, fitted};
 
 /// Points of the recording, each pressed to five depths.
 const POINTS: u32 = 16;
@@ -32,7 +32,8 @@ struct Drawn {
 }
 
 impl Drawn {
-    fn new() -> Drawn {
+    /// Presses at other places for each `turn`.
+    fn new(turn: f64) -> Drawn {
         let parameters = Model::MagicTac.parameters();
         let spec = OpticsSpec::new(&parameters);
         let camera = Camera::new(&spec, [80, 106], 0, 7).expect("a small frame");
@@ -42,7 +43,7 @@ impl Drawn {
         let mut presses = Vec::new();
         for number in 0..5 * POINTS {
             let point = number / 5;
-            let (sin, cos) = (2.399_963 * f64::from(point)).sin_cos();
+            let (sin, cos) = (2.399_963 * f64::from(point) + turn).sin_cos();
             let out = 0.8 * (f64::from(point) / f64::from(POINTS)).sqrt();
             let depth_mm = probing.depth_max_mm * 0.2 * f64::from(number % 5 + 1);
             let contact = solid.contact(&Indentation {
@@ -97,7 +98,7 @@ impl Drawn {
     }
 }
 
-/// Codes of the findings in `dataset`, without TAC034.
+/// Codes of the findings in `dataset`, without TAC034. Only that check compares untouched pictures with those from before the fault.
 fn found(dataset: &Dataset) -> BTreeSet<&'static str> {
     let codes = ALL.iter().map(|check| check.code.to_owned());
     let request = CheckRequest {
@@ -113,7 +114,7 @@ fn found(dataset: &Dataset) -> BTreeSet<&'static str> {
 #[test]
 fn ten_of_twelve_faults_at_severity_3_are_found_by_no_check_of_the_recording_alone() {
     let folder = tempfile::tempdir().expect("a folder");
-    let drawn = Drawn::new();
+    let drawn = Drawn::new(0.0);
     let clean = found(&drawn.record(&folder.path().join("clean"), None));
     let new = |fault: &'static Fault| {
         let stress = Stress::new(fault, fault.table[2], 1);
@@ -130,4 +131,27 @@ fn ten_of_twelve_faults_at_severity_3_are_found_by_no_check_of_the_recording_alo
     assert_eq!(names, ["exposure_high", "stale_frames"], "{noticed:?}");
     assert!(noticed[0].1.contains(&"TAC004"), "{noticed:?}");
     assert!(noticed[1].1.contains(&"TAC002"), "{noticed:?}");
+}
+
+#[test]
+fn a_new_untouched_picture_corrects_nine_tenths_of_faults_that_lie_still_in_the_picture() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = Drawn::new(0.7).record(&folder.path().join("seen"), None);
+    let model = fitted(&seen, "ridge", &["size=16x16", "difference=true"]);
+    let dataset = Drawn::new(0.0).record(&folder.path().join("unseen"), None);
+    let request = StressRequest {
+        faults: ["scratches", "tear", "dust"].map(str::to_owned).into(),
+        severities: vec![1, 2, 3],
+        ..StressRequest::default()
+    };
+    let report = stress(&dataset, &model, &request, WORK).expect("tested");
+    let shares = report.faults.iter().map(|fault| fault.recovers["Fz"]);
+    let known: Vec<f64> = shares.clone().filter_map(|share| share.value).collect();
+    assert!(
+        !known.is_empty() && known.iter().all(|share| *share >= 0.9),
+        "{known:?}"
+    );
+    // A fault that adds no error has nothing to correct.
+    let mut others = shares.filter(|share| share.value.is_none());
+    assert!(others.all(|share| share.reason == Some(Undefined::NoExcess)));
 }
