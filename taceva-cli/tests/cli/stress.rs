@@ -1,6 +1,13 @@
 //! Faults of pictures, scored with a fitted model.
 
 use std::fs;
+#[cfg(target_os = "linux")]
+use std::path::Path;
+#[cfg(target_os = "linux")]
+use std::process::Command;
+
+#[cfg(target_os = "linux")]
+use taceva_needs::{Need, skip};
 
 use crate::support::Bench;
 
@@ -227,6 +234,32 @@ fn a_fault_of_a_plugin_is_tested_by_its_key_beside_the_others() {
         "{stress} --faults org.example.fogged-lens/fog --severity 1"
     ));
     assert_eq!(alone["list"]["name"], "fog");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_fault_of_a_plugin_in_c_is_built_and_tested_as_its_page_says() {
+    if let Err(error) = Command::new("cc").arg("--version").output() {
+        skip(Need::CCompiler, format!("`cc`: {error}"));
+        return;
+    }
+    let bench = bench();
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/plugins/fogged-lens-c");
+    let read = |file: &str| fs::read_to_string(example.join(file)).expect(file);
+    for file in ["fog.c", "plugin.toml"] {
+        bench.write(&format!("fog/{file}"), &read(file));
+    }
+    let page = read("README.md");
+    let commands = page.split("```").nth(1).expect("commands").trim();
+    let built = bench.shell(&format!("cd fog && {}", commands.replace('\n', " && ")));
+    assert_eq!(built.code, 0, "{}{}", built.out, built.err);
+    let report = bench.json(
+        "stress unseen --model m.taceva --faults org.example.fogged-lens-c/fog --severity 1,4 --by parameter --plugin-dir fog",
+    );
+    assert_eq!(report["list"]["name"], "fog");
+    let severities = &report["faults"][0]["severities"];
+    let stimulus = |at: usize| severities[at]["stimulus"].as_f64().expect("a number");
+    assert!(0.0 < stimulus(0) && stimulus(0) < stimulus(1), "{report}");
 }
 
 #[test]
