@@ -192,6 +192,7 @@ mod tests {
             assert_eq!(limited.push(flicker), None, "{number}");
         }
     }
+
     #[test]
     fn three_strange_pictures_among_thirty_are_a_change_and_two_are_none() {
         let mut limited = Limited::by_some(0.1);
