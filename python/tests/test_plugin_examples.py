@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 import threading
 import time
 from pathlib import Path
 
 import numpy as np
 import pytest
+import taceva
 from plugin_environment import Program, make_environment
 
 EXAMPLES = Path(__file__).parents[2] / "examples/python-plugins"
@@ -87,3 +90,48 @@ def test_an_estimator_of_torch_keeps_every_promise_without_trust(program: Progra
     done = program.check(key, package("torch-estimator"), "--only", groups, "--limit", "240")
     assert done["failed"] == []
     assert len(done["passed"]) >= 5, done
+
+
+def test_a_fault_of_pictures_is_tested_beside_the_others_and_one_that_fails_is_named(program: Program) -> None:
+    folder = program.home.parent
+    force = np.tile(np.linspace(0.4, 2.0, 5), 12)
+    place = np.repeat(np.arange(12), 5)
+    across = np.arange(24)[None, None, :] - 4 - 1.4 * place[:, None, None]
+    light = force[:, None, None] * np.exp(-(across**2) / 12) * np.ones((1, 16, 1))
+    noise = np.random.default_rng(5).integers(0, 3, light.shape)
+    frames = (75 + 50 * light + noise).astype(np.uint8)
+    taceva.from_arrays(folder / "presses", force, frames, channels=["Fz"], points=place, sensor="drawn", source="synthetic")
+    model = str(folder / "m.taceva")
+    fitted = program.run("fit", str(folder / "presses"), "--model", "ridge", "--set", "size=8x8", "--out", model, "-q")
+    assert fitted.returncode == 0, fitted.stderr
+    key = "org.example.fogged-lens-python/fog"
+    words = ["stress", str(folder / "presses"), "--model", model, "--faults", f"dust,{key}", "--severity", "1,4", "--by", "parameter"]
+    words += ["--format", "json", "--plugin-dir"]
+    tested = program.run(*words, str(package("fogged-lens")))
+    assert tested.returncode == 0, tested.stderr
+    report = json.loads(tested.stdout)
+    assert report["list"]["name"] == "dust,fog"
+    low, high = (severity["stimulus"] for severity in report["faults"][1]["severities"])
+    assert 0 < low < high, report
+    broken = folder / "broken/fogged_lens"
+    shutil.copytree(package("fogged-lens"), broken, ignore=shutil.ignore_patterns("__pycache__"))
+    code = (broken / "__init__.py").read_text()
+    assert code.count("return mean + (") == 1
+    (broken / "__init__.py").write_text(code.replace("return mean + (", "return np.nan * ("))
+    failed = program.run(*words, str(broken))
+    assert failed.returncode == 4, failed.stderr
+    assert "fault fog failed: " in failed.stderr, failed.stderr
+    report = json.loads(failed.stdout)
+    assert [fault["id"] for fault in report["faults"]] == ["dust"]
+    assert [fault["fault"] for fault in report["failed"]] == ["fog"]
+
+
+def test_a_fault_refuses_other_bytes_than_those_of_a_fault(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.syspath_prepend(str(package("fogged-lens").parent))
+    fogged_lens = __import__("fogged_lens")
+    fog = fogged_lens.Fog.load(b"taceva.fault/1\nseverity=2\nseed=7\n", ["gray"], (1, 1, 1))
+    darkest, brightest = fog.predict(np.array([0, 100], np.float32).reshape(2, 1, 1, 1))[:, 0]
+    assert (darkest, brightest) == pytest.approx((15, 85))
+    for other in (b"", b"taceva.fault/2\nseverity=2\n", b"taceva.fault/1\nseverity=6\n"):
+        with pytest.raises(ValueError, match="expected the lines of a fault"):
+            fogged_lens.Fog.load(other, ["gray"], (1, 1, 1))

@@ -31,6 +31,7 @@ mod operator;
 mod origin;
 pub(crate) mod plan;
 pub(crate) mod plugin;
+mod plugin_fault;
 mod plugins;
 pub(crate) mod predict;
 pub(crate) mod preview;

@@ -22,9 +22,9 @@ pub use drive::{
     SimulatedRig,
 };
 pub use parameters::{
-    Body, Camera, Dome, Entry, GelFault, GelWear, Gratings, Lattice, Layer, Markers, Material,
-    Model, Origin, Outline, ParameterDigest, ParameterError, ParameterErrorKind, Parameters,
-    Probing, Robot, Search, Surface, Transducer, Variation,
+    Ageing, Body, Camera, Dome, Entry, GelFault, GelWear, Gratings, Lattice, Layer, Markers,
+    Material, Model, Origin, Outline, ParameterDigest, ParameterError, ParameterErrorKind,
+    Parameters, Probing, Robot, Search, Surface, Transducer, Variation,
 };
 pub use provenance::{MODEL_VERSION, Provenance};
 pub use rig::{Label, Touch};

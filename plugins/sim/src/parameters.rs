@@ -3,6 +3,7 @@
 //! Every value has the form `key = { value = 4.25, unit = "mm", origin = "geometric" }`. The origin shows the reliability of the value. For another
 //! sensor, copy one of the built-in tables, change its values, and read it with [`Parameters::parse`].
 
+mod ageing;
 mod digest;
 mod error;
 mod gel_fault;
@@ -20,8 +21,8 @@ pub use model::Model;
 pub use outline::Outline;
 pub use section::{Entry, Origin};
 pub use sections::{
-    Camera, Dome, GelWear, Gratings, Lattice, Layer, Markers, Material, Probing, Robot, Search,
-    Surface, Transducer, Variation,
+    Ageing, Camera, Dome, GelWear, Gratings, Lattice, Layer, Markers, Material, Probing, Robot,
+    Search, Surface, Transducer, Variation,
 };
 
 use read::Document;
@@ -67,6 +68,8 @@ pub struct Parameters {
     pub lattice: Option<Lattice>,
     /// Wear of the gel; `None` for a new gel.
     pub wear: Option<GelWear>,
+    /// Ageing of the gel by presses; `None` for a gel that does not age.
+    pub ageing: Option<Ageing>,
     /// Blur and contrast of gratings.
     pub gratings: Gratings,
     /// Robot that moves the indenter.
@@ -102,6 +105,7 @@ impl Parameters {
         let markers = document.optional()?;
         let lattice = document.optional()?;
         let wear: Option<GelWear> = document.optional()?;
+        let ageing = document.optional()?;
         let gratings = document.required()?;
         let robot = document.required()?;
         let search = document.required()?;
@@ -119,6 +123,7 @@ impl Parameters {
             markers,
             lattice,
             wear,
+            ageing,
             gratings,
             robot,
             search,

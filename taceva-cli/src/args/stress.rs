@@ -21,7 +21,7 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 and all both mean the whole list
+    /// Faults, separated by commas; gel-12 and all both mean the whole list, ORG/NAME a fault of a plugin
     #[arg(
         long,
         value_name = "FAULTS",

@@ -18,6 +18,7 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     let drivers = Drivers::builtin()?.with_plugins(&host)?;
     let planned = scene::planned(&args.scene, &drivers)?;
     run::faults::check(&planned, &drivers)?;
+    run::faults::plugin_faults(&planned, &host.models())?;
     scene::print_cost(&planned, Path::new("."), context)?;
     run::faults::print_cost(&planned, context)?;
     scene::print_rigs(&planned, &drivers, context);

@@ -2,7 +2,6 @@
 
 pub(super) mod bench;
 pub(super) mod faults;
-mod plugin_fault;
 mod stages;
 
 use std::ffi::OsStr;

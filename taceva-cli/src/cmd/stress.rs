@@ -6,12 +6,16 @@ use anyhow::Context as _;
 use taceva_core::shown;
 use taceva_evaluate::DataPart;
 use taceva_report::FaultResult;
-use taceva_stress::{By, StressRequest, severities, stress, stress_plan};
+use taceva_stress::{
+    By, OtherFaults, PictureFault, StressReport, StressRequest, severities, stress_beside,
+    stress_plan,
+};
 
+use super::plugin_fault::{PluginFault, find, is_taken};
 use super::{Context, Usage, open_seen, results};
 use crate::args::{Format, Stress, StressBy, StressPart};
 use crate::report::stress::{numbers, table};
-use crate::{exit, output};
+use crate::{exit, output, stderr};
 
 /// Refuses a model that is not a file: nothing is fitted here.
 pub(super) fn check_model_file(path: &Path) -> anyhow::Result<()> {
@@ -28,8 +32,14 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     let files = args.output.path.iter().chain(&args.svg);
     output::check_all_free(files, args.output.force)?;
     check_model_file(&args.model)?;
+    // The key of an estimator of a plugin has a slash, and no fault of the program has one.
+    let names = args.faults.iter().map(|name| name.trim().to_owned());
+    let (keys, names): (Vec<String>, Vec<String>) = names.partition(|name| name.contains('/'));
+    let plugins = plugin_faults(&keys, args.seed.value, context)?;
+    let foreign = plugins.iter().map(|fault| fault as &dyn PictureFault);
+    let foreign: Vec<&dyn PictureFault> = foreign.collect();
     let request = StressRequest {
-        faults: args.faults.clone(),
+        faults: names,
         severities: severities(&args.severity)?,
         by: match args.by {
             StressBy::Stimulus => By::Stimulus,
@@ -47,12 +57,17 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     let dataset = open_seen(&recordings, &args.view, Some(&model))?;
     let applied = || super::applied(&args.model, &recordings);
     if args.explain.is_wanted {
-        let plan = stress_plan(&dataset, &model, &request).with_context(applied)?;
+        let plan = stress_plan(&dataset, &model, &request, &foreign).with_context(applied)?;
         output::write(None, |out| write!(out, "{plan}"))?;
         return Ok(exit::DONE);
     }
-    context.print_plan(|| stress_plan(&dataset, &model, &request))?;
-    let found = stress(&dataset, &model, &request, context.work(None)).with_context(applied)?;
+    context.print_plan(|| stress_plan(&dataset, &model, &request, &foreign))?;
+    let others = OtherFaults {
+        foreign: &foreign,
+        ..OtherFaults::default()
+    };
+    let work = context.work(None);
+    let found = stress_beside(&dataset, &model, &request, others, work).with_context(applied)?;
     let written = match args.output.format {
         Format::Csv => numbers(&found),
         _ => table(&found),
@@ -63,5 +78,56 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
         let figure = FaultResult::read(&json)?.figure();
         output::write(Some(path), |out| out.write_all(figure.svg().as_bytes()))?;
     }
-    Ok(exit::DONE)
+    Ok(match say_failed(&found, "") {
+        true => exit::DEVICE,
+        false => exit::DONE,
+    })
+}
+
+/// Prints the faults of plugins that failed, each with its reason. True if there is one.
+pub(super) fn say_failed(report: &StressReport, before: &str) -> bool {
+    for failed in &report.failed {
+        stderr::say(format_args!(
+            "{before}fault {} failed: {}",
+            shown(&failed.fault),
+            shown(&failed.reason)
+        ));
+    }
+    !report.failed.is_empty()
+}
+
+/// Faults of the plugins whose estimators have `keys`. A fault has the name behind the slash.
+///
+/// # Errors
+/// For a plugin that was not found, and for the name of another fault.
+fn plugin_faults(
+    keys: &[String],
+    seed: u64,
+    context: &Context,
+) -> anyhow::Result<Vec<PluginFault>> {
+    if keys.is_empty() {
+        return Ok(Vec::new());
+    }
+    let estimators = context.plugins(None)?.models();
+    let faults = keys.iter().enumerate().map(|(number, key)| {
+        let refused = |words: String| Usage::error(format!("--faults {words}"));
+        let name = own_name(key);
+        let is_before = keys[..number].iter().any(|before| own_name(before) == name);
+        if is_before || is_taken(name) {
+            let words = format!(
+                "`{}`: another fault is called `{}`; name the plugin in a scene by [[fault]], which gives it a name of its own",
+                shown(key),
+                shown(name)
+            );
+            return Err(refused(words));
+        }
+        let estimator = find(&estimators, key).map_err(refused)?;
+        Ok(PluginFault::new(name.to_owned(), estimator, seed))
+    });
+    faults.collect()
+}
+
+/// Name of an estimator within its plugin.
+fn own_name(key: &str) -> &str {
+    key.rsplit('/').next().unwrap_or(key)
 }

@@ -1,6 +1,13 @@
 //! Faults of pictures, scored with a fitted model.
 
 use std::fs;
+#[cfg(target_os = "linux")]
+use std::path::Path;
+#[cfg(target_os = "linux")]
+use std::process::Command;
+
+#[cfg(target_os = "linux")]
+use taceva_needs::{Need, skip};
 
 use crate::support::Bench;
 
@@ -178,6 +185,81 @@ fn wrong_faults_severities_models_and_seen_samples_are_refused_by_name() {
         );
     }
     bench.refused("stress nowhere --model m.taceva", 3, "nowhere");
+}
+
+#[test]
+fn a_fault_of_a_gel_is_refused_with_the_line_of_a_scene_that_tests_it() {
+    bench().refused(
+        "stress unseen --model m.taceva --faults tear,temperature",
+        2,
+        "fault `temperature`: only the bench knows its gel; write in a scene with a simulated sensor: stress = { faults = [\"temperature\"] }",
+    );
+}
+
+#[test]
+fn a_fault_of_a_plugin_that_is_not_installed_or_has_a_name_of_the_program_is_refused() {
+    let bench = bench();
+    let stress = "stress unseen --model m.taceva";
+    bench.refused(
+        &format!("{stress} --faults tear,org.example.fogged-lens/fog"),
+        2,
+        "--faults `org.example.fogged-lens/fog`: no estimator of a plugin",
+    );
+    for key in ["org.example.lens/dust", "org.example.gel/temperature"] {
+        let expected = format!("`{key}`: another fault is called");
+        bench.refused(&format!("{stress} --faults {key}"), 2, &expected);
+    }
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_fault_of_a_plugin_is_tested_by_its_key_beside_the_others() {
+    let bench = bench();
+    bench.make_example("estimator", "fogged-lens");
+    let stress = "stress unseen --model m.taceva --by parameter --plugin-dir fogged-lens";
+    let words = format!("{stress} --faults dust,org.example.fogged-lens/fog --severity 1,4");
+    let report = bench.json(&words);
+    crate::schema::check("stress", &report);
+    assert_eq!(report["list"]["name"], "dust,fog");
+    let severities = &report["faults"][1]["severities"];
+    let stimulus = |at: usize| severities[at]["stimulus"].as_f64().expect("a number");
+    assert!(0.0 < stimulus(0) && stimulus(0) < stimulus(1), "{report}");
+    let said = bench.ok(&format!("{words} --explain"));
+    assert!(
+        said.contains("fog: a fault of the plugin org.example.fogged-lens/fog"),
+        "{said}"
+    );
+    // Alone, it is the only fault.
+    let alone = bench.json(&format!(
+        "{stress} --faults org.example.fogged-lens/fog --severity 1"
+    ));
+    assert_eq!(alone["list"]["name"], "fog");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_fault_of_a_plugin_in_c_is_built_and_tested_as_its_page_says() {
+    if let Err(error) = Command::new("cc").arg("--version").output() {
+        skip(Need::CCompiler, format!("`cc`: {error}"));
+        return;
+    }
+    let bench = bench();
+    let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/plugins/fogged-lens-c");
+    let read = |file: &str| fs::read_to_string(example.join(file)).expect(file);
+    for file in ["fog.c", "plugin.toml"] {
+        bench.write(&format!("fog/{file}"), &read(file));
+    }
+    let page = read("README.md");
+    let commands = page.split("```").nth(1).expect("commands").trim();
+    let built = bench.shell(&format!("cd fog && {}", commands.replace('\n', " && ")));
+    assert_eq!(built.code, 0, "{}{}", built.out, built.err);
+    let report = bench.json(
+        "stress unseen --model m.taceva --faults org.example.fogged-lens-c/fog --severity 1,4 --by parameter --plugin-dir fog",
+    );
+    assert_eq!(report["list"]["name"], "fog");
+    let severities = &report["faults"][0]["severities"];
+    let stimulus = |at: usize| severities[at]["stimulus"].as_f64().expect("a number");
+    assert!(0.0 < stimulus(0) && stimulus(0) < stimulus(1), "{report}");
 }
 
 #[test]

@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use serde_json::Value;
+use taceva_sim::{Model, Parameters};
+
 use crate::support::Bench;
 
 /// A model of the recording `seen`, and recordings after 0, 1000 and 2000 presses.
@@ -150,13 +153,11 @@ wear = { load = "compression", cycles = [0, 3], force_N = 0.2, presses_since_gel
     let plan = bench.ok("plan gel.toml");
     assert!(plan.contains("3 cycles of compression to 0.2 N"), "{plan}");
     bench.ok("run gel.toml --out worn -q");
-    let entries = fs::read_dir(bench.path("worn/recordings")).expect("a folder");
-    let paths = entries.map(|entry| entry.expect("readable").path().join("dataset.toml"));
-    let mut paths: Vec<_> = paths.filter(|path| path.is_file()).collect();
-    paths.sort();
-    let headers = paths
-        .iter()
-        .map(|path| fs::read_to_string(path).expect("a header"));
+    let paths = recordings(&bench, "worn");
+    let headers = paths.iter().map(|path| {
+        let header = bench.path(path).join("dataset.toml");
+        fs::read_to_string(header).expect("a header")
+    });
     let headers: Vec<String> = headers.collect();
     // Six measured presses and three cycles lie between the two.
     let presses = ["presses_since_gel = 50\n", "presses_since_gel = 59\n"];
@@ -165,4 +166,86 @@ wear = { load = "compression", cycles = [0, 3], force_N = 0.2, presses_since_gel
         assert!(header.contains("model = \"gel\""), "{header}");
         assert!(header.contains(presses), "{header}");
     }
+}
+
+/// Recordings in the run at `folder`, in their order.
+fn recordings(bench: &Bench, folder: &str) -> Vec<String> {
+    let entries = fs::read_dir(bench.path(folder).join("recordings")).expect("a folder");
+    let names = entries.map(|entry| entry.expect("readable").file_name());
+    let paths = names.map(|name| format!("{folder}/recordings/{}", name.to_string_lossy()));
+    let mut paths: Vec<String> = paths
+        .filter(|path| bench.path(path).join("dataset.toml").is_file())
+        .collect();
+    paths.sort();
+    paths
+}
+
+/// A scene of a gel whose table states how fast it ages: by half of its stiffness in 43 presses of 1 N.
+fn loaded(sensor: &str, seed: u32, protocol: &str) -> String {
+    let table = Parameters::ageing_table(Model::GelSight.table()).expect("a table");
+    let rate = "value = 0.02, unit = \"1/kN\"";
+    assert_eq!(table.matches(rate).count(), 2, "{table}");
+    let table = table.replace(rate, "value = 16.0, unit = \"1/kN\"");
+    format!(
+        r#"scene_version = 1
+name = "gel"
+seed = {seed}
+robot = {{ driver = "sim/robot" }}
+force = {{ driver = "sim/force-transducer" }}
+model = {{ name = "ridge", set = {{ size = "8x8" }} }}
+metrics = {{ want = ["mae"] }}
+[sensor]
+driver = '''{sensor}table={table}'''
+[protocol]
+spatial = {{ points = 5 }}
+{protocol}
+"#
+    )
+}
+
+/// Error of Fz in each recording of a comparison.
+fn errors(report: &Value) -> Vec<f64> {
+    let recordings = report["gels"][0]["recordings"].as_array();
+    let recordings = recordings.expect("recordings").iter();
+    let errors = recordings.map(|of| of["mae"]["Fz"]["value"].as_f64().expect("an error"));
+    errors.collect()
+}
+
+#[test]
+fn a_simulated_gel_that_ages_by_loads_has_a_growing_error_and_another_has_none() {
+    let bench = Bench::new();
+    let many = "calibration = { points = 40, indentations = 3 }";
+    bench.write("fresh.toml", &loaded("sim/gelsight:", 8, many));
+    bench.ok("run fresh.toml --out fresh -q");
+    let fresh = recordings(&bench, "fresh").join(" ");
+    bench.ok(&format!(
+        "fit {fresh} --model ridge --set size=8x8 --out m.taceva -q"
+    ));
+    let load = |cycles: &str| {
+        format!(
+            "calibration = {{ points = 12, indentations = 2 }}\nwear = {{ load = \"compression\", cycles = {cycles}, force_N = 0.5 }}"
+        )
+    };
+    let compared = |name: &str, sensor: &str, cycles: &str| {
+        bench.write(&format!("{name}.toml"), &loaded(sensor, 7, &load(cycles)));
+        bench.ok(&format!("run {name}.toml --out {name} -q"));
+        let stages = recordings(&bench, name).join(" ");
+        bench.json(&format!("wear {stages} --model m.taceva"))
+    };
+    let worn = compared("worn", "sim/gelsight:ages=true;", "[0, 5, 10, 15, 20]");
+    assert_eq!(worn["gels"].as_array().map(Vec::len), Some(1), "{worn}");
+    let grown = errors(&worn);
+    assert_eq!(grown.len(), 5);
+    assert!(grown[4] > 1.3 * grown[0], "{grown:?}");
+    let force = &worn["gels"][0]["channels"]["Fz"];
+    let [least, value] = [&force["slope"]["ci95"][0], &force["slope"]["value"]]
+        .map(|number| number.as_f64().expect("five recordings"));
+    assert!(0.0 < least && least < value, "{force}");
+    assert!(force["first_different"].is_string(), "{force}");
+    // The same loads on a gel that does not age.
+    let new = compared("new", "sim/gelsight:", "[0, 5]");
+    let same = errors(&new);
+    assert!((same[1] / same[0] - 1.0).abs() < 0.2, "{same:?}");
+    let force = &new["gels"][0]["channels"]["Fz"];
+    assert!(force["first_different"].is_null(), "{force}");
 }

@@ -118,9 +118,12 @@ impl PlannedScene {
         })?;
         let studies = scene.studies.iter().zip(plans).zip(sources);
         let studies = studies.map(|((study, plan), source)| PlannedStudy {
+            source: match source.source {
+                StudySource::Rig(rig) => StudySource::Rig(rig.after(plan.wear.as_ref())),
+                recording @ StudySource::Recording(_) => recording,
+            },
             plan,
             study: study.clone(),
-            source: source.source,
         });
         Ok(PlannedScene {
             studies: studies.collect(),

@@ -66,7 +66,7 @@ pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
     let is_known = |name: &str| is_all(name) || known.contains(&name);
     if let Some(gel) = names.iter().find(|name| GEL_FAULTS.contains(name)) {
         return Err(EvaluateError::Request(format!(
-            "fault `{gel}`: only the bench knows its gel; name it under [stress] of a scene with a simulated sensor"
+            "fault `{gel}`: only the bench knows its gel; write in a scene with a simulated sensor: stress = {{ faults = [\"{gel}\"] }}"
         )));
     }
     if let Some(unknown) = names.iter().find(|name| !is_known(name)) {

@@ -6,10 +6,9 @@ use taceva_evaluate::{EvaluateError, Work, model_extractor};
 use taceva_models::Extractor;
 
 use crate::findings::{CHANGED_REST, LOW};
-use crate::pass::{Predictor, UNTOUCHED};
+use crate::pass::{Predictor, UNTOUCHED, compares};
 use crate::report::SeverityReport;
 use crate::scale::difference;
-use crate::setup::compares;
 use crate::worn::{NewGel, ScoredFault};
 
 /// A fault of pictures that a plugin makes.

@@ -33,7 +33,7 @@ pub use report::{
 pub use setup::{StressRequest, stress_plan};
 pub use severity::{By, NEVER, TARGETS, Unreached, severities};
 pub use stress::Stress;
-pub use study::{OtherFaults, stress, stress_unseen};
+pub use study::{OtherFaults, stress, stress_beside, stress_unseen};
 pub use wear::{
     ChannelWear, GelWear, LimitMet, RecordingWear, WEAR_SCHEMA, WearBy, WearDifference, WearReport,
     WearRequest, wear,

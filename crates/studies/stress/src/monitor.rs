@@ -4,7 +4,7 @@ mod baseline;
 mod change;
 mod level;
 mod limit;
-mod outliers;
+mod lines;
 mod recording;
 
 use std::collections::{BTreeSet, VecDeque};
@@ -20,7 +20,7 @@ pub use self::recording::watch;
 use self::baseline::Baseline;
 use self::level::Level;
 use self::limit::{LEARNT, Limited, WINDOW};
-use self::outliers::{Outliers, line_change};
+use self::lines::line_change;
 use crate::scale::Scale;
 
 /// Pictures whose mean is the baseline.
@@ -75,7 +75,7 @@ pub struct Monitor {
     level: Level,
     pattern: Limited,
     detail: Limited,
-    lines: Outliers,
+    lines: Limited,
     before: Option<Frame>,
     /// True if a picture repeated the one before while the limits were set. Repeats are then no change.
     has_repeats: bool,
@@ -142,9 +142,9 @@ impl Monitor {
             settled: 0,
             baseline: None,
             level: Level::default(),
-            pattern: Limited::new(PATTERN),
-            detail: Limited::new(DETAIL),
-            lines: Outliers::new(LINES),
+            pattern: Limited::by_most(PATTERN),
+            detail: Limited::by_most(DETAIL),
+            lines: Limited::by_some(LINES),
             before: None,
             has_repeats: false,
             repeats: Newest::default(),

@@ -99,6 +99,11 @@ struct Row {
     cells: Vec<CellPredictions>,
 }
 
+/// True if predictions depend on an untouched picture.
+pub(crate) fn compares(model: &Model) -> bool {
+    model.reads_features() && model.card().features.asks_for_reference().is_some()
+}
+
 /// A model with its features of the recording.
 pub(crate) struct Predictor<'a> {
     pub(crate) model: &'a Model,

@@ -8,6 +8,8 @@ use taceva_results::not_measured;
 
 use crate::fault::{Fault, Scope};
 use crate::faults::{LIST, select};
+use crate::foreign::PictureFault;
+use crate::pass::compares;
 use crate::report::SkippedFault;
 use crate::samples::Unseen;
 use crate::scale::PICTURES;
@@ -45,10 +47,13 @@ impl Default for StressRequest {
 }
 
 impl StressRequest {
-    /// The wanted faults, if severities and draws are valid.
-    fn checked(&self) -> Result<Vec<&'static Fault>, EvaluateError> {
+    /// The wanted faults, if severities and draws are valid. With `has_others` none has to be named.
+    fn checked(&self, has_others: bool) -> Result<Vec<&'static Fault>, EvaluateError> {
         let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
-        let chosen = select(&self.faults)?;
+        let chosen = match self.faults.is_empty() && has_others {
+            true => Vec::new(),
+            false => select(&self.faults)?,
+        };
         let severities = &self.severities;
         if severities.is_empty()
             || !severities.iter().all(|of| (1..=5).contains(of))
@@ -75,9 +80,10 @@ impl Setup {
         dataset: &Dataset,
         model: &Model,
         request: &StressRequest,
+        has_others: bool,
     ) -> Result<Setup, EvaluateError> {
         require_testable(dataset, model)?;
-        let chosen = request.checked()?;
+        let chosen = request.checked(has_others)?;
         let samples = Unseen::of(dataset, model, request.part)?;
         Ok(Setup::with(samples, chosen, request))
     }
@@ -88,12 +94,9 @@ impl Setup {
         model: &Model,
         target: Target,
         request: &StressRequest,
-        has_worn: bool,
+        has_others: bool,
     ) -> Result<Setup, EvaluateError> {
-        let chosen = match request.faults.is_empty() && has_worn {
-            true => Vec::new(),
-            false => request.checked()?,
-        };
+        let chosen = request.checked(has_others)?;
         let samples = Unseen::of_target(dataset, model, target)?;
         Ok(Setup::with(samples, chosen, request))
     }
@@ -135,7 +138,7 @@ fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
     }
 }
 
-/// Steps of [`stress`](fn@crate::stress). Reads no picture.
+/// Steps of [`stress_beside`](crate::stress_beside) with the faults of plugins `foreign`. Reads no picture.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, or the model does not suit the recording.
@@ -143,8 +146,9 @@ pub fn stress_plan(
     dataset: &Dataset,
     model: &Model,
     request: &StressRequest,
+    foreign: &[&dyn PictureFault],
 ) -> Result<Plan, EvaluateError> {
-    let setup = Setup::new(dataset, model, request)?;
+    let setup = Setup::new(dataset, model, request, !foreign.is_empty())?;
     let mut plan = Plan::default();
     let rows = counted(dataset.table().rows(), "row");
     plan.step("read", format!("{rows} of {}", shown(dataset.path())));
@@ -160,9 +164,16 @@ pub fn stress_plan(
     );
     let draws = |fault: &Fault| draw_seeds(fault, request.seed, request.draws).len();
     let cells: usize = setup.faults.iter().map(|fault| draws(fault)).sum();
-    let cells = cells * request.severities.len();
+    let cells = (cells + foreign.len()) * request.severities.len();
     for fault in &setup.faults {
         plan.step("fault", format!("{}: {}", fault.id, fault.title));
+    }
+    for fault in foreign {
+        let (name, key) = (fault.name(), fault.key());
+        plan.step(
+            "fault",
+            format!("{name}: a fault of the plugin {key}; each frame is decoded once more"),
+        );
     }
     for skipped in &setup.skipped {
         plan.step("skip", format!("{}: {}", skipped.fault, skipped.reason));
@@ -170,7 +181,8 @@ pub fn stress_plan(
     let fresh = setup.faults.iter();
     let fresh = fresh.filter(|fault| compares(model) && fault.scope != Scope::Each);
     let fresh: usize = fresh.map(|fault| draws(fault)).sum();
-    let fresh = fresh * request.severities.len();
+    let of_plugins = if compares(model) { foreign.len() } else { 0 };
+    let fresh = (fresh + of_plugins) * request.severities.len();
     plan.step(
         "predict",
         format!(
@@ -186,9 +198,4 @@ pub fn stress_plan(
         plan.step("note", words);
     }
     Ok(plan)
-}
-
-/// True if predictions depend on an untouched picture.
-pub(crate) fn compares(model: &Model) -> bool {
-    model.reads_features() && model.card().features.asks_for_reference().is_some()
 }

@@ -13,14 +13,14 @@ use crate::faults::{FAULTS, LIST, LIST_VERSION};
 use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
 use crate::foreign::PictureFault;
 use crate::notes::notes;
-use crate::pass::{Cell, CellPredictions, UNTOUCHED, predictions};
+use crate::pass::{Cell, CellPredictions, UNTOUCHED, compares, predictions};
 use crate::report::{
     ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
     StressReport,
 };
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
-use crate::setup::{Setup, StressRequest, compares};
+use crate::setup::{Setup, StressRequest};
 use crate::severity::{By, Levels, Reference};
 use crate::stress::{Stress, draw_seeds};
 use crate::worn::{NewGel, ScoredFault, WornFault};
@@ -35,12 +35,25 @@ pub fn stress(
     request: &StressRequest,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
-    let setup = Setup::new(dataset, model, request)?;
-    measure(dataset, model, setup, request, OtherFaults::default(), work)
+    stress_beside(dataset, model, request, OtherFaults::default(), work)
 }
 
-/// Same as [`stress`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
-/// The faults in `others` come after those of `request`; without a name in `request.faults`, they are the only ones.
+/// Same as [`stress`], with the faults in `others` after those of `request`. Without a name in `request.faults`, they are the only ones.
+///
+/// # Errors
+/// Errors of [`stress`].
+pub fn stress_beside(
+    dataset: &Dataset,
+    model: &Model,
+    request: &StressRequest,
+    others: OtherFaults<'_>,
+    work: Work<'_>,
+) -> Result<StressReport, EvaluateError> {
+    let setup = Setup::new(dataset, model, request, others.is_some())?;
+    measure(dataset, model, setup, request, others, work)
+}
+
+/// Same as [`stress_beside`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
 ///
 /// # Errors
 /// Errors of [`stress`].
@@ -52,8 +65,7 @@ pub fn stress_unseen(
     others: OtherFaults<'_>,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
-    let has_others = !others.worn.is_empty() || !others.foreign.is_empty();
-    let setup = Setup::of_target(dataset, model, target, request, has_others)?;
+    let setup = Setup::of_target(dataset, model, target, request, others.is_some())?;
     measure(dataset, model, setup, request, others, work)
 }
 
@@ -69,6 +81,12 @@ pub struct OtherFaults<'a> {
     pub worn: &'a [WornFault],
     /// Faults of pictures that plugins make.
     pub foreign: &'a [&'a dyn PictureFault],
+}
+
+impl OtherFaults<'_> {
+    fn is_some(&self) -> bool {
+        !self.worn.is_empty() || !self.foreign.is_empty()
+    }
 }
 
 fn measure(

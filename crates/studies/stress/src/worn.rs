@@ -10,11 +10,10 @@ use taceva_models::Model;
 
 use crate::estimate::{Estimate, Undefined};
 use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers};
-use crate::pass::Predictor;
+use crate::pass::{Predictor, compares};
 use crate::report::{ByChannel, CleanScore, FaultReport, SeverityReport, SkippedFault};
 use crate::scale::{Scale, difference};
 use crate::score::{Scored, Scorer, degradation};
-use crate::setup::compares;
 
 /// A fault of a gel, with a recording of the same presses for each severity. A bench that knows its gel makes it; others only read it.
 #[derive(Debug)]

@@ -19,7 +19,7 @@ use super::state::State;
 use crate::bench::Bench;
 use crate::contact::BOARD_SIDE_MM;
 use crate::optics::{AmbientLight, Board, Camera, OpticsSpec, Stimulus, View};
-use crate::parameters::{Model, Parameters};
+use crate::parameters::{Model, ParameterError, Parameters};
 use crate::specimen::GratingPose;
 
 /// Opens simulated sensors of one model.
@@ -43,7 +43,7 @@ impl SensorFactory {
         })
     }
 
-    /// Parameters of the model, or of the table that the argument `table` names. Without noise for `quiet`.
+    /// Parameters of the model, or of the table that the argument `table` names. Without noise for `quiet`, aged for `ages`.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());
@@ -53,11 +53,22 @@ impl SensorFactory {
         });
         let worn = worn.transpose()?;
         let table = worn.as_deref().unwrap_or(table);
+        let aged = match args.flag("ages") {
+            true => Parameters::ageing_table(table).map(Some),
+            false => Ok(None),
+        };
+        let refused = |error: ParameterError| format!("invalid `table`: {error}");
+        let aged = aged.map_err(refused)?;
+        let table = aged.as_deref().unwrap_or(table);
         let parameters = match args.flag("quiet") {
             true => Parameters::parse_quiet(table),
             false => Parameters::parse(table),
         };
-        parameters.map_err(|error| format!("invalid `table`: {error}"))
+        let parameters = parameters.map_err(refused)?;
+        Ok(match aged {
+            Some(_) => parameters.aged(args.number("load_kn")),
+            None => parameters,
+        })
     }
 }
 

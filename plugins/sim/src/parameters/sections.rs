@@ -180,7 +180,26 @@ section! {
     }
 }
 
+section! {
+    /// Ageing of the gel by presses. A gel without this section does not age.
+    Ageing, "ageing", {
+        /// Rate at which the gel loses stiffness, for a kilonewton: the sum of the forces of all presses. Negative if the gel hardens.
+        softening_per_kn: "1/kN", -10.0 ..= 100.0;
+        /// Rate at which the surface loses friction and gains gloss.
+        polishing_per_kn: "1/kN", 0.0 ..= 100.0;
+    }
+}
+
 impl GelWear {
+    /// A gel without wear.
+    pub(super) const NONE: GelWear = GelWear {
+        shift_mm: 0.0,
+        gloss: 0.0,
+        scratches: 0.0,
+        tear_radius_mm: 0.0,
+        dust: 0.0,
+    };
+
     /// Shift of the gel along x and y, mm.
     pub fn shift_xy_mm(&self) -> [f64; 2] {
         [self.shift_mm, 0.5 * self.shift_mm]

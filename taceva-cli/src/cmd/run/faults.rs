@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use anyhow::Context as _;
 use taceva_acquire::{PlannedScene, PlannedStudy, Workshop};
-use taceva_core::{EstimatorFactory, Field, counted, shown, suggestion};
+use taceva_core::{EstimatorFactory, Field, counted, shown};
 use taceva_dataset::Dataset;
 use taceva_drivers::Drivers;
 use taceva_protocol::{Cancel, PlannedPress, SceneProblem};
@@ -20,10 +20,11 @@ use taceva_stress::{
 use taceva_study::{FinishedStudy, FittedStudy, RunFolder};
 
 use super::Context;
-use super::plugin_fault::PluginFault;
 use crate::args::Format;
+use crate::cmd::plugin_fault::{PluginFault, find, is_taken};
 use crate::cmd::scene::tested_presses;
-use crate::{output, progress, stderr};
+use crate::cmd::stress::say_failed;
+use crate::{output, progress};
 
 /// Reason why a study without predictions has no errors to test.
 const NO_PREDICTIONS: &str =
@@ -211,15 +212,7 @@ pub(super) fn test(run: &TestedRun<'_>, studies: Vec<FinishedStudy>) -> anyhow::
         if let Some(wanted) = &wanted {
             match of_study(run, number, &dataset, fitted, wanted)? {
                 Ok(found) => {
-                    for failed in &found.failed {
-                        tested.has_failed = true;
-                        stderr::say(format_args!(
-                            "{}: fault {} failed: {}",
-                            shown(name),
-                            shown(&failed.fault),
-                            shown(&failed.reason)
-                        ));
-                    }
+                    tested.has_failed |= say_failed(&found, &format!("{}: ", shown(name)));
                     faults = Some(write(&found, folder, number, name)?);
                 }
                 Err(reason) => notes.push(format!("faults are not tested: {reason}")),
@@ -282,40 +275,28 @@ fn of_study(
 ///
 /// # Errors
 /// For a plugin that was not found, and for the name of another fault.
-pub(super) fn plugin_faults(
+pub(in crate::cmd) fn plugin_faults(
     planned: &PlannedScene,
     estimators: &[Arc<dyn EstimatorFactory>],
 ) -> anyhow::Result<Vec<PluginFault>> {
     let faults = planned.scene.faults.iter();
     let faults = faults.map(|fault| -> anyhow::Result<PluginFault> {
         let name = &fault.name.value;
-        if gel_fault(name).is_some() || select(std::slice::from_ref(name)).is_ok() {
+        let refused = |at, words: String| {
+            let problem = SceneProblem::Contradiction(words);
+            anyhow::Error::from(planned.text.error(at, problem))
+        };
+        if is_taken(name) {
             let words = format!(
                 "`{}`: a fault of the program has this name, expected another",
                 shown(name)
             );
-            let problem = SceneProblem::Contradiction(words);
-            return Err(planned.text.error(fault.name.at(), problem).into());
+            return Err(refused(fault.name.at(), words));
         }
-        let key = fault.plugin.value.as_str();
-        let mut known = estimators.iter();
-        let found = known.find(|known| known.key().as_str() == key);
-        let Some(estimator) = found else {
-            let keys = estimators.iter().map(|known| known.key().as_str());
-            let keys: Vec<&str> = keys.collect();
-            let words = format!(
-                "`{}`: no estimator of a plugin, {}; `taceva plugin list` shows what is installed",
-                shown(key),
-                match keys.is_empty() {
-                    true => "none is installed".to_owned(),
-                    false => suggestion(key, &keys),
-                }
-            );
-            let problem = SceneProblem::Contradiction(words);
-            return Err(planned.text.error(fault.plugin.at(), problem).into());
-        };
+        let found = find(estimators, &fault.plugin.value);
+        let estimator = found.map_err(|words| refused(fault.plugin.at(), words))?;
         let seed = planned.scene.seed;
-        Ok(PluginFault::new(name.clone(), Arc::clone(estimator), seed))
+        Ok(PluginFault::new(name.clone(), estimator, seed))
     });
     faults.collect()
 }

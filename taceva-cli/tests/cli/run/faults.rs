@@ -166,7 +166,14 @@ fn a_fault_of_a_plugin_that_is_not_installed_is_refused_before_any_press() {
     let bench = Bench::new();
     let fault = "[[fault]]\nname = \"fog\"\nplugin = \"org.example.fogged-lens/fog\"\n";
     bench.write("worn.toml", &format!("{}{fault}", scene(STRESS)));
-    bench.refused("run worn.toml", 3, "no estimator of a plugin");
+    for command in ["run", "plan"] {
+        let words = format!("{command} worn.toml");
+        bench.refused(
+            &words,
+            3,
+            "line 13: `org.example.fogged-lens/fog`: no estimator of a plugin",
+        );
+    }
     let named = scene(STRESS) + &fault.replace("fog\"\np", "dust\"\np");
     bench.write("named.toml", &named);
     bench.refused("run named.toml", 3, "a fault of the program has this name");

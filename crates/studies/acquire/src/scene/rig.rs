@@ -7,7 +7,9 @@ use taceva_core::{
     ArgKind, ArgSpec, Descriptor, Device, DriverKind, DriverSource, EnablingSwitch, Registry,
 };
 use taceva_drivers::{Drivers, Selector};
-use taceva_protocol::{RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study};
+use taceva_protocol::{
+    PlannedWear, RigFile, RigInfo, Scene, SceneError, SceneProblem, Setting, Study,
+};
 
 /// Byte offset in the scene, and the problem at this offset.
 pub(crate) type Refused = (Option<usize>, SceneProblem);
@@ -21,6 +23,8 @@ pub(crate) struct RigSpec {
     pub(crate) lighting: Option<Setting<String>>,
     /// True if the changers are also opened.
     pub(crate) changes: bool,
+    /// Sum of the forces of all presses on the gel before the measured ones, kN; `None` without `[protocol.wear]`.
+    load_kn: Option<f64>,
     seed: u64,
     /// Base folder of relative paths.
     folder: PathBuf,
@@ -48,6 +52,7 @@ impl RigSpec {
             force: driver(&study.force),
             lighting: lighting.and_then(|lighting| lighting.driver.clone()),
             changes: true,
+            load_kn: None,
             seed,
             folder: folder.to_owned(),
         }
@@ -64,9 +69,16 @@ impl RigSpec {
             force: force.map(|force| force.driver.clone()),
             lighting: None,
             changes: false,
+            load_kn: None,
             seed: 0,
             folder: folder.to_owned(),
         }
+    }
+
+    /// The same devices after the loads of `wear`. Each press since the gel was new counts with the force of a cycle.
+    pub(crate) fn after(self, wear: Option<&PlannedWear>) -> RigSpec {
+        let load_kn = wear.map(|wear| f64::from(wear.presses_since_gel) * wear.force_n / 1000.0);
+        RigSpec { load_kn, ..self }
     }
 
     /// The same devices with `fault` of `severity` of the simulated gel.
@@ -110,6 +122,7 @@ impl RigSpec {
     }
 
     /// Selector of `device` for `unit`. It is the written selector, with seed and unit added if the driver accepts them and the scene does not set them.
+    /// A simulated gel that ages also gets the load of the presses before.
     pub(crate) fn selector<D: Device + ?Sized>(
         &self,
         registry: &Registry<D>,
@@ -123,10 +136,22 @@ impl RigSpec {
             .map_err(|error| refused(error.to_string()))?;
         let taken = factory.descriptor().arguments();
         let mut arguments = self.located(written.arguments(), taken);
-        for (key, value) in [("seed", self.seed.to_string()), ("unit", unit.to_owned())] {
+        let is_given = |arguments: &str, key: &str| {
+            let mut given = arguments.split(';').filter_map(|part| part.split_once('='));
+            given.any(|(name, _)| name.trim() == key)
+        };
+        let load_kn = self.load_kn.filter(|_| is_given(&arguments, "ages"));
+        let added = [
+            ("seed", Some(self.seed.to_string())),
+            ("unit", Some(unit.to_owned())),
+            ("load_kn", load_kn.map(|load| load.to_string())),
+        ];
+        for (key, value) in added {
             let takes = taken.iter().any(|argument| argument.key == key);
-            let given = arguments.split(';').filter_map(|part| part.split_once('='));
-            if takes && !given.into_iter().any(|(name, _)| name.trim() == key) {
+            if let Some(value) = value
+                && takes
+                && !is_given(&arguments, key)
+            {
                 let separator = if arguments.is_empty() { "" } else { ";" };
                 arguments = format!("{arguments}{separator}{key}={value}");
             }

@@ -4,19 +4,40 @@ use std::collections::VecDeque;
 
 /// Pictures that set a limit.
 pub(super) const LEARNT: usize = 200;
-/// Rank of the limit among them, from the greatest number.
-const RANK: usize = 20;
 /// Newest pictures that are compared with the limit.
 pub(super) const WINDOW: usize = 30;
-/// Least number of them beyond the limit that shows a change.
-const BEYOND: usize = 19;
 
 /// Multiples of the farthest run of [`WINDOW`] pictures that set the limit. They count if successive pictures are alike, as with slow flicker.
 pub(super) const RUNS: f64 = 3.0;
 
+/// Numbers of pictures that set a limit and exceed it.
+#[derive(Clone, Copy, Debug)]
+struct Rule {
+    /// Least number of the newest pictures beyond the limit that shows a change.
+    beyond: usize,
+    /// Pictures of a run that exceed or reach its distance.
+    reach: usize,
+    /// Rank of the limit among [`LEARNT`] pictures, from the greatest number.
+    rank: usize,
+}
+
+/// Most of the newest pictures are beyond the limit.
+const MOST: Rule = Rule {
+    beyond: 19,
+    reach: 19,
+    rank: 20,
+};
+/// Some of the newest pictures are far beyond all that set the limit.
+const SOME: Rule = Rule {
+    beyond: 3,
+    reach: 1,
+    rank: 1,
+};
+
 /// A number of each untouched picture, with its limit.
 #[derive(Clone, Debug)]
 pub(super) struct Limited {
+    rule: Rule,
     /// Least excess over the median that counts as beyond.
     least: f64,
     /// Pictures that set the limit, at least [`WINDOW`].
@@ -34,8 +55,19 @@ struct Limit {
 }
 
 impl Limited {
-    pub(super) fn new(least: f64) -> Limited {
+    /// A limit that most of the newest pictures exceed after a change.
+    pub(super) fn by_most(least: f64) -> Limited {
+        Limited::new(MOST, least)
+    }
+
+    /// A limit that only strange pictures exceed, three of the newest after a change.
+    pub(super) fn by_some(least: f64) -> Limited {
+        Limited::new(SOME, least)
+    }
+
+    fn new(rule: Rule, least: f64) -> Limited {
         Limited {
+            rule,
             least,
             wanted: LEARNT,
             learnt: Vec::new(),
@@ -59,7 +91,7 @@ impl Limited {
         self.limit.map(|of| of.limit - of.median)
     }
 
-    /// Takes the number of the next picture. Returns its usual excess over the median, if [`BEYOND`] of the newest pictures are beyond the limit.
+    /// Takes the number of the next picture. Returns the usual excess of the pictures beyond the limit, if enough of the newest pictures are.
     pub(super) fn push(&mut self, number: f64) -> Option<f64> {
         let Some(Limit { median, limit }) = self.limit else {
             self.learnt.push(number);
@@ -75,7 +107,7 @@ impl Limited {
         let beyond = self.newest.iter().copied();
         let mut beyond: Vec<f64> = beyond.filter(|number| *number > limit).collect();
         beyond.sort_unstable_by(f64::total_cmp);
-        (beyond.len() >= BEYOND).then(|| beyond[beyond.len() / 2] - median)
+        (beyond.len() >= self.rule.beyond).then(|| beyond[beyond.len() / 2] - median)
     }
 
     fn limit_of_learnt(&self) -> Limit {
@@ -87,14 +119,14 @@ impl Limited {
         let runs = self.learnt.windows(WINDOW).map(|run| {
             let mut run = run.to_vec();
             run.sort_unstable_by(f64::total_cmp);
-            run[WINDOW - BEYOND] - median
+            run[WINDOW - self.rule.reach] - median
         });
         let farthest = runs.fold(0.0, f64::max);
         let excess = self.least.max(RUNS * farthest);
         Limit {
             median,
             // The same share of the pictures is beyond it, however many there are.
-            limit: sorted[count - (RANK * count / LEARNT).max(1)].max(median + excess),
+            limit: sorted[count - (self.rule.rank * count / LEARNT).max(1)].max(median + excess),
         }
     }
 }
@@ -104,7 +136,7 @@ impl Limited {
 /// The share q of pictures beyond the k-th greatest of n numbers has the distribution Beta(k, n + 1 − k), whatever the distribution of the numbers.
 /// The number of pictures of a window beyond the limit is therefore beta-binomial. The sum over all windows is an upper bound, because windows overlap.
 pub(super) fn false_alarms(pictures: u64) -> f64 {
-    let chance: f64 = (BEYOND..=WINDOW).map(chance_of).sum();
+    let chance: f64 = (MOST.beyond..=WINDOW).map(chance_of).sum();
     pictures as f64 * chance
 }
 
@@ -116,7 +148,8 @@ fn chance_of(beyond: usize) -> f64 {
         factors.map(|factor| factor as f64).product()
     };
     let choices = rising(within + 1, beyond) / rising(1, beyond);
-    choices * rising(RANK, beyond) * rising(LEARNT + 1 - RANK, within) / rising(LEARNT + 1, WINDOW)
+    let rank = MOST.rank;
+    choices * rising(rank, beyond) * rising(LEARNT + 1 - rank, within) / rising(LEARNT + 1, WINDOW)
 }
 
 #[cfg(test)]
@@ -131,7 +164,7 @@ mod tests {
 
     #[test]
     fn a_change_is_nineteen_of_thirty_pictures_beyond_the_limit() {
-        let mut limited = Limited::new(0.05);
+        let mut limited = Limited::by_most(0.05);
         for number in 0_u16..200 {
             assert_eq!(limited.missing(), 200 - usize::from(number));
             let number = number * 7 % 200;
@@ -139,13 +172,13 @@ mod tests {
         }
         let smallest = limited.smallest().expect("a limit");
         assert!((smallest - 0.05).abs() < 1e-12, "{smallest}");
-        for _ in 1..BEYOND {
+        for _ in 1..MOST.beyond {
             assert_eq!(limited.push(0.3), None);
         }
         let excess = limited.push(0.3).expect("a change");
         assert!((excess - 0.25).abs() < 1e-12, "{excess}");
         // The first of them leaves the window at last.
-        for _ in BEYOND..WINDOW {
+        for _ in MOST.beyond..WINDOW {
             assert!(limited.push(0.09).is_some());
         }
         assert_eq!(limited.push(0.09), None);
@@ -153,10 +186,28 @@ mod tests {
 
     #[test]
     fn slow_flicker_that_was_there_while_the_limit_was_set_is_no_change() {
-        let mut limited = Limited::new(0.05);
+        let mut limited = Limited::by_most(0.05);
         for number in 0..5000 {
             let flicker = 0.2 * (f64::from(number) * std::f64::consts::TAU / 200.0).sin();
             assert_eq!(limited.push(flicker), None, "{number}");
         }
+    }
+
+    #[test]
+    fn three_strange_pictures_among_thirty_are_a_change_and_two_are_none() {
+        let mut limited = Limited::by_some(0.1);
+        for number in 0..200_u8 {
+            assert_eq!(limited.push(f64::from(number % 5) / 100.0), None);
+        }
+        let smallest = limited.smallest().expect("a limit");
+        assert!((smallest - 0.1).abs() < 1e-12, "{smallest}");
+        for _ in 0..100 {
+            let newest = [0.5, 0.5].into_iter().chain([0.04; 28]);
+            let found: Vec<f64> = newest.filter_map(|number| limited.push(number)).collect();
+            assert!(found.is_empty(), "{found:?}");
+        }
+        let found = [0.5, 0.5, 0.04, 0.5].map(|number| limited.push(number));
+        let excess = found[3].expect("a change");
+        assert!((excess - 0.48).abs() < 1e-12, "{excess}");
     }
 }

@@ -31,11 +31,10 @@ impl Monitor {
             return Ok(false);
         }
         let learnt = untouched.len().min(Monitor::PICTURES) / RUN * RUN;
-        for limited in [&mut self.pattern, &mut self.detail] {
+        for limited in [&mut self.pattern, &mut self.detail, &mut self.lines] {
             limited.want(learnt - RUN);
         }
         self.level.want(learnt - RUN);
-        self.lines.want(learnt - RUN);
         let last = learnt / RUN - 1;
         let chosen = (0..learnt).map(|place| {
             let first = place / RUN * (untouched.len() - RUN) / last;

@@ -147,7 +147,8 @@ impl Watched {
     }
 }
 
-fn taken(camera: &mut Camera, view: &View) -> Frame {
+/// The picture of `view`.
+pub(crate) fn taken(camera: &mut Camera, view: &View) -> Frame {
     let info = camera.frame_info();
     let mut bytes = vec![0; info.byte_len().expect("a small frame")];
     let into = FrameMut::new(info, &mut bytes).expect("its own frame");

@@ -1,8 +1,10 @@
 //! Digests of the sixty cells: every fault with the five parameters of its table. A changed digest is another fault, so its list needs a new version.
 
-use taceva_core::{Frame, PixelFormat};
+use std::process::Command;
+
+use taceva_core::{Frame, Isa, PixelFormat};
 use taceva_dataset::Digest;
-use taceva_stress::{FAULTS, Stress};
+use taceva_stress::{FAULTS, Fault, Stress};
 
 use crate::drawing::{picture, press};
 
@@ -29,27 +31,33 @@ fn coloured(number: u32) -> Frame {
     })
 }
 
-#[test]
-fn digests_of_the_sixty_cells_are_the_golden_ones() {
+/// First sixteen digits of the digest of `fault`, over its five parameters.
+fn digits(fault: &'static Fault) -> String {
     let pairs = [
         [press(1.0, 9.0, 3), press(0.5, 4.0, 2)],
         [coloured(1), coloured(2)],
     ];
-    let rows = FAULTS.map(|fault| {
-        let mut bytes = Vec::new();
-        for parameter in fault.table {
-            let stress = Stress::new(fault, parameter, 5);
-            for [frame, before] in &pairs {
-                for sample in 0..4 {
-                    let changed = stress.apply(frame, &format!("s{sample}"), Some(before));
-                    bytes.extend_from_slice(changed.bytes());
-                }
+    let mut bytes = Vec::new();
+    for parameter in fault.table {
+        let stress = Stress::new(fault, parameter, 5);
+        for [frame, before] in &pairs {
+            for sample in 0..4 {
+                let changed = stress.apply(frame, &format!("s{sample}"), Some(before));
+                bytes.extend_from_slice(changed.bytes());
             }
         }
-        let digest = Digest::of(&bytes).to_string();
-        let digits = digest.rsplit(':').next().unwrap_or_default();
-        (fault.id, digits[..16].to_owned())
-    });
+    }
+    let digest = Digest::of(&bytes).to_string();
+    let digits = digest.rsplit(':').next().unwrap_or_default();
+    digits[..16].to_owned()
+}
+
+/// Name of the next test.
+const SIXTY: &str = "golden::digests_of_the_sixty_cells_are_the_golden_ones";
+
+#[test]
+fn digests_of_the_sixty_cells_are_the_golden_ones() {
+    let rows = FAULTS.map(|fault| (fault.id, digits(fault)));
     let found = rows.each_ref().map(|(id, digits)| (*id, digits.as_str()));
     let lines = found.map(|row| format!("    {row:?},\n"));
     assert_eq!(
@@ -58,4 +66,35 @@ fn digests_of_the_sixty_cells_are_the_golden_ones() {
         "expected rows of GOLDEN:\n{}",
         lines.concat()
     );
+}
+
+/// A process selects its instruction set once, so each set has a process of its own.
+#[test]
+fn digests_of_the_sixty_cells_are_the_golden_ones_by_every_instruction_set_of_the_machine() {
+    let program = std::env::current_exe().expect("this program");
+    for isa in Isa::available() {
+        let mut command = Command::new(&program);
+        command
+            .args(["--exact", SIXTY])
+            .env("TACEVA_ISA", isa.name());
+        let output = command.output().expect("this program runs");
+        let text = String::from_utf8_lossy(&output.stdout);
+        assert!(output.status.success(), "{isa}: {text}");
+        assert!(text.contains("1 passed"), "{isa}: {text}");
+    }
+}
+
+#[test]
+fn digests_of_the_sixty_cells_are_the_golden_ones_in_any_order_and_by_sixteen_threads() {
+    std::thread::scope(|scope| {
+        for first in 0..16 {
+            scope.spawn(move || {
+                for place in 0..FAULTS.len() {
+                    let at = (5 * place + first) % FAULTS.len();
+                    let found = (FAULTS[at].id, digits(FAULTS[at]));
+                    assert_eq!((found.0, found.1.as_str()), GOLDEN[at]);
+                }
+            });
+        }
+    });
 }

@@ -1,10 +1,13 @@
 //! Faults of pictures, their severities, and the scores of models with them.
 
 mod bad_input;
+mod bench_checks;
 mod bench_monitor;
 mod drawing;
 mod foreign;
 mod golden;
+#[cfg(target_os = "linux")]
+mod memory;
 mod monitor;
 mod pictures;
 mod scores;

@@ -294,7 +294,7 @@ fn pictures_are_decoded_once_for_all_cells_and_jobs_change_no_byte() {
     assert!(decoded <= u64::from(PRESSES) + 33, "{decoded}");
     assert!(decoded >= u64::from(PRESSES), "{decoded}");
     let work = Work {
-        jobs: NonZeroUsize::new(4).expect("four"),
+        jobs: NonZeroUsize::new(16).expect("sixteen"),
         ..WORK
     };
     let other = stress(&dataset, &model, &request, work).expect("tested");
@@ -329,7 +329,7 @@ fn a_plan_names_faults_and_frames_and_reads_none() {
     let folder = tempfile::tempdir().expect("a folder");
     let (dataset, model) = unseen(folder.path());
     let request = by_parameter(&["tear", "stale_frames"]);
-    let plan = stress_plan(&dataset, &model, &request).expect("planned");
+    let plan = stress_plan(&dataset, &model, &request, &[]).expect("planned");
     let text = plan.to_string();
     assert!(text.contains("60 frames of the part `all`"), "{text}");
     assert!(text.contains("fault    tear: a disc"), "{text}");

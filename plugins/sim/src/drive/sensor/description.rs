@@ -84,12 +84,20 @@ pub(super) fn describe(
         ArgSpec::whole("severity", 1, 5)
             .default(ArgValue::Whole(1))
             .help("severity of the fault"),
+        ArgSpec::flag("ages").default(ArgValue::Flag(false)).help(
+            "the gel ages by the forces of earlier presses, at the rates under [ageing] of its table, otherwise at rates chosen for the simulation",
+        ),
+        ArgSpec::number("load_kn", 0.0, LOAD_KN)
+            .default(ArgValue::Number(0.0))
+            .help("sum of the forces of earlier presses, kN; [protocol.wear] of a scene sets it"),
         ArgSpec::flag("quiet").default(ArgValue::Flag(false)).help(
             "disables noise, drift and relaxation, so output depends only on the pose of the tip",
         ),
     ])
 }
 
+/// Maximum sum of the forces of earlier presses, kN.
+const LOAD_KN: f64 = 1000.0;
 /// Maximum unit number.
 const UNITS: i64 = 1_000_000;
 /// Maximum reduction.

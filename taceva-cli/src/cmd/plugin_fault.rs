@@ -6,13 +6,40 @@ use std::time::Duration;
 
 use taceva_core::{
     Channel, Channels, EstimatorFactory, FeatureShape, Features, Frame, ModelError, Saved, Unit,
+    shown, suggestion,
 };
-use taceva_stress::PictureFault;
+use taceva_stress::{GEL_FAULTS, PictureFault, select};
 
 /// Longest time for one picture.
 const LONGEST: Duration = Duration::from_secs(1);
 /// Longest time for the first picture, which also starts the plugin.
 const FIRST: Duration = Duration::from_secs(10);
+
+/// True if a fault of the program is called `name`, or their list.
+pub(super) fn is_taken(name: &str) -> bool {
+    GEL_FAULTS.contains(&name.trim()) || select(&[name.to_owned()]).is_ok()
+}
+
+/// The estimator called `key`, or the words for one that no plugin has.
+pub(super) fn find(
+    estimators: &[Arc<dyn EstimatorFactory>],
+    key: &str,
+) -> Result<Arc<dyn EstimatorFactory>, String> {
+    let mut known = estimators.iter();
+    let found = known.find(|known| known.key().as_str() == key);
+    found.map(Arc::clone).ok_or_else(|| {
+        let keys = estimators.iter().map(|known| known.key().as_str());
+        let keys: Vec<&str> = keys.collect();
+        format!(
+            "`{}`: no estimator of a plugin, {}; `taceva plugin list` shows what is installed",
+            shown(key),
+            match keys.is_empty() {
+                true => "none is installed".to_owned(),
+                false => suggestion(key, &keys),
+            }
+        )
+    })
+}
 
 /// Fault of pictures that a plugin makes.
 pub(super) struct PluginFault {
