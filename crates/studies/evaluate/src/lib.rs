@@ -33,6 +33,7 @@ mod rows;
 mod run_layout;
 mod samples;
 mod score;
+mod score_states;
 mod sensor_facts;
 mod skill;
 mod state_file;

@@ -168,6 +168,7 @@ pub fn score(
         report,
         state: state.expect("accumulators have a state"),
         manifest: None,
+        shares: predicted.shares().map(<[f64]>::to_vec),
     })
 }
 

@@ -13,6 +13,7 @@ use super::{EvaluateRequest, ModelChoice, evaluate, pose_task};
 use crate::classifiers::as_predictor;
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
+use crate::score_states::ScoreStates;
 use crate::task_state_file::TaskStates;
 use crate::task_view::{in_words, window_of};
 use crate::work::Work;
@@ -66,12 +67,14 @@ pub fn evaluate_task(
     let mut notes = vec![format!("model {}, split {split}", fit.model.name())];
     let window = window_of(&fit.settings)?;
     notes.extend(window.map(|window| in_words(window, task)));
-    let evaluated = evaluate(&of_task, &request_of(fit, split), work)?.report;
+    let evaluated = evaluate(&of_task, &request_of(fit, split), work)?;
+    let (evaluated, shares) = (evaluated.report, evaluated.shares);
     let samples = evaluated.samples.expect("an evaluation keeps its samples");
     let clusters = dataset.clusters_of(task);
     let mut state = match task.kind {
         TaskKind::Pose => pose_task::state(dataset, task, &clusters, &samples)?,
-        _ => Predicted::of(dataset, task, &clusters, &samples)?.state(dataset, task)?,
+        _ => Predicted::of(dataset, task, &clusters, &samples, shares.as_deref())?
+            .state(dataset, task)?,
     };
     notes.append(&mut state.notes);
     state.notes = notes;
@@ -114,6 +117,8 @@ fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
 struct Predicted<'a> {
     clusters: &'a [Option<String>],
     classes: Classes,
+    /// Scores of the probabilities of classes; `None` if the model estimates none.
+    scored: Option<ScoreStates>,
     /// Frames of each cluster, with the positive class as the event.
     frames: BTreeMap<&'a str, Vec<Frame>>,
     /// Samples whose predicted class is wrong.
@@ -126,14 +131,18 @@ impl<'a> Predicted<'a> {
         task: &Task,
         clusters: &'a [Option<String>],
         samples: &Samples,
+        shares: Option<&[f64]>,
     ) -> Result<Predicted<'a>, EvaluateError> {
         let names = dataset.table().samples().iter();
         let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
         let positive = task.positive.as_deref();
         let classes = Classes::new(task.names.iter().map(String::as_str), positive);
+        let scored = shares.map(|_| ScoreStates::new(&task.names, positive, true));
+        let scored = scored.transpose().map_err(|error| refused(task, &error))?;
         let mut found = Predicted {
             clusters,
             classes: classes.map_err(|error| refused(task, &error))?,
+            scored,
             frames: BTreeMap::new(),
             wrong: Vec::new(),
         };
@@ -143,12 +152,12 @@ impl<'a> Predicted<'a> {
             .channel(&task.name)
             .expect("the channel of the task");
         let times = dataset.table().t_s();
-        for row in 0..samples.rows() {
-            let Some([truth, predicted]) = channel.pair(row) else {
+        for at in 0..samples.rows() {
+            let Some([truth, predicted]) = channel.pair(at) else {
                 continue;
             };
             let sample = samples
-                .word("sample", row)
+                .word("sample", at)
                 .and_then(|sample| rows.get(sample).copied());
             let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
             let (row, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
@@ -157,6 +166,12 @@ impl<'a> Predicted<'a> {
                 .classes
                 .push_positions(cluster, &[truth], &[predicted])
                 .map_err(|error| refused(task, &error))?;
+            if let (Some(scored), Some(shares)) = (&mut found.scored, shares) {
+                let width = task.names.len();
+                scored
+                    .push(cluster, truth, &shares[at * width..][..width])
+                    .map_err(|error| refused(task, &error))?;
+            }
             if truth != predicted {
                 found.wrong.push(TaskMistake {
                     row,
@@ -180,6 +195,9 @@ impl<'a> Predicted<'a> {
         let unscored = unscored(self.classes.n(), own_labels(dataset, &task.name));
         state.notes.extend(unscored);
         state.classes = Some(self.classes);
+        if let Some(scored) = self.scored {
+            scored.add_to(&mut state);
+        }
         if task.kind == TaskKind::Event {
             state.events = Some(onsets(self.frames, task)?);
             state.is_sequence = true;
