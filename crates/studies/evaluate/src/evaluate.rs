@@ -1,10 +1,13 @@
 //! Scores of a dataset, step by step: divide, fit, predict, score.
 
 mod callers_model;
+mod depth_cells;
+mod depth_task;
 mod divisions;
 mod fit_task;
 mod fold_progress;
 pub(crate) mod folds;
+mod label_counts;
 mod notes;
 mod passes;
 mod plan;

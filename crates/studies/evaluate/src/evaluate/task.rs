@@ -8,12 +8,14 @@ use taceva_results::Samples;
 use taceva_tasks::events::{EventRule, EventState, Frame};
 use taceva_tasks::{Classes, TaskError, TaskState};
 
+use super::label_counts::{own_labels, unscored};
 use super::task_errors::{self, TaskMistake};
-use super::{EvaluateRequest, ModelChoice, evaluate, pose_task};
+use super::{EvaluateRequest, Evaluated, ModelChoice, depth_task, evaluate, pose_task};
 use crate::classifiers::as_predictor;
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
 use crate::score_states::ScoreStates;
+use crate::subject;
 use crate::task_state_file::TaskStates;
 use crate::task_view::{in_words, window_of};
 use crate::work::Work;
@@ -47,7 +49,7 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
 /// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
 /// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
-/// [`CLASSIFIERS`](crate::CLASSIFIERS); a pose needs a model of numbers.
+/// [`CLASSIFIERS`](crate::CLASSIFIERS); poses and depth maps need a model of numbers.
 ///
 /// # Errors
 /// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster,
@@ -58,23 +60,25 @@ pub fn evaluate_task(
     fit: FitRequest,
     work: Work<'_>,
 ) -> Result<TaskStates, EvaluateError> {
-    let of_task = dataset.of_task(name)?;
-    let own = dataset.tasks().iter().map(|own| own.task());
-    let task = own.clone().find(|task| task.name == name);
+    let mut tasks = dataset.tasks().iter().map(|own| own.task());
+    let task = tasks.find(|task| task.name == name);
+    let has_maps = task.is_some_and(|task| task.kind == TaskKind::Depth);
+    let of_task = match has_maps {
+        true => None,
+        false => Some(dataset.of_task(name)?),
+    };
     let task = task.expect("`of_task` found the task");
     let fit = as_predictor(fit, task)?;
     let split = split_of(dataset, task, fit.split.as_deref())?;
     let mut notes = vec![format!("model {}, split {split}", fit.model.name())];
     let window = window_of(&fit.settings)?;
     notes.extend(window.map(|window| in_words(window, task)));
-    let evaluated = evaluate(&of_task, &request_of(fit, split), work)?;
-    let (evaluated, shares) = (evaluated.report, evaluated.shares);
-    let samples = evaluated.samples.expect("an evaluation keeps its samples");
-    let clusters = dataset.clusters_of(task);
-    let mut state = match task.kind {
-        TaskKind::Pose => pose_task::state(dataset, task, &clusters, &samples)?,
-        _ => Predicted::of(dataset, task, &clusters, &samples, shares.as_deref())?
-            .state(dataset, task)?,
+    let mut state = match &of_task {
+        None => depth_task::state(dataset, task, fit, &split, work)?,
+        Some(of_task) => {
+            let evaluated = evaluate(of_task, &request_of(fit, split), work)?;
+            of_labels(dataset, task, evaluated)?
+        }
     };
     notes.append(&mut state.notes);
     state.notes = notes;
@@ -82,9 +86,25 @@ pub fn evaluate_task(
     state.unlabelled = (dataset.table().rows() - labelled) as u64;
     let digest = [("dataset".to_owned(), dataset.digest().to_string())];
     let mut states = TaskStates::new("by their row of the dataset".to_owned(), digest.into());
-    states.sources.insert(evaluated.subject.source);
+    states.sources.insert(subject::of(dataset).source);
     states.tasks.push(state);
     Ok(states)
+}
+
+/// State of a task of classes or of poses, from its predicted samples.
+fn of_labels(
+    dataset: &Dataset,
+    task: &Task,
+    evaluated: Evaluated,
+) -> Result<TaskState, EvaluateError> {
+    let (report, shares) = (evaluated.report, evaluated.shares);
+    let samples = report.samples.expect("an evaluation keeps its samples");
+    let clusters = dataset.clusters_of(task);
+    match task.kind {
+        TaskKind::Pose => pose_task::state(dataset, task, &clusters, &samples),
+        _ => Predicted::of(dataset, task, &clusters, &samples, shares.as_deref())?
+            .state(dataset, task),
+    }
 }
 
 /// The stated split, or the division of the task.
@@ -205,24 +225,6 @@ impl<'a> Predicted<'a> {
         task_errors::add(&mut state, self.wrong, dataset, task);
         Ok(state)
     }
-}
-
-/// Number of rows with a label of the task called `name`.
-pub(super) fn own_labels(dataset: &Dataset, name: &str) -> usize {
-    let own = dataset.table().task(name);
-    let rows = 0..dataset.table().rows();
-    own.map_or(0, |own| {
-        rows.filter(|row| own.label(*row).is_some()).count()
-    })
-}
-
-/// Remark on labelled rows without a score, if there are any.
-pub(super) fn unscored(scored: u64, labelled: usize) -> Option<String> {
-    (scored != labelled as u64).then(|| {
-        format!(
-            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
-        )
-    })
 }
 
 /// Remark on each class of a single cluster, which no model has learnt that predicts the cluster.
