@@ -65,8 +65,9 @@ impl Dataset {
         self.labelled(own.task(), table)
     }
 
-    /// The same dataset with numbers of the task called `name` in the place of all channels, such as depths of places of its maps: a column for each of
-    /// `channels`, with a label or none for each row.
+    /// The same dataset with numbers of the task called `name` in the place of all channels, such as depths of places of its maps.
+    ///
+    /// `labels` has a column for each of `channels`, with a label or none for each row.
     ///
     /// # Errors
     /// [`DatasetError::Request`] for an unknown task, and for another number of columns or of labels.
