@@ -3,7 +3,7 @@
 #
 #   benches/ratios.sh EARLIER [ROW...]     EARLIER: the program of the commit to compare with, `-` for none; without ROW, all rows
 #
-# Rows: study, paper, build, training, single, gpu, score, update, wheel, sums, video. A row whose program or peer is absent prints what it
+# Rows: study, paper, build, training, single, slip, gpu, score, update, wheel, sums, video. A row whose program or peer is absent prints what it
 # needs. ROUNDS (3) rounds each. Rounds that differ by more than 10 % are printed as a range marked `busy`: such a figure belongs in no document.
 # The rows of the last call stand in $CARGO_TARGET_DIR/ratios.tsv; the column `last` shows them. EARLIER is built by
 #
@@ -13,7 +13,7 @@ cd "$(dirname "$0")/.."
 
 earlier=${1:?the program of the commit to compare with, or - for none}
 shift
-rows=${*:-study paper build training single gpu score update wheel sums video}
+rows=${*:-study paper build training single slip gpu score update wheel sums video}
 rounds=${ROUNDS:-3}
 target=${CARGO_TARGET_DIR:-target}
 mkdir -p "$target"
@@ -153,6 +153,15 @@ single() {
     done
 }
 
+slip() {
+    if ! python3 -c 'import torch' 2>/dev/null; then absent "training on windows : PyTorch" "python3 has no torch"; return; fi
+    local ratios=() round
+    for round in $(seq "$rounds"); do
+        ratios+=("$(python3 benches/models/slip_windows.py 1 20 --anyway | sed -n 's|^images/s .*here : PyTorch \([0-9.]*\) .*|\1|p')")
+    done
+    row "training on windows of frames : PyTorch, one thread" '>=' 1.5 "${ratios[@]}"
+}
+
 gpu() { absent "training on a GPU : PyTorch" "cargo run --release -p taceva-network --features gpu --example speed, on a machine with a GPU"; }
 
 score() {
@@ -198,8 +207,8 @@ rm -f "$kept.new"
 echo "$(git rev-parse --short HEAD), $(uname -m), $(nproc) processors, $(awk -F ': ' '/^model name/ { print $2; exit }' /proc/cpuinfo), load $(cut -d ' ' -f 1-3 /proc/loadavg), $rounds rounds"
 for one in $rows; do
     case $one in
-    study | paper | build | training | single | gpu | score | update | wheel | sums | video) "$one" ;;
-    *) echo "no row \`$one\`: study, paper, build, training, single, gpu, score, update, wheel, sums, video" >&2 && exit 2 ;;
+    study | paper | build | training | single | slip | gpu | score | update | wheel | sums | video) "$one" ;;
+    *) echo "no row \`$one\`: study, paper, build, training, single, slip, gpu, score, update, wheel, sums, video" >&2 && exit 2 ;;
     esac
 done
 echo "load at the end $(cut -d ' ' -f 1-3 /proc/loadavg)"

@@ -6,6 +6,9 @@
 //! the median of 4 · REPEATS, because they are so short that other programs disturb few of them. On Linux it also prints the peak memory of the
 //! training beyond the memory of the process before. It prints this for the first size and form only, because the peak belongs to the whole process.
 //! `benches/peers/torch_network.py` measures PyTorch alike.
+//!
+//! `cargo bench -p taceva-network -- slip [REPEATS]` measures training steps of the model `cnn` on windows of frames, on one thread;
+//! `benches/models/slip_windows.py` measures PyTorch in turn.
 
 #![expect(
     clippy::print_stdout,
@@ -29,7 +32,7 @@ fn main() {
         .skip(1)
         .filter(|word| !word.starts_with('-'));
     let (mut numbers, mut forms): (Vec<usize>, _) = (Vec::new(), Vec::new());
-    let (mut is_single, mut is_training) = (false, false);
+    let (mut is_single, mut is_training, mut is_slip) = (false, false, false);
     for word in words {
         match word.as_str() {
             "winograd" => forms.push(ConvolutionForm::Winograd),
@@ -37,11 +40,17 @@ fn main() {
             "mixed" => forms.push(ConvolutionForm::Mixed),
             "single" => is_single = true,
             "training" => is_training = true,
+            "slip" => is_slip = true,
             _ => numbers.push(word.parse().expect("a number or a word of those above")),
         }
     }
     if forms.is_empty() {
         forms = ConvolutionForm::ALL.into_iter().rev().collect();
+    }
+    if is_slip {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+        let repeats = numbers.first().copied().unwrap_or(8);
+        return pool.expect("a thread").install(|| measure_slip(repeats));
     }
     let repeats = numbers.get(2).copied().unwrap_or(8);
     println!("instructions: {}", Isa::detect());
@@ -140,6 +149,39 @@ fn measure_training(what: What, repeats: usize, before: Option<f64>) -> Network 
     }
 
     trainer.finish().expect("at hand").network
+}
+
+/// Measures training steps of `cnn` for slip: two classes, windows of five grey frames with the four changes between them.
+fn measure_slip(repeats: usize) {
+    let input = Picture {
+        height: 96,
+        width: 128,
+        channels: 9,
+    };
+    let architecture = Architecture::five_layers(input, 2);
+    let pictures = pictures(input, BATCH);
+    let labels: Vec<u32> = (0..2).cycle().take(BATCH).collect();
+    let samples = Samples {
+        pictures: &pictures,
+        labels: Labels::Classes(&labels),
+    };
+    let recipe = Recipe {
+        epochs: u64::MAX / 2,
+        rate: 1e-3,
+        schedule: Schedule::Constant,
+        loss: Loss::CrossEntropy,
+        ..Recipe::default()
+    };
+    let mut trainer = Trainer::new(&architecture, &recipe, samples, None).expect("a training");
+    let [busy, wall] = best(repeats, || {
+        trainer.step().expect("finite").expect("a step is left");
+    });
+    println!(
+        "slip windows {} parameters {:9.1} images per processor second {:9.1} images/s",
+        architecture.parameters().expect("valid"),
+        BATCH as f64 / busy,
+        BATCH as f64 / wall
+    );
 }
 
 fn measure_batches(network: &Network, what: What, repeats: usize) {

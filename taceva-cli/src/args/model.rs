@@ -59,8 +59,8 @@ pub(crate) struct Evaluate {
     #[arg(long, value_name = "MODEL")]
     pub(crate) with: Option<PathBuf>,
     /// Fit a classifier to a task of the dataset in the place of channels: lda [default], linfa/logistic, smartcore/knn-classifier, cnn, resnet10,
-    /// resnet18, resnet34, or auto, which takes the best of the first three on the validation part. The split keeps clusters whole [default: cv:5
-    /// by the cluster of the task]
+    /// resnet18, resnet34, or auto, which takes the best of the first three on the validation part. Poses and depth maps take any model of numbers.
+    /// The split keeps clusters whole [default: cv:5 by the cluster of the task]
     #[arg(
         long,
         value_name = "NAME",

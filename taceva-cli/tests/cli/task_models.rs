@@ -149,12 +149,26 @@ fn broad_strokes() -> Bench {
 }
 
 #[test]
-fn a_network_learns_classes_and_its_probabilities_are_scored() {
+fn a_network_learns_classes_and_its_probabilities_are_scored_by_evaluate_and_by_score() {
     let bench = broad_strokes();
     let network = "--model cnn --set epochs=40 --set batch=16";
     let report = bench.json(&format!("evaluate data --task slip {network} --no-cache"));
     let accuracy = estimate(&report, "balanced_accuracy")["value"].as_f64();
     assert!(accuracy.expect("a number") > 0.9, "{report:#}");
+    crate::schema::check("tasks", &report);
+    let area = estimate(&report, "roc_auc");
+    assert_eq!(area["n"], 120, "{report:#}");
+    assert_eq!(area["clusters"], 10, "{report:#}");
+    assert!(
+        area["value"].as_f64().expect("a number") > 0.95,
+        "{report:#}"
+    );
+    for metric in ["average_precision", "brier", "log_loss", "ece"] {
+        assert!(
+            estimate(&report, metric)["value"].is_number(),
+            "{metric}: {report:#}"
+        );
+    }
     bench.ok(&format!(
         "fit data --task slip {network} --out slip.model --no-cache -q"
     ));

@@ -25,34 +25,39 @@ const CLASSIFIERS_ALONE: usize = 3;
 /// Setting of models that predict either numbers or classes.
 const HEAD: &str = "head";
 
-/// Model of poses, and of classes, if the user names none.
-const USUAL: [&str; 2] = ["ridge", "lda"];
-
 /// Model for the task called `name` if the user names none.
 pub fn usual_model(dataset: &Dataset, name: &str) -> &'static str {
-    let [of_poses, of_classes] = USUAL;
     let mut tasks = dataset.tasks().iter().map(|own| own.task());
-    match tasks.any(|task| task.name == name && task.kind == TaskKind::Pose) {
-        true => of_poses,
-        false => of_classes,
+    let task = tasks.find(|task| task.name == name);
+    usual(task.map_or(TaskKind::Class, |task| task.kind))
+}
+
+/// Model for labels of `kind` if the user names none.
+fn usual(kind: TaskKind) -> &'static str {
+    match kind {
+        TaskKind::Pose => "ridge",
+        TaskKind::Depth => "cnn",
+        _ => "lda",
     }
 }
 
-/// `fit` with the settings by which its model predicts the labels of `task`: classes, or the numbers of a pose.
+/// `fit` with the settings by which its model predicts the labels of `task`: classes, or the numbers of a pose or of a depth map.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a model of numbers and a task of classes, and the reverse.
 pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
-    if task.kind != TaskKind::Pose {
-        return as_classifier(fit, task);
-    }
+    let labels = match task.kind {
+        TaskKind::Pose => "poses",
+        TaskKind::Depth => "depth maps",
+        _ => return as_classifier(fit, task),
+    };
     let model = fit.model.name();
     // The others predict numbers too.
     let of_classes = CLASSIFIERS.iter().take(CLASSIFIERS_ALONE);
     if of_classes.copied().any(|classifier| classifier == model) {
-        let [usual, _] = USUAL;
+        let usual = usual(task.kind);
         return Err(EvaluateError::Request(format!(
-            "task `{}`: {} predicts labels of the training part, and poses are numbers, expected another model, such as --model {usual}",
+            "task `{}`: {} predicts labels of the training part, and {labels} are numbers, expected another model, such as --model {usual}",
             shown(&task.name),
             shown(model)
         )));

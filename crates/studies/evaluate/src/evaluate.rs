@@ -3,10 +3,13 @@
 mod callers_model;
 mod clustered_rows;
 mod contact_shape;
+mod depth_cells;
+mod depth_task;
 mod divisions;
 mod fit_task;
 mod fold_progress;
 pub(crate) mod folds;
+mod label_counts;
 mod notes;
 mod passes;
 mod plan;

@@ -34,12 +34,9 @@ pub fn predict(
 ) -> Result<Predicted, EvaluateError> {
     let target = Target::new(dataset, model, part)?;
     let features = features_of(dataset, model, &target, work)?;
-    let numbers = numbers_of(model, &features)?;
-    let predicted = predicted_table(dataset, Predictor::of(model), &target, &numbers)?;
+    let predicted = predict_features(dataset, model, &target, &features)?;
     Ok(Predicted {
         distance: model.distances(&features)?,
-        task: TaskCells::of(dataset, model, &features, &target.rows)?,
-        frames_decoded: frames_decoded(dataset, model, &target.rows)?,
         points: predicted.points.or_else(|| groups(dataset, &target)),
         ..predicted
     })
@@ -69,8 +66,20 @@ pub fn predict_target(
     target: &Target,
     work: Work<'_>,
 ) -> Result<Predicted, EvaluateError> {
-    let numbers = predicted_numbers(dataset, model, target, work)?;
+    let features = features_of(dataset, model, target, work)?;
+    predict_features(dataset, model, target, &features)
+}
+
+/// Predictions of `model` from the features of the rows of `target`.
+fn predict_features(
+    dataset: &Dataset,
+    model: &Model,
+    target: &Target,
+    features: &Features,
+) -> Result<Predicted, EvaluateError> {
+    let numbers = numbers_of(model, features)?;
     Ok(Predicted {
+        task: TaskCells::of(dataset, model, features, &target.rows)?,
         frames_decoded: frames_decoded(dataset, model, &target.rows)?,
         ..predicted_table(dataset, Predictor::of(model), target, &numbers)?
     })

@@ -10,7 +10,7 @@ use taceva_models::{FormatError, Model, ModelFileError, Models, library_models};
 use taceva_results::{Provenance, SampleChannel, Samples};
 
 use crate::error::EvaluateError;
-use crate::predict::{Predicted, Target, predict_target};
+use crate::predict::{Predicted, Predictor, Target, predicted_numbers, predicted_table};
 use crate::rows::DataPart;
 use crate::work::Work;
 use beside_channels::other_columns;
@@ -46,7 +46,7 @@ pub enum PredictionCheck {
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if no recording has the digest of the results, or if the model needs a plugin. [`EvaluateError::ModelFormat`] for a file that is
-/// not a model of this program. Otherwise errors of [`predict_target`].
+/// not a model of this program. Otherwise errors of [`predicted_numbers`].
 pub fn check_predictions(
     model: &Path,
     datasets: &[PathBuf],
@@ -80,7 +80,8 @@ pub fn check_predictions(
         return Ok(PredictionCheck::Differs(problem));
     }
     check_features(model.card().features.shape(), target.rows.len())?;
-    let predicted = predict_target(&dataset, &model, &target, work)?;
+    let numbers = predicted_numbers(&dataset, &model, &target, work)?;
+    let predicted = predicted_table(&dataset, Predictor::of(&model), &target, &numbers)?;
     let found = target.rows.iter().map(|row| rows.binary_search(row).ok());
     let lines: Vec<usize> = found.flatten().collect();
     Ok(compared(&dataset, &predicted, &lines, samples))

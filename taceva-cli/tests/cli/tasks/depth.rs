@@ -1,5 +1,7 @@
 //! Depth maps of a dataset beside those of an array, and places of two tables.
 
+use std::fmt::Write as _;
+
 use super::estimate;
 use crate::support::Bench;
 
@@ -25,12 +27,17 @@ opaque = "unknown"
 
 /// NumPy file of maps of 3 x 3 pixels.
 fn write_maps(bench: &Bench, name: &str, maps: &[[f32; 9]]) {
-    let shape = format!("({}, 3, 3)", maps.len());
+    write_depths(bench, name, 3, maps.as_flattened());
+}
+
+/// NumPy file of square maps.
+fn write_depths(bench: &Bench, name: &str, side: usize, depths: &[f32]) {
+    let shape = format!("({}, {side}, {side})", depths.len() / (side * side));
     let header = format!("{{'descr': '<f4', 'fortran_order': False, 'shape': {shape}, }}\n");
     let length = u16::try_from(header.len()).expect("short");
     let mut bytes = [b"\x93NUMPY\x01\x00", &length.to_le_bytes()[..]].concat();
     bytes.extend(header.into_bytes());
-    for number in maps.iter().flatten() {
+    for number in depths {
         bytes.extend(number.to_le_bytes());
     }
     std::fs::write(bench.path(name), bytes).expect("written");
@@ -200,12 +207,95 @@ fn places_are_scored_by_their_distance() {
 }
 
 #[test]
-fn depth_maps_are_no_labels_of_a_model() {
+fn depth_maps_are_no_labels_of_a_classifier_and_of_a_model_file() {
     let bench = Bench::new();
     presses(&bench);
     bench.refused(
-        "evaluate set --task shape --no-cache",
+        "fit set --task shape --model ridge --out shape.model --no-cache",
         3,
         "the kind of the task `shape` is depth, expected a task of classes or of poses",
+    );
+    bench.refused(
+        "evaluate set --task shape --model lda --no-cache",
+        2,
+        "depth maps are numbers, expected another model, such as --model cnn",
+    );
+}
+
+/// Dataset `name` of ten presses, each at six depths, on 8 x 8 taxels. Signals follow the depths below them.
+fn press_taxels(bench: &Bench, name: &str, first: u16) {
+    let mut table = String::from("fz,press");
+    (0..64).for_each(|taxel| write!(table, ",c{taxel}").expect("written"));
+    let mut depths = Vec::new();
+    for press in first..first + 10 {
+        for step in 0..6_u16 {
+            let depth = f32::from(press % 3 + 2 * step) * 0.125;
+            write!(table, "\n1,p{press}").expect("written");
+            for taxel in 0..64_u16 {
+                let [x, y] = [taxel % 8, taxel / 8].map(|at| f32::from(at) - 3.5);
+                let own = depth * (-(x * x + y * y) / 8.0).exp();
+                let noise = f32::from((press * 5 + step * 3 + taxel * 7) % 11) * 0.01;
+                write!(table, ",{:.3}", own + noise).expect("written");
+                depths.push(own);
+            }
+        }
+    }
+    table.push('\n');
+    let signals = "[signals]\nfrom = \"c0..63\"\nunit = \"uT\"\nplaces = [8, 8]\nchannels = [\"p\"]\norder = \"place-first\"\n";
+    bench.write("lab/presses.csv", &table);
+    bench.write(
+        "lab/map.toml",
+        &MAP.replace("[ids]\n", &format!("{signals}[ids]\n")),
+    );
+    write_depths(bench, "lab/depth.npy", 8, &depths);
+    bench.ok(&format!("import lab --map lab/map.toml --out {name} -q"));
+}
+
+/// Root of the mean square of all errors, as a share of that of the mean map.
+fn share_of_constant(report: &serde_json::Value) -> f64 {
+    let error = estimate(report, "depth_rmse", None);
+    let number = |key: &str| error[key].as_f64().expect("a number");
+    number("value") / number("of_constant")
+}
+
+#[test]
+fn a_network_predicts_depth_maps_of_unseen_presses_better_than_the_mean_map() {
+    let bench = Bench::new();
+    press_taxels(&bench, "taxels", 0);
+    let report =
+        bench.json("evaluate taxels --task shape --set epochs=100 --set batch=16 --no-cache");
+    crate::schema::check("tasks", &report);
+    let error = estimate(&report, "depth_rmse", None);
+    assert_eq!(
+        (error["n"].as_u64(), error["clusters"].as_u64()),
+        (Some(60 * 64), Some(10))
+    );
+    assert!(share_of_constant(&report) < 0.8, "{report:#}");
+    let notes = report["tasks"][0]["notes"].to_string();
+    for words in [
+        "model cnn",
+        "8 x 8 mean depths",
+        "the mean map of all samples",
+    ] {
+        assert!(notes.contains(words), "{words}: {notes}");
+    }
+}
+
+#[test]
+fn depth_maps_of_joined_recordings_are_predicted_by_any_model_of_numbers() {
+    let bench = Bench::new();
+    press_taxels(&bench, "one", 0);
+    press_taxels(&bench, "two", 10);
+    let report = bench.json("evaluate one two --task shape --model ridge --no-cache");
+    assert_eq!(estimate(&report, "depth_mae", None)["clusters"], 20);
+    assert!(share_of_constant(&report) < 0.3, "{report:#}");
+    let split = "--split by-point";
+    let report = bench.json(&format!(
+        "evaluate one --task shape --model ridge {split} --no-cache"
+    ));
+    let notes = report["tasks"][0]["notes"].to_string();
+    assert!(
+        notes.contains("the mean map of the training part"),
+        "{notes}"
     );
 }

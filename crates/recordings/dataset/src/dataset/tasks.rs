@@ -1,12 +1,12 @@
 //! Tasks of a dataset: their labels by row, and the cluster of each row.
 
-use taceva_core::{nearest, shown};
+use taceva_core::{Channels, Column, nearest, shown};
 
 use super::Dataset;
 use super::union::SEPARATOR;
 use crate::digest::{Digest, PartsDigest};
 use crate::error::DatasetError;
-use crate::table::TaskColumn;
+use crate::table::{Table, TaskColumn};
 use crate::task::{Task, TaskKind, TaskLabel};
 
 /// Columns whose values [`Dataset::joined`] makes distinct between recordings.
@@ -63,16 +63,58 @@ impl Dataset {
             .table
             .labelled_by(own)
             .map_err(|error| DatasetError::request(self.path(), error.to_string()))?;
+        self.labelled(own.task(), table)
+    }
+
+    /// The same dataset with numbers of the task called `name` in the place of all channels, such as depths of places of its maps.
+    ///
+    /// `labels` has a column for each of `channels`, with a label or none for each row.
+    ///
+    /// # Errors
+    /// [`DatasetError::Request`] for an unknown task, and for another number of columns or of labels.
+    pub fn with_labels(
+        &self,
+        name: &str,
+        channels: &Channels,
+        labels: &[Column],
+    ) -> Result<Dataset, DatasetError> {
+        let own = self.task_called(name)?;
+        let rows = self.table.rows();
+        if labels.len() != channels.len() || labels.iter().any(|column| column.len() != rows) {
+            return Err(DatasetError::request(
+                self.path(),
+                format!(
+                    "{} columns of labels for {} channels of the task `{}`, expected one for each, with {rows} labels",
+                    labels.len(),
+                    channels.len(),
+                    shown(name)
+                ),
+            ));
+        }
+        if !self.joined.is_empty() {
+            let labelled = self.joined.iter().map(|own| {
+                let labels = labels.iter().map(|column| column.slice(own.rows()));
+                let labels: Vec<Column> = labels.collect();
+                own.dataset().with_labels(name, channels, &labels)
+            });
+            return Dataset::joined(labelled.collect::<Result<_, _>>()?);
+        }
+        let table = self.table.with_channels(channels.clone(), labels.to_vec());
+        self.labelled(own.task(), table)
+    }
+
+    /// The same recording with `table`, whose channels are labels of `task`.
+    fn labelled(&self, task: &Task, table: Table) -> Result<Dataset, DatasetError> {
         let mut header = self.header.clone();
         header.channels = table.channels().clone();
         header.rotations.clear();
-        header.digest = digest_of_task(header.digest, name);
+        header.digest = digest_of_task(header.digest, &task.name);
         for before in &mut header.extended {
-            before.digest = digest_of_task(before.digest, name);
+            before.digest = digest_of_task(before.digest, &task.name);
         }
         Ok(Dataset {
             seen: self.seen.clone(),
-            labelled_by: Some(own.task().clone()),
+            labelled_by: Some(task.clone()),
             ..Dataset::of(self.folder.again()?, header, table)
         })
     }
@@ -126,7 +168,7 @@ impl Dataset {
         })
     }
 
-    /// Task whose labels replace the channels, after [`of_task`](Dataset::of_task); `None` for measured channels.
+    /// Task whose labels replace the channels, after [`of_task`](Dataset::of_task) or [`with_labels`](Dataset::with_labels); `None` for measured channels.
     pub fn labelled_by(&self) -> Option<&Task> {
         let first = self.joined.first();
         let of_first = first.and_then(|own| own.dataset().labelled_by());

@@ -224,11 +224,16 @@ impl Table {
             let position = channels.position(name);
             truth[position.expect("one of the channels")] = column;
         }
-        Ok(Table {
+        Ok(self.with_channels(channels, truth))
+    }
+
+    /// The same rows with `channels` as the only channels, and a column of labels for each of them.
+    pub(crate) fn with_channels(&self, channels: Channels, truth: Vec<Column>) -> Table {
+        Table {
             channels,
             truth,
             ..self.clone()
-        })
+        }
     }
 
     /// The same table with `labels` of the additional task `task`, all of the kind of the task.

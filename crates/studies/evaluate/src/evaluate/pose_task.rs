@@ -8,7 +8,8 @@ use taceva_results::Samples;
 use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
 use taceva_tasks::{TaskState, WorstSample};
 
-use super::task::{own_labels, unscored, without_cluster};
+use super::label_counts::{own_labels, unscored};
+use super::task::without_cluster;
 use crate::error::EvaluateError;
 
 /// State of the poses in `samples`, a table of predictions of the channels of `task`. `clusters` has the cluster of every row of the dataset.

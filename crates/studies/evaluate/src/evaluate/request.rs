@@ -78,4 +78,6 @@ pub struct Evaluated {
     pub state: StateFile,
     /// Record of the division of the dataset; `None` if it was not divided.
     pub manifest: Option<SplitManifest>,
+    /// Probabilities of the classes of a task, sample by sample in the order of the report; `None` if the model estimates none.
+    pub(crate) shares: Option<Vec<f64>>,
 }

@@ -177,6 +177,7 @@ pub fn score(
         report,
         state: state.expect("accumulators have a state"),
         manifest: None,
+        shares: predicted.shares().map(<[f64]>::to_vec),
     })
 }
 

@@ -8,11 +8,14 @@ use taceva_results::Samples;
 use taceva_tasks::events::{EventRule, EventState, Frame};
 use taceva_tasks::{Classes, TaskError, TaskState};
 
+use super::label_counts::{own_labels, unscored};
 use super::task_errors::{self, TaskMistake};
-use super::{EvaluateRequest, ModelChoice, evaluate, pose_task};
+use super::{EvaluateRequest, Evaluated, ModelChoice, depth_task, evaluate, pose_task};
 use crate::classifiers::as_predictor;
 use crate::error::EvaluateError;
 use crate::fit::FitRequest;
+use crate::score_states::ScoreStates;
+use crate::subject;
 use crate::task_state_file::TaskStates;
 use crate::task_view::{in_words, window_of};
 use crate::work::Work;
@@ -46,7 +49,7 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
 /// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
 /// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
-/// [`CLASSIFIERS`](crate::CLASSIFIERS); a pose needs a model of numbers.
+/// [`CLASSIFIERS`](crate::CLASSIFIERS); poses and depth maps need a model of numbers.
 ///
 /// # Errors
 /// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster,
@@ -57,21 +60,25 @@ pub fn evaluate_task(
     fit: FitRequest,
     work: Work<'_>,
 ) -> Result<TaskStates, EvaluateError> {
-    let of_task = dataset.of_task(name)?;
-    let own = dataset.tasks().iter().map(|own| own.task());
-    let task = own.clone().find(|task| task.name == name);
+    let mut tasks = dataset.tasks().iter().map(|own| own.task());
+    let task = tasks.find(|task| task.name == name);
+    let has_maps = task.is_some_and(|task| task.kind == TaskKind::Depth);
+    let of_task = match has_maps {
+        true => None,
+        false => Some(dataset.of_task(name)?),
+    };
     let task = task.expect("`of_task` found the task");
     let fit = as_predictor(fit, task)?;
     let split = split_of(dataset, task, fit.split.as_deref())?;
     let mut notes = vec![format!("model {}, split {split}", fit.model.name())];
     let window = window_of(&fit.settings)?;
     notes.extend(window.map(|window| in_words(window, task)));
-    let evaluated = evaluate(&of_task, &request_of(fit, split), work)?.report;
-    let samples = evaluated.samples.expect("an evaluation keeps its samples");
-    let clusters = dataset.clusters_of(task);
-    let mut state = match task.kind {
-        TaskKind::Pose => pose_task::state(dataset, task, &clusters, &samples)?,
-        _ => Predicted::of(dataset, task, &clusters, &samples)?.state(dataset, task)?,
+    let mut state = match &of_task {
+        None => depth_task::state(dataset, task, fit, &split, work)?,
+        Some(of_task) => {
+            let evaluated = evaluate(of_task, &request_of(fit, split), work)?;
+            of_labels(dataset, task, evaluated)?
+        }
     };
     notes.append(&mut state.notes);
     state.notes = notes;
@@ -79,9 +86,25 @@ pub fn evaluate_task(
     state.unlabelled = (dataset.table().rows() - labelled) as u64;
     let digest = [("dataset".to_owned(), dataset.digest().to_string())];
     let mut states = TaskStates::new("by their row of the dataset".to_owned(), digest.into());
-    states.sources.insert(evaluated.subject.source);
+    states.sources.insert(subject::of(dataset).source);
     states.tasks.push(state);
     Ok(states)
+}
+
+/// State of a task of classes or of poses, from its predicted samples.
+fn of_labels(
+    dataset: &Dataset,
+    task: &Task,
+    evaluated: Evaluated,
+) -> Result<TaskState, EvaluateError> {
+    let (report, shares) = (evaluated.report, evaluated.shares);
+    let samples = report.samples.expect("an evaluation keeps its samples");
+    let clusters = dataset.clusters_of(task);
+    match task.kind {
+        TaskKind::Pose => pose_task::state(dataset, task, &clusters, &samples),
+        _ => Predicted::of(dataset, task, &clusters, &samples, shares.as_deref())?
+            .state(dataset, task),
+    }
 }
 
 /// The stated split, or the division of the task.
@@ -114,6 +137,8 @@ fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
 struct Predicted<'a> {
     clusters: &'a [Option<String>],
     classes: Classes,
+    /// Scores of the probabilities of classes; `None` if the model estimates none.
+    scored: Option<ScoreStates>,
     /// Frames of each cluster, with the positive class as the event.
     frames: BTreeMap<&'a str, Vec<Frame>>,
     /// Samples whose predicted class is wrong.
@@ -126,14 +151,18 @@ impl<'a> Predicted<'a> {
         task: &Task,
         clusters: &'a [Option<String>],
         samples: &Samples,
+        shares: Option<&[f64]>,
     ) -> Result<Predicted<'a>, EvaluateError> {
         let names = dataset.table().samples().iter();
         let rows: BTreeMap<&str, usize> = names.map(String::as_str).zip(0..).collect();
         let positive = task.positive.as_deref();
         let classes = Classes::new(task.names.iter().map(String::as_str), positive);
+        let scored = shares.map(|_| ScoreStates::new(&task.names, positive, true));
+        let scored = scored.transpose().map_err(|error| refused(task, &error))?;
         let mut found = Predicted {
             clusters,
             classes: classes.map_err(|error| refused(task, &error))?,
+            scored,
             frames: BTreeMap::new(),
             wrong: Vec::new(),
         };
@@ -143,12 +172,12 @@ impl<'a> Predicted<'a> {
             .channel(&task.name)
             .expect("the channel of the task");
         let times = dataset.table().t_s();
-        for row in 0..samples.rows() {
-            let Some([truth, predicted]) = channel.pair(row) else {
+        for at in 0..samples.rows() {
+            let Some([truth, predicted]) = channel.pair(at) else {
                 continue;
             };
             let sample = samples
-                .word("sample", row)
+                .word("sample", at)
                 .and_then(|sample| rows.get(sample).copied());
             let of_row = sample.zip(sample.and_then(|row| clusters[row].as_deref()));
             let (row, cluster) = of_row.ok_or_else(|| without_cluster(task))?;
@@ -157,6 +186,12 @@ impl<'a> Predicted<'a> {
                 .classes
                 .push_positions(cluster, &[truth], &[predicted])
                 .map_err(|error| refused(task, &error))?;
+            if let (Some(scored), Some(shares)) = (&mut found.scored, shares) {
+                let width = task.names.len();
+                scored
+                    .push(cluster, truth, &shares[at * width..][..width])
+                    .map_err(|error| refused(task, &error))?;
+            }
             if truth != predicted {
                 found.wrong.push(TaskMistake {
                     row,
@@ -180,6 +215,9 @@ impl<'a> Predicted<'a> {
         let unscored = unscored(self.classes.n(), own_labels(dataset, &task.name));
         state.notes.extend(unscored);
         state.classes = Some(self.classes);
+        if let Some(scored) = self.scored {
+            scored.add_to(&mut state);
+        }
         if task.kind == TaskKind::Event {
             state.events = Some(onsets(self.frames, task)?);
             state.is_sequence = true;
@@ -187,24 +225,6 @@ impl<'a> Predicted<'a> {
         task_errors::add(&mut state, self.wrong, dataset, task);
         Ok(state)
     }
-}
-
-/// Number of rows with a label of the task called `name`.
-pub(super) fn own_labels(dataset: &Dataset, name: &str) -> usize {
-    let own = dataset.table().task(name);
-    let rows = 0..dataset.table().rows();
-    own.map_or(0, |own| {
-        rows.filter(|row| own.label(*row).is_some()).count()
-    })
-}
-
-/// Remark on labelled rows without a score, if there are any.
-pub(super) fn unscored(scored: u64, labelled: usize) -> Option<String> {
-    (scored != labelled as u64).then(|| {
-        format!(
-            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
-        )
-    })
 }
 
 /// Remark on each class of a single cluster, which no model has learnt that predicts the cluster.

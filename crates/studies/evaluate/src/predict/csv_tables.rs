@@ -108,8 +108,8 @@ impl Predicted {
                     cells.extend(task.label_cells(&values.collect::<Vec<_>>()));
                 }
             }
-            let scores = scored.map_or_else(Vec::new, |task| task.scores(row));
-            cells.extend(scores.iter().map(|score| format!("{score:?}")));
+            let scores = scored.into_iter().flat_map(|task| task.scores(row));
+            cells.extend(scores.map(|score| format!("{score:?}")));
             cells.extend(clusters.map(|task| task.cluster(row)));
             cells.extend(distance.map(|distance| format!("{:?}", distance[row])));
             writer.write_record(cells)?;

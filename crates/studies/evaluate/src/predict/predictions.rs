@@ -42,7 +42,7 @@ pub struct Predicted {
     pub(super) distance: Option<Vec<f64>>,
     /// True for each prediction beyond the bounds of the model, by channel; `None` for a channel without bounds.
     pub(super) beyond: Vec<Option<Vec<bool>>>,
-    /// Names, clusters and probabilities of predicted classes, from [`predict`](super::predict) by a model of a task.
+    /// Names, clusters and probabilities of classes predicted by a model of a task.
     pub(super) task: Option<TaskCells>,
     /// Best constant predictions by channel, if the model states them.
     pub(super) constants: BTreeMap<String, f64>,
@@ -99,6 +99,8 @@ impl Predicted {
             _ => None,
         });
         self.beyond = both.collect();
+        let cells = self.task.zip(other.task);
+        self.task = cells.map(|(own, other)| own.followed_by(other));
         self.constants.clear();
         self.frames_decoded += other.frames_decoded;
         self.left_out += other.left_out;
@@ -138,6 +140,7 @@ impl Predicted {
                 .into_iter()
                 .map(|beyond| beyond.map(|beyond| order.iter().map(|&at| beyond[at]).collect()))
                 .collect(),
+            task: self.task.map(|task| task.in_order(&order)),
             ..self
         };
         (order.iter().map(|&at| rows[at]).collect(), predicted)
@@ -206,6 +209,11 @@ impl Predicted {
     /// Standard deviations of the predictions, if the model predicts them.
     pub fn deviation(&self) -> Option<&[Column]> {
         self.deviation.as_deref()
+    }
+
+    /// Probabilities of the classes of a task, row by row; `None` if the model estimates none.
+    pub(crate) fn shares(&self) -> Option<&[f64]> {
+        self.task.as_ref()?.shares()
     }
 
     /// [Distance](taceva_models::FeatureDistance) of each frame from the training part, if [`predict`](super::predict) computed it.

@@ -15,7 +15,8 @@ pub(super) struct TaskCells {
     card: TaskCard,
     /// Cluster of each row.
     clusters: Vec<Option<String>>,
-    probabilities: Option<ClassProbabilities>,
+    /// Probabilities of all classes, row by row; `None` if the model does not estimate them.
+    shares: Option<Vec<f64>>,
 }
 
 impl TaskCells {
@@ -30,11 +31,38 @@ impl TaskCells {
             return Ok(None);
         };
         let clusters = dataset.clusters_of(&Task::new("", TaskKind::Class, card.cluster.as_str()));
+        let known = model.probabilities(features)?;
         Ok(Some(TaskCells {
             clusters: rows.iter().map(|&row| clusters[row].clone()).collect(),
-            probabilities: model.probabilities(features)?,
+            shares: known.map(|known| of_all_classes(&known, card.names.len())),
             card,
         }))
+    }
+
+    /// Cells of the rows of `self`, then those of `other`.
+    pub(super) fn followed_by(mut self, other: TaskCells) -> TaskCells {
+        self.clusters.extend(other.clusters);
+        self.shares = self.shares.zip(other.shares).map(|(mut own, other)| {
+            own.extend(other);
+            own
+        });
+        self
+    }
+
+    /// Cells of the rows `order`.
+    pub(super) fn in_order(self, order: &[usize]) -> TaskCells {
+        let shares = self.shares.as_ref().map(|_| {
+            let rows = order.iter().flat_map(|&row| self.scores(row));
+            rows.copied().collect()
+        });
+        TaskCells {
+            clusters: order
+                .iter()
+                .map(|&row| self.clusters[row].clone())
+                .collect(),
+            shares,
+            card: self.card,
+        }
     }
 
     /// Columns of the labels: one of classes, or the seven of a pose.
@@ -94,26 +122,69 @@ impl TaskCells {
     /// Columns of the probabilities, one for each class; none if the model does not estimate them.
     pub(super) fn score_columns(&self) -> Vec<String> {
         let names = self.card.names.iter();
-        let names = names.filter(|_| self.probabilities.is_some());
+        let names = names.filter(|_| self.shares.is_some());
         names
             .map(|class| format!("{}.p.{class}", self.card.name))
             .collect()
     }
 
-    /// Probabilities of a row, in the order of [`score_columns`](TaskCells::score_columns). A class without a training sample has the probability 0.
-    pub(super) fn scores(&self, row: usize) -> Vec<f64> {
-        let Some(known) = &self.probabilities else {
-            return Vec::new();
+    /// Probabilities of a row, in the order of [`score_columns`](TaskCells::score_columns).
+    pub(super) fn scores(&self, row: usize) -> &[f64] {
+        let width = self.card.names.len();
+        match &self.shares {
+            Some(shares) => &shares[row * width..][..width],
+            None => &[],
+        }
+    }
+
+    /// Probabilities of all rows, row by row; `None` if the model does not estimate them.
+    pub(super) fn shares(&self) -> Option<&[f64]> {
+        self.shares.as_deref()
+    }
+}
+
+/// Probabilities of `count` classes, row by row. A class without a training sample has the probability 0.
+fn of_all_classes(known: &ClassProbabilities, count: usize) -> Vec<f64> {
+    let place = |class: u32| {
+        let mut labels = known.labels.iter();
+        labels.position(|label| (f64::from(class) - label).abs() < 1e-6)
+    };
+    let places: Vec<Option<usize>> = (0_u32..).take(count).map(place).collect();
+    let mut shares = Vec::with_capacity(known.shares.len());
+    for row in known.samples() {
+        shares.extend(places.iter().map(|place| place.map_or(0.0, |at| row[at])));
+    }
+    shares
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn cells(known: &ClassProbabilities) -> TaskCells {
+        let mut task = Task::new("slip", TaskKind::Class, "stroke");
+        task.names = ["a", "b", "c"].map(str::to_owned).to_vec();
+        TaskCells {
+            card: crate::task_view::task_card(&task),
+            clusters: vec![None; known.samples().count()],
+            shares: Some(of_all_classes(known, task.names.len())),
+        }
+    }
+
+    #[test]
+    fn models_that_learnt_different_classes_have_one_table_of_probabilities() {
+        let first = ClassProbabilities {
+            labels: vec![0.0, 2.0],
+            shares: vec![0.75, 0.25],
         };
-        let shares = known.samples().nth(row).unwrap_or_default();
-        let share = |class: u32| {
-            let own = known.labels.iter().zip(shares);
-            let mut own = own.filter(|(label, _)| (f64::from(class) - **label).abs() < 1e-6);
-            own.next().map_or(0.0, |(_, share)| *share)
+        let second = ClassProbabilities {
+            labels: vec![1.0, 2.0],
+            shares: vec![0.5, 0.5, 0.125, 0.875],
         };
-        (0_u32..)
-            .zip(&self.card.names)
-            .map(|(class, _)| share(class))
-            .collect()
+        let both = cells(&first)
+            .followed_by(cells(&second))
+            .in_order(&[2, 0, 1]);
+        let expected = [0.0, 0.125, 0.875, 0.75, 0.0, 0.25, 0.0, 0.5, 0.5];
+        assert_eq!(both.shares(), Some(expected.as_slice()));
     }
 }

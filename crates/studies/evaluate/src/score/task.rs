@@ -4,7 +4,6 @@ mod classes;
 mod depth;
 mod events;
 mod labels;
-mod mean_map;
 mod pose;
 mod rule;
 mod score_columns;

@@ -3,12 +3,13 @@
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_tasks::events::EventRule;
-use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskState, TopK};
+use taceva_tasks::{Classes, TaskError, TaskState};
 
 use super::labels::{ClassColumn, ClassNames};
 use super::score_columns::ScoreColumns;
 use super::{Clusters, RowPair, TaskRule, TaskSpec, TaskTables, empty, events, listed};
 use crate::error::EvaluateError;
+use crate::score_states::ScoreStates;
 
 /// A labelled sample of a task.
 #[derive(Clone, Debug)]
@@ -58,9 +59,15 @@ pub(super) fn state(
     state.notes.extend(names.note());
     state.unlabelled = left_out as u64;
     state.is_sequence = rule.is_some_and(|rule| rule.debounce.is_some());
-    let with_scores = ScoreColumns::of(tables, task, &names)?;
-    if let Some(columns) = with_scores {
-        of_scores(&mut state, &rows, &columns, &names, task).map_err(refused)?;
+    if let Some(columns) = ScoreColumns::of(tables, task, &names)? {
+        let positive = task.positive.as_deref();
+        let scored = ScoreStates::new(names.all(), positive, columns.are_all());
+        let mut scored = scored.map_err(refused)?;
+        for row in &rows {
+            let pushed = scored.push(row.cluster, row.truth, &row.scores);
+            pushed.map_err(refused)?;
+        }
+        scored.add_to(&mut state);
     }
     if let (TaskKind::Event, Some(positive)) = (task.kind, positive) {
         events::add(&mut state, tables, &rows, positive, rule)?;
@@ -181,37 +188,4 @@ fn check_threshold(threshold: f64, rows: &[ClassRow<'_>], positive: u32) -> Resu
              the same class: state a threshold from 0 to 1"
         )),
     }
-}
-
-/// Adds the states of ranks, probabilities and places of classes.
-fn of_scores(
-    state: &mut TaskState,
-    rows: &[ClassRow<'_>],
-    columns: &ScoreColumns<'_>,
-    names: &ClassNames,
-    task: &TaskSpec,
-) -> Result<(), TaskError> {
-    let positive = names.positive(task);
-    if let Some(positive) = positive {
-        let mut ranking = Ranking::default();
-        for row in rows {
-            if let Some(score) = ScoreColumns::of_class(&row.scores, positive) {
-                ranking.push(row.cluster, score, row.truth == positive)?;
-            }
-        }
-        state.ranking = Some(ranking);
-    }
-    if !columns.are_all() {
-        return Ok(());
-    }
-    let mut probabilities = Probabilities::new(names.all(), task.positive.as_deref())?;
-    let mut places = TopK::new(names.all())?;
-    for row in rows {
-        let truth = names.name(row.truth);
-        probabilities.push(row.cluster, truth, &row.scores)?;
-        places.push(row.cluster, truth, &row.scores)?;
-    }
-    state.probabilities = Some(probabilities);
-    state.places = Some(places);
-    Ok(())
 }

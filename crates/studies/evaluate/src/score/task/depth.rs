@@ -8,12 +8,13 @@ use taceva_core::{SourceUnit, Unit, counted, shown};
 use taceva_dataset::{Dataset, DatasetError, Digest, Task, TaskKind};
 use taceva_import::MapsFile;
 use taceva_models::Part;
-use taceva_tasks::depth::{DepthError, DepthMap, DepthState, DepthTask};
-use taceva_tasks::{TaskState, WorstSample};
+use taceva_tasks::TaskState;
+use taceva_tasks::depth::{DepthMap, DepthTask};
 
-use super::mean_map::{mean_map, rows_of};
 use super::{TaskRequest, TaskSpec};
+use crate::depth_pairs::{DepthPairs, definition, of_sample};
 use crate::error::EvaluateError;
+use crate::mean_map::{mean_map, rows_of};
 use crate::subject;
 use crate::task_state_file::TaskStates;
 
@@ -89,7 +90,6 @@ impl Scored<'_> {
     fn state(&self, definition: DepthTask) -> Result<TaskState, EvaluateError> {
         let task = self.task;
         let (dataset, name) = (self.dataset, task.name.as_str());
-        let clusters = dataset.clusters_of(task);
         let training = rows_of(dataset.table(), Part::Train);
         let scored: Vec<usize> = match training.is_empty() {
             true => (0..dataset.table().rows()).collect(),
@@ -101,59 +101,20 @@ impl Scored<'_> {
             Some(mean) => definition.with_constant(mean),
             None => definition,
         };
-        let mut state = DepthState::new(definition);
-        let mut of_task = TaskState::new(name, task.kind.name(), task.cluster.as_str());
-        let mut left_out = 0;
+        let mut pairs = DepthPairs::new(dataset, task, definition);
+        let [rows, columns] = self.maps.size();
         for row in scored {
-            let Some(map) = dataset.depth_map(name, row)? else {
-                left_out += 1;
-                continue;
-            };
-            let sample = &dataset.table().samples()[row];
-            let cluster = clusters[row].as_deref().ok_or_else(|| {
-                EvaluateError::Request(format!(
-                    "task `{}`: the sample `{}` has no value in the cluster column `{}`: name another with --cluster COLUMN",
-                    shown(name),
-                    shown(sample),
-                    shown(&task.cluster)
-                ))
+            pairs.push(row, || {
+                let numbers = self.maps.map(row as u64)?.into_iter();
+                let depths = numbers.map(|depth| self.unit.convert(depth)).collect();
+                DepthMap::new(rows, columns, depths)
+                    .map_err(|error| of_sample(dataset, task, row, &error))
             })?;
-            let refused = |error: DepthError| {
-                let sample = shown(sample);
-                EvaluateError::Request(format!(
-                    "task `{}`, sample `{sample}`: {error}",
-                    shown(name)
-                ))
-            };
-            let truth = DepthMap::new(map.rows, map.columns, map.mm).map_err(refused)?;
-            let [rows, columns] = self.maps.size();
-            let numbers = self.maps.map(row as u64)?.into_iter();
-            let depths = numbers.map(|depth| self.unit.convert(depth)).collect();
-            let predicted = DepthMap::new(rows, columns, depths).map_err(refused)?;
-            state
-                .push(cluster, row as u64 + 1, &truth, &predicted)
-                .map_err(refused)?;
-            if let Some(error) = mean_error_mm(&truth, &predicted) {
-                let worst = WorstSample::new(row, sample.as_str(), cluster, error, "mm");
-                of_task.evidence.add_worst(worst);
-            }
         }
-        if state.maps() == 0 {
-            return Err(EvaluateError::Request(format!(
-                "task `{}`: no sample{} has a depth map",
-                shown(name),
-                match training.is_empty() {
-                    true => "",
-                    false => " of the declared test part",
-                }
-            )));
-        }
-        if left_out > 0 {
-            let samples = counted(left_out, "sample");
-            of_task
-                .notes
-                .push(format!("{samples} without a depth map, left out"));
-        }
+        let mut of_task = pairs.into_state(match training.is_empty() {
+            true => "",
+            false => " of the declared test part",
+        })?;
         if !training.is_empty() {
             let samples = counted(training.len(), "sample");
             let constant = match has_mean {
@@ -166,17 +127,8 @@ impl Scored<'_> {
                 .notes
                 .push(format!("only the declared test part is scored; {constant}"));
         }
-        of_task.depth = Some(state);
         Ok(of_task)
     }
-}
-
-/// Mean absolute error of a map over the pixels that are valid in both; `None` without such a pixel.
-fn mean_error_mm(truth: &DepthMap, predicted: &DepthMap) -> Option<f64> {
-    let pairs = truth.mm().iter().zip(predicted.mm());
-    let errors = pairs.map(|(truth, predicted)| (truth - predicted).abs());
-    let valid: Vec<f64> = errors.filter(|error| !error.is_nan()).collect();
-    (!valid.is_empty()).then(|| valid.iter().sum::<f64>() / valid.len() as f64)
 }
 
 /// The task of the dataset, with the clusters of the column `cluster` if that is named.
@@ -228,21 +180,15 @@ fn unit_of(of: &TaskSpec) -> Result<SourceUnit, EvaluateError> {
 fn depth_task(of: &TaskSpec, task: &Task) -> Result<DepthTask, EvaluateError> {
     let refused =
         |problem: String| EvaluateError::Request(format!("task `{}`: {problem}", shown(&of.name)));
-    let mut definition = DepthTask::default();
-    if let Some(gate) = &of.gate {
-        let gate_mm: f64 = gate
-            .parse()
-            .map_err(|_| refused(format!("`gate={}`: expected a number in mm", shown(gate))))?;
-        definition = definition
-            .with_gate_mm(gate_mm)
-            .map_err(|error| refused(error.to_string()))?;
-    }
-    if let Some(pixel_mm) = task.maps.as_ref().and_then(|maps| maps.pixel_mm) {
-        definition = definition
-            .with_pixel_mm(pixel_mm)
-            .map_err(|error| refused(error.to_string()))?;
-    }
-    Ok(definition)
+    let own = definition(task)?;
+    let Some(gate) = &of.gate else {
+        return Ok(own);
+    };
+    let gate_mm: f64 = gate
+        .parse()
+        .map_err(|_| refused(format!("`gate={}`: expected a number in mm", shown(gate))))?;
+    own.with_gate_mm(gate_mm)
+        .map_err(|error| refused(error.to_string()))
 }
 
 fn digest_of(path: &Path) -> Result<Digest, EvaluateError> {

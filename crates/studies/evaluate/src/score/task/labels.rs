@@ -109,11 +109,6 @@ impl ClassNames {
         &self.names
     }
 
-    /// Name of the class at `position`.
-    pub(super) fn name(&self, position: u32) -> &str {
-        &self.names[position as usize]
-    }
-
     /// Position of the positive class of `task`.
     pub(super) fn positive(&self, task: &TaskSpec) -> Option<u32> {
         self.position(task.positive.as_deref()?)

@@ -8,14 +8,14 @@ use taceva_tasks::depth::DepthMap;
 use crate::error::EvaluateError;
 
 /// Rows whose declared part is `part`.
-pub(super) fn rows_of(table: &Table, part: Part) -> Vec<usize> {
+pub(crate) fn rows_of(table: &Table, part: Part) -> Vec<usize> {
     let parts = table.part().iter().enumerate();
     let own = parts.filter(|(_, own)| own.as_deref().and_then(Part::from_name) == Some(part));
     own.map(|(row, _)| row).collect()
 }
 
 /// Mean of the valid depths of each pixel over the maps of `rows`; `None` if no row has a map. A pixel that is valid in no map is invalid.
-pub(super) fn mean_map(
+pub(crate) fn mean_map(
     dataset: &Dataset,
     task: &str,
     rows: &[usize],
