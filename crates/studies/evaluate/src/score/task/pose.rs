@@ -84,7 +84,7 @@ pub(super) fn state(
     let truth = PoseColumns::of(&tables.truth, task)?;
     let prediction = PoseColumns::of(&tables.prediction, task)?;
     let mut state = PoseState::new(definition(task)?);
-    let mut euler = EulerErrors::default();
+    let mut euler = (task.kind != TaskKind::Place).then(EulerErrors::default);
     let mut of_task = empty(task, clusters);
     let mut left_out = 0;
     for pair in &tables.pairs {
@@ -100,7 +100,9 @@ pub(super) fn state(
         };
         let cluster = clusters.cell(*pair)?;
         state.push(cluster, &true_pose, &predicted);
-        euler.push(&true_pose, &predicted);
+        if let Some(euler) = &mut euler {
+            euler.push(&true_pose, &predicted);
+        }
         let error = true_pose.distance_mm(&predicted);
         let sample = format!("row {}", pair.truth + 1);
         let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
@@ -108,7 +110,7 @@ pub(super) fn state(
     }
     of_task.unlabelled = left_out;
     of_task.pose = Some(state);
-    of_task.euler = (task.kind != TaskKind::Place).then_some(euler);
+    of_task.euler = euler;
     Ok(of_task)
 }
 
