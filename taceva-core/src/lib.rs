@@ -5,6 +5,7 @@ mod batch;
 mod channel;
 mod count;
 mod date;
+mod display;
 mod driver;
 mod error;
 mod estimator_factory;
