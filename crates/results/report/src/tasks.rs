@@ -45,9 +45,7 @@ pub fn task_table(report: &TaskReport) -> Table {
         }
     }
     table.note(format!("Rows are paired {}.", report.paired));
-    if let Some(words) = not_measured(report.sources.iter().map(String::as_str)) {
-        table.note(words);
-    }
+    table.note_all(not_measured(report.sources.iter().map(String::as_str)));
     table
 }
 

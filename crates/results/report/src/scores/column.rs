@@ -68,9 +68,7 @@ impl ScoreTable {
                     (1, _) => caption.to_owned(),
                     (_, at) => numbered(caption, at + 1, count),
                 };
-                if let Some(note) = main.note() {
-                    table.note(note);
-                }
+                table.note_all(main.note());
                 tables.push(table);
             }
         }

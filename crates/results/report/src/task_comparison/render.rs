@@ -95,9 +95,7 @@ impl TaskComparison {
                     .chain(last),
             );
         }
-        for note in self.remarks() {
-            table.note(note);
-        }
+        table.note_all(self.remarks());
         table
     }
 
@@ -142,9 +140,7 @@ impl TaskComparison {
             ]);
         }
         table.note(METHOD);
-        for note in self.remarks() {
-            table.note(note);
-        }
+        table.note_all(self.remarks());
         table
     }
 
