@@ -203,10 +203,10 @@ impl Found {
         let samples = self.report.samples.as_ref();
         let labels = samples.and_then(|samples| samples.channel(&channel.name));
         let truths = labels.into_iter().flat_map(|of| of.truths());
-        let farthest = truths.fold(0.0_f64, |far, truth| match truth.abs() > far.abs() {
-            true => truth,
-            false => far,
-        });
+        let farthest = truths.fold(
+            0.0_f64,
+            |far, truth| if truth.abs() > far.abs() { truth } else { far },
+        );
         let half = format!("{:.1e}", farthest / 2.0).parse().unwrap_or(0.0_f64);
         if half.abs() > 0.0 { half } else { 1.0 }
     }

@@ -320,10 +320,7 @@ fn estimate(cell: Option<&ScoreCell>, digits: usize) -> Estimate {
     };
     Estimate {
         formatted: FormattedValue::short(value, cell.ends, digits),
-        mark: match cell.takes_part() {
-            true => "",
-            false => BARRED,
-        },
+        mark: if cell.takes_part() { "" } else { BARRED },
         is_best: cell.is_best,
         ..Estimate::default()
     }
