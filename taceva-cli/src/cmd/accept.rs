@@ -57,10 +57,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
         let units = units_of(&args.process)?;
         add_process_risks(&mut findings, &study, &units, target_risk(args)?);
     }
-    let pictures = match &args.html {
-        Some(_) => pictures(result, context),
-        None => None,
-    };
+    let pictures = args.html.as_ref().and_then(|_| pictures(result, context));
     let acceptance = Acceptance {
         limits: &limits,
         study: &study,

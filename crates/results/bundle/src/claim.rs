@@ -180,10 +180,7 @@ pub(crate) fn properties(claims: &[Claim]) -> Vec<Value> {
 
 /// Unit of a score or of one of its variants.
 fn unit_of(score: &Score, variant: Option<&str>) -> Option<Unit> {
-    match variant {
-        None => Some(score.unit),
-        Some(name) => score.variant(name).map(|variant| variant.unit),
-    }
+    variant.map_or(Some(score.unit), |name| Some(score.variant(name)?.unit))
 }
 
 /// Claims of study `study`: every number of its scores and of their variants, at the level of the form.

@@ -172,10 +172,7 @@ fn remarks(task: &TaskScores) -> Vec<String> {
 
 /// Number of a public program beside the right one.
 fn as_published(number: &PublicNumber) -> String {
-    let unit = match number.unit {
-        Some(unit) => format!(" {unit}"),
-        None => String::new(),
-    };
+    let unit = (number.unit).map_or_else(String::new, |unit| format!(" {unit}"));
     let right = match number.right {
         Some(right) => format!("the right number is {}{unit}", numeral(right)),
         None => "the right number needs other columns".to_owned(),
