@@ -122,15 +122,7 @@ fn study_of(result: &Path) -> anyhow::Result<Study> {
     if let Some(of_tasks) = results::tasks::read(result)? {
         return Ok(of_tasks.study());
     }
-    let mut studies = results::read(result)?;
-    match (studies.pop(), studies.len()) {
-        (Some(study), 0) => Ok(study),
-        (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
-            shown(&result),
-            others + usize::from(found.is_some())
-        ))),
-    }
+    results::of_one_sensor(result, results::read(result)?)
 }
 
 /// Pictures of the sensor, if `result` is a report of a run with its recording. A read failure is only printed, because limits do not need pictures.

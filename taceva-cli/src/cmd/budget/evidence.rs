@@ -161,21 +161,11 @@ pub(super) struct Found {
 
 /// Reads the result of the single sensor at `path`, with its samples.
 pub(super) fn report_of(path: &Path) -> anyhow::Result<Found> {
-    let results::Reports {
-        mut reports,
-        mut missing,
-    } = results::reports(path)?;
-    match (reports.pop(), reports.len()) {
-        (Some(report), 0) => Ok(Found {
-            report,
-            without_samples: missing.pop(),
-        }),
-        (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
-            shown(path),
-            others + usize::from(found.is_some())
-        ))),
-    }
+    let mut found = results::reports(path)?;
+    Ok(Found {
+        report: results::of_one_sensor(path, found.reports)?,
+        without_samples: found.missing.pop(),
+    })
 }
 
 impl Found {
