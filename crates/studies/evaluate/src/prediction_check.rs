@@ -313,10 +313,7 @@ fn share(distance: f64, range: f64) -> f64 {
         return 0.0;
     }
     let share = distance / range;
-    match share.is_nan() {
-        true => f64::INFINITY,
-        false => share,
-    }
+    if share.is_nan() { f64::INFINITY } else { share }
 }
 
 /// Distance between two predictions. For an angle with a period, the shorter way around is used.
