@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use taceva_core::distinct;
 use taceva_metrics::Standing;
 use taceva_results::{EvaluationReport, Interval, Score, ScoreLine, described_method};
 
@@ -126,13 +127,7 @@ pub(super) fn remedies(report: &EvaluationReport) -> Vec<&'static str> {
         valued.any(|score| score.standing == *standing)
     };
     let met = Standing::ALL.into_iter().filter(is_met);
-    let mut remedies: Vec<&str> = Vec::new();
-    for remedy in met.filter_map(|standing| standing.remedy(is_cross_validated)) {
-        if !remedies.contains(&remedy) {
-            remedies.push(remedy);
-        }
-    }
-    remedies
+    distinct(met.filter_map(|standing| standing.remedy(is_cross_validated)))
 }
 
 /// Names of maps, curves and matrices that only JSON contains, one line for each metric: `r_spatial Px Py Fz: distance, depth`.

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use taceva_core::PressOutcome;
+use taceva_core::{PressOutcome, distinct};
 use taceva_metrics::{Better, catalogue, plane_of};
 use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
 use taceva_results::{EvaluationReport, ScoreLine, not_measured};
@@ -164,13 +164,7 @@ fn headlines(report: &EvaluationReport) -> Vec<ScoreLine<'_>> {
 
 /// Keys of all rows of the reports, in catalogue order.
 fn rows(reports: &[Vec<ScoreLine<'_>>]) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::new();
-    for line in reports.iter().flatten() {
-        let row = row_of(line);
-        if !rows.contains(&row) {
-            rows.push(row);
-        }
-    }
+    let mut rows = distinct(reports.iter().flatten().map(row_of));
     rows.sort_by_key(|[metric, ..]| catalogue::ALL.iter().position(|known| known.id == metric));
     rows
 }

@@ -1,6 +1,6 @@
 //! Scores of tasks, for readers and programs.
 
-use taceva_core::counted;
+use taceva_core::{counted, distinct};
 use taceva_metrics::Interval;
 use taceva_results::not_measured;
 use taceva_tasks::{Estimate, PublicNumber, TaskReport, TaskScore, TaskScores};
@@ -156,12 +156,8 @@ fn remarks(task: &TaskScores) -> Vec<String> {
             _ => format!("intervals by {by}"),
         });
     }
-    let mut flags: Vec<&str> = Vec::new();
-    for flag in task.scores.iter().flat_map(|score| &score.flags) {
-        if !flags.contains(&flag.words()) {
-            flags.push(flag.words());
-        }
-    }
+    let flags = task.scores.iter().flat_map(|score| &score.flags);
+    let flags = distinct(flags.map(|flag| flag.words()));
     remarks.extend(flags.into_iter().map(str::to_owned));
     if task.names.len() <= MOST_CLASSES {
         remarks.extend(confusion(task));

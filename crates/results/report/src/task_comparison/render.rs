@@ -270,11 +270,5 @@ fn ends(difference: &Difference) -> String {
 
 /// Distinct texts in their order, separated by semicolons.
 fn distinct(texts: impl Iterator<Item = String>) -> String {
-    let mut all: Vec<String> = Vec::new();
-    for text in texts {
-        if !all.contains(&text) {
-            all.push(text);
-        }
-    }
-    all.join("; ")
+    taceva_core::distinct(texts).join("; ")
 }
