@@ -158,15 +158,11 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
 
 /// Numbers of `sensor` by other definitions than those of the needs, each property once.
 fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
-    let mut found: Vec<String> = Vec::new();
-    for property in needs.iter().flat_map(Need::properties) {
-        if let Some(other) = property.other(sensor) {
-            let words = format!("no {property}; known: {other}");
-            if !found.contains(&words) {
-                found.push(words);
-            }
-        }
-    }
+    let properties = needs.iter().flat_map(Need::properties);
+    let found = taceva_core::distinct(properties.filter_map(|property| {
+        let other = property.other(sensor)?;
+        Some(format!("no {property}; known: {other}"))
+    }));
     (!found.is_empty()).then(|| found.join("; "))
 }
 
