@@ -325,10 +325,8 @@ fn distance(channel: &Channel, one: Option<f64>, other: Option<f64>) -> f64 {
         };
     };
     let distance = (one - other).abs();
-    match channel.period_in_unit() {
-        Some(period) => distance.min((period - distance).abs()),
-        None => distance,
-    }
+    let period = channel.period_in_unit();
+    period.map_or(distance, |period| distance.min((period - distance).abs()))
 }
 
 fn is_same(one: Option<f64>, other: Option<f64>) -> bool {

@@ -70,10 +70,8 @@ impl TaskComparison {
                     None => Cell::estimate(score.estimate.value, score.estimate.ends()),
                 },
             };
-            let unit = match &line.score.unit {
-                Some(unit) => format!(" ({unit})"),
-                None => String::new(),
-            };
+            let unit = line.score.unit.as_ref();
+            let unit = unit.map_or_else(String::new, |unit| format!(" ({unit})"));
             let constants = known().map(|score| match score.estimate.of_constant {
                 Some(constant) => numeral(constant),
                 None => "–".to_owned(),
