@@ -6,6 +6,7 @@ use std::fmt;
 use std::num::NonZeroU16;
 
 use self::name::{ChannelName, NAME_MAX};
+use crate::display::display;
 use crate::unit::Unit;
 
 /// One measured quantity: a name and a unit. A plain value, copied like a number.
@@ -165,11 +166,7 @@ impl Channel {
     }
 }
 
-impl fmt::Display for Channel {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(Channel, name);
 
 /// Channels of a stream, each once, in canonical order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
 ///

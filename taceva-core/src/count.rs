@@ -37,10 +37,7 @@ pub fn by_count<N, T>(count: N, one: T, many: T) -> T
 where
     N: PartialEq + From<u8>,
 {
-    match count == N::from(1_u8) {
-        true => one,
-        false => many,
-    }
+    if count == N::from(1_u8) { one } else { many }
 }
 
 #[cfg(test)]

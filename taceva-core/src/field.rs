@@ -1,7 +1,8 @@
 //! Parts of a sample, as data. Unread parts are neither decoded nor stored.
 
-use std::fmt;
 use std::ops::BitOr;
+
+use crate::display::display;
 
 /// One part of a [`Sample`](crate::Sample).
 ///
@@ -91,11 +92,7 @@ impl Field {
     }
 }
 
-impl fmt::Display for Field {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(Field, name);
 
 /// A set of fields.
 ///

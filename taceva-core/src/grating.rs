@@ -1,6 +1,6 @@
 //! Gratings for tests of spatial resolution.
 
-use std::fmt;
+use crate::display::display;
 
 /// Relief of a grating, with one period in each direction of repetition. It gets no further variant in a compatible version: the metrics of
 /// spatial resolution are defined for these two kinds.
@@ -39,8 +39,4 @@ impl GratingKind {
     }
 }
 
-impl fmt::Display for GratingKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(GratingKind, name);

@@ -4,6 +4,8 @@ use std::fmt;
 use std::str::FromStr;
 use std::sync::OnceLock;
 
+use crate::display::display;
+
 /// Environment variable with the name of an instruction set.
 const VARIABLE: &str = "TACEVA_ISA";
 
@@ -119,11 +121,7 @@ impl Isa {
     }
 }
 
-impl fmt::Display for Isa {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(Isa, name);
 
 impl FromStr for Isa {
     type Err = IsaError;

@@ -5,6 +5,8 @@ mod batch;
 mod channel;
 mod count;
 mod date;
+mod display;
+mod distinct;
 mod driver;
 mod error;
 mod estimator_factory;
@@ -47,6 +49,7 @@ pub use batch::{Batch, BatchBuilder, Column, Labels};
 pub use channel::{Channel, ChannelError, Channels};
 pub use count::{by_count, counted};
 pub use date::{Date, DateError};
+pub use distinct::distinct;
 pub use driver::{
     Axes, Axis, Changer, Deadline, Device, DriverError, DriverKind, EXPIRES, EnablingSwitch,
     ExpiringMotion, Fault, ForceTransducer, Guard, GuardedMotion, GuardedStop, Halt, Interrupt,

@@ -1,6 +1,6 @@
 //! Outcomes of a press, and the limits of the gel that end a press.
 
-use std::fmt;
+use crate::display::display;
 
 /// Limit of the gel that ends a press.
 ///
@@ -40,11 +40,7 @@ impl Limit {
     }
 }
 
-impl fmt::Display for Limit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(Limit, name);
 
 /// Outcome of a press.
 ///
@@ -100,11 +96,7 @@ impl PressOutcome {
     }
 }
 
-impl fmt::Display for PressOutcome {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(PressOutcome, name);
 
 impl From<PressOutcome> for &'static str {
     fn from(outcome: PressOutcome) -> &'static str {

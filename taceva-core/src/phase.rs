@@ -1,6 +1,6 @@
 //! Branch of a press on which a sample was taken.
 
-use std::fmt;
+use crate::display::display;
 
 /// Branch of a press. It gets no further variant: an indenter moves in, moves out, or rests, and samples at rest have no branch.
 ///
@@ -35,8 +35,4 @@ impl Phase {
     }
 }
 
-impl fmt::Display for Phase {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(Phase, name);

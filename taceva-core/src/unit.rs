@@ -6,7 +6,7 @@ mod source;
 pub use amount::{Amount, AmountError};
 pub use source::{SourceUnit, UnitError};
 
-use std::fmt;
+use crate::display::display;
 
 /// Unit in which TacEva stores and reports a channel.
 ///
@@ -142,8 +142,4 @@ impl Unit {
     }
 }
 
-impl fmt::Display for Unit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.symbol())
-    }
-}
+display!(Unit, symbol);

@@ -1,9 +1,10 @@
 //! Structure figures of the workspace: lines, module cycles, tuple parameters, copies, doc comments, file names, and the number of files
-//! per feature.
+//! per feature and of crates per package.
 //!
 //! `cargo run -p taceva-tests --bin structure` prints them; tests limit the ones that must not grow.
 
 mod copies;
+mod crates;
 mod documentation;
 mod file_names;
 mod knots;
@@ -14,6 +15,7 @@ mod tuples;
 mod walk;
 
 pub use copies::{COPIES, Copies, copies};
+pub use crates::compiled_crates;
 pub use documentation::{Documentation, documentation};
 pub use file_names::files_named_by_participles;
 pub use knots::{knots, module_graph};

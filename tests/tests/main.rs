@@ -1,5 +1,6 @@
 //! Tests that cross crates, in one program.
 
+mod additions;
 mod book;
 mod circles;
 mod damage;

@@ -133,10 +133,7 @@ impl ForceTransducer for PythonForce {
     }
 
     fn tare(&mut self) -> Option<&mut dyn Tare> {
-        match self.can_tare {
-            true => Some(self),
-            false => None,
-        }
+        if self.can_tare { Some(self) } else { None }
     }
 }
 

@@ -57,10 +57,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
         let units = units_of(&args.process)?;
         add_process_risks(&mut findings, &study, &units, target_risk(args)?);
     }
-    let pictures = match &args.html {
-        Some(_) => pictures(result, context),
-        None => None,
-    };
+    let pictures = args.html.as_ref().and_then(|_| pictures(result, context));
     let acceptance = Acceptance {
         limits: &limits,
         study: &study,
@@ -125,15 +122,7 @@ fn study_of(result: &Path) -> anyhow::Result<Study> {
     if let Some(of_tasks) = results::tasks::read(result)? {
         return Ok(of_tasks.study());
     }
-    let mut studies = results::read(result)?;
-    match (studies.pop(), studies.len()) {
-        (Some(study), 0) => Ok(study),
-        (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
-            shown(&result),
-            others + usize::from(found.is_some())
-        ))),
-    }
+    results::of_one_sensor(result, results::read(result)?)
 }
 
 /// Pictures of the sensor, if `result` is a report of a run with its recording. A read failure is only printed, because limits do not need pictures.

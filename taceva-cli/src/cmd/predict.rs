@@ -82,10 +82,7 @@ fn beyond(predicted: &Predicted, is_unbounded: bool, out: &mut dyn Write) -> io:
             "outside  {count} of {rows} samples are unlike those of the fit (distance > 1)"
         )?;
     }
-    let whether = match is_unbounded {
-        true => "beyond",
-        false => "clipped to",
-    };
+    let whether = if is_unbounded { "beyond" } else { "clipped to" };
     for AtBound {
         channel,
         bound,

@@ -36,6 +36,18 @@ pub(super) struct Found {
     pub(super) missing: Vec<String>,
 }
 
+/// The only one of `all`, which are the sensors of the result `path`.
+pub(super) fn of_one_sensor<T>(path: &Path, mut all: Vec<T>) -> anyhow::Result<T> {
+    match (all.pop(), all.len()) {
+        (Some(one), 0) => Ok(one),
+        (found, others) => Err(Usage::error(format!(
+            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
+            shown(path),
+            others + usize::from(found.is_some())
+        ))),
+    }
+}
+
 /// Rejects a result that is named twice, such as a run by folder and file, or a sensor of the catalogue by two names.
 pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
     for (position, path) in named.iter().enumerate() {

@@ -2,81 +2,24 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::Unit;
-use taceva_metrics::{Better, Standing};
-use taceva_results::{EvaluationReport, Interval, Score, Value, described_method};
-
-/// Line for one number of a report, or for the reason of its absence.
-pub(super) struct Line<'a> {
-    /// The metric, with the name of the variant: `mae`, `r_spatial.within`.
-    pub(super) name: String,
-    /// The channel or plane.
-    pub(super) channel: &'a str,
-    pub(super) value: &'a Value,
-    pub(super) unit: Unit,
-    /// Interval; `None` if the number cannot have one.
-    pub(super) interval: Option<&'a Interval>,
-    /// Score to which the number belongs.
-    pub(super) score: &'a Score,
-    /// True for the score itself, false for one of its variants.
-    pub(super) is_headline: bool,
-}
+use taceva_core::distinct;
+use taceva_metrics::Standing;
+use taceva_results::{EvaluationReport, Interval, Score, ScoreLine, described_method};
 
 /// Lines of every score and of its variants with a single number. Only JSON contains maps and curves.
-pub(super) fn lines(scores: &[Score]) -> Vec<Line<'_>> {
-    let mut lines = Vec::new();
-    for score in scores {
-        let channel = score.channel.as_str();
-        lines.push(Line {
-            name: score.metric.clone(),
-            channel,
-            value: &score.value,
-            unit: score.unit,
-            interval: score.interval.as_ref(),
-            score,
-            is_headline: true,
-        });
-        let numbers = score
-            .variants
-            .iter()
-            .filter(|variant| is_one(&variant.value));
-        lines.extend(numbers.map(|variant| Line {
-            name: format!("{}.{}", score.metric, variant.name),
-            channel,
-            value: &variant.value,
-            unit: variant.unit,
-            interval: variant.interval.as_ref(),
-            score,
-            is_headline: false,
-        }));
-    }
-    lines
+pub(super) fn lines(scores: &[Score]) -> Vec<ScoreLine<'_>> {
+    scores.iter().flat_map(|score| score.lines()).collect()
 }
 
 /// Lines for readers. Omits reference constants and variants of undefined scores, which only JSON and CSV contain.
-pub(super) fn read_lines(scores: &[Score]) -> Vec<Line<'_>> {
-    let has_value = |line: &Line<'_>| {
+pub(super) fn read_lines(scores: &[Score]) -> Vec<ScoreLine<'_>> {
+    let has_value = |line: &ScoreLine<'_>| {
         line.is_headline || line.value.number().is_some() || line.score.value.number().is_some()
     };
     let lines = lines(scores).into_iter();
     lines
         .filter(|line| !line.is_reference() && has_value(line))
         .collect()
-}
-
-impl Line<'_> {
-    /// The name with the sign of its direction: `mae ↓`.
-    pub(super) fn shown_name(&self) -> String {
-        Better::named(&self.name)
-    }
-
-    /// True for the reference constant of a score. It is not a score of the model.
-    pub(super) fn is_reference(&self) -> bool {
-        matches!(
-            self.name.as_str(),
-            "skill.constant" | "sr.of_constant" | "tolerance.of_constant"
-        )
-    }
 }
 
 /// Methods of intervals, with their metrics if there are several: `jackknife, 460 samples taken as independent in 32 groups, logarithmic (mae)`.
@@ -184,23 +127,15 @@ pub(super) fn remedies(report: &EvaluationReport) -> Vec<&'static str> {
         valued.any(|score| score.standing == *standing)
     };
     let met = Standing::ALL.into_iter().filter(is_met);
-    let mut remedies: Vec<&str> = Vec::new();
-    for remedy in met.filter_map(|standing| standing.remedy(is_cross_validated)) {
-        if !remedies.contains(&remedy) {
-            remedies.push(remedy);
-        }
-    }
-    remedies
+    distinct(met.filter_map(|standing| standing.remedy(is_cross_validated)))
 }
 
 /// Names of maps, curves and matrices that only JSON contains, one line for each metric: `r_spatial Px Py Fz: distance, depth`.
 pub(super) fn pictures(scores: &[Score]) -> Vec<String> {
     let mut pictures: Vec<(&str, Vec<&str>, String)> = Vec::new();
     for score in scores {
-        let many = score
-            .variants
-            .iter()
-            .filter(|variant| !is_one(&variant.value));
+        let many = score.variants.iter();
+        let many = many.filter(|variant| variant.value.is_of_many());
         let names: Vec<&str> = many.map(|variant| variant.name.as_str()).collect();
         let names = names.join(", ");
         match pictures.last_mut() {
@@ -217,13 +152,10 @@ pub(super) fn pictures(scores: &[Score]) -> Vec<String> {
     pictures.into_iter().map(line).collect()
 }
 
-fn is_one(value: &Value) -> bool {
-    !matches!(value, Value::Map(_) | Value::Curve(_) | Value::Matrix(_))
-}
-
 #[cfg(test)]
 mod tests {
-    use taceva_results::Variant;
+    use taceva_core::Unit;
+    use taceva_results::{Value, Variant};
 
     use super::*;
 

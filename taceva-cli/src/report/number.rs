@@ -1,12 +1,10 @@
 //! Formats scores by the rule that all reports share.
 
 use taceva_report::FormattedValue;
-use taceva_results::Interval;
-
-use super::line::Line;
+use taceva_results::{Interval, ScoreLine};
 
 /// Formats a score: value and ends of the interval, or the reason why there is no value.
-pub(super) fn formatted(line: &Line<'_>) -> FormattedValue {
+pub(super) fn formatted(line: &ScoreLine<'_>) -> FormattedValue {
     FormattedValue::of(line.value, line.interval)
 }
 

@@ -2,12 +2,12 @@
 
 use std::io::{self, Write};
 
-use taceva_core::PressOutcome;
+use taceva_core::{PressOutcome, distinct};
 use taceva_metrics::{Better, catalogue, plane_of};
 use taceva_report::{Align, Column, Study, Table, escape_terminal, short_digests};
-use taceva_results::{EvaluationReport, not_measured};
+use taceva_results::{EvaluationReport, ScoreLine, not_measured};
 
-use super::line::{Line, lines, standings};
+use super::line::{lines, standings};
 use super::number::formatted;
 use super::page;
 use super::text::{over_seeds, presses};
@@ -29,7 +29,7 @@ pub(super) fn write(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Re
         writeln!(out, "   {}", subject.source)?;
     }
     writeln!(out)?;
-    let lines: Vec<Vec<Line<'_>>> = reports.iter().map(headlines).collect();
+    let lines: Vec<Vec<ScoreLine<'_>>> = reports.iter().map(headlines).collect();
     let rows = rows(&lines);
     let published: Vec<Vec<String>> = reports
         .iter()
@@ -109,7 +109,7 @@ fn ties(reports: &[EvaluationReport], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Published values of the sensor, one for each row; empty if no row has a published value with the same definition.
-fn published(report: &EvaluationReport, lines: &[Line<'_>], rows: &[Row]) -> Vec<String> {
+fn published(report: &EvaluationReport, lines: &[ScoreLine<'_>], rows: &[Row]) -> Vec<String> {
     let Some(sensor) = taceva_report::catalogue::find(&report.subject.sensor) else {
         return Vec::new();
     };
@@ -146,7 +146,7 @@ fn columns(reports: &[EvaluationReport], published: &[Vec<String>]) -> Vec<Colum
 }
 
 /// Scores without variants. Scores of planes replace those of their axes.
-fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
+fn headlines(report: &EvaluationReport) -> Vec<ScoreLine<'_>> {
     let lines = lines(&report.scores);
     let has = |name: &str, channel: &str| {
         let mut lines = lines.iter();
@@ -163,19 +163,13 @@ fn headlines(report: &EvaluationReport) -> Vec<Line<'_>> {
 }
 
 /// Keys of all rows of the reports, in catalogue order.
-fn rows(reports: &[Vec<Line<'_>>]) -> Vec<Row> {
-    let mut rows: Vec<Row> = Vec::new();
-    for line in reports.iter().flatten() {
-        let row = row_of(line);
-        if !rows.contains(&row) {
-            rows.push(row);
-        }
-    }
+fn rows(reports: &[Vec<ScoreLine<'_>>]) -> Vec<Row> {
+    let mut rows = distinct(reports.iter().flatten().map(row_of));
     rows.sort_by_key(|[metric, ..]| catalogue::ALL.iter().position(|known| known.id == metric));
     rows
 }
 
-fn row_of(line: &Line<'_>) -> Row {
+fn row_of(line: &ScoreLine<'_>) -> Row {
     let unit = match line.unit.symbol() {
         "1" => "",
         symbol => symbol,
@@ -183,7 +177,7 @@ fn row_of(line: &Line<'_>) -> Row {
     [line.name.as_str(), line.channel, unit].map(str::to_owned)
 }
 
-fn cell(lines: &[Line<'_>], row: &Row) -> String {
+fn cell(lines: &[ScoreLine<'_>], row: &Row) -> String {
     let line = lines.iter().find(|line| row_of(line) == *row);
     let formatted = line.map(|line| formatted(line).value);
     formatted

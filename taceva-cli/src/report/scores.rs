@@ -6,9 +6,9 @@ use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
     short_digests,
 };
-use taceva_results::{EvaluationReport, Interval, Value};
+use taceva_results::{EvaluationReport, Interval, ScoreLine, Value};
 
-use super::line::{Line, lines, methods, read_lines, standings};
+use super::line::{lines, methods, read_lines, standings};
 use super::number::{formatted, no_interval};
 
 /// Table with one row for each score or variant, with all digits.
@@ -52,7 +52,7 @@ pub(super) fn every_number(report: &EvaluationReport) -> Table {
     table
 }
 
-fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
+fn numbers(line: &ScoreLine<'_>, source: &str) -> [Cell; 15] {
     let ends = line.interval.and_then(Interval::ends);
     let why = match line.value.number() {
         None => formatted(line).reason.unwrap_or_default(),
@@ -86,7 +86,7 @@ fn numbers(line: &Line<'_>, source: &str) -> [Cell; 15] {
 
 /// Lines and channels of a table by channel: those with at least one value, or all if no line has a value.
 struct ShownLines<'a> {
-    lines: Vec<Line<'a>>,
+    lines: Vec<ScoreLine<'a>>,
     channels: Vec<&'a str>,
 }
 
@@ -106,14 +106,14 @@ impl<'a> ShownLines<'a> {
         ShownLines { lines, channels }
     }
 
-    fn holds(&self, line: &Line<'_>) -> bool {
+    fn holds(&self, line: &ScoreLine<'_>) -> bool {
         let mut lines = self.lines.iter();
         lines.any(|own| own.name == line.name) && self.channels.contains(&line.channel)
     }
 }
 
 /// True if the value is neither undefined nor inapplicable.
-fn has_value(line: &Line<'_>) -> bool {
+fn has_value(line: &ScoreLine<'_>) -> bool {
     !matches!(line.value, Value::Undefined(_) | Value::NotApplicable(_))
 }
 
@@ -155,7 +155,7 @@ pub(super) fn for_pages(report: &EvaluationReport) -> Table {
 }
 
 /// Value of a line with its unit and interval, or the reason why there is no value.
-fn estimate(line: &Line<'_>) -> Estimate {
+fn estimate(line: &ScoreLine<'_>) -> Estimate {
     let FormattedValue {
         value,
         interval,

@@ -40,9 +40,7 @@ pub(crate) fn table(report: &StressReport) -> Table {
             table.push(cells);
         }
     }
-    for words in notes(report, &channels) {
-        table.note(words);
-    }
+    table.note_all(notes(report, &channels));
     table
 }
 

@@ -5,9 +5,9 @@ use std::io::{self, Write};
 use taceva_core::{Limit, PressOutcome};
 use taceva_metrics::Better;
 use taceva_report::{Align, Column, Table, escape_terminal, short_digests};
-use taceva_results::{EvaluationReport, not_measured};
+use taceva_results::{EvaluationReport, ScoreLine, not_measured};
 
-use super::line::{Line, flags, limits, methods, pictures, read_lines, remedies, standings};
+use super::line::{flags, limits, methods, pictures, read_lines, remedies, standings};
 use super::number::formatted;
 use super::{groups, recordings, tasks};
 
@@ -33,7 +33,7 @@ pub(super) fn write(report: &EvaluationReport, out: &mut dyn Write) -> io::Resul
 }
 
 /// Cells of a table row that begins with `name`.
-fn cells(name: String, line: &Line<'_>) -> [String; 6] {
+fn cells(name: String, line: &ScoreLine<'_>) -> [String; 6] {
     let formatted = formatted(line);
     let interval = formatted
         .interval

@@ -56,12 +56,8 @@ pub(crate) fn table(report: &WearReport) -> Table {
             of.recording, of.untouched
         ));
     }
-    for words in &report.notes {
-        table.note(words.clone());
-    }
-    if let Some(words) = &report.not_measured {
-        table.note(words.clone());
-    }
+    table.note_all(report.notes.iter().cloned());
+    table.note_all(report.not_measured.as_deref());
     table
 }
 

@@ -3,16 +3,9 @@
 use crate::support::{Bench, SAMPLES, leftovers};
 use serde_json::Value;
 
-fn imported() -> Bench {
-    let bench = Bench::new();
-    bench.lab();
-    bench.ok("import lab --map map.toml --out data");
-    bench
-}
-
 #[test]
 fn a_folder_of_pictures_becomes_scores_in_two_commands() {
-    let bench = imported();
+    let bench = Bench::imported();
     let text = bench.ok("evaluate data --model ridge --set size=8 --part all");
     for word in [
         "mae",
@@ -38,7 +31,7 @@ fn a_folder_of_pictures_becomes_scores_in_two_commands() {
 
 #[test]
 fn predictions_that_are_scored_as_tables_give_what_evaluate_gives() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.ok("fit data --model pls --set size=8 --split random --seed 3 --out model --split-out split.json");
     bench.ok("predict data --with model --out pred.csv --truth-out truth.csv");
     let mut evaluated = bench.json("evaluate data --with model");
@@ -79,7 +72,7 @@ fn without_skill(report: &mut Value) {
 
 #[test]
 fn the_bytes_of_a_result_do_not_depend_on_the_number_of_jobs() {
-    let bench = imported();
+    let bench = Bench::imported();
     let of = |jobs: u32| {
         bench.ok(&format!(
             "evaluate data --model ridge --split by-point --format json -q --jobs {jobs}"
@@ -91,7 +84,7 @@ fn the_bytes_of_a_result_do_not_depend_on_the_number_of_jobs() {
 
 #[test]
 fn an_evaluation_that_reads_no_frame_decodes_none() {
-    let bench = imported();
+    let bench = Bench::imported();
     let report = bench.json("evaluate data --model baseline --split by-point");
     assert_eq!(report["provenance"]["frames_decoded"], 0);
     let plan = bench.ok("evaluate data --model baseline --split by-point --explain");
@@ -112,7 +105,7 @@ fn an_evaluation_that_reads_no_frame_decodes_none() {
 
 #[test]
 fn every_form_of_a_result_holds_every_score() {
-    let bench = imported();
+    let bench = Bench::imported();
     for (format, sign) in [
         ("text", "95 % interval"),
         ("json", "\"ci95\""),
@@ -135,7 +128,7 @@ fn every_form_of_a_result_holds_every_score() {
 
 #[test]
 fn nothing_is_written_over_without_force() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.ok("fit data --model ridge --out model -q");
     bench.refused(
         "fit data --model ridge --out model",
@@ -181,7 +174,7 @@ fn explaining_an_import_writes_nothing() {
 
 #[test]
 fn a_model_is_scored_on_all_of_another_dataset_and_on_the_test_part_of_its_own() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.record("other", 32);
     bench.ok("fit data --model ridge --out model -q");
     let own = bench.json("evaluate data --with model");

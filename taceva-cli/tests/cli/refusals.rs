@@ -2,16 +2,9 @@
 
 use crate::support::{Bench, MAP, leftovers, of_format};
 
-fn imported() -> Bench {
-    let bench = Bench::new();
-    bench.lab();
-    bench.ok("import lab --map map.toml --out data -q");
-    bench
-}
-
 #[test]
 fn arguments_that_cannot_be_meant_are_usage_errors() {
-    let bench = imported();
+    let bench = Bench::imported();
     for (words, message) in [
         ("evaluate data --model rigde", "did you mean `ridge`?"),
         (
@@ -53,7 +46,7 @@ fn arguments_that_cannot_be_meant_are_usage_errors() {
 
 #[test]
 fn a_map_with_an_unknown_key_names_the_nearest_and_the_line() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.write("bad.toml", &MAP.replace("channel_order", "chanel_order"));
     bench.refused("import lab --map bad.toml --out new", 3, "channel_order");
     bench.refused("import lab --map bad.toml --out new", 3, "line 6");
@@ -61,7 +54,7 @@ fn a_map_with_an_unknown_key_names_the_nearest_and_the_line() {
 
 #[test]
 fn a_row_whose_image_is_absent_names_file_line_and_column() {
-    let bench = imported();
+    let bench = Bench::imported();
     std::fs::remove_file(bench.path("lab/pictures/03.png")).expect("there");
     bench.refused(
         "import lab --map map.toml --out new",
@@ -76,7 +69,7 @@ fn a_row_whose_image_is_absent_names_file_line_and_column() {
 
 #[test]
 fn a_label_that_is_no_number_names_file_line_and_column() {
-    let bench = imported();
+    let bench = Bench::imported();
     let labels = std::fs::read_to_string(bench.path("lab/labels.csv")).expect("there");
     for wrong in ["NaN", "inf", "1e400", "abc"] {
         bench.write(
@@ -107,7 +100,7 @@ fn labels_a_thousand_times_too_large_are_a_warning_with_a_code() {
 
 #[test]
 fn a_model_applied_to_frames_of_another_size_is_refused() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.record("large", 40);
     bench.ok("fit data --model ridge --out model -q");
     bench.refused("evaluate large --with model", 3, "32×32 gray8");
@@ -229,7 +222,7 @@ fn samples_without_points_get_no_interval_rather_than_a_narrow_one() {
 
 #[test]
 fn a_folder_that_is_no_dataset_or_a_newer_one_is_refused() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.refused("evaluate lab --model ridge", 3, "lab is not a dataset");
     bench.refused("check nowhere", 3, "nowhere is not a dataset");
     let header = std::fs::read_to_string(bench.path("data/dataset.toml")).expect("there");
@@ -243,7 +236,7 @@ fn a_folder_that_is_no_dataset_or_a_newer_one_is_refused() {
 
 #[test]
 fn a_model_file_that_is_none_is_refused() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.refused("evaluate data --with map.toml", 3, "map.toml");
     bench.refused("evaluate data --with absent", 3, "absent");
     bench.refused("evaluate data --with lab", 3, "lab");
@@ -251,7 +244,7 @@ fn a_model_file_that_is_none_is_refused() {
 
 #[test]
 fn a_damaged_frame_is_named_before_any_number() {
-    let bench = imported();
+    let bench = Bench::imported();
     let path = bench.path("data/frames/0000/000007.png");
     let mut bytes = std::fs::read(&path).expect("there");
     let middle = bytes.len() / 2;
@@ -267,7 +260,7 @@ fn a_damaged_frame_is_named_before_any_number() {
 #[cfg(unix)]
 #[test]
 fn a_pipe_in_place_of_any_file_is_refused_and_not_waited_for() {
-    let bench = imported();
+    let bench = Bench::imported();
     let pipe = std::process::Command::new("mkfifo")
         .arg(bench.path("pipe"))
         .status();
@@ -311,7 +304,7 @@ fn the_first_bad_cell_is_the_same_for_any_number_of_jobs() {
 #[test]
 fn a_signal_ends_an_import_with_its_own_code_and_leaves_nothing() {
     use std::os::unix::process::ExitStatusExt as _;
-    let bench = imported();
+    let bench = Bench::imported();
     let mut seen = std::collections::BTreeSet::new();
     for wait_ms in [1, 3, 10, 30] {
         let mut child = bench

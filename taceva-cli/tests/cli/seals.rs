@@ -2,13 +2,6 @@
 
 use crate::support::{Bench, of_format};
 
-fn imported() -> Bench {
-    let bench = Bench::new();
-    bench.lab();
-    bench.ok("import lab --map map.toml --out data -q");
-    bench
-}
-
 /// Changes the first `from` in a file into `to`.
 fn edit(bench: &Bench, name: &str, from: &str, to: &str) {
     let text = std::fs::read_to_string(bench.path(name)).expect("there");
@@ -18,7 +11,7 @@ fn edit(bench: &Bench, name: &str, from: &str, to: &str) {
 
 #[test]
 fn an_edited_dataset_is_refused_by_every_command_until_it_is_accepted() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.ok("fit data --model ridge --out model -q");
     edit(
         &bench,
@@ -58,7 +51,7 @@ fn an_edited_dataset_is_refused_by_every_command_until_it_is_accepted() {
 
 #[test]
 fn an_edit_that_cannot_be_read_is_not_accepted() {
-    let bench = imported();
+    let bench = Bench::imported();
     edit(&bench, "data/dataset.toml", "rows = ", "rows = 1");
     let before = std::fs::read(bench.path("data/dataset.toml")).expect("there");
     bench.refused("reseal data --reason wish", 3, "left unchanged");
@@ -72,7 +65,7 @@ fn an_edit_that_cannot_be_read_is_not_accepted() {
 
 #[test]
 fn a_dataset_without_a_seal_or_of_an_earlier_format_is_refused() {
-    let bench = imported();
+    let bench = Bench::imported();
     let text = std::fs::read_to_string(bench.path("data/dataset.toml")).expect("there");
     let (body, _) = text.split_once("\n[seal]").expect("sealed");
     bench.write("data/dataset.toml", body);
@@ -93,7 +86,7 @@ fn a_dataset_without_a_seal_or_of_an_earlier_format_is_refused() {
 
 #[test]
 fn results_that_were_changed_are_refused_by_metric_and_channel() {
-    let bench = imported();
+    let bench = Bench::imported();
     for name in ["a", "b"] {
         bench.ok(&format!(
             "evaluate data --model ridge --part all --format json -q --out {name}.json --samples-out {name}.samples.csv"
@@ -131,7 +124,7 @@ fn results_that_were_changed_are_refused_by_metric_and_channel() {
 
 #[test]
 fn a_model_whose_number_was_changed_is_refused() {
-    let bench = imported();
+    let bench = Bench::imported();
     bench.ok("fit data --model ridge --out model -q");
     let mut bytes = std::fs::read(bench.path("model")).expect("there");
     *bytes.last_mut().expect("a weight") ^= 1;

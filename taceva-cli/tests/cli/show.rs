@@ -4,9 +4,7 @@ use crate::support::Bench;
 
 #[test]
 fn one_command_says_what_a_dataset_holds_and_that_no_instrument_is_stated() {
-    let bench = Bench::new();
-    bench.lab();
-    bench.ok("import lab --map map.toml --out data -q");
+    let bench = Bench::imported();
     let shown = bench.ok("show data");
     for begin in [
         "sensor    ",

@@ -38,6 +38,14 @@ impl Bench {
         }
     }
 
+    /// The same with the dataset `data` of the drawn folder.
+    pub(crate) fn imported() -> Bench {
+        let bench = Bench::new();
+        bench.lab();
+        bench.ok("import lab --map map.toml --out data -q");
+        bench
+    }
+
     /// The same with a cache. Without one, every run executes all of its stages.
     pub(crate) fn with_cache() -> Bench {
         Bench {

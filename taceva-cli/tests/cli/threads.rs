@@ -39,9 +39,7 @@ fn limited(bench: &Bench, words: &str, processes: u32) -> Output {
 
 #[test]
 fn a_system_that_starts_no_thread_gives_the_same_report_with_a_word_about_it() {
-    let bench = Bench::new();
-    bench.lab();
-    bench.ok("import lab --map map.toml --out data -q");
+    let bench = Bench::imported();
     program(&bench);
     let words =
         "evaluate data --model ridge --set size=8 --split by-point --format json --no-cache";

@@ -274,9 +274,7 @@ fn a_folder_that_is_no_dataset_is_answered_with_the_line_to_type() {
 
 #[test]
 fn a_final_model_learns_from_every_sample_and_is_not_tested_on_them() {
-    let bench = Bench::new();
-    bench.lab();
-    bench.ok("import lab --map map.toml --out data -q");
+    let bench = Bench::imported();
     let said = bench.ok("fit data --model ridge --set size=8x8 --split all --out m.taceva -q");
     assert!(
         said.contains("split    all, seed 0: train 60, validation 0, test 0"),

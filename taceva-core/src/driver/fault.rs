@@ -1,6 +1,6 @@
 //! Faults of a robot, which a person must inspect before the robot moves again.
 
-use std::fmt;
+use crate::display::display;
 
 /// Fault for which a device stopped by itself, as reported by the device.
 ///
@@ -44,8 +44,4 @@ impl Fault {
     }
 }
 
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(Fault, name);

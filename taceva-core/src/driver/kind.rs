@@ -1,8 +1,7 @@
 //! The kinds of device.
 
-use std::fmt;
-
 use super::{Changer, ForceTransducer, Lighting, Robot, Sensor};
+use crate::display::display;
 
 /// The kind of a device.
 ///
@@ -49,11 +48,7 @@ impl DriverKind {
     }
 }
 
-impl fmt::Display for DriverKind {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(DriverKind, name);
 
 /// A device trait as a type, such as `dyn Sensor`. Registries and factories are generic over this type.
 ///

@@ -1,7 +1,6 @@
 //! The instruments whose certificates make labels traceable.
 
-use std::fmt;
-
+use crate::display::display;
 use crate::unit::Unit;
 
 /// An instrument whose readings become labels, or the sensor itself.
@@ -86,8 +85,4 @@ impl Instrument {
     }
 }
 
-impl fmt::Display for Instrument {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(Instrument, name);

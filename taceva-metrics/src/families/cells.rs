@@ -26,10 +26,8 @@ impl CellKey {
 
     /// Key as text in a state: `3:point 7`, or empty without a contact point.
     fn to_text(&self) -> String {
-        match &self.point {
-            Some(point) => format!("{}:{point}", self.step),
-            None => String::new(),
-        }
+        let point = self.point.as_ref();
+        point.map_or_else(String::new, |point| format!("{}:{point}", self.step))
     }
 
     fn from_text(text: &str) -> Option<CellKey> {

@@ -176,10 +176,7 @@ impl ClusteredBins {
         Ok(Excess {
             value,
             ends: [low, high],
-            above: match low > 0.0 {
-                true => above(0.0),
-                false => 0.0,
-            },
+            above: if low > 0.0 { above(0.0) } else { 0.0 },
             mean,
         })
     }

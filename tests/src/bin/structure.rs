@@ -5,11 +5,11 @@
 use std::error::Error;
 use std::io::Write as _;
 
-use taceva_tests::metadata;
 use taceva_tests::structure::{
-    COPIES, EXAMPLES, copies, documentation, files_named_by_participles, knots, lines, mentions,
-    sources, tuple_parameters, walks,
+    COPIES, EXAMPLES, compiled_crates, copies, documentation, files_named_by_participles, knots,
+    lines, mentions, sources, tuple_parameters, walks,
 };
+use taceva_tests::{metadata, read};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let shows_all = std::env::args().any(|argument| argument == "--all");
@@ -83,6 +83,13 @@ fn main() -> Result<(), Box<dyn Error>> {
     let named = files_named_by_participles(sources);
     writeln!(out, "files named by participles: {}", named.len())?;
     list(&mut out, shows_all, &named)?;
+
+    let crates = compiled_crates("taceva-dataset");
+    writeln!(out, "crates that read a dataset: {}", crates.len())?;
+    let crates: Vec<&String> = crates.iter().collect();
+    list(&mut out, shows_all, &crates)?;
+    let rules = read("Cargo.toml").matches(".opt-level = ").count();
+    writeln!(out, "rules of optimisation by package: {rules}")?;
 
     writeln!(out, "\nways of one value")?;
     for walk in walks() {

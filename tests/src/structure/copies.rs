@@ -55,6 +55,23 @@ pub const COPIES: &[Copies] = &[
         words: &["struct SeedScore "],
         most: 1,
     },
+    Copies {
+        concept: "promises of drivers",
+        words: &["fn halts_from_another_thread("],
+        most: 1,
+    },
+    Copies {
+        // The number of a metric, and its row in a result.
+        concept: "struct Score",
+        words: &["pub struct Score {"],
+        most: 2,
+    },
+    Copies {
+        // Of rows, of one and of several stored states, and of arrays in memory.
+        concept: "report of an evaluation",
+        words: &["EvaluationReport::new("],
+        most: 4,
+    },
 ];
 
 /// Product files that contain one of the concept's words.

@@ -46,10 +46,7 @@ impl RotationVector {
     pub fn quaternion(self) -> [f64; 4] {
         let angle = length(self.degrees);
         let half = (0.5 * angle).to_radians();
-        let per_degree = match angle > 0.0 {
-            true => half.sin() / angle,
-            false => 0.0,
-        };
+        let per_degree = if angle > 0.0 { half.sin() / angle } else { 0.0 };
         let [x, y, z] = self.degrees.map(|part| per_degree * part);
         [x, y, z, half.cos()]
     }

@@ -46,10 +46,7 @@ impl TextInstant {
         if day.is_none() && (parts.len() < 3 || zone_s.is_some()) {
             return None;
         }
-        let number = |at: usize| match parts.get(at) {
-            Some(part) => digits(part),
-            None => Some(0),
-        };
+        let number = |at: usize| parts.get(at).map_or(Some(0), |part| digits(part));
         let [hour, minute, second] = [number(0)?, number(1)?, number(2)?];
         if hour > 24 || minute > 59 || second > 60 {
             return None;

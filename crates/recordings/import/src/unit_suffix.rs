@@ -181,10 +181,7 @@ impl UnitSuffix {
             let found = behind_separator(parts[at], is_alone)?;
             let mut others = parts.clone();
             others[at] = &found.base;
-            let mut base = others.join(match name.contains('/') {
-                true => "/",
-                false => ".",
-            });
+            let mut base = others.join(if name.contains('/') { "/" } else { "." });
             base.truncate(base.trim_end_matches(['.', '/', ':', ',', ' ']).len());
             Some(UnitSuffix { base, ..found })
         })

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 use taceva_core::Unit;
-use taceva_results::{EvaluationReport, Interval, Score};
+use taceva_results::{EvaluationReport, Interval, Score, full_name};
 
 use crate::level::Level;
 
@@ -128,7 +128,7 @@ impl Claim {
 
     /// Metric with its variant: `mae`, `hysteresis.ratio`.
     pub(crate) fn full_metric(&self) -> String {
-        full_metric(&self.metric, self.variant.as_deref())
+        full_name(&self.metric, self.variant.as_deref())
     }
 
     /// All facts except the value as text, for formats that have no fields for them.
@@ -168,14 +168,7 @@ impl Claim {
 
 /// Metric, variant and channel in words: `hysteresis.ratio of Fz`.
 pub(crate) fn words(metric: &str, variant: Option<&str>, channel: &str) -> String {
-    format!("{} of {channel}", full_metric(metric, variant))
-}
-
-fn full_metric(metric: &str, variant: Option<&str>) -> String {
-    match variant {
-        Some(variant) => format!("{metric}.{variant}"),
-        None => metric.to_owned(),
-    }
+    format!("{} of {channel}", full_name(metric, variant))
 }
 
 /// Claims as values of schema.org, numbered from 0.
@@ -187,10 +180,7 @@ pub(crate) fn properties(claims: &[Claim]) -> Vec<Value> {
 
 /// Unit of a score or of one of its variants.
 fn unit_of(score: &Score, variant: Option<&str>) -> Option<Unit> {
-    match variant {
-        None => Some(score.unit),
-        Some(name) => score.variant(name).map(|variant| variant.unit),
-    }
+    variant.map_or(Some(score.unit), |name| Some(score.variant(name)?.unit))
 }
 
 /// Claims of study `study`: every number of its scores and of their variants, at the level [`Level::Form`].

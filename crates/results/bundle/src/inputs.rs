@@ -56,25 +56,23 @@ impl StudyInputs {
     /// The recording that the results name, if its pictures are not added.
     pub(crate) fn withheld_frames(&self) -> Option<Withheld> {
         let digest = self.dataset_digest.as_ref();
-        digest
-            .filter(|_| self.frames.is_empty())
-            .map(|digest| Withheld {
-                role: FRAMES_ROLE.to_owned(),
-                reason: "not added by --with frames".to_owned(),
-                digest: digest.clone(),
-            })
+        let digest = digest.filter(|_| self.frames.is_empty());
+        digest.map(|digest| withheld(FRAMES_ROLE, "not added by --with frames", digest))
     }
 
     /// The model file that the results name, if it is not added.
     pub(crate) fn withheld_model(&self) -> Option<Withheld> {
         let digest = self.model_digest.as_ref();
-        digest
-            .filter(|_| self.model.is_none())
-            .map(|digest| Withheld {
-                role: MODEL_ROLE.to_owned(),
-                reason: "not added by --with model".to_owned(),
-                digest: digest.clone(),
-            })
+        let digest = digest.filter(|_| self.model.is_none());
+        digest.map(|digest| withheld(MODEL_ROLE, "not added by --with model", digest))
+    }
+}
+
+fn withheld(role: &str, reason: &str, digest: &str) -> Withheld {
+    Withheld {
+        role: role.to_owned(),
+        reason: reason.to_owned(),
+        digest: digest.to_owned(),
     }
 }
 

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use taceva_core::{SilentProgress, counted, shown};
+use taceva_core::{SilentProgress, counted, distinct, shown};
 use taceva_files::{Staged, TemporaryFolder, parent_of, replace};
 
 use crate::archive;
@@ -240,14 +240,8 @@ fn as_given(problem: &str, manifest: &Manifest, inputs: &Inputs, root: &Path) ->
 
 /// Names of the sensors of the results.
 fn sensors(inputs: &Inputs) -> String {
-    let mut names: Vec<&str> = Vec::new();
-    for report in &inputs.reports {
-        let sensor = report.subject.sensor.as_str();
-        if !names.contains(&sensor) {
-            names.push(sensor);
-        }
-    }
-    names.join(", ")
+    let names = inputs.reports.iter();
+    distinct(names.map(|report| report.subject.sensor.as_str())).join(", ")
 }
 
 /// Remarks for the author of the bundle: its badge, its pictures, and words that redaction cannot change.

@@ -193,8 +193,5 @@ fn ending(path: &Path) -> &'static str {
     let is_parquet = path
         .extension()
         .is_some_and(|own| own.eq_ignore_ascii_case("parquet"));
-    match is_parquet {
-        true => "parquet",
-        false => "csv",
-    }
+    if is_parquet { "parquet" } else { "csv" }
 }

@@ -37,9 +37,7 @@ impl ModelBench {
         for row in &self.rows {
             table.push(row.cells(&channels));
         }
-        if let Some(words) = not_measured([recording.source.as_str()]) {
-            table.note(words);
-        }
+        table.note_all(not_measured([recording.source.as_str()]));
         table.note(format!(
             "Fitted on {}, scored on {}, split {}; {}, {} of {}. Intervals of 95 % by contact point.",
             counted(recording.train, "sample"), recording.test, recording.split, self.machine.cpu, self.machine.threads, counted(self.machine.cores, "core")

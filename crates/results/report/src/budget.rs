@@ -89,9 +89,7 @@ impl BudgetReport {
                 ]));
             }
         }
-        for words in self.notes() {
-            table.note(words);
-        }
+        table.note_all(self.notes());
         table
     }
 

@@ -16,18 +16,19 @@ pub use need::{Bound, Need, NeedError};
 pub use property::Property;
 pub use render::CHOICE_SCHEMA;
 
+use serde::Serialize;
 use taceva_metrics::Standing;
 
 use crate::catalogue::{Kind, Sensor};
 use crate::names::listed;
 
 /// Result of a choice: shortlist, other sensors, and the numbers used.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Choice {
     /// Sensors that meet the needs, best first.
     pub ranked: Vec<Candidate>,
     /// Sensors with an unknown number for a hard need, ordered by name.
-    pub open: Vec<Open>,
+    pub open: Vec<Dropped>,
     /// Sensors that do not meet a hard need.
     pub dropped: Vec<Dropped>,
     /// Sensors without a rank, because a number that a need uses is excluded from verdicts.
@@ -86,22 +87,22 @@ pub struct Step {
     pub is_unsure: bool,
 }
 
-/// A sensor with an unknown number for a hard need.
-#[derive(Clone, Debug)]
-pub struct Open {
-    /// Name of the sensor.
-    pub name: String,
-    /// The need and the unknown property.
-    pub reason: String,
-}
-
 /// A sensor without a rank.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub struct Dropped {
     /// Name of the sensor.
     pub name: String,
-    /// Hard need that the number does not meet, or the reason why verdicts exclude the number.
+    /// Hard need that the number does not meet, the need and the unknown property, or the reason why verdicts exclude the number.
     pub reason: String,
+}
+
+impl Dropped {
+    fn new(sensor: &Sensor, reason: String) -> Dropped {
+        Dropped {
+            name: sensor.name.clone(),
+            reason,
+        }
+    }
 }
 
 /// Chooses among `sensors` for `needs`.
@@ -117,52 +118,23 @@ pub struct Dropped {
 /// # Ok::<(), taceva_report::NeedError>(())
 /// ```
 pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
-    let mut choice = Choice {
-        ranked: Vec::new(),
-        open: Vec::new(),
-        dropped: Vec::new(),
-        barred: Vec::new(),
-        unplaced: Vec::new(),
-        apart: Vec::new(),
-        others: Vec::new(),
-        other_definitions: Vec::new(),
-        unknown: Vec::new(),
-        evidence: None,
-        spread: None,
-        simulated: false,
-        limits_of_catalogue: Vec::new(),
-    };
+    let mut choice = Choice::default();
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
         let mut properties = needs.iter().flat_map(Need::properties);
         if !properties.any(|property| property.of(sensor).is_some()) {
             match by_other_definition(sensor, needs) {
-                Some(reason) => choice.other_definitions.push(Dropped {
-                    name: sensor.name.clone(),
-                    reason,
-                }),
+                Some(reason) => choice.other_definitions.push(Dropped::new(sensor, reason)),
                 None => choice.unknown.push(sensor.name.clone()),
             }
         } else if let Some(reason) = barred(sensor, needs) {
-            choice.barred.push(Dropped {
-                name: sensor.name.clone(),
-                reason,
-            });
+            choice.barred.push(Dropped::new(sensor, reason));
         } else if let Some(reason) = unmet(sensor, needs) {
-            choice.dropped.push(Dropped {
-                name: sensor.name.clone(),
-                reason,
-            });
+            choice.dropped.push(Dropped::new(sensor, reason));
         } else if let Some(reason) = unproven(sensor, needs) {
-            choice.open.push(Open {
-                name: sensor.name.clone(),
-                reason,
-            });
+            choice.open.push(Dropped::new(sensor, reason));
         } else if let Some(reason) = unplaced(sensor, needs) {
-            choice.unplaced.push(Dropped {
-                name: sensor.name.clone(),
-                reason,
-            });
+            choice.unplaced.push(Dropped::new(sensor, reason));
         } else {
             remaining.push(sensor);
         }
@@ -186,15 +158,11 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
 
 /// Numbers of `sensor` by other definitions than those of the needs, each property once.
 fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
-    let mut found: Vec<String> = Vec::new();
-    for property in needs.iter().flat_map(Need::properties) {
-        if let Some(other) = property.other(sensor) {
-            let words = format!("no {property}; known: {other}");
-            if !found.contains(&words) {
-                found.push(words);
-            }
-        }
-    }
+    let properties = needs.iter().flat_map(Need::properties);
+    let found = taceva_core::distinct(properties.filter_map(|property| {
+        let other = property.other(sensor)?;
+        Some(format!("no {property}; known: {other}"))
+    }));
     (!found.is_empty()).then(|| found.join("; "))
 }
 

@@ -144,9 +144,7 @@ impl CalibrationCurve {
                 counted(self.rows_left_out, "row")
             ));
         }
-        if let Some(words) = self.not_measured() {
-            table.note(words);
-        }
+        table.note_all(self.not_measured());
         table
     }
 

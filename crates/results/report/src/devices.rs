@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use taceva_core::{Instrument, Traceability};
+use taceva_core::{Instrument, Traceability, distinct};
 
 use crate::names::names;
 use crate::results::Study;
@@ -110,13 +110,7 @@ impl DeviceKind {
     fn facts(&self, study: &Study) -> Vec<DeviceFact> {
         let traced = study.references.iter();
         let traced = traced.filter(|of| of.instrument == self.instrument);
-        let mut facts: Vec<DeviceFact> = Vec::new();
-        for fact in traced.flat_map(identity).chain(self.settings(study)) {
-            if !facts.contains(&fact) {
-                facts.push(fact);
-            }
-        }
-        facts
+        distinct(traced.flat_map(identity).chain(self.settings(study)))
     }
 
     /// Settings of the device as facts. A camera's own settings have no prefix.

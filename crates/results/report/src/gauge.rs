@@ -97,9 +97,7 @@ impl GaugeStudies {
                 table.note(format!("{}: {words}.", of.channel));
             }
         }
-        if let Some(words) = self.not_measured() {
-            table.note(words);
-        }
+        table.note_all(self.not_measured());
         table
     }
 

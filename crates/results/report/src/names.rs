@@ -25,6 +25,11 @@ pub fn names(studies: &[Study]) -> Vec<String> {
     studies.iter().enumerate().map(name).collect()
 }
 
+/// Names of all studies as text: `A, B and C`.
+pub(crate) fn all(studies: &[Study]) -> String {
+    listed(&names(studies))
+}
+
 /// List of names as text: `A, B and C`.
 pub(crate) fn listed(names: &[String]) -> String {
     match names {

@@ -21,7 +21,7 @@ use taceva_core::{Traceability, Unit};
 use taceva_metrics::{Standing, TrainingSpread, catalogue};
 use taceva_results::{
     DominantSample, EvaluationReport, Interval, OverSeeds, Provenance, ResultsError, Samples,
-    Score, Skip, StudyTask,
+    Score, Skip, StudyTask, full_name,
 };
 
 use crate::faults::FaultResult;
@@ -238,10 +238,7 @@ impl Study {
         variant: Option<&str>,
         channel: &str,
     ) -> Vec<f64> {
-        let name = match variant {
-            Some(variant) => format!("{metric}.{variant}"),
-            None => metric.to_owned(),
-        };
+        let name = full_name(metric, variant);
         let mut scores = self.over_seeds.iter().flat_map(|over| &over.scores);
         let found = scores.find(|of| of.metric == name && of.channel == channel);
         let values = found.map(|found| found.values.iter().copied().flatten());

@@ -17,7 +17,7 @@ use taceva_metrics::{Standing, catalogue, plane_of};
 use crate::compare::{Answer, CompareRequest, compare};
 use crate::number::{FormattedValue, fixed};
 use crate::results::{BY_GROUP, Study};
-use taceva_results::{Interval, Score, Value};
+use taceva_results::{Interval, ScoreLine};
 
 /// Scores of studies side by side.
 #[derive(Clone, Debug)]
@@ -99,8 +99,8 @@ impl ScoreTable {
             for score in &study.scores {
                 let is_wanted =
                     request.metrics.is_empty() || request.metrics.contains(&score.metric);
-                for line in lines(score).into_iter().filter(|_| is_wanted) {
-                    line.enter(at, studies, &mut rows);
+                for line in score.lines().filter(|_| is_wanted) {
+                    enter(&line, at, studies, &mut rows);
                 }
             }
         }
@@ -146,85 +146,47 @@ impl ScoreTable {
     }
 }
 
-/// Value of a score or variant, or the reason why it is absent.
-struct Line<'a> {
-    metric: String,
-    score: &'a Score,
-    value: &'a Value,
-    unit: Unit,
-    interval: Option<&'a Interval>,
-    is_headline: bool,
-}
-
-/// Lines of a score and of its variants that are single numbers. Maps and curves are drawn in figures instead.
-fn lines(score: &Score) -> Vec<Line<'_>> {
-    let mut lines = vec![Line {
-        metric: score.metric.clone(),
-        score,
-        value: &score.value,
-        unit: score.unit,
-        interval: score.interval.as_ref(),
-        is_headline: true,
-    }];
-    let is_one =
-        |value: &Value| !matches!(value, Value::Map(_) | Value::Curve(_) | Value::Matrix(_));
-    let numbers = score
-        .variants
-        .iter()
-        .filter(|variant| is_one(&variant.value));
-    lines.extend(numbers.map(|variant| Line {
-        metric: format!("{}.{}", score.metric, variant.name),
-        score,
-        value: &variant.value,
-        unit: variant.unit,
-        interval: variant.interval.as_ref(),
-        is_headline: false,
-    }));
-    lines
-}
-
-impl Line<'_> {
-    fn enter(&self, at: usize, studies: &[Study], rows: &mut Vec<ScoreRow>) {
-        let is_mine = |row: &ScoreRow| {
-            let is_named = row.metric == self.metric && row.channel == self.score.channel;
-            // A score without a value has no unit, and joins the row of scores with a value.
-            let has_value = self.value.number().is_some();
-            is_named && (row.unit == self.unit || !has_value || row.is_without_value())
-        };
-        let found = rows.iter().position(is_mine).unwrap_or_else(|| {
-            rows.push(ScoreRow {
-                metric: self.metric.clone(),
-                channel: self.score.channel.clone(),
-                unit: self.unit,
-                is_headline: self.is_headline,
-                cells: vec![None; studies.len()],
-            });
-            rows.len() - 1
+/// Enters the number of study `at` into its row.
+fn enter(line: &ScoreLine<'_>, at: usize, studies: &[Study], rows: &mut Vec<ScoreRow>) {
+    let is_mine = |row: &ScoreRow| {
+        let is_named = row.metric == line.name && row.channel == line.channel;
+        // A score without a value has no unit, and joins the row of scores with a value.
+        let has_value = line.value.number().is_some();
+        is_named && (row.unit == line.unit || !has_value || row.is_without_value())
+    };
+    let found = rows.iter().position(is_mine).unwrap_or_else(|| {
+        rows.push(ScoreRow {
+            metric: line.name.clone(),
+            channel: line.channel.to_owned(),
+            unit: line.unit,
+            is_headline: line.is_headline,
+            cells: vec![None; studies.len()],
         });
-        let row = &mut rows[found];
-        if row.is_without_value() {
-            row.unit = self.unit;
-        }
-        let method = self.interval.and_then(Interval::method);
-        row.cells[at] = Some(ScoreCell {
-            value: self.value.number(),
-            formatted: FormattedValue::of(self.value, self.interval),
-            ends: self.interval.and_then(Interval::ends),
-            method: method.map(|method| studies[at].method_named(method)),
-            groups: self
-                .interval
-                .filter(|_| method.is_some_and(|method| method.contains(BY_GROUP)))
-                .and_then(Interval::clusters),
-            degrees_of_freedom: self.interval.and_then(Interval::degrees_of_freedom),
-            n: self.score.n,
-            n_invalid: self.score.n_invalid,
-            standing: self
-                .score
-                .standing_of(self.metric.split_once('.').map(|(_, name)| name)),
-            bounded_share: self.score.bounded_share,
-            is_best: false,
-        });
+        rows.len() - 1
+    });
+    let row = &mut rows[found];
+    if row.is_without_value() {
+        row.unit = line.unit;
     }
+    let method = line.interval.and_then(Interval::method);
+    row.cells[at] = Some(ScoreCell {
+        value: line.value.number(),
+        formatted: FormattedValue::of(line.value, line.interval),
+        ends: line.interval.and_then(Interval::ends),
+        method: method.map(|method| studies[at].method_named(method)),
+        groups: line
+            .interval
+            .filter(|_| method.is_some_and(|method| method.contains(BY_GROUP)))
+            .and_then(Interval::clusters),
+        degrees_of_freedom: line.interval.and_then(Interval::degrees_of_freedom),
+        n: line.score.n,
+        n_invalid: line.score.n_invalid,
+        standing: line
+            .score
+            .standing_of(line.name.split_once('.').map(|(_, name)| name)),
+        bounded_share: line.score.bounded_share,
+        is_best: false,
+    });
 }
 
 impl ScoreRow {

@@ -106,6 +106,11 @@ impl Table {
         self.notes.push(words.into());
     }
 
+    /// Adds remarks below the rows.
+    pub fn note_all(&mut self, all: impl IntoIterator<Item = impl Into<Words>>) {
+        all.into_iter().for_each(|words| self.note(words));
+    }
+
     /// Position of the first column with this direction.
     fn column_of(&self, direction: Direction) -> Option<usize> {
         let mut columns = self.columns.iter();

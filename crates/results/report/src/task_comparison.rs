@@ -131,13 +131,8 @@ impl TaskComparison {
 
 /// Names of the tasks, in the order of their first appearance.
 fn tasks(results: &[TaskResult]) -> Vec<&str> {
-    let mut names: Vec<&str> = Vec::new();
-    for task in results.iter().flat_map(|result| &result.tasks) {
-        if !names.contains(&task.name.as_str()) {
-            names.push(&task.name);
-        }
-    }
-    names
+    let tasks = results.iter().flat_map(|result| &result.tasks);
+    taceva_core::distinct(tasks.map(|task| task.name.as_str()))
 }
 
 /// Pairs of common scores of the task called `task`.

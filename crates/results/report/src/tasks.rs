@@ -1,6 +1,6 @@
 //! Scores of tasks, for readers and programs.
 
-use taceva_core::counted;
+use taceva_core::{counted, distinct};
 use taceva_metrics::Interval;
 use taceva_results::not_measured;
 use taceva_tasks::{Estimate, PublicNumber, TaskReport, TaskScore, TaskScores};
@@ -45,9 +45,7 @@ pub fn task_table(report: &TaskReport) -> Table {
         }
     }
     table.note(format!("Rows are paired {}.", report.paired));
-    if let Some(words) = not_measured(report.sources.iter().map(String::as_str)) {
-        table.note(words);
-    }
+    table.note_all(not_measured(report.sources.iter().map(String::as_str)));
     table
 }
 
@@ -158,12 +156,8 @@ fn remarks(task: &TaskScores) -> Vec<String> {
             _ => format!("intervals by {by}"),
         });
     }
-    let mut flags: Vec<&str> = Vec::new();
-    for flag in task.scores.iter().flat_map(|score| &score.flags) {
-        if !flags.contains(&flag.words()) {
-            flags.push(flag.words());
-        }
-    }
+    let flags = task.scores.iter().flat_map(|score| &score.flags);
+    let flags = distinct(flags.map(|flag| flag.words()));
     remarks.extend(flags.into_iter().map(str::to_owned));
     if task.names.len() <= MOST_CLASSES {
         remarks.extend(confusion(task));
@@ -174,10 +168,7 @@ fn remarks(task: &TaskScores) -> Vec<String> {
 
 /// Number of a public program beside the right one.
 fn as_published(number: &PublicNumber) -> String {
-    let unit = match number.unit {
-        Some(unit) => format!(" {unit}"),
-        None => String::new(),
-    };
+    let unit = (number.unit).map_or_else(String::new, |unit| format!(" {unit}"));
     let right = match number.right {
         Some(right) => format!("the right number is {}{unit}", numeral(right)),
         None => "the right number needs other columns".to_owned(),

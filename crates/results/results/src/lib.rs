@@ -28,7 +28,7 @@ pub use provenance::{ModelProvenance, OPTIMISTIC, Provenance, RecordingProvenanc
 pub use report::{EVALUATION_SCHEMA, EvaluationReport, RecordingScores, Skip};
 pub use samples::{DominantSample, SampleChannel, Samples, SamplesError};
 pub use schema::{RUN_SCHEMA, RunReport, read, sealed};
-pub use score::{Score, Variant, by_metric, scores};
+pub use score::{Score, ScoreLine, Variant, by_metric, full_name, scores};
 pub use seeds::{OverSeeds, SeedScore};
 pub use subject::Subject;
 pub use task::{StudyTask, TaskNumber};

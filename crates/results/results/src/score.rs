@@ -1,7 +1,10 @@
 //! Scores of a metric on a channel or plane.
 
 pub mod by_metric;
+mod line;
 mod object;
+
+pub use line::{ScoreLine, full_name};
 
 use taceva_core::Unit;
 use taceva_metrics::{Better, Evaluation, Metric, Standing, catalogue};

@@ -43,6 +43,11 @@ impl Value {
         }
     }
 
+    /// True for a map, a curve or a matrix.
+    pub fn is_of_many(&self) -> bool {
+        matches!(self, Value::Map(_) | Value::Curve(_) | Value::Matrix(_))
+    }
+
     /// Reason for the absence of the value, in words.
     pub fn reason(&self) -> Option<String> {
         match self {

@@ -74,24 +74,6 @@ impl<'a> Onlookers<'a> {
     pub fn none() -> Onlookers<'a> {
         Onlookers::default()
     }
-
-    /// Adds `viewer`.
-    #[must_use]
-    pub fn with_viewer(self, viewer: &'a dyn Viewer) -> Onlookers<'a> {
-        Onlookers {
-            viewer: Some(viewer),
-            ..self
-        }
-    }
-
-    /// Adds `predictor`.
-    #[must_use]
-    pub fn with_predictor(self, predictor: &'a LivePredictor<'a>) -> Onlookers<'a> {
-        Onlookers {
-            predictor: Some(predictor),
-            ..self
-        }
-    }
 }
 
 /// Stages of a capture.

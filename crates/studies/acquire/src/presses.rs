@@ -3,6 +3,7 @@
 mod changers;
 mod clock_follower;
 mod content_key;
+mod delegation;
 mod device;
 mod devices;
 mod file_devices;

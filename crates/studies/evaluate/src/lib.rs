@@ -21,6 +21,7 @@ mod neighbours;
 mod note;
 mod over_seeds;
 mod plan;
+mod pose_definition;
 mod predict;
 mod prediction_check;
 mod prediction_files;
@@ -90,7 +91,7 @@ pub use run_layout::{MODELS, PLANS, RECORDINGS, STATES};
 pub use samples::{add_division, add_predictions, of as samples_of, protocol as protocol_words};
 pub use score::{
     Period, RowKey, ScoreRequest, ScoreTables, Scored, Scoring, Shard, ShardError, TaskRequest,
-    TaskRule, TaskSpec, UNKNOWN_ORIGIN, read_table, recount_tables, score_in_one_pass, score_tasks,
+    TaskRule, TaskSpec, UNKNOWN_ORIGIN, read_table, recount_tables, score_in_one_pass,
     stated_origins, task_states,
 };
 pub use skill::{skill, with_skill};

@@ -2,7 +2,7 @@
 
 use taceva_core::Field;
 use taceva_metrics::{Evaluation, Repeats};
-use taceva_results::{OverSeeds, SeedScore};
+use taceva_results::{OverSeeds, SeedScore, full_name};
 
 /// Scores of `evaluations`, one for each seed.
 pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
@@ -28,10 +28,7 @@ pub fn of(seeds: &[u64], evaluations: &[&Evaluation]) -> OverSeeds {
         let repeats = Repeats::of(&known)?.within(metric.range.ends());
         let variant = variant.and_then(|name| score.variant(name));
         Some(SeedScore {
-            metric: match variant {
-                Some(variant) => format!("{}.{}", metric.id, variant.name),
-                None => metric.id.to_owned(),
-            },
+            metric: full_name(metric.id, variant.map(|variant| &*variant.name)),
             channel: channel.to_owned(),
             unit: variant.map_or(score.unit, |variant| variant.unit),
             values,

@@ -314,10 +314,7 @@ fn share(distance: f64, range: f64) -> f64 {
         return 0.0;
     }
     let share = distance / range;
-    match share.is_nan() {
-        true => f64::INFINITY,
-        false => share,
-    }
+    if share.is_nan() { f64::INFINITY } else { share }
 }
 
 /// Distance between two predictions. For an angle with a period, the shorter way around is used.
@@ -329,10 +326,8 @@ fn distance(channel: &Channel, one: Option<f64>, other: Option<f64>) -> f64 {
         };
     };
     let distance = (one - other).abs();
-    match channel.period_in_unit() {
-        Some(period) => distance.min((period - distance).abs()),
-        None => distance,
-    }
+    let period = channel.period_in_unit();
+    period.map_or(distance, |period| distance.min((period - distance).abs()))
 }
 
 fn is_same(one: Option<f64>, other: Option<f64>) -> bool {

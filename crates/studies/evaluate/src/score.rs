@@ -57,7 +57,7 @@ pub use row_key::RowKey;
 pub use shard::{Shard, ShardError};
 pub use shard_scores::ScoreTables;
 pub use tables::read_table;
-pub use task::{TaskRequest, TaskRule, TaskSpec, score_tasks, task_states};
+pub use task::{TaskRequest, TaskRule, TaskSpec, task_states};
 
 /// Finished scores of two tables.
 #[derive(Debug)]

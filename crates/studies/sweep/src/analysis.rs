@@ -121,13 +121,8 @@ pub(crate) fn groups<'a>(loaded: &'a [Loaded<'a>]) -> Vec<Group<'a>> {
 
 /// Channels with known errors, in the order of the first result.
 pub(crate) fn channels(loaded: &[Loaded<'_>]) -> Vec<String> {
-    let mut channels: Vec<String> = Vec::new();
-    for result in loaded.iter().filter_map(Loaded::result) {
-        for score in result.scores.iter().filter(|score| score.metric == "mae") {
-            if !channels.contains(&score.channel) {
-                channels.push(score.channel.clone());
-            }
-        }
-    }
-    channels
+    let results = loaded.iter().filter_map(Loaded::result);
+    let scores = results.flat_map(|result| &result.scores);
+    let errors = scores.filter(|score| score.metric == "mae");
+    taceva_core::distinct(errors.map(|score| score.channel.clone()))
 }

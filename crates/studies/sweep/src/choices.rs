@@ -32,14 +32,8 @@ struct Known<'a> {
 
 /// Chooses a configuration for each recording, split and channel. Candidates have the same seeds as the configuration with the most results.
 pub(crate) fn choices(groups: &[Group<'_>], channels: &[String]) -> Vec<Choice> {
-    let mut places: Vec<(&str, Option<&str>)> = Vec::new();
-    for group in groups {
-        if !places.contains(&group.place()) {
-            places.push(group.place());
-        }
-    }
     let mut choices = Vec::new();
-    for place in places {
+    for place in taceva_core::distinct(groups.iter().map(|group| group.place())) {
         for channel in channels {
             let of_place = groups.iter().enumerate();
             let known: Vec<Known<'_>> = of_place

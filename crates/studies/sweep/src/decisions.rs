@@ -110,9 +110,7 @@ pub(crate) fn table(groups: &[Group<'_>], choices: &[Choice]) -> Table {
          summed by group of the split or by contact point. A test is by sign flips for one seed, and if no seed changes the difference; \
          otherwise by Student's t with the variance between seeds. All {count} tests of the sweep form one family of Holm's procedure, at a level of 5 %."
     ));
-    if let Some(words) = out_of_reach {
-        table.note(words);
-    }
+    table.note_all(out_of_reach);
     table
 }
 

@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
 use taceva_metrics::ClusterSums;
-use taceva_results::{EvaluationReport, Score, Value, by_metric};
+use taceva_results::{EvaluationReport, Score, by_metric};
 
 use crate::key::TaskKey;
 
@@ -74,9 +74,8 @@ impl TaskResult {
         self.source.clone_from(&report.subject.source);
         self.sensor.clone_from(&report.subject.sensor);
         self.serial.clone_from(&report.subject.serial);
-        let is_many =
-            |value: &Value| matches!(value, Value::Map(_) | Value::Curve(_) | Value::Matrix(_));
-        let scores = report.scores.iter().filter(|score| !is_many(&score.value));
+        let scores = report.scores.iter();
+        let scores = scores.filter(|score| !score.value.is_of_many());
         self.scores.extend(scores.map(|score| Score {
             variants: Vec::new(),
             ..score.clone()

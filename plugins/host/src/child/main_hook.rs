@@ -47,10 +47,7 @@ pub fn main_if_child_with(
 pub(super) fn serve_host(
     load: impl FnOnce(Vec<File>, &Isolation) -> Result<Arc<dyn Session>, (ErrorKind, String)>,
 ) -> i32 {
-    match orders() {
-        Some(orders) => run(orders, load),
-        None => NOT_A_CHILD,
-    }
+    orders().map_or(NOT_A_CHILD, |orders| run(orders, load))
 }
 
 /// True once `main` has checked for a host child, so that this program can be started as one.

@@ -124,10 +124,8 @@ impl Regressor for Model {
             }
         })
         .map_err(|failure| self.failed(DOING, failure))?;
-        match not_finite(&self.channels, into) {
-            None => Ok(()),
-            Some(why) => Err(refused(ErrorKind::DeviceFault, why)),
-        }
+        let fault = not_finite(&self.channels, into);
+        fault.map_or(Ok(()), |why| Err(refused(ErrorKind::DeviceFault, why)))
     }
 }
 

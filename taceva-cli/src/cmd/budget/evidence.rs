@@ -161,21 +161,11 @@ pub(super) struct Found {
 
 /// Reads the result of the single sensor at `path`, with its samples.
 pub(super) fn report_of(path: &Path) -> anyhow::Result<Found> {
-    let results::Reports {
-        mut reports,
-        mut missing,
-    } = results::reports(path)?;
-    match (reports.pop(), reports.len()) {
-        (Some(report), 0) => Ok(Found {
-            report,
-            without_samples: missing.pop(),
-        }),
-        (found, others) => Err(Usage::error(format!(
-            "{}: {} sensors, expected the result of one sensor; the folder `reports` of a run has a result for each sensor",
-            shown(path),
-            others + usize::from(found.is_some())
-        ))),
-    }
+    let mut found = results::reports(path)?;
+    Ok(Found {
+        report: results::of_one_sensor(path, found.reports)?,
+        without_samples: found.missing.pop(),
+    })
 }
 
 impl Found {
@@ -203,10 +193,10 @@ impl Found {
         let samples = self.report.samples.as_ref();
         let labels = samples.and_then(|samples| samples.channel(&channel.name));
         let truths = labels.into_iter().flat_map(|of| of.truths());
-        let farthest = truths.fold(0.0_f64, |far, truth| match truth.abs() > far.abs() {
-            true => truth,
-            false => far,
-        });
+        let farthest = truths.fold(
+            0.0_f64,
+            |far, truth| if truth.abs() > far.abs() { truth } else { far },
+        );
         let half = format!("{:.1e}", farthest / 2.0).parse().unwrap_or(0.0_f64);
         if half.abs() > 0.0 { half } else { 1.0 }
     }

@@ -122,9 +122,7 @@ fn the_level_of_the_model_says_what_is_missing() {
 
 #[test]
 fn pictures_in_a_bundle_are_predicted_again_without_the_recording() {
-    let bench = Bench::new();
-    bench.lab();
-    bench.ok("import lab --map map.toml --out data -q");
+    let bench = Bench::imported();
     bench.ok("fit data --model ridge --set size=8 --split random --out m.taceva -q");
     bench.ok("evaluate data --with m.taceva --metrics mae --format json --out r.json --state-out r.state --samples-out r.samples.csv -q");
     let words = format!("{BUNDLE} --model m.taceva --with frames");

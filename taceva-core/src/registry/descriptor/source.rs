@@ -1,6 +1,6 @@
 //! Source of the readings of a driver.
 
-use std::fmt;
+use crate::display::display;
 
 /// Source of the readings of a driver. Every output based on these readings names the source. It gets no further variant in a compatible
 /// version, because every reader must handle each source.
@@ -32,8 +32,4 @@ impl DriverSource {
     }
 }
 
-impl fmt::Display for DriverSource {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(self.name())
-    }
-}
+display!(DriverSource, name);

@@ -16,6 +16,7 @@ use crate::training::file::content::Stored;
 use crate::training::file::error::FormatError;
 use crate::training::file::limits::FILE_MAX;
 use crate::training::file::tensors::{DISTANCE, Raw, Tensors};
+use crate::training::output::{check_call, check_finite};
 use crate::training::regressor::{FittedModel, ModelRegressor};
 
 /// Fitted network that predicts channels from features.
@@ -202,21 +203,7 @@ impl Regressor for NetworkRegressor {
     }
 
     fn predict(&self, features: &Features, into: &mut [f64]) -> Result<(), ModelError> {
-        let channels = self.channels.len();
-        if features.shape() != self.shape() {
-            return Err(invalid(format!(
-                "features of shape {:?}, expected {:?}",
-                features.shape(),
-                self.shape()
-            )));
-        }
-        if into.len() != features.samples() * channels {
-            return Err(invalid(format!(
-                "a buffer of {} values for {} samples of {channels} channels",
-                into.len(),
-                features.samples()
-            )));
-        }
+        check_call(&self.channels, self.shape(), features, into)?;
         let width = self.card.architecture.outputs;
         let mut outputs = vec![0.0; features.samples() * width];
         if self.reads_features() {
@@ -226,14 +213,10 @@ impl Regressor for NetworkRegressor {
                 .apply(self.shape(), features.values());
             self.outputs(&pictures, &mut outputs)?;
         }
-        for (sample, (into, outputs)) in into
-            .chunks_exact_mut(channels)
-            .zip(outputs.chunks_exact(width))
-            .enumerate()
-        {
+        let samples = into.chunks_exact_mut(self.channels.len());
+        for (into, outputs) in samples.zip(outputs.chunks_exact(width)) {
             let mut outputs = outputs.iter().enumerate();
-            for (channel, (place, constant)) in into.iter_mut().zip(&self.card.constant).enumerate()
-            {
+            for (place, constant) in into.iter_mut().zip(&self.card.constant) {
                 *place = match constant {
                     Some(label) => *label,
                     None => {
@@ -242,14 +225,8 @@ impl Regressor for NetworkRegressor {
                         self.card.scale.unscaled(output, *value)
                     }
                 };
-                if !place.is_finite() {
-                    let name = &self.channels.as_slice()[channel];
-                    let message =
-                        format!("sample {sample}: the prediction of `{name}` is not finite");
-                    return Err(ModelError::new(ErrorKind::OutOfRange, message));
-                }
             }
         }
-        Ok(())
+        check_finite(&self.channels, into)
     }
 }

@@ -53,10 +53,7 @@ fn of_channel(
     let mut points: Vec<(f64, f64, usize)> = rows
         .iter()
         .filter_map(|row| {
-            let at = match timed {
-                true => times[*row]?,
-                false => *row as f64,
-            };
+            let at = if timed { times[*row]? } else { *row as f64 };
             Some((at, column.get(*row)?, *row))
         })
         .collect();

@@ -168,10 +168,7 @@ impl Dataset {
         let mut report = StreamReport::default();
         let read = |row| {
             self.check_row(row)?;
-            let frame = match wants_frames {
-                true => self.frame(row)?,
-                false => None,
-            };
+            let frame = if wants_frames { self.frame(row)? } else { None };
             let signals = match wants_signals {
                 true => self.signals(row)?,
                 false => None,

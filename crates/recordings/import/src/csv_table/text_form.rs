@@ -64,10 +64,7 @@ impl TextForm {
         if !cell.chars().all(is_of_number) {
             return Ok(None);
         }
-        let (mantissa, exponent) = match cell.find(['e', 'E']) {
-            Some(at) => cell.split_at(at),
-            None => (cell, ""),
-        };
+        let (mantissa, exponent) = cell.split_at(cell.find(['e', 'E']).unwrap_or(cell.len()));
         let (whole, fraction) = match mantissa.rsplit_once(self.decimal) {
             Some((whole, fraction)) => (whole, Some(fraction)),
             None => (mantissa, None),

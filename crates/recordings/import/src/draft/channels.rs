@@ -63,14 +63,8 @@ impl Offered<'_> {
 
 /// Lines of all channels, in column order. A line has a gap if two candidates share the best rank.
 pub(super) fn lines(offered: &[Offered<'_>]) -> String {
-    let mut channels: Vec<&str> = Vec::new();
-    for one in offered {
-        if !channels.contains(&one.candidate.channel) {
-            channels.push(one.candidate.channel);
-        }
-    }
     let mut text = String::new();
-    for channel in channels {
+    for channel in taceva_core::distinct(offered.iter().map(|one| one.candidate.channel)) {
         let of_channel = offered
             .iter()
             .filter(|one| one.candidate.channel == channel);

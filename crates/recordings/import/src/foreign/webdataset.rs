@@ -149,10 +149,7 @@ enum Field<'n> {
 
 impl<'n> Field<'n> {
     fn of(name: &'n str) -> Field<'n> {
-        let (field, pointer) = match name.find('/') {
-            Some(at) => name.split_at(at),
-            None => (name, ""),
-        };
+        let (field, pointer) = name.split_at(name.find('/').unwrap_or(name.len()));
         match ending_of(field) {
             "json" => Field::Json(field, pointer),
             "npy" => Field::Array(name),

@@ -34,7 +34,7 @@ opaque = "unknown"
 const NO_TIME: &str = "[time]\nclock = \"unknown\"\n";
 
 /// Folder with files of these paths and texts.
-fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
+pub(crate) fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
     let folder = tempfile::tempdir().expect("a folder");
     for (path, text) in files {
         let path = folder.path().join(path);

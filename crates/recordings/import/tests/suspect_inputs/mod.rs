@@ -31,6 +31,8 @@ use taceva_dataset::Dataset;
 use taceva_import::{ImportMap, ImportPlan, ImportSummary, ImportWarning, MapDraft};
 use taceva_tables::{Cell, ParquetWriter, WrittenColumn, WrittenKind};
 
+use crate::extended_maps::lab;
+
 const FACTS: &str = "[sensor]\nmodel = \"drawn gel\"\nserial = \"unknown\"\ngel = \"unknown\"\nopaque = \"unknown\"\n";
 const NO_TIME: &str = "[time]\nclock = \"unknown\"\n";
 
@@ -44,17 +46,6 @@ fn case(name: &str) -> PathBuf {
 /// Map of a generated folder.
 fn map_of(name: &str) -> String {
     std::fs::read_to_string(case(name).join("map.toml")).expect("it is there")
-}
-
-/// Folder with files of these paths and texts.
-fn lab(files: &[(&str, &str)]) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    for (path, text) in files {
-        let path = folder.path().join(path);
-        std::fs::create_dir_all(path.parent().expect("inside")).expect("made");
-        std::fs::write(path, text).expect("written");
-    }
-    folder
 }
 
 /// Folder with a Parquet file of these columns, whose cells are texts or numbers.

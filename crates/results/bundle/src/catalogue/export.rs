@@ -146,9 +146,7 @@ fn hub_entry(row: &Measured) -> HubEntry<'_> {
 
 /// Task of a number: metric, variant and channel.
 fn task(row: &Measured) -> String {
-    let variant = row.variant.as_ref();
-    let variant = variant.map_or_else(String::new, |name| format!(".{name}"));
-    format!("{}{variant}_{}", row.metric, row.channel)
+    format!("{}_{}", row.full_name(), row.channel)
 }
 
 /// Content of a catalogue in words, with the sentence on samples that were not measured.

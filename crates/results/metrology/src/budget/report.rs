@@ -3,7 +3,7 @@
 use std::fmt;
 
 use serde::{Deserialize, Serialize};
-use taceva_core::shown;
+use taceva_core::{distinct, shown};
 
 use super::digits::{beside, two_digits};
 use super::freedom::Freedom;
@@ -297,13 +297,7 @@ impl Budget {
     }
 
     fn label_ranges(&self) -> Vec<[f64; 2]> {
-        let mut ranges = Vec::new();
-        for range in self.sources.iter().filter_map(|source| source.labels) {
-            if !ranges.contains(&range) {
-                ranges.push(range);
-            }
-        }
-        ranges
+        distinct(self.sources.iter().filter_map(|source| source.labels))
     }
 
     /// Range as text, to three digits of its width.

@@ -3,7 +3,7 @@
 use taceva_core::shown;
 use taceva_metrics::Standing;
 use taceva_metrology::conformity::{Decision, Limits, Measurement, Word, decide};
-use taceva_results::{Interval, Score};
+use taceva_results::{Interval, Score, full_name};
 
 use super::interval::LimitInterval;
 use super::limits_file::{Limit, LimitsFile};
@@ -147,9 +147,8 @@ fn check_within(score: &Score, variant: Option<&str>, value: f64) -> Result<(), 
     let ends = score.interval.as_ref().and_then(Interval::ends);
     match ends {
         Some(ends) if !(ends[0] <= value && value <= ends[1]) => {
-            let variant = variant.map(|name| format!(".{name}")).unwrap_or_default();
             Err(AcceptError::OutsideInterval {
-                metric: score.metric.clone() + &variant,
+                metric: full_name(&score.metric, variant),
                 channel: score.channel.clone(),
                 unit: score.unit.symbol(),
                 value,

@@ -81,18 +81,14 @@ impl Acceptance<'_> {
             table.note(line.to_owned());
         }
         let notes = self.edits_note().into_iter().chain(self.rule_notes());
-        for note in notes.chain(process::notes(self.findings)) {
-            table.note(note);
-        }
+        table.note_all(notes.chain(process::notes(self.findings)));
         let trainings = self.findings.iter().map(|finding| finding.trainings);
         if let Some(trainings) = trainings.max().filter(|trainings| *trainings > 0) {
             table.note(format!(
                 "The model was trained {trainings} times; intervals of scores that differ between trainings include this variance."
             ));
         }
-        if let Some(words) = not_measured([self.study.source.as_str()]) {
-            table.note(words);
-        }
+        table.note_all(not_measured([self.study.source.as_str()]));
         table
     }
 

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
+use taceva_results::full_name;
 use toml::value::Datetime;
 
 /// Depths of a verification, the shallowest first.
@@ -155,11 +156,14 @@ pub(super) struct RowFault {
 }
 
 impl Measured {
+    /// Metric and variant: `hysteresis.ratio`.
+    pub fn full_name(&self) -> String {
+        full_name(&self.metric, self.variant.as_deref())
+    }
+
     /// Metric, variant and channel in words: `hysteresis.ratio of Fz`.
     pub fn words(&self) -> String {
-        let variant = self.variant.as_ref();
-        let variant = variant.map_or_else(String::new, |name| format!(".{name}"));
-        format!("{}{variant} of {}", self.metric, self.channel)
+        format!("{} of {}", self.full_name(), self.channel)
     }
 
     /// Origin of the samples in a word for readers: `measured`, `origin unknown`, `simulated`.

@@ -175,8 +175,6 @@ fn offers(sensor: &Sensor) -> Vec<[String; 7]> {
 
 /// Row of a number of a bundle, with the columns of [`details`].
 fn of_bundle(row: &Measured) -> [String; 7] {
-    let variant = row.variant.as_ref();
-    let variant = variant.map_or_else(String::new, |name| format!(".{name}"));
     let interval = match row.ci95 {
         Some([low, high]) => format!("95 % interval {low} to {high}"),
         None => "no interval".to_owned(),
@@ -186,7 +184,7 @@ fn of_bundle(row: &Measured) -> [String; 7] {
         false => row.by.join(", "),
     };
     [
-        format!("{}{variant}", row.metric),
+        row.full_name(),
         row.channel.clone(),
         row.value.to_string(),
         row.unit.clone(),

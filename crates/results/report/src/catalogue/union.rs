@@ -45,10 +45,7 @@ impl Sensor {
 fn letters(name: &str) -> String {
     let lower = name.to_lowercase();
     let letters: String = lower.chars().filter(|own| own.is_alphanumeric()).collect();
-    match letters.is_empty() {
-        true => lower,
-        false => letters,
-    }
+    if letters.is_empty() { lower } else { letters }
 }
 
 /// Merges built-in sensors and `entries`, sorted by name.

@@ -23,14 +23,12 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
     let mut apart = Vec::new();
     remaining.retain(|sensor| match result(sensor) {
         Some(own) if own.basis() != *basis => {
-            apart.push(Dropped {
-                name: sensor.name.clone(),
-                reason: format!(
-                    "its faults are {}, and ranked sensors have {}: run `taceva stress` with the same --faults, --severity, --by and --draws, and with severities that each sensor reaches",
-                    shown(own),
-                    shown(kept)
-                ),
-            });
+            let reason = format!(
+                "its faults are {}, and ranked sensors have {}: run `taceva stress` with the same --faults, --severity, --by and --draws, and with severities that each sensor reaches",
+                shown(own),
+                shown(kept)
+            );
+            apart.push(Dropped::new(sensor, reason));
             false
         }
         _ => true,

@@ -85,29 +85,20 @@ impl Choice {
                 self.limits_of_catalogue.join(", ")
             ));
         }
-        for sentence in self.tested() {
-            table.note(format!("Tests: {sentence}."));
-        }
+        let tested = self.tested().into_iter();
+        table.note_all(tested.map(|sentence| format!("Tests: {sentence}.")));
         if self.simulated {
             table.note("Simulated samples: these numbers were not measured.");
         }
-        if let Some(spread) = &self.spread {
-            table.note(spread.clone());
-        }
-        for open in &self.open {
-            table.note(format!("{}: open, because {}.", open.name, open.reason));
-        }
-        for dropped in &self.dropped {
-            table.note(format!(
-                "{}: dropped, because {}.",
-                dropped.name, dropped.reason
-            ));
-        }
-        for barred in self.barred.iter().chain(&self.apart) {
-            table.note(format!(
-                "{}: not ranked, because {}.",
-                barred.name, barred.reason
-            ));
+        table.note_all(self.spread.as_deref());
+        for (word, all) in [
+            ("open", &self.open),
+            ("dropped", &self.dropped),
+            ("not ranked", &self.barred),
+            ("not ranked", &self.apart),
+        ] {
+            let words = |of: &Dropped| format!("{}: {word}, because {}.", of.name, of.reason);
+            table.note_all(all.iter().map(words));
         }
         let mut reasons: BTreeMap<&str, Vec<String>> = BTreeMap::new();
         for unplaced in &self.unplaced {
@@ -241,24 +232,12 @@ impl Choice {
             json!({"name": candidate.name, "place": places.get(at), "tied": self.is_tied(at), "share": candidate.share, "steps": steps})
         };
         let ranked: Vec<_> = self.ranked.iter().enumerate().map(candidate).collect();
-        let named = |list: &[Dropped]| -> Vec<serde_json::Value> {
-            let list = list.iter();
-            list.map(|dropped| json!({"name": dropped.name, "reason": dropped.reason}))
-                .collect()
-        };
-        let (dropped, barred) = (named(&self.dropped), named(&self.barred));
-        let (unplaced, other) = (named(&self.unplaced), named(&self.other_definitions));
-        let apart = named(&self.apart);
-        let open = self.open.iter();
-        let open: Vec<_> = open
-            .map(|open| json!({"name": open.name, "reason": open.reason}))
-            .collect();
         let evidence = self.evidence.as_ref().map(|all| {
             let all = all.iter();
             all.map(|of| json!({"better": of.better, "than": of.than, "looked_at": of.property.to_string(), "p_holm": of.p}))
                 .collect::<Vec<_>>()
         });
-        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": open, "dropped": dropped, "barred": barred, "unplaced": unplaced, "apart": apart, "other_definitions": other, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
+        let whole = json!({"schema": CHOICE_SCHEMA, "ranked": ranked, "open": self.open, "dropped": self.dropped, "barred": self.barred, "unplaced": self.unplaced, "apart": self.apart, "other_definitions": self.other_definitions, "unknown": self.unknown, "evidence": evidence, "simulated": self.simulated, "limits_of_catalogue": self.limits_of_catalogue});
         format!("{whole:#}\n")
     }
 

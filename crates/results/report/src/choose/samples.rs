@@ -17,13 +17,11 @@ pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dr
     remaining.retain(|sensor| match &sensor.samples {
         None => true,
         Some(samples) => {
-            apart.push(Dropped {
-                name: sensor.name.clone(),
-                reason: format!(
-                    "its numbers are of the samples {}, and other sensors have numbers of other samples or definitions",
-                    short(samples)
-                ),
-            });
+            let reason = format!(
+                "its numbers are of the samples {}, and other sensors have numbers of other samples or definitions",
+                short(samples)
+            );
+            apart.push(Dropped::new(sensor, reason));
             false
         }
     });

@@ -2,9 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_core::{by_count, counted};
+use taceva_core::{by_count, counted, distinct};
 
-use super::{Choice, Property, Step};
+use super::{Choice, Step};
 use crate::catalogue::Sensor;
 use crate::number::numeral;
 use crate::scores::sign;
@@ -22,12 +22,8 @@ impl Choice {
     /// ```
     pub fn values(&self) -> Table {
         let all = || self.ranked.iter().chain(&self.others);
-        let mut properties: Vec<Property> = Vec::new();
-        for step in all().flat_map(|candidate| &candidate.steps) {
-            if !properties.contains(&step.property) {
-                properties.push(step.property);
-            }
-        }
+        let steps = all().flat_map(|candidate| &candidate.steps);
+        let properties = distinct(steps.map(|step| step.property));
         let heads = properties.iter().map(|property| {
             let direction = Direction::Is(property.better());
             Column::new(property.to_string()).direction(direction)

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use taceva_core::{by_count, counted};
 use taceva_metrics::{Better, Standing, Verdict};
+use taceva_results::full_name;
 
 use super::{Answer, Comparison, Remarks};
 use crate::names::listed;
@@ -55,10 +56,7 @@ pub struct Decision {
 impl Decision {
     /// Question with its score: `Depth (mae Pz ↓)`.
     pub fn asked(&self) -> String {
-        let metric = match &self.decided_by {
-            Some(variant) => format!("{}.{variant}", self.metric),
-            None => self.metric.clone(),
-        };
+        let metric = full_name(&self.metric, self.decided_by.as_deref());
         let of = self.better.beside(&format!("{metric} {}", self.channel));
         if self.question.is_empty() {
             of
@@ -330,10 +328,7 @@ impl Answer {
 
     /// Metric, with the variant if compared: `mae`, or `repeatability.pooled`.
     pub(super) fn compared(&self) -> String {
-        match &self.decided_by {
-            Some(variant) => format!("{}.{variant}", self.metric),
-            None => self.metric.clone(),
-        }
+        full_name(&self.metric, self.decided_by.as_deref())
     }
 
     /// True for a significant difference beyond the margin.

@@ -46,9 +46,7 @@ impl Comparison {
         for answer in &self.answers {
             table.push(self.row(answer));
         }
-        for rule in self.rules() {
-            table.note(rule);
-        }
+        table.note_all(self.rules());
         table
     }
 

@@ -78,10 +78,7 @@ fn meant(name: &str, studies: &[Study]) -> Result<Vec<String>, UnknownMetric> {
     let scored = directed.iter().filter(|metric| is_scored(metric, studies));
     let scored: Vec<String> = scored.cloned().collect();
     // An empty list of metrics would select all.
-    Ok(match scored.is_empty() {
-        true => directed,
-        false => scored,
-    })
+    Ok(if scored.is_empty() { directed } else { scored })
 }
 
 /// True if a result has a score of `metric`.

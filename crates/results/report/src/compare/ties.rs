@@ -9,12 +9,8 @@ use crate::tie::{GRATINGS, Tie, tie};
 /// down to 0.25 mm to within 0.05 mm`.
 pub fn ties(studies: &[Study]) -> Vec<String> {
     let names = crate::names::names(studies);
-    let mut channels: Vec<&str> = Vec::new();
-    for score in studies.iter().flat_map(|study| study.of_metric(GRATINGS)) {
-        if !channels.contains(&score.channel.as_str()) {
-            channels.push(&score.channel);
-        }
-    }
+    let scores = studies.iter().flat_map(|study| study.of_metric(GRATINGS));
+    let channels = taceva_core::distinct(scores.map(|score| score.channel.as_str()));
     let request = CompareRequest {
         metrics: vec![GRATINGS.to_owned()],
         ..CompareRequest::default()

@@ -75,7 +75,7 @@ pub(super) fn bias(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         ),
         description: format!(
             "Bias over the true value, by channel, of {}.",
-            crate::names::listed(&crate::names::names(studies))
+            crate::names::all(studies)
         ),
     };
     let mut sheets = sheets(studies, "bias_level", "truth", "bias", Ways::Straight);
@@ -93,7 +93,7 @@ pub(super) fn tolerance(studies: &[Study], room: Option<f64>) -> Option<Figure> 
         caption: "Share of held-out samples whose error is at most the tolerance.".to_owned(),
         description: format!(
             "Share of errors within a tolerance, by channel, of {}.",
-            crate::names::listed(&crate::names::names(studies))
+            crate::names::all(studies)
         ),
     };
     let sheets = sheets(

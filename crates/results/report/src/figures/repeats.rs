@@ -18,10 +18,7 @@ pub(super) fn curves(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "repeatability",
         title: "Repeatability over depth",
         caption: "Standard deviation of predictions of the same press at each step of depth, mean over points.".to_owned(),
-        description: format!(
-            "Repeatability over steps of depth, by channel, of {}.",
-            crate::names::listed(&crate::names::names(studies))
-        ),
+        description: format!("Repeatability over steps of depth, by channel, of {}.", crate::names::all(studies)),
     };
     let sheets = sheets(
         studies,

@@ -44,7 +44,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
                 .to_owned(),
         description: format!(
             "Success rate over tolerance for gratings of lines and dots of {}.",
-            crate::names::listed(&crate::names::names(studies))
+            crate::names::all(studies)
         ),
     };
     overlay(&sheets, studies, 2, words, room)

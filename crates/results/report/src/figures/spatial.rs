@@ -57,7 +57,7 @@ fn one(studies: &[Study], over: &str, room: Option<f64>) -> Option<Figure> {
         ),
         description: format!(
             "Mean absolute error over {over} of {}.",
-            crate::names::listed(&crate::names::names(studies))
+            crate::names::all(studies)
         ),
     };
     overlay(&sheets, studies, 3, words, room)

@@ -6,7 +6,7 @@ mod statistics;
 use std::collections::{BTreeMap, BTreeSet};
 
 use maud::{Markup, html};
-use taceva_core::counted;
+use taceva_core::{counted, distinct};
 
 use super::sensor_summary::{counted_span, points, span, whole};
 use crate::devices::device_table;
@@ -162,14 +162,10 @@ fn divided(studies: &[Study]) -> String {
     if let Some(seeds) = seeds {
         out += &format!(" ({seeds})");
     }
-    let mut names: Vec<&str> = Vec::new();
     let all = studies.iter().flat_map(|study| &study.made.samples);
     // Left-out samples belong to other parts of the protocol, for other metrics.
-    for (name, _) in all.filter(|(name, _)| name != "left_out") {
-        if !names.contains(&name.as_str()) {
-            names.push(name);
-        }
-    }
+    let all = all.filter(|(name, _)| name != "left_out");
+    let names = distinct(all.map(|(name, _)| name.as_str()));
     let part = |name: &&str| {
         let of = |study: &Study| {
             let found = study.made.samples.iter().find(|(part, _)| part == name)?;

@@ -1,8 +1,7 @@
 //! Run time against error of models: results of `taceva bench models`, for figures.
 
 use serde::{Deserialize, Serialize};
-use taceva_core::Unit;
-use taceva_core::shown;
+use taceva_core::{Unit, distinct, shown};
 
 use taceva_results::ResultsError;
 
@@ -151,13 +150,8 @@ impl ModelBench {
 
     /// Channels in order of first appearance.
     pub fn channels(&self) -> Vec<&str> {
-        let mut channels: Vec<&str> = Vec::new();
-        for error in self.rows.iter().flat_map(|row| &row.errors) {
-            if !channels.contains(&error.channel.as_str()) {
-                channels.push(&error.channel);
-            }
-        }
-        channels
+        let errors = self.rows.iter().flat_map(|row| &row.errors);
+        distinct(errors.map(|error| error.channel.as_str()))
     }
 }
 

@@ -72,10 +72,8 @@ impl ScoreTable {
                     "unknown" => "predictions",
                     _ => self.names.first().map_or("", String::as_str),
                 };
-                match &one.model {
-                    Some(model) => format!("{name} ({model})"),
-                    None => name.to_owned(),
-                }
+                let model = one.model.as_ref();
+                model.map_or_else(|| name.to_owned(), |model| format!("{name} ({model})"))
             }
             (several, 1) => {
                 let sensor = several.first().map_or("", |of| of.sensor.as_str());

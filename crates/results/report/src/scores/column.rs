@@ -68,9 +68,7 @@ impl ScoreTable {
                     (1, _) => caption.to_owned(),
                     (_, at) => numbered(caption, at + 1, count),
                 };
-                if let Some(note) = main.note() {
-                    table.note(note);
-                }
+                table.note_all(main.note());
                 tables.push(table);
             }
         }
@@ -322,10 +320,7 @@ fn estimate(cell: Option<&ScoreCell>, digits: usize) -> Estimate {
     };
     Estimate {
         formatted: FormattedValue::short(value, cell.ends, digits),
-        mark: match cell.takes_part() {
-            true => "",
-            false => BARRED,
-        },
+        mark: if cell.takes_part() { "" } else { BARRED },
         is_best: cell.is_best,
         ..Estimate::default()
     }

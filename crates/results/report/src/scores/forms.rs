@@ -63,9 +63,7 @@ impl ScoreTable {
         if self.names.len() > 1 {
             table.note(Words::new(BOLD[0]).latex(BOLD[1]));
         }
-        if let Some(spread) = &self.spread {
-            table.note(Words::new(spread));
-        }
+        table.note_all(self.spread.as_deref());
         table
     }
 
@@ -100,15 +98,9 @@ impl ScoreTable {
         if self.names.len() > 1 {
             table.note(Words::new(BOLD[0]).latex(BOLD[1]));
         }
-        for legend in [BARRED, UNPROVEN]
-            .into_iter()
-            .filter_map(|of| self.legend(of))
-        {
-            table.note(legend);
-        }
-        if let Some(spread) = &self.spread {
-            table.note(Words::new(spread));
-        }
+        let marks = [BARRED, UNPROVEN].into_iter();
+        table.note_all(marks.filter_map(|of| self.legend(of)));
+        table.note_all(self.spread.as_deref());
         table
     }
 

@@ -85,12 +85,8 @@ impl ScoreTable {
             let origins = has_origins.then(|| Cell::text(line.origins));
             table.push(name.chain(cells).chain(origins));
         }
-        for note in &notes.0 {
-            table.note(note.sentence());
-        }
-        if has_origins {
-            table.note(origins::LEGEND);
-        }
+        table.note_all(notes.0.iter().map(Note::sentence));
+        table.note_all(has_origins.then_some(origins::LEGEND));
         if studies.iter().any(|study| study.source == "published") {
             table.note(
                 "Source, conditions and date of each published number: taceva catalogue show NAME.",

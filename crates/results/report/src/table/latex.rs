@@ -94,10 +94,8 @@ impl Table {
 
     /// Alignment letter of each column.
     fn sides(&self) -> String {
-        let sides = (0..self.columns.len()).map(|column| match self.is_right(column) {
-            true => 'r',
-            false => 'l',
-        });
+        let sides =
+            (0..self.columns.len()).map(|column| if self.is_right(column) { 'r' } else { 'l' });
         sides.collect()
     }
 

@@ -9,10 +9,8 @@ impl Table {
             let cells: Vec<String> = cells.iter().map(Words::in_markdown).collect();
             format!("| {} |\n", cells.join(" | "))
         };
-        let rule = (0..self.columns.len()).map(|column| match self.is_right(column) {
-            true => "---:",
-            false => "---",
-        });
+        let rule = (0..self.columns.len())
+            .map(|column| if self.is_right(column) { "---:" } else { "---" });
         let head: Vec<Words> = self.columns.iter().map(|column| column.head()).collect();
         let mut out = line(&head);
         out += &format!("|{}|\n", rule.collect::<Vec<_>>().join("|"));

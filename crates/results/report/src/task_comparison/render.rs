@@ -70,10 +70,8 @@ impl TaskComparison {
                     None => Cell::estimate(score.estimate.value, score.estimate.ends()),
                 },
             };
-            let unit = match &line.score.unit {
-                Some(unit) => format!(" ({unit})"),
-                None => String::new(),
-            };
+            let unit = line.score.unit.as_ref();
+            let unit = unit.map_or_else(String::new, |unit| format!(" ({unit})"));
             let constants = known().map(|score| match score.estimate.of_constant {
                 Some(constant) => numeral(constant),
                 None => "–".to_owned(),
@@ -95,9 +93,7 @@ impl TaskComparison {
                     .chain(last),
             );
         }
-        for note in self.remarks() {
-            table.note(note);
-        }
+        table.note_all(self.remarks());
         table
     }
 
@@ -142,9 +138,7 @@ impl TaskComparison {
             ]);
         }
         table.note(METHOD);
-        for note in self.remarks() {
-            table.note(note);
-        }
+        table.note_all(self.remarks());
         table
     }
 
@@ -274,11 +268,5 @@ fn ends(difference: &Difference) -> String {
 
 /// Distinct texts in their order, separated by semicolons.
 fn distinct(texts: impl Iterator<Item = String>) -> String {
-    let mut all: Vec<String> = Vec::new();
-    for text in texts {
-        if !all.contains(&text) {
-            all.push(text);
-        }
-    }
-    all.join("; ")
+    taceva_core::distinct(texts).join("; ")
 }

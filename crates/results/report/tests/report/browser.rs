@@ -9,10 +9,11 @@ mod print;
 
 use std::path::Path;
 
+use crate::reports::page as page_of;
 use crate::support::drawn;
 use serde_json::{Value, json};
 use taceva_needs::{Browser, skip};
-use taceva_report::{ReportPage, Study, report};
+use taceva_report::Study;
 
 /// An opened page of synthetic results.
 struct Opened {
@@ -22,15 +23,6 @@ struct Opened {
 
 fn open(studies: &[Study]) -> Option<Opened> {
     open_page(&page_of(studies))
-}
-
-fn page_of(studies: &[Study]) -> String {
-    report(&ReportPage {
-        title: "drawn",
-        studies,
-        pictures: &[],
-        triples: &[],
-    })
 }
 
 /// Opens a page in a file; `None` without a browser.

@@ -10,7 +10,7 @@ use taceva_report::{
     CompareRequest, Layout, ReportPage, ScoreTable, Study, compare, figures, picks, report,
 };
 
-fn page(studies: &[Study]) -> String {
+pub(crate) fn page(studies: &[Study]) -> String {
     report(&ReportPage {
         title: "drawn",
         studies,

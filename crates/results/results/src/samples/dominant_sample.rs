@@ -35,10 +35,7 @@ impl Samples {
     /// Sample that causes at least a quarter of the squared error of a channel or plane. `None` if no sample does, or if fewer than 50 samples have a
     /// prediction.
     pub fn dominant(&self, channel: &str) -> Option<DominantSample> {
-        let axes = match plane_axes(channel) {
-            Some(axes) => axes.to_vec(),
-            None => vec![channel],
-        };
+        let axes = plane_axes(channel).map_or_else(|| vec![channel], |axes| axes.to_vec());
         let channels = axes.into_iter().map(|axis| self.channel(axis));
         let channels: Vec<SampleChannel<'_>> = channels.collect::<Option<_>>()?;
         let error = |row: usize| -> Option<f64> {

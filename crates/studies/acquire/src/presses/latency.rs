@@ -5,13 +5,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use taceva_core::{
-    Axes, Deadline, DriverError, DriverKey, ErrorKind, ExpiringMotion, ForceTransducer, FrameInfo,
-    FrameMut, Guard, GuardedMotion, GuardedStop, Halt, Interrupt, Lighting, Newton, Pose, Robot,
-    RobotWatch, SampleTiming, Sensor, Speed, Stamp, Tare, Wrench,
+    Axes, Deadline, DriverError, DriverKey, ErrorKind, ExpiringMotion, ForceTransducer, FrameMut,
+    Guard, GuardedMotion, GuardedStop, Pose, Robot, RobotWatch, SampleTiming, Sensor, Speed, Stamp,
+    Wrench,
 };
 use taceva_drivers::MonotonicClock;
 
 use super::clock_follower::ClockFollower;
+use super::delegation::{delegate_force, delegate_robot, delegate_sensor};
 
 /// A device whose time stamps are later than the observation by a known latency. The timing of its samples is checked.
 pub(crate) struct Late<D: ?Sized> {
@@ -79,12 +80,10 @@ fn true_stamp(stamp: Stamp, latency_s: f64) -> Stamp {
 }
 
 impl ForceTransducer for Late<dyn ForceTransducer> {
+    delegate_force!(device);
+
     fn axes(&self) -> Axes {
         self.device.axes()
-    }
-
-    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.device.start(deadline)
     }
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
@@ -93,52 +92,10 @@ impl ForceTransducer for Late<dyn ForceTransducer> {
         let (wrench, stamp) = self.checked("read the force", asked, taken, |(_, stamp)| *stamp)?;
         Ok((wrench, self.true_stamp(stamp)))
     }
-
-    fn sequence(&self) -> Option<u64> {
-        self.device.sequence()
-    }
-
-    fn lost(&self) -> Option<u64> {
-        self.device.lost()
-    }
-
-    fn stop(&mut self) -> Result<(), DriverError> {
-        self.device.stop()
-    }
-
-    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
-        self.device.interrupt_handle()
-    }
-
-    fn settings(&self) -> BTreeMap<String, String> {
-        self.device.settings()
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.device.warnings()
-    }
-
-    fn resolution(&self) -> Option<Newton> {
-        self.device.resolution()
-    }
-
-    fn tare(&mut self) -> Option<&mut dyn Tare> {
-        self.device.tare()
-    }
 }
 
 impl Robot for Late<dyn Robot> {
-    fn is_emulated(&self) -> bool {
-        self.device.is_emulated()
-    }
-
-    fn settings(&self) -> BTreeMap<String, String> {
-        self.device.settings()
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.device.warnings()
-    }
+    delegate_robot!(device);
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let (pose, stamp) = self.device.pose(deadline)?;
@@ -155,36 +112,10 @@ impl Robot for Late<dyn Robot> {
         Ok(self.true_stamp(stamp))
     }
 
-    fn halt_handle(&self) -> Arc<dyn Halt> {
-        self.device.halt_handle()
-    }
-
     fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
         let watch = self.device.watch_handle()?;
         let latency_s = self.latency_s;
         Some(Arc::new(LateWatch { latency_s, watch }))
-    }
-
-    fn halt(&mut self) -> Result<(), DriverError> {
-        self.device.halt()
-    }
-
-    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.device.clear_halt(deadline)
-    }
-
-    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
-        match self.device.guarded_motion().is_some() {
-            true => Some(self),
-            false => None,
-        }
-    }
-
-    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
-        match self.device.expiring_motion().is_some() {
-            true => Some(self),
-            false => None,
-        }
     }
 }
 
@@ -241,13 +172,7 @@ impl RobotWatch for LateWatch {
 }
 
 impl Sensor for Late<dyn Sensor> {
-    fn frame_info(&self) -> FrameInfo {
-        self.device.frame_info()
-    }
-
-    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.device.start(deadline)
-    }
+    delegate_sensor!(device);
 
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError> {
         let asked = Instant::now();
@@ -262,31 +187,11 @@ impl Sensor for Late<dyn Sensor> {
         Ok(self.true_stamp(followed))
     }
 
-    fn sequence(&self) -> Option<u64> {
-        self.device.sequence()
-    }
-
-    fn sent(&self) -> Option<&[u8]> {
-        self.device.sent()
-    }
-
-    fn stop(&mut self) -> Result<(), DriverError> {
-        self.device.stop()
-    }
-
-    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
-        self.device.interrupt_handle()
-    }
-
     fn settings(&self) -> BTreeMap<String, String> {
         let mut settings = self.device.settings();
         let follower = self.follower.as_ref();
         settings.extend(follower.map(ClockFollower::settings).unwrap_or_default());
         settings
-    }
-
-    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
-        self.device.lighting()
     }
 }
 

@@ -71,10 +71,7 @@ fn few(names: &[String]) -> String {
     let shown: Vec<String> = shown
         .map(|name| taceva_core::shown(name).to_string())
         .collect();
-    let more = match distinct.len() > FEW {
-        true => ", …",
-        false => "",
-    };
+    let more = if distinct.len() > FEW { ", …" } else { "" };
     format!("{}{more}", shown.join(", "))
 }
 

@@ -1,14 +1,15 @@
 //! Converts devices of a rig file to the frame of the sensor. Poses are converted by the registration of the robot, and wrenches by the axes of the transducer.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use taceva_core::{
     Axes, Deadline, DriverError, ExpiringMotion, ForceTransducer, Guard, GuardedMotion,
-    GuardedStop, Halt, Interrupt, Pose, Robot, RobotWatch, Speed, Stamp, Tare, Wrench,
+    GuardedStop, Pose, Robot, RobotWatch, Speed, Stamp, Wrench,
 };
 use taceva_core::{Degree, Newton, NewtonMillimetre, Rotation};
 use taceva_protocol::{Registration, RigRobot, SignedAxes};
+
+use super::delegation::{delegate_force, delegate_robot};
 
 /// A robot with poses in the frame of the sensor. The wrapped driver uses the base frame of the robot.
 pub(super) struct Registered {
@@ -42,17 +43,7 @@ impl Registered {
 }
 
 impl Robot for Registered {
-    fn is_emulated(&self) -> bool {
-        self.robot.is_emulated()
-    }
-
-    fn settings(&self) -> BTreeMap<String, String> {
-        self.robot.settings()
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.robot.warnings()
-    }
+    delegate_robot!(robot);
 
     fn pose(&mut self, deadline: Deadline) -> Result<(Pose, Stamp), DriverError> {
         let (base, stamp) = self.robot.pose(deadline)?;
@@ -69,10 +60,6 @@ impl Robot for Registered {
         self.robot.move_to(target, speed, deadline)
     }
 
-    fn halt_handle(&self) -> Arc<dyn Halt> {
-        self.robot.halt_handle()
-    }
-
     fn watch_handle(&self) -> Option<Arc<dyn RobotWatch>> {
         let watch = self.robot.watch_handle()?;
         let registration = self.registration;
@@ -80,28 +67,6 @@ impl Robot for Registered {
             registration,
             watch,
         }))
-    }
-
-    fn halt(&mut self) -> Result<(), DriverError> {
-        self.robot.halt()
-    }
-
-    fn clear_halt(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.robot.clear_halt(deadline)
-    }
-
-    fn guarded_motion(&mut self) -> Option<&mut dyn GuardedMotion> {
-        match self.robot.guarded_motion().is_some() {
-            true => Some(self),
-            false => None,
-        }
-    }
-
-    fn expiring_motion(&mut self) -> Option<&mut dyn ExpiringMotion> {
-        match self.robot.expiring_motion().is_some() {
-            true => Some(self),
-            false => None,
-        }
     }
 }
 
@@ -169,12 +134,10 @@ impl Turned {
 }
 
 impl ForceTransducer for Turned {
+    delegate_force!(force);
+
     fn axes(&self) -> Axes {
         self.axes.measured(self.force.axes())
-    }
-
-    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.force.start(deadline)
     }
 
     fn read(&mut self, deadline: Deadline) -> Result<(Wrench, Stamp), DriverError> {
@@ -187,43 +150,11 @@ impl ForceTransducer for Turned {
         };
         Ok((wrench, stamp))
     }
-
-    fn sequence(&self) -> Option<u64> {
-        self.force.sequence()
-    }
-
-    fn lost(&self) -> Option<u64> {
-        self.force.lost()
-    }
-
-    fn stop(&mut self) -> Result<(), DriverError> {
-        self.force.stop()
-    }
-
-    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
-        self.force.interrupt_handle()
-    }
-
-    fn settings(&self) -> BTreeMap<String, String> {
-        self.force.settings()
-    }
-
-    fn warnings(&self) -> Vec<String> {
-        self.force.warnings()
-    }
-
-    fn resolution(&self) -> Option<Newton> {
-        self.force.resolution()
-    }
-
-    fn tare(&mut self) -> Option<&mut dyn Tare> {
-        self.force.tare()
-    }
 }
 
 #[cfg(test)]
 mod tests {
-    use taceva_core::{DriverKey, ErrorKind, Millimetre, Point};
+    use taceva_core::{DriverKey, ErrorKind, Halt, Millimetre, Point};
     use taceva_protocol::RigFile;
 
     use super::*;

@@ -3,10 +3,9 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use taceva_core::{
-    Deadline, DriverError, Frame, FrameInfo, FrameMut, Interrupt, Lighting, Sensor, Stamp,
-};
+use taceva_core::{Deadline, DriverError, Frame, FrameMut, Sensor, Stamp};
 
+use super::delegation::delegate_sensor;
 use crate::viewer::Viewer;
 
 /// A sensor, and the viewer that receives its frames.
@@ -22,13 +21,7 @@ impl Seen {
 }
 
 impl Sensor for Seen {
-    fn frame_info(&self) -> FrameInfo {
-        self.sensor.frame_info()
-    }
-
-    fn start(&mut self, deadline: Deadline) -> Result<(), DriverError> {
-        self.sensor.start(deadline)
-    }
+    delegate_sensor!(sensor);
 
     fn capture(
         &mut self,
@@ -45,27 +38,7 @@ impl Sensor for Seen {
         Ok(stamp)
     }
 
-    fn sequence(&self) -> Option<u64> {
-        self.sensor.sequence()
-    }
-
-    fn sent(&self) -> Option<&[u8]> {
-        self.sensor.sent()
-    }
-
     fn settings(&self) -> BTreeMap<String, String> {
         self.sensor.settings()
-    }
-
-    fn stop(&mut self) -> Result<(), DriverError> {
-        self.sensor.stop()
-    }
-
-    fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
-        self.sensor.interrupt_handle()
-    }
-
-    fn lighting(&mut self) -> Option<&mut dyn Lighting> {
-        self.sensor.lighting()
     }
 }

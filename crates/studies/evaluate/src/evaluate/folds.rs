@@ -64,10 +64,7 @@ pub(crate) fn of<'a>(
 /// # Errors
 /// Errors of [`of`].
 pub(crate) fn by_default(dataset: &Dataset, seed: u64) -> Result<Option<Folds<'_>>, EvaluateError> {
-    match default_split(dataset)? {
-        Some(spec) => of_spec(dataset, seed, spec),
-        None => Ok(None),
-    }
+    default_split(dataset)?.map_or(Ok(None), |spec| of_spec(dataset, seed, spec))
 }
 
 /// Folds of the cross-validation that `request` names; `None` if it names none.

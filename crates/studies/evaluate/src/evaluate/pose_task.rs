@@ -5,12 +5,13 @@ use std::collections::BTreeMap;
 use taceva_core::shown;
 use taceva_dataset::{Dataset, RotationVector, Task};
 use taceva_results::Samples;
-use taceva_tasks::pose::{Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
+use taceva_tasks::pose::{Pose, PoseError, PoseState, Rotation};
 use taceva_tasks::{TaskState, WorstSample};
 
 use super::label_counts::{own_labels, unscored};
 use super::task::without_cluster;
 use crate::error::EvaluateError;
+use crate::pose_definition::pose_definition;
 
 /// State of the poses in `samples`, a table of predictions of the channels of `task`. `clusters` has the cluster of every row of the dataset.
 pub(super) fn state(
@@ -27,7 +28,7 @@ pub(super) fn state(
         .map(|name| samples.channel(name).expect("a channel of the task"))
         .collect();
     let mut state = TaskState::new(task.name.as_str(), task.kind.name(), task.cluster.as_str());
-    let mut poses = PoseState::new(definition(task)?);
+    let mut poses = PoseState::new(pose_definition(&task.name, task.thresholds.as_ref())?);
     let mut scored: u64 = 0;
     for row in 0..samples.rows() {
         let pairs: Option<Vec<[f64; 2]>> =
@@ -63,17 +64,6 @@ fn pose(row: u64, pairs: &[[f64; 2]], side: usize) -> Result<Pose, PoseError> {
     let turned = RotationVector::new([part(3), part(4), part(5)]);
     let rotation = Rotation::of_quaternion(row, turned.quaternion())?;
     Pose::new(row, [part(0), part(1), part(2)], rotation)
-}
-
-fn definition(task: &Task) -> Result<PoseTask, EvaluateError> {
-    let Some(of) = &task.thresholds else {
-        return Ok(PoseTask::default());
-    };
-    let [translation, rotation] =
-        [&of.t, &of.r].map(|texts| texts.iter().map(String::as_str).collect::<Vec<_>>());
-    let thresholds = Thresholds::new(&translation, &rotation);
-    let thresholds = thresholds.map_err(|error| refused(task, &error))?;
-    Ok(PoseTask::default().with_thresholds(thresholds))
 }
 
 pub(super) fn refused(task: &Task, error: &PoseError) -> EvaluateError {

@@ -15,13 +15,8 @@ impl Predicted {
     /// # Errors
     /// Errors of `out`.
     pub fn write_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(
-            &self.prediction,
-            self.task.as_ref(),
-            false,
-            self.distance(),
-            out,
-        )
+        let task = self.task.as_ref();
+        self.write(&self.prediction, task, false, self.distance(), out)
     }
 
     /// Writes the unclipped predictions, in the format of [`write_predictions`](Predicted::write_predictions). `score` needs them to compute robustness.
@@ -29,13 +24,8 @@ impl Predicted {
     /// # Errors
     /// Errors of `out`.
     pub fn write_unbounded_predictions(&self, out: &mut dyn Write) -> io::Result<()> {
-        self.write(
-            &self.unbounded,
-            self.task.as_ref(),
-            false,
-            self.distance(),
-            out,
-        )
+        let task = self.task.as_ref();
+        self.write(&self.unbounded, task, false, self.distance(), out)
     }
 
     /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model predicts none.

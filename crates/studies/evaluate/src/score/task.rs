@@ -14,7 +14,7 @@ use std::collections::BTreeMap;
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
-use taceva_tasks::{TaskReport, TaskState};
+use taceva_tasks::TaskState;
 
 use super::ScoreRequest;
 use super::agreement::Matching;
@@ -57,7 +57,7 @@ struct RowPair {
     prediction: usize,
 }
 
-/// Scores the tasks of two tables.
+/// States of the tasks of two tables, which can be written and merged, and whose [`report`](TaskStates::report) has the scores.
 ///
 /// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
 /// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
@@ -65,17 +65,18 @@ struct RowPair {
 /// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
 ///
 /// ```
-/// use taceva_evaluate::{ScoreRequest, TaskRequest, score_tasks};
+/// use taceva_evaluate::{ScoreRequest, TaskRequest, task_states};
 /// # let folder = tempfile::tempdir()?;
 /// # let [truth, prediction] = ["truth.csv", "prediction.csv"].map(|name| folder.path().join(name));
 /// std::fs::write(&truth, "id,clip,grasp\n1,a,held\n2,a,lost\n3,b,held\n")?;
 /// std::fs::write(&prediction, "id,grasp\n3,held\n1,held\n2,held\n")?;
-/// let report = score_tasks(&TaskRequest {
+/// let report = task_states(&TaskRequest {
 ///     tables: ScoreRequest::of_tables(truth, prediction),
 ///     tasks: vec!["grasp=outcome:positive=held".parse()?],
 ///     rules: Default::default(),
 ///     cluster: Some("clip".to_owned()),
-/// })?;
+/// })?
+/// .report();
 /// let accuracy = &report.tasks[0].scores[0];
 /// assert_eq!((accuracy.metric, accuracy.estimate.value), ("class_accuracy", Ok(2.0 / 3.0)));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -83,14 +84,6 @@ struct RowPair {
 ///
 /// # Errors
 /// [`EvaluateError`] if a table cannot be read, rows do not pair, a column is missing, or a cell is no class, number or rotation.
-pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
-    task_states(request).map(|states| states.report())
-}
-
-/// States behind the scores of [`score_tasks`], which can be written and merged.
-///
-/// # Errors
-/// Errors of [`score_tasks`].
 pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     check_names(request)?;
     if let Some(task) = request.tasks.iter().find(|of| of.kind == TaskKind::Depth) {

@@ -15,13 +15,7 @@ pub(crate) fn times(folder: &SweepFolder, list: &TaskList, loaded: &[Loaded<'_>]
          and more accurate.".to_owned(),
     )];
     let groups = analysis::groups(loaded);
-    let mut places: Vec<(&str, Option<&str>)> = Vec::new();
-    for group in &groups {
-        if !places.contains(&group.place()) {
-            places.push(group.place());
-        }
-    }
-    for place in places {
+    for place in taceva_core::distinct(groups.iter().map(|group| group.place())) {
         for channel in analysis::channels(loaded) {
             let of_place = groups.iter().filter(|group| group.place() == place);
             let points = of_place.filter_map(|group| {

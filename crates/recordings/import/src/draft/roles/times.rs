@@ -22,10 +22,8 @@ pub(super) fn time(words: &[String], numbers: &[f64]) -> Role {
         Some("s" | "sec" | "secs" | "seconds") => Some("s"),
         _ => None,
     };
-    let (unit, guess) = match named {
-        Some(unit) => (unit, None),
-        None => guessed_unit(numbers, greatest),
-    };
+    let guessed = || guessed_unit(numbers, greatest);
+    let (unit, guess) = named.map_or_else(guessed, |unit| (unit, None));
     let second = UNITS.iter().find(|(known, _)| *known == unit);
     let second = second.map_or(1.0, |(_, second)| *second);
     Role::Time {

@@ -65,9 +65,6 @@ impl Sources<'_> {
 
 /// True if the file of `table` states that the column `name`, or the column of which `name` is an element, contains integers.
 pub(super) fn holds_integers(table: &ForeignTable, name: &str) -> bool {
-    let column = match table.has(name) {
-        true => name,
-        false => base_of(name),
-    };
+    let column = if table.has(name) { name } else { base_of(name) };
     table.has(column) && table.holds_integers(column)
 }

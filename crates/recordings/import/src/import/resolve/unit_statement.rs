@@ -34,10 +34,7 @@ pub(super) fn check(
     reading: Reading<'_>,
 ) -> Result<(), ImportError> {
     times::check(table, name, reading.unit)?;
-    let base = match table.has(name) {
-        true => name,
-        false => base_of(name),
-    };
+    let base = if table.has(name) { name } else { base_of(name) };
     // Typed times are in seconds, whatever their name.
     if reading.is_moved || !table.has(base) || table.time_unit(base).is_some() {
         return Ok(());

@@ -58,10 +58,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "figure-3c",
         title: "Figure 3c: success rate of gratings",
         caption: "Share of presses of gratings of lines and dots whose spacing is predicted to within ε, over ε and, for ε = 0.05 mm, over the spacing.".to_owned(),
-        description: format!(
-            "Success rate of gratings over tolerance and spacing of {}.",
-            crate::names::listed(&crate::names::names(studies))
-        ),
+        description: format!("Success rate of gratings over tolerance and spacing of {}.", crate::names::all(studies)),
     };
     overlay(&sheets, studies, 2, words, room)
 }

@@ -47,10 +47,7 @@ pub(super) fn draw(studies: &[Study], room: Option<f64>) -> Option<Figure> {
         id: "figure-6b",
         title: "Figure 6b: error against mean grey level",
         caption: "Mean absolute error in each lighting scene against the mean grey level of its frames, by plane; scenes in the order of their grey level. Predictions are clipped to the bounds of the model.".to_owned(),
-        description: format!(
-            "Mean absolute error over mean grey level of {}.",
-            crate::names::listed(&crate::names::names(studies))
-        ),
+        description: format!("Mean absolute error over mean grey level of {}.", crate::names::all(studies)),
     };
     overlay(&sheets, studies, 2, words, room)
 }

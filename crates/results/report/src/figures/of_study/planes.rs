@@ -61,7 +61,7 @@ pub(super) fn draw(studies: &[Study], over: &str, room: Option<f64>) -> Option<F
         ),
         description: format!(
             "Mean absolute error over {name} of {}.",
-            crate::names::listed(&crate::names::names(studies))
+            crate::names::all(studies)
         ),
     };
     overlay(&sheets, studies, 2, words, room)

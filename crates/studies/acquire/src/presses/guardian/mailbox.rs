@@ -178,10 +178,7 @@ impl ForceTransducer for Mailbox {
     }
 
     fn tare(&mut self) -> Option<&mut dyn Tare> {
-        match self.has_tare {
-            true => Some(self),
-            false => None,
-        }
+        if self.has_tare { Some(self) } else { None }
     }
 }
 

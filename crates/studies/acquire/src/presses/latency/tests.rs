@@ -1,5 +1,7 @@
 //! Tests of the wrappers.
 
+use taceva_core::{Halt, Newton};
+
 use super::*;
 
 /// A device without timing checks whose time stamps are `latency_ms` ms late.

@@ -23,10 +23,7 @@ pub(super) fn debounce(rows: &mut [ClassRow<'_>], positive: u32, negative: u32, 
             .map(|number| f64::from(u8::from(rows[*number].predicted == positive)))
             .collect();
         for (number, label) in numbers.into_iter().zip(rule.labels(&scores)) {
-            rows[number].predicted = match label {
-                true => positive,
-                false => negative,
-            };
+            rows[number].predicted = if label { positive } else { negative };
         }
     }
 }

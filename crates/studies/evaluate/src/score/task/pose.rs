@@ -1,13 +1,13 @@
 //! Columns of poses and places, as states of a task.
 
-use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
-use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
+use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, Rotation};
 use taceva_tasks::{TaskState, WorstSample};
 
 use super::{Clusters, TaskSpec, TaskTables, empty};
 use crate::error::EvaluateError;
+use crate::pose_definition::pose_definition;
 
 /// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
 const PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
@@ -83,8 +83,8 @@ pub(super) fn state(
 ) -> Result<TaskState, EvaluateError> {
     let truth = PoseColumns::of(&tables.truth, task)?;
     let prediction = PoseColumns::of(&tables.prediction, task)?;
-    let mut state = PoseState::new(definition(task)?);
-    let mut euler = EulerErrors::default();
+    let mut state = PoseState::new(pose_definition(&task.name, task.thresholds.as_ref())?);
+    let mut euler = (task.kind != TaskKind::Place).then(EulerErrors::default);
     let mut of_task = empty(task, clusters);
     let mut left_out = 0;
     for pair in &tables.pairs {
@@ -100,7 +100,9 @@ pub(super) fn state(
         };
         let cluster = clusters.cell(*pair)?;
         state.push(cluster, &true_pose, &predicted);
-        euler.push(&true_pose, &predicted);
+        if let Some(euler) = &mut euler {
+            euler.push(&true_pose, &predicted);
+        }
         let error = true_pose.distance_mm(&predicted);
         let sample = format!("row {}", pair.truth + 1);
         let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
@@ -108,19 +110,6 @@ pub(super) fn state(
     }
     of_task.unlabelled = left_out;
     of_task.pose = Some(state);
-    of_task.euler = (task.kind != TaskKind::Place).then_some(euler);
+    of_task.euler = euler;
     Ok(of_task)
-}
-
-fn definition(task: &TaskSpec) -> Result<PoseTask, EvaluateError> {
-    let Some(of) = &task.thresholds else {
-        return Ok(PoseTask::default());
-    };
-    let [translation, rotation] =
-        [&of.t, &of.r].map(|texts| texts.iter().map(String::as_str).collect::<Vec<_>>());
-    let thresholds = Thresholds::new(&translation, &rotation);
-    let thresholds = thresholds.map_err(|error| {
-        EvaluateError::Request(format!("task `{}`: {error}", shown(&task.name)))
-    })?;
-    Ok(PoseTask::default().with_thresholds(thresholds))
 }

@@ -111,9 +111,8 @@ impl<'a> ScoreColumns<'a> {
             )));
         }
         let places = (0_u32..).zip(scores).take(names.all().len());
-        let first = |best: (u32, f64), (at, score): (u32, &f64)| match *score > best.1 {
-            true => (at, *score),
-            false => best,
+        let first = |best: (u32, f64), (at, score): (u32, &f64)| {
+            if *score > best.1 { (at, *score) } else { best }
         };
         Ok(places.fold((0, f64::NEG_INFINITY), first).0)
     }
