@@ -7,8 +7,6 @@ mod recordings;
 mod shards;
 
 use taceva_dataset::{Digest, SensorFile};
-use taceva_evaluate::EvaluateError;
-use taceva_metrics::catalogue;
 use taceva_models::Models;
 
 use crate::error::SweepError;
@@ -45,8 +43,7 @@ impl Grid {
         scenes: &[SceneRecording],
         models: &Models,
     ) -> Result<Grid, SweepError> {
-        let metrics = file.metrics.iter().map(String::as_str);
-        let known = catalogue::select(metrics).map_err(EvaluateError::from);
+        let known = checks::metrics(file);
         if let Some(tables) = &file.tables {
             known?;
             return shards::grid(file, tables);

@@ -1,6 +1,7 @@
 //! Execution of one task.
 
 mod errors;
+mod labels;
 mod shard;
 
 use taceva_core::ErrorKind;
@@ -68,6 +69,9 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
                 said(&task.plugin)
             ),
         });
+    }
+    if let Some(labels) = &task.labels {
+        return labels::carry_out(task, labels, &dataset, common, work);
     }
     let request = task.request(common.models)?;
     let fitted = fit(&dataset, &request, None, work)?;

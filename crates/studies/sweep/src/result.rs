@@ -9,9 +9,12 @@ use taceva_core::Unit;
 use taceva_metrics::ClusterSums;
 use taceva_results::{EvaluationReport, Score, Value, by_metric};
 
+use crate::file::ALL_METRICS;
 use crate::key::TaskKey;
 
 const SCHEMA: &str = "taceva.sweep-result/1.0";
+/// Variant of a score of labels: the score of the best constant prediction.
+pub(crate) const OF_CONSTANT: &str = "of_constant";
 
 /// Errors of each channel: group or contact point, number of its samples, and sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
@@ -82,6 +85,21 @@ impl TaskResult {
             ..score.clone()
         }));
         self
+    }
+
+    /// Adds those of `scores` whose metric is among `wanted`, with the score of the best constant. Scores of single classes are stored only in the
+    /// evaluation.
+    pub(crate) fn add_label_scores(&mut self, scores: &[Score], wanted: &[String]) {
+        let is_wanted = |score: &&Score| {
+            wanted
+                .iter()
+                .any(|name| *name == score.metric || name == ALL_METRICS)
+        };
+        let scores = scores.iter().filter(is_wanted);
+        self.scores.extend(scores.map(|score| Score {
+            variants: score.variant(OF_CONSTANT).cloned().into_iter().collect(),
+            ..score.clone()
+        }));
     }
 
     pub(crate) fn score(&self, metric: &str, channel: &str) -> Option<&Score> {

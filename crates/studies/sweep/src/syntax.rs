@@ -21,6 +21,8 @@ pub(crate) struct WrittenSweep {
     #[serde(default)]
     pub(crate) scenes: Words,
     #[serde(default)]
+    pub(crate) task: Words,
+    #[serde(default)]
     pub(crate) models: Vec<toml::Value>,
     #[serde(default)]
     pub(crate) seeds: Option<toml::Value>,

@@ -78,6 +78,11 @@ impl TaskList {
         std::fs::read(path).map_or(true, |text| Digest::of(&text) == self.file)
     }
 
+    /// True if the tasks score labels, such as slip, and not channels.
+    pub(crate) fn is_of_labels(&self) -> bool {
+        self.tasks.iter().any(|task| task.labels.is_some())
+    }
+
     /// True if the tasks are shards of two tables.
     pub fn is_of_tables(&self) -> bool {
         self.tables.is_some()

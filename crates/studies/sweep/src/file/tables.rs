@@ -73,6 +73,7 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
     let others = [
         ("datasets", !written.datasets.is_empty()),
         ("scenes", !written.scenes.is_empty()),
+        ("task", !written.task.is_empty()),
         ("models", !written.models.is_empty()),
         ("seeds", written.seeds.is_some()),
         ("splits", !written.splits.is_empty()),

@@ -31,7 +31,7 @@ impl<'a> TaskLog<'a> {
             "task {} {} {} split {split} seed {}",
             task.key,
             task.dataset,
-            task.configuration(),
+            task.title(),
             task.seed
         ));
         log
