@@ -4,6 +4,7 @@ mod classes;
 mod depth;
 mod events;
 mod labels;
+mod likely_scale;
 mod mean_map;
 mod pose;
 mod rule;
@@ -61,7 +62,8 @@ struct RowPair {
 /// Scores the tasks of two tables.
 ///
 /// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
-/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
+/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm, or the unit of the
+/// task in the predictions) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
 ///
 /// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
 ///

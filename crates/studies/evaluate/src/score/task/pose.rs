@@ -1,11 +1,12 @@
 //! Columns of poses and places, as states of a task.
 
-use taceva_core::shown;
+use taceva_core::{SourceUnit, shown};
 use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
 use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rotation, Thresholds};
 use taceva_tasks::{TaskState, WorstSample};
 
+use super::likely_scale::{LikelyScale, VectorPair};
 use super::{Clusters, TaskSpec, TaskTables, empty};
 use crate::error::EvaluateError;
 
@@ -17,6 +18,8 @@ struct PoseColumns<'a> {
     table: &'a CsvTable,
     /// Positions of the columns of translation, and of the quaternion of a pose.
     columns: Vec<usize>,
+    /// Unit of the translation; `None` for mm.
+    unit: Option<SourceUnit>,
     /// Noun for messages.
     noun: &'static str,
 }
@@ -32,6 +35,7 @@ impl<'a> PoseColumns<'a> {
         Ok(PoseColumns {
             table,
             columns: columns.collect::<Result<_, _>>()?,
+            unit: None,
             noun,
         })
     }
@@ -60,6 +64,10 @@ impl<'a> PoseColumns<'a> {
                 };
             }
         };
+        let translation = match &self.unit {
+            Some(unit) => translation.map(|part| unit.convert(part)),
+            None => translation,
+        };
         let number = row as u64 + 1;
         Rotation::of_quaternion(number, quaternion)
             .and_then(|rotation| Pose::new(number, translation, rotation))
@@ -82,11 +90,18 @@ pub(super) fn state(
     task: &TaskSpec,
 ) -> Result<TaskState, EvaluateError> {
     let truth = PoseColumns::of(&tables.truth, task)?;
-    let prediction = PoseColumns::of(&tables.prediction, task)?;
+    let prediction = PoseColumns {
+        unit: match &task.unit {
+            Some(_) => Some(task.length_unit()?),
+            None => None,
+        },
+        ..PoseColumns::of(&tables.prediction, task)?
+    };
     let mut state = PoseState::new(definition(task)?);
     let mut euler = EulerErrors::default();
     let mut of_task = empty(task, clusters);
     let mut left_out = 0;
+    let mut vectors = Vec::with_capacity(tables.pairs.len());
     for pair in &tables.pairs {
         let Some(true_pose) = truth.pose(pair.truth)? else {
             left_out += 1;
@@ -101,12 +116,15 @@ pub(super) fn state(
         let cluster = clusters.cell(*pair)?;
         state.push(cluster, &true_pose, &predicted);
         euler.push(&true_pose, &predicted);
+        vectors.push(VectorPair::of_poses(&true_pose, &predicted));
         let error = true_pose.distance_mm(&predicted);
         let sample = format!("row {}", pair.truth + 1);
         let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
         of_task.evidence.add_worst(worst);
     }
     of_task.unlabelled = left_out;
+    let scale = LikelyScale::of(&vectors);
+    of_task.notes.extend(scale.map(|scale| scale.remark(task)));
     of_task.pose = Some(state);
     of_task.euler = (task.kind != TaskKind::Place).then_some(euler);
     Ok(of_task)
