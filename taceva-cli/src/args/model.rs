@@ -142,8 +142,8 @@ pub(crate) struct Score {
     /// Count NaN and infinite cells as n_invalid instead of rejecting the file
     #[arg(long)]
     pub(crate) allow_invalid: bool,
-    /// Score only shard K of N, a range of consecutive rows; tables may have any length; `taceva merge` merges the states of --state-out to the
-    /// scores of all rows
+    /// Score only shard K of N, a range of consecutive rows (with --task, of clusters by name); tables may have any length; `taceva merge` merges
+    /// the states of --state-out to the scores of all rows
     #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
     pub(crate) shard: Option<Shard>,
     #[command(flatten)]

@@ -1,5 +1,6 @@
 //! Sweep file: varied and fixed settings of a sweep.
 
+mod labels_entry;
 mod model_entry;
 mod place;
 mod reader;
@@ -17,6 +18,7 @@ use crate::error::SweepError;
 use crate::slurm_spec::SlurmSpec;
 use place::FilePlace;
 
+pub use labels_entry::LabelsEntry;
 pub use model_entry::ModelEntry;
 pub use tables::TablesEntry;
 

@@ -8,7 +8,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use taceva_dataset::Digest;
 
-pub(crate) use shard::ShardParts;
+pub(crate) use shard::{LabelShardParts, ShardParts};
 
 /// Version of the key. It must be incremented if the same inputs give another result within one version of this program.
 const VERSION: &str = "2";

@@ -47,6 +47,9 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     if let Some(tables) = &common.list.tables {
         return shard::carry_out(task, tables, common, work);
     }
+    if let Some(tables) = &common.list.label_tables {
+        return shard::carry_out_labels(task, tables, common, work);
+    }
     let (dataset, digest) = opened(&task.path, common.list.view.as_deref())?;
     let digest = digest.to_string();
     if digest != task.digest {

@@ -33,6 +33,7 @@ impl Common<'_> {
             tasks: Vec::new(),
             skipped: 0,
             tables: None,
+            label_tables: None,
         };
         for recording in recordings {
             for labels in labels(file) {

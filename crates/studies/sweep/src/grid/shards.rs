@@ -112,6 +112,7 @@ pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepE
     Ok(Grid {
         tasks: tasks.collect::<Result<_, SweepError>>()?,
         skipped: 0,
+        label_tables: None,
         tables: Some(PlannedTables {
             truth,
             prediction,

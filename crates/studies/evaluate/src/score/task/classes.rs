@@ -1,5 +1,7 @@
 //! Columns of classes and of their scores, as states of a task.
 
+use std::collections::BTreeMap;
+
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_tasks::events::EventRule;
@@ -47,6 +49,7 @@ pub(super) fn state(
     if let Some(rule) = rule {
         apply(rule, &mut rows, &names, task)?;
     }
+    rows.retain(|row| clusters.has(row.pair));
     for row in &rows {
         let [truth, predicted] = [row.truth, row.predicted];
         classes
@@ -90,7 +93,7 @@ fn rows<'a>(
     let mut left_out = 0;
     for pair in &tables.pairs {
         let Some(truth) = of_truth.class(pair.truth)? else {
-            left_out += 1;
+            left_out += usize::from(clusters.has(*pair));
             continue;
         };
         let scores = match &columns {
@@ -193,13 +196,7 @@ fn of_scores(
 ) -> Result<(), TaskError> {
     let positive = names.positive(task);
     if let Some(positive) = positive {
-        let mut ranking = Ranking::default();
-        for row in rows {
-            if let Some(score) = ScoreColumns::of_class(&row.scores, positive) {
-                ranking.push(row.cluster, score, row.truth == positive)?;
-            }
-        }
-        state.ranking = Some(ranking);
+        state.ranking = Some(ranking(rows, positive)?);
     }
     if !columns.are_all() {
         return Ok(());
@@ -214,4 +211,28 @@ fn of_scores(
     state.probabilities = Some(probabilities);
     state.places = Some(places);
     Ok(())
+}
+
+/// Scores and classes of the samples of a cluster.
+#[derive(Default)]
+struct RankedRows {
+    scores: Vec<f64>,
+    is_positive: Vec<bool>,
+}
+
+/// Ranking by the scores of the class at `positive`. Each cluster is sorted once.
+fn ranking(rows: &[ClassRow<'_>], positive: u32) -> Result<Ranking, TaskError> {
+    let mut clusters: BTreeMap<&str, RankedRows> = BTreeMap::new();
+    for row in rows {
+        if let Some(score) = ScoreColumns::of_class(&row.scores, positive) {
+            let of_cluster = clusters.entry(row.cluster).or_default();
+            of_cluster.scores.push(score);
+            of_cluster.is_positive.push(row.truth == positive);
+        }
+    }
+    let mut ranking = Ranking::default();
+    for (cluster, rows) in clusters {
+        ranking.push_rows(cluster, &rows.scores, &rows.is_positive)?;
+    }
+    Ok(ranking)
 }

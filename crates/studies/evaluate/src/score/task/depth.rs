@@ -25,6 +25,12 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
             shown(&of.name)
         )));
     }
+    if !request.shard.is_whole() {
+        return Err(EvaluateError::Request(format!(
+            "`{}` has depth maps, which are scored whole: omit the shard",
+            shown(&of.name)
+        )));
+    }
     if request.tables.key.is_some() {
         return Err(EvaluateError::Request(format!(
             "a key is given for the depth maps `{}`, which are paired in the order of the samples of the dataset: omit it",

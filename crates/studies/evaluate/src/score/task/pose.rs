@@ -42,8 +42,11 @@ impl<'a> PoseColumns<'a> {
 
     /// Pose in a row; `None` if all its cells are empty.
     fn pose(&self, row: usize) -> Result<Option<Pose>, EvaluateError> {
-        let cells = self.columns.iter();
-        let cells = cells.map(|column| self.table.number(row, *column));
+        let cells = self.columns.iter().zip(PARTS);
+        let cells = cells.map(|(column, part)| match &self.unit {
+            Some(unit) if !part.starts_with('q') => self.table.number_in_unit(row, *column, unit),
+            _ => self.table.number(row, *column),
+        });
         let cells: Vec<Option<f64>> = cells.collect::<Result<_, _>>()?;
         let numbers: Vec<f64> = cells.iter().copied().flatten().collect();
         let (translation, quaternion) = match numbers[..] {
@@ -63,10 +66,6 @@ impl<'a> PoseColumns<'a> {
                     None => Ok(None),
                 };
             }
-        };
-        let translation = match &self.unit {
-            Some(unit) => translation.map(|part| unit.convert(part)),
-            None => translation,
         };
         let number = row as u64 + 1;
         Rotation::of_quaternion(number, quaternion)
@@ -103,8 +102,9 @@ pub(super) fn state(
     let mut left_out = 0;
     let mut vectors = Vec::with_capacity(tables.pairs.len());
     for pair in &tables.pairs {
+        let is_own = clusters.has(*pair);
         let Some(true_pose) = truth.pose(pair.truth)? else {
-            left_out += 1;
+            left_out += u64::from(is_own);
             continue;
         };
         let Some(predicted) = prediction.pose(pair.prediction)? else {
@@ -114,9 +114,12 @@ pub(super) fn state(
             return Err(refused.into());
         };
         let cluster = clusters.cell(*pair)?;
+        vectors.push(VectorPair::of_poses(&true_pose, &predicted));
+        if !is_own {
+            continue;
+        }
         state.push(cluster, &true_pose, &predicted);
         euler.push(&true_pose, &predicted);
-        vectors.push(VectorPair::of_poses(&true_pose, &predicted));
         let error = true_pose.distance_mm(&predicted);
         let sample = format!("row {}", pair.truth + 1);
         let worst = WorstSample::new(pair.truth, sample, cluster, error, "mm");
