@@ -7,10 +7,9 @@ use taceva_tasks::PublicProgram;
 use super::SettingArgs;
 
 /// Options that concern channels, which tasks do not have.
-const OF_CHANNELS: [&str; 10] = [
+const OF_CHANNELS: [&str; 9] = [
     "units",
     "periods",
-    "allow_invalid",
     "metrics",
     "independent",
     "sensor",
@@ -27,7 +26,7 @@ pub(crate) struct TaskArgs {
     /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
     /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; NAME=place:unit=m reads predictions in m; the truth of
     /// NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused beside it, as options
-    /// of channels: --units, --periods, --allow-invalid, --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
+    /// of channels: --units, --periods, --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column that tells trajectories, clips or objects apart: intervals are over them [default: point_id]

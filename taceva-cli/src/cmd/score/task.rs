@@ -17,6 +17,7 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     let request = TaskRequest {
         tables: ScoreRequest {
             key: args.key.clone(),
+            allow_invalid: args.allow_invalid,
             jobs: context.jobs,
             ..ScoreRequest::of_tables(&args.truth, &args.pred)
         },

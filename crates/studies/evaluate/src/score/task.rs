@@ -36,7 +36,8 @@ const CLUSTER: &str = "point_id";
 /// Request to score the tasks of two tables.
 #[derive(Clone, Debug)]
 pub struct TaskRequest {
-    /// The tables, the key that pairs their rows, and the number of threads. Channels and metrics are not read.
+    /// The tables, the key that pairs their rows, the use of numbers that are not finite, and the number of threads. Channels and metrics are not
+    /// read.
     pub tables: ScoreRequest,
     /// Tasks to score, with distinct names.
     pub tasks: Vec<TaskSpec>,
@@ -53,6 +54,8 @@ struct TaskTables {
     truth: CsvTable,
     prediction: CsvTable,
     pairs: Vec<RowPair>,
+    /// True if rows with a number that is not finite are counted and left out, false if they are refused.
+    allow_invalid: bool,
 }
 
 /// Numbers of two paired rows.
@@ -125,6 +128,7 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
         truth,
         prediction,
         pairs,
+        allow_invalid: request.tables.allow_invalid,
     };
     let clusters = Clusters::of(&tables, request.cluster.as_deref())?;
     let clusters = clusters.in_shard(request.shard, &tables.pairs);
@@ -274,6 +278,12 @@ impl<'a> Clusters<'a> {
             cluster => Ok(cluster),
         }
     }
+}
+
+/// True for a number that is NaN or infinite.
+fn is_not_finite(cell: &str) -> bool {
+    let number = cell.trim().parse::<f64>();
+    number.is_ok_and(|number| !number.is_finite())
 }
 
 /// Names for a message, separated by commas.

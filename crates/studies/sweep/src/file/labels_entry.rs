@@ -38,6 +38,8 @@ pub struct LabelsEntry {
     pub tasks: Vec<String>,
     /// Column with the clusters; `None` for `point_id`.
     pub cluster: Option<String>,
+    /// True if rows with a number that is not finite are counted and left out, false if they are refused.
+    pub allow_invalid: bool,
     /// Thresholds by the name of the task, as decimals.
     pub thresholds: BTreeMap<String, String>,
     /// Numbers of frames of a debounce by the name of the task.
@@ -65,15 +67,9 @@ impl LabelsEntry {
                 )),
             };
         }
-        let others = [
-            ("units", !written.units.is_empty()),
-            ("allow_invalid", written.allow_invalid),
-        ];
-        if let Some((key, _)) = others.iter().find(|(_, is_there)| *is_there) {
-            return Err(place.wrong(
-                key,
-                format!("`{key}` is of channels, and `task` scores labels: omit it"),
-            ));
+        if !written.units.is_empty() {
+            let problem = "`units` is of channels, and `task` scores labels: omit it";
+            return Err(place.wrong("units", problem.to_owned()));
         }
         let texts = |key: &str, written: &BTreeMap<String, toml::Value>| {
             let texts = written.iter().map(|(name, value)| {
@@ -88,6 +84,7 @@ impl LabelsEntry {
         let entry = LabelsEntry {
             tasks,
             cluster: written.cluster.clone(),
+            allow_invalid: written.allow_invalid,
             thresholds: texts("threshold", &written.threshold)?,
             debounces: texts("debounce", &written.debounce)?,
         };
@@ -109,7 +106,8 @@ impl LabelsEntry {
             let rules = rules.iter();
             rules.map(move |(name, rule)| format!("{key} {name}={rule}"))
         });
-        tasks.chain(cluster).chain(rules).collect()
+        let invalid = self.allow_invalid.then(|| "allow_invalid".to_owned());
+        tasks.chain(cluster).chain(rules).chain(invalid).collect()
     }
 
     /// Parsed tasks.

@@ -46,6 +46,7 @@ impl PlannedLabels {
         Ok(TaskRequest {
             tables: ScoreRequest {
                 jobs,
+                allow_invalid: self.labels.allow_invalid,
                 ..ScoreRequest::of_tables(&self.truth, &self.prediction)
             },
             tasks: self.labels.specs()?,

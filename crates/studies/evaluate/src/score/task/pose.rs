@@ -7,7 +7,7 @@ use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, PoseTask, Rota
 use taceva_tasks::{TaskState, WorstSample};
 
 use super::likely_scale::{LikelyScale, VectorPair};
-use super::{Clusters, TaskSpec, TaskTables, empty};
+use super::{Clusters, TaskSpec, TaskTables, empty, is_not_finite};
 use crate::error::EvaluateError;
 
 /// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
@@ -38,6 +38,12 @@ impl<'a> PoseColumns<'a> {
             unit: None,
             noun,
         })
+    }
+
+    /// True if a number in a row is NaN or infinite.
+    fn has_invalid(&self, row: usize) -> bool {
+        let mut columns = self.columns.iter();
+        columns.any(|column| is_not_finite(self.table.cell(row, *column)))
     }
 
     /// Pose in a row; `None` if all its cells are empty.
@@ -103,6 +109,12 @@ pub(super) fn state(
     let mut vectors = Vec::with_capacity(tables.pairs.len());
     for pair in &tables.pairs {
         let is_own = clusters.has(*pair);
+        if tables.allow_invalid
+            && (truth.has_invalid(pair.truth) || prediction.has_invalid(pair.prediction))
+        {
+            of_task.invalid += u64::from(is_own);
+            continue;
+        }
         let Some(true_pose) = truth.pose(pair.truth)? else {
             left_out += u64::from(is_own);
             continue;
