@@ -236,7 +236,9 @@ impl<'a> Clusters<'a> {
         }
         let all: BTreeSet<&str> = pairs.iter().map(|pair| self.text(*pair)).collect();
         let places = shard.rows(all.len() as u64);
-        let own = (0..).zip(all).filter(|(place, _)| places.contains(place));
+        let own = (0_u64..)
+            .zip(all)
+            .filter(|(place, _)| places.contains(place));
         Clusters {
             own: Some(own.map(|(_, cluster)| cluster).collect()),
             ..self
