@@ -7,16 +7,17 @@ use super::Note;
 /// Metric with the line through predictions over truth.
 const LINE: &str = "linearity";
 
-/// Ratio of units with neighbouring prefixes, such as m and mm.
-const THOUSAND: f64 = 1000.0;
+/// Ratios of units with neighbouring prefixes, such as m and mm.
+const RATIOS: [f64; 2] = [1e-3, 1e3];
 
-/// Greatest factor between an end of the interval of the slope and a thousand, or a thousandth.
+/// Greatest factor between an end of the interval of the slope and a ratio.
 const FACTOR: f64 = 1.5;
 
 impl Note {
     /// Notes on channels whose predictions follow the truth at about a thousand times its size, or a thousandth.
     ///
-    /// The whole interval of the slope decides, so that a model that predicts near zero has no note.
+    /// The whole interval of the slope decides, so that a model that predicts near zero has no note. A model that predicts near the mean of the
+    /// truth has none either, because its line passes far from zero.
     pub(crate) fn likely_units(scores: &[Score]) -> Vec<Note> {
         let lines = scores.iter();
         let lines = lines.filter(|score| score.metric == LINE && score.of.is_empty());
@@ -27,17 +28,24 @@ impl Note {
 fn likely_unit(line: &Score) -> Option<Note> {
     let slope = line.variant("slope")?;
     let ends = slope.interval.as_ref().and_then(Interval::ends)?;
-    let is_near = |scale: f64| {
-        let range = scale / FACTOR..=scale * FACTOR;
+    let is_near = |ratio: &f64| {
+        let range = ratio / FACTOR..=ratio * FACTOR;
         ends.iter().all(|end| range.contains(end))
     };
-    let is_small = is_near(THOUSAND.recip());
-    if !(is_small || is_near(THOUSAND)) {
+    let ratio = RATIOS.into_iter().find(is_near)?;
+    let offset = line.variant("offset")?;
+    if offset.value.number()?.abs() > ratio * range_of_truth(line)? {
         return None;
     }
     Some(Note::LikelyUnit {
         channel: line.channel.clone(),
-        unit: line.variant("offset")?.unit,
-        is_small,
+        unit: offset.unit,
+        is_small: ratio < 1.0,
     })
+}
+
+/// Range of the truth, which is full scale; NaN if all predictions lie on the line.
+fn range_of_truth(line: &Score) -> Option<f64> {
+    let greatest = line.variant("greatest_deviation")?.value.number()?;
+    Some(greatest / line.value.number()?)
 }

@@ -63,9 +63,7 @@ impl LikelyScale {
         };
         (correlation(pairs) > LEAST_CORRELATION).then_some(scale)
     }
-}
 
-impl LikelyScale {
     /// Remark on the columns of `task`, with the word that states the unit.
     pub(super) fn remark(self, task: &TaskSpec) -> String {
         let name = shown(&task.name);

@@ -31,10 +31,11 @@ fn forces_in_another_unit_are_noted_with_the_unit_to_write() {
 }
 
 #[test]
-fn ordinary_forces_and_predictions_near_zero_have_no_note() {
+fn ordinary_forces_and_predictions_near_zero_or_near_the_mean_have_no_note() {
     let ordinary = notes(|row, force| 0.9 * force + f64::from(row % 7) * 0.05);
     let near_zero = notes(|row, force| force * (f64::from(row * 13 % 17) - 8.0) / 4000.0);
-    for notes in [ordinary, near_zero] {
+    let near_mean = notes(|row, force| 2.5 + 0.001 * force + f64::from(row * 13 % 11) * 1e-5);
+    for notes in [ordinary, near_zero, near_mean] {
         let is_noted = |note: &String| note.contains("predictions follow the truth");
         assert!(!notes.iter().any(is_noted), "{notes:?}");
     }
