@@ -111,7 +111,7 @@ fn left(loaded: &[Loaded<'_>]) -> Table {
             Cell::text(one.task.key.as_str()),
             Cell::text(one.task.dataset.as_str()),
             Cell::text(one.task.title()),
-            Cell::text(one.task.split.as_deref().unwrap_or("as recorded")),
+            Cell::text(one.task.division()),
             Cell::Number(one.task.seed.to_string()),
             Cell::text(why),
         ]);

@@ -81,6 +81,15 @@ impl Task {
         }
     }
 
+    /// Split, or the words for its default: as recorded, or by the clusters of a task.
+    pub(crate) fn division(&self) -> &str {
+        match (&self.split, &self.labels) {
+            (Some(split), _) => split,
+            (None, Some(_)) => "by clusters",
+            (None, None) => "as recorded",
+        }
+    }
+
     /// Replaces the path of the recording in `reason` by the recording's name, and makes other paths relative to the sweep folder. The text is then the same on
     /// every machine.
     pub(crate) fn without_folders(&self, reason: &str, folder: &SweepFolder) -> String {

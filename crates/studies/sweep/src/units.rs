@@ -55,7 +55,10 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
         task: format!(
             "{}, {}, seed {}",
             task.title(),
-            task.split.as_deref().unwrap_or("split as recorded"),
+            match &task.split {
+                Some(split) => split.clone(),
+                None => format!("split {}", task.division()),
+            },
             task.seed
         ),
         is_passed: false,

@@ -45,7 +45,7 @@ fn row(task: &Task, score: &Score) -> [Cell; 12] {
     [
         Cell::text(task.dataset.as_str()),
         Cell::text(score.channel.as_str()),
-        Cell::text(task.split.as_deref().unwrap_or("by clusters")),
+        Cell::text(task.division()),
         Cell::Number(task.seed.to_string()),
         Cell::text(task.configuration()),
         Cell::text(task.better(score).beside(&score.metric)),
