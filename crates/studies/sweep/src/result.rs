@@ -87,19 +87,32 @@ impl TaskResult {
         self
     }
 
-    /// Adds those of `scores` whose metric is among `wanted`, with the score of the best constant. Scores of single classes are stored only in the
-    /// evaluation.
-    pub(crate) fn add_label_scores(&mut self, scores: &[Score], wanted: &[String]) {
+    /// Adds those of `scores` of the labels called `name` whose metric is among `wanted`, with the score of the best constant. A wanted metric that
+    /// the labels lack has a reason. Scores of single classes are stored only in the evaluation.
+    pub(crate) fn add_label_scores(&mut self, name: &str, scores: &[Score], wanted: &[String]) {
         let is_wanted = |score: &&Score| {
             wanted
                 .iter()
                 .any(|name| *name == score.metric || name == ALL_METRICS)
         };
-        let scores = scores.iter().filter(is_wanted);
-        self.scores.extend(scores.map(|score| Score {
+        let own = scores.iter().filter(is_wanted);
+        self.scores.extend(own.map(|score| Score {
             variants: score.variant(OF_CONSTANT).cloned().into_iter().collect(),
             ..score.clone()
         }));
+        let known: Vec<&str> = scores.iter().map(|score| score.metric.as_str()).collect();
+        for metric in wanted {
+            if metric != ALL_METRICS && !known.contains(&metric.as_str()) {
+                let reason = format!(
+                    "`{name}` has no such score in this table, expected one of {}",
+                    known.join(", ")
+                );
+                self.scores.push(Score {
+                    value: Value::NotApplicable(reason),
+                    ..Score::of_number(metric, name, 0.0, Unit::One)
+                });
+            }
+        }
     }
 
     pub(crate) fn score(&self, metric: &str, channel: &str) -> Option<&Score> {

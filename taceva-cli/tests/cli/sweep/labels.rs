@@ -131,6 +131,23 @@ fn metrics_of_channels_and_of_tasks_are_refused_in_one_sweep_with_what_to_write(
 }
 
 #[test]
+fn a_score_that_the_task_lacks_has_a_row_with_the_reason() {
+    let bench = strokes();
+    bench.write("which.toml", &SLIP.replace("\"kappa\"", "\"roc_auc\""));
+    bench.ok("sweep which.toml -q");
+    let table = text(&bench, "which.sweep/table.csv");
+    let lacking = rows(&table).into_iter().filter(|row| row[3] == "roc_auc");
+    let lacking: Vec<_> = lacking.collect();
+    assert_eq!(lacking.len(), 2, "{table}");
+    assert!(lacking.iter().all(|row| row[6].is_empty()), "{table}");
+    let reason =
+        "not applicable: `slip` has no such score in this table, expected one of class_accuracy";
+    assert!(table.contains(reason), "{table}");
+    let page = text(&bench, "which.sweep/page.html");
+    assert!(page.contains("has no such score in this table"), "{page}");
+}
+
+#[test]
 fn a_limit_of_a_task_holds_for_each_model_of_a_sweep() {
     let bench = strokes();
     let limits = "limits_version = 2\n[decision]\nrule = \"simple\"\n[[limit]]\nmetric = \"precision\"\nchannel = \"slip\"\nunit = \"1\"\nleast = LEAST\n";

@@ -37,7 +37,7 @@ pub(super) fn carry_out(
     result.source = subject.source;
     result.sensor = subject.sensor;
     result.serial = subject.serial;
-    result.add_label_scores(&scores.study().scores, &common.list.metrics);
+    result.add_label_scores(name, &scores.study().scores, &common.list.metrics);
     result.evaluation = Digest::of(text.as_bytes()).to_string();
     let state = folder.label_state(&task.key);
     let mut bytes = Vec::new();
