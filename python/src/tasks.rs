@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 use serde::Deserialize;
 use taceva_dataset::{PoseThresholds, TaskKind};
 use taceva_evaluate::{
-    RowKey, ScoreRequest, TaskRequest, TaskRule, TaskSpec, TaskStates, merge_task_states,
+    RowKey, ScoreRequest, Shard, TaskRequest, TaskRule, TaskSpec, TaskStates, merge_task_states,
     task_states,
 };
 use taceva_report::{Table, TaskComparison, TaskResult, task_numbers, task_table};
@@ -97,6 +97,7 @@ pub(crate) fn task_scores(
         tasks: Vec::new(),
         rules: BTreeMap::new(),
         cluster,
+        shard: Shard::WHOLE,
     };
     for task in &asked {
         let spec = task.spec()?;

@@ -265,6 +265,13 @@ def objectfolder_benchmark(to):
     (to / "split.json").write_text(json.dumps({"train": [["1", 0], ["1", 1]], "test": [["2", 0]]}))
 
 
+def active_clothing(to):
+    for n, (cloth, trial, frame) in enumerate(((1, 1, 1), (1, 1, 2), (2, 3, 1))):
+        draw(to / f"Data/{cloth}/{trial}/GelSight_frames/frame_{frame:04}.png", n)
+        draw(to / f"Data/{cloth}/{trial}/background.png", 0)
+    (to / "cloth_metadata.json").write_text(json.dumps({"1": [1] * 10 + [3], "2": [2] * 10 + [6]}))
+
+
 def chunk(name, content):
     return name + struct.pack("<I", len(content)) + content + b"\0" * (len(content) % 2)
 
@@ -348,7 +355,7 @@ LAYOUTS = {
     "ycb-slide": ycb_slide, "touchd": touchd, "tacquad": tacquad, "poseit": poseit, "tool-force": tool_force, "univtac": univtac,
     "gelsight-live": gelsight_live, "fota": fota, "diffusion-zarr": diffusion_zarr,
     "touch-and-go": touch_and_go, "feeling-of-success": feeling_of_success, "objectfolder-benchmark": objectfolder_benchmark,
-    "tactile-tracking": tactile_tracking, "sparsh-pose": sparsh_pose,
+    "tactile-tracking": tactile_tracking, "sparsh-pose": sparsh_pose, "active-clothing": active_clothing,
     "sparsh-slip": sparsh_slip,
 }
 

@@ -139,11 +139,11 @@ pub(crate) struct Score {
     /// Pair rows by this column of both tables, or by `order` [default: by sample, id, sample_id or index of both tables, else by order]
     #[arg(long, value_name = "NAME")]
     pub(crate) key: Option<RowKey>,
-    /// Count NaN and infinite cells as n_invalid instead of rejecting the file
+    /// Count NaN and infinite cells as n_invalid instead of rejecting the file (with --task, count their rows and leave them out)
     #[arg(long)]
     pub(crate) allow_invalid: bool,
-    /// Score only shard K of N, a range of consecutive rows; tables may have any length; `taceva merge` merges the states of --state-out to the
-    /// scores of all rows
+    /// Score only shard K of N, a range of consecutive rows (with --task, of clusters by name); tables may have any length; `taceva merge` merges
+    /// the states of --state-out to the scores of all rows
     #[arg(long, value_name = "K/N", conflicts_with_all = ["samples_out", "html", "figures"])]
     pub(crate) shard: Option<Shard>,
     #[command(flatten)]

@@ -13,6 +13,7 @@ The file:
   name = \"which network, which size\"
   datasets = [\"monday\", \"units/*\"]         # folders, relative to the file
   scenes = [\"quick\"]                       # beside or instead of datasets: scenes of the simulated bench, acquired first
+  task = \"slip\"                            # scores a task of the recordings instead of channels; its models are classifiers
   models = [\"ridge\", { name = \"cnn\", set = { epochs = 60 } }]
   seeds = \"1-5\"                            # or [1, 2, 3]
   splits = [\"by-point\"]
@@ -107,7 +108,7 @@ pub(crate) struct SweepFolderArgs {
 pub(crate) struct SweepShow {
     #[command(flatten)]
     pub(crate) of: SweepFolderArgs,
-    /// Keys that group the rows, separated by commas: model, dataset, split, seed, or a setting
+    /// Keys that group the rows, separated by commas: model, dataset, task, split, seed, or a setting
     #[arg(
         long,
         value_name = "WORDS",

@@ -173,7 +173,7 @@ fn presets_are_listed_written_and_named_where_a_folder_does_not_fit() {
     let json: serde_json::Value =
         serde_json::from_str(&bench.ok("import --presets --format json")).expect("JSON");
     assert_eq!(json["schema"], "taceva.presets/1");
-    assert_eq!(json["presets"].as_array().map(Vec::len), Some(21));
+    assert_eq!(json["presets"].as_array().map(Vec::len), Some(22));
     bench.write(
         "poses/targets.csv",
         "sensor_image,pose_x,pose_y\nimage_1.png,1.5,2\n",

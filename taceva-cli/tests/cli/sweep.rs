@@ -4,6 +4,7 @@ mod again;
 mod changed;
 mod elsewhere;
 mod failed;
+mod labels;
 mod one_node;
 mod page;
 mod refused;

@@ -40,6 +40,7 @@ const FILES: &[(&str, &str)] = files![
     "objectfolder-benchmark",
     "tactile-tracking",
     "sparsh-pose",
+    "active-clothing",
 ];
 
 /// Header of the preset section, which follows the map.

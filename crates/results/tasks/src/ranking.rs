@@ -2,6 +2,7 @@
 
 mod key;
 mod levels;
+mod sorted_keys;
 mod stored;
 
 use std::collections::BTreeMap;
@@ -15,6 +16,7 @@ use crate::evidence::{CurvePoint, curve_of};
 use crate::ranking::key::ScoreKey;
 pub(crate) use crate::ranking::levels::{Level, Sides};
 use crate::ranking::levels::{average_precision, average_precision_of_rest, roc_auc};
+use crate::ranking::sorted_keys::SortedKeys;
 use crate::ranking::stored::Stored;
 use crate::score::{ScoreFlag, TaskScore};
 use crate::undefined::Undefined;
@@ -57,13 +59,6 @@ fn add(counts: &mut Counts, key: ScoreKey, sides: Sides) {
     found.negative += sides.negative;
 }
 
-/// A sample: its score and its class.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-struct Row {
-    key: ScoreKey,
-    is_positive: bool,
-}
-
 impl Ranking {
     /// Number of samples.
     #[must_use]
@@ -96,45 +91,22 @@ impl Ranking {
                 expected: is_positive.len(),
             });
         }
-        let mut rows = Vec::with_capacity(scores.len());
-        for (row, (score, is_positive)) in (self.n + 1..).zip(scores.iter().zip(is_positive)) {
-            if !score.is_finite() {
-                return Err(TaskError::NotFinite {
-                    row,
-                    column: "the score".to_owned(),
-                    value: *score,
-                });
-            }
-            rows.push(Row {
-                key: ScoreKey::of(*score),
-                is_positive: *is_positive,
-            });
-        }
-        if rows.is_empty() {
+        if scores.is_empty() {
             return Ok(());
         }
-        rows.sort_unstable();
-        let different = rows.chunk_by(|one, next| one.key == next.key).count();
-        if different > MOST_SCORES {
+        let mut keys = SortedKeys::of(scores, is_positive, self.n + 1)?;
+        if keys.levels().nth(MOST_SCORES).is_some() {
             self.round_to_grid();
         }
         if self.is_on_grid {
-            // Rounding keeps the order.
-            for row in &mut rows {
-                row.key = row.key.on_grid();
-            }
+            keys.round_to_grid();
         }
         let counts = self.clusters.entry(cluster);
-        for level in rows.chunk_by(|one, next| one.key == next.key) {
-            let positive: u64 = level.iter().map(|row| u64::from(row.is_positive)).sum();
-            let sides = Sides {
-                positive,
-                negative: level.len() as u64 - positive,
-            };
-            add(counts, level[0].key, sides);
-            add(&mut self.all, level[0].key, sides);
+        for (key, sides) in keys.levels() {
+            add(counts, key, sides);
+            add(&mut self.all, key, sides);
         }
-        self.n += rows.len() as u64;
+        self.n += keys.n();
         self.round_if_many();
         Ok(())
     }

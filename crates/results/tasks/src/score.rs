@@ -35,6 +35,46 @@ pub struct TaskScore {
 }
 
 impl TaskScore {
+    /// Names of all metrics of tasks.
+    ///
+    /// ```
+    /// use taceva_tasks::TaskScore;
+    /// assert!(TaskScore::METRICS.contains(&"f1") && !TaskScore::METRICS.contains(&"mae"));
+    /// ```
+    pub const METRICS: &[&str] = &[
+        "class_accuracy",
+        "balanced_accuracy",
+        "f1_macro",
+        "kappa",
+        "mcc",
+        "f1",
+        "precision",
+        "recall",
+        "specificity",
+        "roc_auc",
+        "average_precision",
+        "brier",
+        "log_loss",
+        "ece",
+        "top_k",
+        "onset_f1",
+        "onset_delay",
+        "false_alarms",
+        "pose_translation",
+        "pose_axis",
+        "pose_rotation",
+        "pose_class",
+        "add",
+        "add_s",
+        "depth_mae",
+        "depth_rmse",
+        "depth_bias",
+        "depth_max",
+        "contact_iou",
+        "normal_angle",
+        "chamfer",
+    ];
+
     /// Direction of good values.
     #[must_use]
     pub fn better(&self) -> Better {

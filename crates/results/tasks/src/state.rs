@@ -59,6 +59,9 @@ pub struct TaskState {
     pub notes: Vec<String>,
     /// Number of rows without a label, which are left out.
     pub unlabelled: u64,
+    /// Number of rows with a number that is not finite, which are left out.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub invalid: u64,
     /// True if the rows of a cluster are one sequence, because of onsets or a debounce.
     pub is_sequence: bool,
     /// Counts of true and predicted classes.
@@ -96,6 +99,7 @@ impl TaskState {
             cluster: cluster.into(),
             notes: Vec::new(),
             unlabelled: 0,
+            invalid: 0,
             is_sequence: false,
             classes: None,
             ranking: None,
@@ -135,6 +139,7 @@ impl TaskState {
         self.check_sequences(&other)?;
         self.notes = joined(self.notes, other.notes);
         self.unlabelled = self.unlabelled.saturating_add(other.unlabelled);
+        self.invalid = self.invalid.saturating_add(other.invalid);
         self.is_sequence |= other.is_sequence;
         self.classes = both("classes", self.classes, other.classes, Classes::merge)?;
         let rankings = |ours: Ranking, theirs| Ok(ours.merge(theirs));
@@ -205,6 +210,11 @@ impl TaskState {
                 .notes
                 .push(format!("{rows} without a label, left out"));
         }
+        if self.invalid > 0 {
+            let rows = counted(self.invalid, "row");
+            let words = "with a number that is not finite, left out";
+            scores.notes.push(format!("{rows} {words}"));
+        }
         scores
             .notes
             .extend(self.depth.iter().flat_map(remarks_on_maps));
@@ -235,6 +245,10 @@ impl TaskState {
         all.extend(self.depth.iter().flat_map(DepthState::scores));
         scores
     }
+}
+
+fn is_zero(count: &u64) -> bool {
+    *count == 0
 }
 
 /// Remarks on depth maps that limit the scores.

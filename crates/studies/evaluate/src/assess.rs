@@ -122,5 +122,7 @@ pub fn assess(
         let notes = &mut report.provenance.notes;
         notes.push(Note::DetectionLimit(detection).to_string());
     }
+    let units = Note::likely_units(&report.scores);
+    report.provenance.notes.extend(sentences(&units));
     Ok(Assessed { report, state })
 }

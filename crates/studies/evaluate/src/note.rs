@@ -3,12 +3,13 @@
 mod detection;
 mod division;
 mod few_clusters;
+mod likely_unit;
 mod sentence;
 mod within;
 
 use std::fmt;
 
-use taceva_core::shown;
+use taceva_core::{Unit, shown};
 use taceva_dataset::{Extension, FramesInfo};
 use taceva_results::DominantSample;
 
@@ -185,6 +186,15 @@ pub enum Note {
         channel: String,
         /// Period that was assumed, in degrees.
         period: u16,
+    },
+    /// A channel whose predictions follow the truth at about a thousand times its size, or a thousandth.
+    LikelyUnit {
+        /// Name of the channel.
+        channel: String,
+        /// Unit of the channel.
+        unit: Unit,
+        /// True for a thousandth, false for a thousand times.
+        is_small: bool,
     },
     /// The tables of truth and predictions are byte-identical.
     SameBytes,

@@ -1,14 +1,25 @@
 //! States of the scores of classes: ranks of the positive class, probabilities, and places of the true class.
 
+use std::collections::BTreeMap;
+
 use taceva_tasks::{Probabilities, Ranking, TaskError, TaskState, TopK};
 
 /// States of the scores of the classes of a task.
 pub(crate) struct ScoreStates {
     names: Vec<String>,
-    /// Position of the positive class, and the ranks of its scores.
-    ranking: Option<(usize, Ranking)>,
+    /// Position of the positive class, if there is one.
+    positive: Option<usize>,
+    /// Scores of the positive class by cluster. Each cluster is sorted once.
+    ranked: BTreeMap<String, RankedRows>,
     /// States that need the scores of all classes.
     of_all: Option<(Probabilities, TopK)>,
+}
+
+/// Scores of the positive class in one cluster.
+#[derive(Default)]
+struct RankedRows {
+    scores: Vec<f64>,
+    is_positive: Vec<bool>,
 }
 
 impl ScoreStates {
@@ -25,10 +36,10 @@ impl ScoreStates {
             true => Some((Probabilities::new(names, positive)?, TopK::new(names)?)),
             false => None,
         };
-        let position = names.iter().position(|name| positive == Some(name));
         Ok(ScoreStates {
             names: names.to_vec(),
-            ranking: position.map(|position| (position, Ranking::default())),
+            positive: names.iter().position(|name| positive == Some(name)),
+            ranked: BTreeMap::new(),
             of_all,
         })
     }
@@ -44,8 +55,15 @@ impl ScoreStates {
         scores: &[f64],
     ) -> Result<(), TaskError> {
         let truth = truth as usize;
-        if let Some((positive, ranking)) = &mut self.ranking {
-            ranking.push(cluster, scores[*positive], truth == *positive)?;
+        if let Some(positive) = self.positive {
+            if !self.ranked.contains_key(cluster) {
+                self.ranked
+                    .insert(cluster.to_owned(), RankedRows::default());
+            }
+            if let Some(rows) = self.ranked.get_mut(cluster) {
+                rows.scores.push(scores[positive]);
+                rows.is_positive.push(truth == positive);
+            }
         }
         if let Some((probabilities, places)) = &mut self.of_all {
             let truth = &self.names[truth];
@@ -56,10 +74,20 @@ impl ScoreStates {
     }
 
     /// Adds the states to the state of the task.
-    pub(crate) fn add_to(self, state: &mut TaskState) {
-        state.ranking = self.ranking.map(|(_, ranking)| ranking);
+    ///
+    /// # Errors
+    /// [`TaskError`] for a score that is not finite.
+    pub(crate) fn add_to(self, state: &mut TaskState) -> Result<(), TaskError> {
+        if self.positive.is_some() {
+            let mut ranking = Ranking::default();
+            for (cluster, rows) in self.ranked {
+                ranking.push_rows(&cluster, &rows.scores, &rows.is_positive)?;
+            }
+            state.ranking = Some(ranking);
+        }
         let (probabilities, places) = self.of_all.unzip();
         state.probabilities = probabilities;
         state.places = places;
+        Ok(())
     }
 }

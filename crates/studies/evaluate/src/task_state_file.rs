@@ -39,12 +39,25 @@ pub struct TaskStates {
     pub sources: BTreeSet<String>,
     /// Pairing of the rows of each part, in words.
     paired: BTreeSet<String>,
+    /// Shards whose rows are counted, if others of the same tables are missing.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    shards: Option<Shards>,
     /// State of each task, in the requested order.
     pub tasks: Vec<TaskState>,
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     history: Vec<Edit>,
     #[serde(default, skip_serializing)]
     seal: Option<serde_json::Value>,
+}
+
+/// Some of the shards of two tables.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Shards {
+    /// Numbers of the shards, from 1.
+    numbers: BTreeSet<u32>,
+    /// Number of all shards.
+    of: u32,
 }
 
 impl TaskStates {
@@ -55,10 +68,32 @@ impl TaskStates {
             tables: [tables].into(),
             sources: BTreeSet::new(),
             paired: [paired].into(),
+            shards: None,
             tasks: Vec::new(),
             history: Vec::new(),
             seal: None,
         }
+    }
+
+    /// The same states as shard `number` of `of` shards.
+    pub(crate) fn of_shard(self, number: u32, of: u32) -> TaskStates {
+        TaskStates {
+            shards: Some(Shards {
+                numbers: [number].into(),
+                of,
+            }),
+            ..self
+        }
+    }
+
+    /// True unless shards of the tables are missing.
+    pub fn is_whole(&self) -> bool {
+        self.shards.is_none()
+    }
+
+    /// Digests of the tables of each part, by their role.
+    pub fn tables(&self) -> impl Iterator<Item = &BTreeMap<String, String>> {
+        self.tables.iter()
     }
 
     /// Scores of all tasks.
@@ -75,6 +110,16 @@ impl TaskStates {
         }
         report.sources = self.sources.iter().cloned().collect();
         report.tasks = self.tasks.iter().map(TaskState::scores).collect();
+        if let Some(shards) = &self.shards {
+            let numbers: Vec<String> = shards.numbers.iter().map(u32::to_string).collect();
+            for task in &mut report.tasks {
+                task.notes.push(format!(
+                    "rows of shard {} of {} alone: merge the states of all shards for the scores of the tables",
+                    numbers.join(", "),
+                    shards.of
+                ));
+            }
+        }
         report
     }
 
@@ -100,7 +145,10 @@ impl TaskStates {
                 shown(&ours.join(", "))
             ));
         }
-        if let Some(digest) = self.counted_twice(&other) {
+        let is_sharded = self.shards.is_some() || other.shards.is_some();
+        if is_sharded {
+            self.shards = self.joined_shards(&other)?;
+        } else if let Some(digest) = self.counted_twice(&other) {
             return Err(format!(
                 "its labels ({}) are also those of another state, so each row would count twice; name each state once",
                 shown(&digest)
@@ -118,6 +166,34 @@ impl TaskStates {
         self.sources.extend(other.sources);
         self.paired.extend(other.paired);
         Ok(self)
+    }
+
+    /// Shards of both states; `None` if no shard is missing.
+    fn joined_shards(&self, other: &TaskStates) -> Result<Option<Shards>, String> {
+        let (Some(ours), Some(theirs)) = (&self.shards, &other.shards) else {
+            return Err(
+                "one of the states is a shard and another has whole tables; merge all shards of its tables first, with --state-out".to_owned(),
+            );
+        };
+        if self.tables != other.tables || ours.of != theirs.of {
+            return Err(format!(
+                "its shards are of {} and those of the other state of {}, or their tables differ; merge shards of the same two tables, written \
+                 with one number of shards",
+                theirs.of, ours.of
+            ));
+        }
+        if let Some(number) = ours.numbers.intersection(&theirs.numbers).next() {
+            return Err(format!(
+                "shard {number} of {} is also in another state, so each row would count twice; name each state once",
+                ours.of
+            ));
+        }
+        let numbers: BTreeSet<u32> = ours.numbers.union(&theirs.numbers).copied().collect();
+        let is_whole = numbers.len() as u64 == u64::from(ours.of);
+        Ok((!is_whole).then_some(Shards {
+            numbers,
+            of: ours.of,
+        }))
     }
 
     /// Digest of labels that both states have.

@@ -22,8 +22,8 @@ use crate::units;
 /// # Errors
 /// [`SweepError`] for a result that was edited or has another version, and if the folder cannot be written.
 pub fn collect(folder: &SweepFolder, list: &TaskList, anew: bool) -> Result<Collected, SweepError> {
-    if let Some(tables) = &list.tables {
-        return shard_scores::join(folder, list, tables);
+    if list.is_of_tables() {
+        return shard_scores::join(folder, list);
     }
     let made_of = made_of(folder, list)?;
     if !anew && let Some(before) = Collected::read(folder, &made_of)? {

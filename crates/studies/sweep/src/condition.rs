@@ -21,7 +21,7 @@ pub struct Condition {
 
 impl Condition {
     /// Names that a condition may use besides the settings of tasks.
-    pub const NAMES: [&'static str; 5] = ["key", "dataset", "model", "split", "seed"];
+    pub const NAMES: [&'static str; 6] = ["key", "dataset", "task", "model", "split", "seed"];
 
     /// Parses terms `NAME = VALUE` or `NAME != VALUE`, joined by ` and ` and ` or `; ` and ` has precedence. A value that contains an
     /// operator must be quoted. A text of 4 to 32 hexadecimal digits is the key of a task or a prefix of it.

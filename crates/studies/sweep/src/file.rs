@@ -1,5 +1,6 @@
 //! Sweep file: varied and fixed settings of a sweep.
 
+mod labels_entry;
 mod model_entry;
 mod place;
 mod reader;
@@ -17,8 +18,12 @@ use crate::error::SweepError;
 use crate::slurm_spec::SlurmSpec;
 use place::FilePlace;
 
+pub use labels_entry::LabelsEntry;
 pub use model_entry::ModelEntry;
 pub use tables::TablesEntry;
+
+/// Name of all metrics.
+pub(crate) const ALL_METRICS: &str = "all";
 
 /// A parsed and checked sweep file. Recordings are not read.
 #[derive(Clone, Debug)]
@@ -36,6 +41,8 @@ pub struct SweepFile {
     pub view: Option<String>,
     /// Scenes whose recordings are acquired first: files relative to the folder of the file, or names of built-in scenes.
     pub scenes: Vec<String>,
+    /// Tasks of the recordings whose labels are predicted, such as `slip`; empty for channels.
+    pub labels: Vec<String>,
     /// Models, each with its own settings.
     pub models: Vec<ModelEntry>,
     /// Seeds of the sweep.

@@ -3,6 +3,7 @@
 //! ```text
 //! FOLDER/results/KEY.json       scores of a task: absent or complete
 //!       /evaluations/KEY.json   the whole evaluation, as `taceva evaluate` writes it
+//!       /evaluations/KEY.state  its state, if it scores the labels of a task, as `--state-out` writes it
 //!       /failed/KEY.json        reason why a task has no scores
 //!       /logs/KEY.log           log of a task, stage by stage
 //!       /times/KEY.json         run time and host of a task
@@ -88,6 +89,11 @@ impl SweepFolder {
 
     pub(crate) fn evaluation(&self, key: &TaskKey) -> PathBuf {
         self.path.join(format!("evaluations/{key}.json"))
+    }
+
+    /// State of the labels of a task, beside its evaluation, for comparisons in pairs.
+    pub(crate) fn label_state(&self, key: &TaskKey) -> PathBuf {
+        self.path.join(format!("evaluations/{key}.state"))
     }
 
     pub(crate) fn failure(&self, key: &TaskKey) -> PathBuf {

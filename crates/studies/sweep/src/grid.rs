@@ -3,12 +3,11 @@
 mod builds;
 mod checks;
 mod combinations;
+mod label_shards;
 mod recordings;
 mod shards;
 
 use taceva_dataset::{Digest, SensorFile};
-use taceva_evaluate::EvaluateError;
-use taceva_metrics::catalogue;
 use taceva_models::Models;
 
 use crate::error::SweepError;
@@ -18,6 +17,7 @@ use crate::task::Task;
 use combinations::Common;
 
 pub(crate) use builds::build_of;
+pub(crate) use label_shards::PlannedLabels;
 pub(crate) use shards::PlannedTables;
 
 /// Tasks of a sweep, in the order of its file: recordings, splits, seeds, settings, models; or shards of two tables.
@@ -30,6 +30,8 @@ pub struct Grid {
     pub skipped: usize,
     /// Tables that were planned; their shards are the tasks.
     pub(crate) tables: Option<PlannedTables>,
+    /// Tables with tasks that were planned; their shards are the tasks.
+    pub(crate) label_tables: Option<PlannedLabels>,
 }
 
 impl Grid {
@@ -45,11 +47,13 @@ impl Grid {
         scenes: &[SceneRecording],
         models: &Models,
     ) -> Result<Grid, SweepError> {
-        let metrics = file.metrics.iter().map(String::as_str);
-        let known = catalogue::select(metrics).map_err(EvaluateError::from);
+        let known = checks::metrics(file);
         if let Some(tables) = &file.tables {
             known?;
-            return shards::grid(file, tables);
+            return match &tables.labels {
+                Some(labels) => label_shards::grid(tables, labels),
+                None => shards::grid(file, tables),
+            };
         }
         let named = recordings::named(file, scenes)?;
         checks::size(file, named.len())?;

@@ -8,7 +8,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 use taceva_dataset::Digest;
 
-pub(crate) use shard::ShardParts;
+pub(crate) use shard::{LabelShardParts, ShardParts};
 
 /// Version of the key. It must be incremented if the same inputs give another result within one version of this program.
 const VERSION: &str = "2";
@@ -33,6 +33,8 @@ pub(crate) struct KeyParts<'a> {
     pub(crate) sensor: Option<Digest>,
     /// Build of the plugin that provides the model.
     pub(crate) plugin: Option<&'a str>,
+    /// Task whose labels are predicted.
+    pub(crate) labels: Option<&'a str>,
 }
 
 /// Parts of a key, each preceded by its length, so that different parts give different bytes.
@@ -74,6 +76,9 @@ impl TaskKey {
         bytes.part(&parts.metrics.join(","));
         bytes.part(&text_of(parts.sensor));
         bytes.part(parts.plugin.unwrap_or_default());
+        if let Some(labels) = parts.labels {
+            bytes.part(labels);
+        }
         bytes.finish()
     }
 
@@ -110,7 +115,7 @@ mod tests {
                   split: Option<&str>,
                   seed: u64,
                   metrics: &str,
-                  plugin: Option<&str>| {
+                  [plugin, labels]: [Option<&str>; 2]| {
             let settings = settings.iter();
             let settings = settings.map(|(key, value)| ((*key).to_owned(), (*value).to_owned()));
             TaskKey::of(KeyParts {
@@ -122,24 +127,27 @@ mod tests {
                 metrics: &[metrics.to_owned()],
                 sensor: None,
                 plugin,
+                labels,
             })
         };
         let keys = [
-            of("ridge", &[], None, 1, "all", None),
-            of("ridge", &[], None, 2, "all", None),
-            of("ridge", &[("size", "32x32")], None, 1, "all", None),
-            of("ridge", &[("siz", "e32x32")], None, 1, "all", None),
-            of("ridge", &[], Some("by-point"), 1, "all", None),
-            of("pls", &[], None, 1, "all", None),
-            of("ridge", &[], None, 1, "accuracy", None),
-            of("ridge", &[], None, 1, "all", Some("sha256:1")),
-            of("ridge", &[], None, 1, "all", Some("sha256:2")),
+            of("ridge", &[], None, 1, "all", [None; 2]),
+            of("ridge", &[], None, 2, "all", [None; 2]),
+            of("ridge", &[("size", "32x32")], None, 1, "all", [None; 2]),
+            of("ridge", &[("siz", "e32x32")], None, 1, "all", [None; 2]),
+            of("ridge", &[], Some("by-point"), 1, "all", [None; 2]),
+            of("pls", &[], None, 1, "all", [None; 2]),
+            of("ridge", &[], None, 1, "accuracy", [None; 2]),
+            of("ridge", &[], None, 1, "all", [Some("sha256:1"), None]),
+            of("ridge", &[], None, 1, "all", [Some("sha256:2"), None]),
+            of("ridge", &[], None, 1, "all", [None, Some("slip")]),
+            of("ridge", &[], None, 1, "all", [None, Some("grasp")]),
         ];
         for (at, key) in keys.iter().enumerate() {
             assert!(TaskKey::is_one(key.as_str()), "{key}");
             assert!(keys[..at].iter().all(|other| other != key), "{key}");
         }
-        assert_eq!(of("ridge", &[], None, 1, "all", None), keys[0]);
+        assert_eq!(of("ridge", &[], None, 1, "all", [None; 2]), keys[0]);
         assert!(!TaskKey::is_one("../../etc/passwd"));
     }
 }

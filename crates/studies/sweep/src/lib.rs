@@ -41,7 +41,7 @@ pub use collection::collect;
 pub use condition::Condition;
 pub use error::SweepError;
 pub use estimate::Estimate;
-pub use file::{ModelEntry, SweepFile, TablesEntry};
+pub use file::{LabelsEntry, ModelEntry, SweepFile, TablesEntry};
 pub use folder::SweepFolder;
 pub use grid::Grid;
 pub use key::TaskKey;

@@ -1,6 +1,7 @@
 //! Execution of one task.
 
 mod errors;
+mod labels;
 mod shard;
 
 use taceva_core::ErrorKind;
@@ -46,6 +47,9 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
     if let Some(tables) = &common.list.tables {
         return shard::carry_out(task, tables, common, work);
     }
+    if let Some(tables) = &common.list.label_tables {
+        return shard::carry_out_labels(task, tables, common, work);
+    }
     let (dataset, digest) = opened(&task.path, common.list.view.as_deref())?;
     let digest = digest.to_string();
     if digest != task.digest {
@@ -68,6 +72,9 @@ pub(crate) fn carry_out(task: &Task, common: Common<'_>, work: Work<'_>) -> Resu
                 said(&task.plugin)
             ),
         });
+    }
+    if let Some(labels) = &task.labels {
+        return labels::carry_out(task, labels, &dataset, common, work);
     }
     let request = task.request(common.models)?;
     let fitted = fit(&dataset, &request, None, work)?;

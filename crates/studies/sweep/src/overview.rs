@@ -2,9 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_metrics::{Better, Repeats};
+use taceva_metrics::{Better, Repeats, catalogue};
 use taceva_models::Suggestion;
 use taceva_report::{Cell, Column, Table};
+use taceva_tasks::TaskScore;
 
 use crate::analysis::{self, Loaded};
 use crate::choices::{ends, number};
@@ -48,17 +49,30 @@ pub fn show(
             });
         }
     }
-    if taceva_metrics::catalogue::find(metric).is_none() {
-        let names = taceva_metrics::catalogue::ALL
-            .iter()
-            .map(|metric| metric.id);
-        return Err(SweepError::Condition {
-            text: metric.to_owned(),
-            problem: format!("unknown metric: {}", Suggestion::of(metric, names)),
-        });
-    }
+    check_metric(list, metric)?;
     let loaded = analysis::load(folder, list)?;
     Ok(table(&loaded, by, metric))
+}
+
+/// Rejects an unknown metric, and a metric of channels for tasks.
+fn check_metric(list: &TaskList, metric: &str) -> Result<(), SweepError> {
+    let names: Vec<&str> = match list.is_of_labels() {
+        true => TaskScore::METRICS.to_vec(),
+        false => catalogue::ALL.iter().map(|metric| metric.id).collect(),
+    };
+    if names.contains(&metric) {
+        return Ok(());
+    }
+    let suggestion = Suggestion::of(metric, names);
+    Err(SweepError::Condition {
+        text: metric.to_owned(),
+        problem: match list.is_of_labels() {
+            true => format!(
+                "the sweep scores tasks, so name a score of tasks, such as --metric f1_macro: {suggestion}"
+            ),
+            false => format!("unknown metric: {suggestion}"),
+        },
+    })
 }
 
 /// Values to average.
@@ -74,6 +88,7 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
     // Values in different units are never averaged.
     let mut values: BTreeMap<(Vec<String>, [String; 2]), Averaged> = BTreeMap::new();
     let mut channels: Vec<[String; 2]> = Vec::new();
+    let mut title = Better::named(metric);
     for one in loaded {
         let words = by
             .iter()
@@ -93,6 +108,7 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
             let entry = values.entry((words.clone(), channel)).or_default();
             entry.values.extend(score.value.number());
             entry.sources.insert(result.source.clone());
+            title = one.task.better(score).beside(metric);
         }
     }
     let head = by.iter().map(|name| Column::new(name.as_str()));
@@ -107,7 +123,7 @@ fn table(loaded: &[Loaded<'_>], by: &[String], metric: &str) -> Table {
         ]
         .map(Column::new),
     );
-    let mut table = Table::new(Better::named(metric), head);
+    let mut table = Table::new(title, head);
     for words in &order {
         for channel in &channels {
             let Some(Averaged {

@@ -1,5 +1,6 @@
 //! Pages of a sweep: one of results, and a separate one of run times.
 
+mod label_scores;
 mod times;
 
 use taceva_core::counted;
@@ -18,44 +19,22 @@ pub(crate) use times::times;
 
 /// Page of results; the same results give the same bytes.
 pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collected) -> String {
-    let channels = analysis::channels(loaded);
-    let groups = analysis::groups(loaded);
-    let choices = choices::choices(&groups, &channels);
-    let mut sections = Vec::new();
-    let mut section = |id, title, parts| sections.push(PageSection { id, title, parts });
-    let partial = groups.iter().filter(|group| !group.is_whole).count();
-    let mut best = vec![PagePart::Table(choices::table(&groups, &choices))];
-    if partial > 0 {
-        best.push(PagePart::Words(format!(
-            "{partial} of {} configurations lack a result for some seed. A choice is made among configurations with results for the same \
-             seeds; the others are compared with it on the seeds of both.",
-            groups.len()
-        )));
-    }
-    section("best", "Best of each question", best);
+    let mut sections = match list.is_of_labels() {
+        true => {
+            let scores = PagePart::Table(label_scores::table(loaded));
+            vec![section("scores", "Scores of each task", vec![scores])]
+        }
+        false => of_channels(list, loaded),
+    };
     if !collected.units.is_empty() {
-        section(
-            "units",
-            "Units",
-            vec![PagePart::Table(units::table(&collected.units))],
-        );
+        let units = PagePart::Table(units::table(&collected.units));
+        // Behind the best configurations or the scores.
+        sections.insert(1, section("units", "Units", vec![units]));
     }
-    let effects = effects::table(loaded, list, &channels);
-    section(
-        "effects",
-        "Effect of each setting",
-        vec![PagePart::Table(effects)],
-    );
-    let decided = decisions::table(&groups, &choices);
-    let count = counted(decided.rows.len(), "pair");
-    section(
-        "compared",
-        "Compared",
-        vec![PagePart::Folded("compared-all", count, decided)],
-    );
     let left = left(loaded);
     if !left.rows.is_empty() {
-        section("failed", "Without a result", vec![PagePart::Table(left)]);
+        let left = PagePart::Table(left);
+        sections.push(section("failed", "Without a result", vec![left]));
     }
     let lead = format!(
         "{}: {} scored, {} failed, {} not run.",
@@ -74,6 +53,35 @@ pub(crate) fn results(list: &TaskList, loaded: &[Loaded<'_>], collected: &Collec
         sections,
     }
     .html()
+}
+
+fn section(id: &'static str, title: &'static str, parts: Vec<PagePart>) -> PageSection {
+    PageSection { id, title, parts }
+}
+
+/// Best configurations, effects of settings, and compared configurations of a sweep over channels.
+fn of_channels(list: &TaskList, loaded: &[Loaded<'_>]) -> Vec<PageSection> {
+    let channels = analysis::channels(loaded);
+    let groups = analysis::groups(loaded);
+    let choices = choices::choices(&groups, &channels);
+    let partial = groups.iter().filter(|group| !group.is_whole).count();
+    let mut best = vec![PagePart::Table(choices::table(&groups, &choices))];
+    if partial > 0 {
+        best.push(PagePart::Words(format!(
+            "{partial} of {} configurations lack a result for some seed. A choice is made among configurations with results for the same \
+             seeds; the others are compared with it on the seeds of both.",
+            groups.len()
+        )));
+    }
+    let effects = PagePart::Table(effects::table(loaded, list, &channels));
+    let decided = decisions::table(&groups, &choices);
+    let count = counted(decided.rows.len(), "pair");
+    let decided = PagePart::Folded("compared-all", count, decided);
+    vec![
+        section("best", "Best of each question", best),
+        section("effects", "Effect of each setting", vec![effects]),
+        section("compared", "Compared", vec![decided]),
+    ]
 }
 
 fn title(list: &TaskList) -> String {
@@ -102,8 +110,8 @@ fn left(loaded: &[Loaded<'_>]) -> Table {
         table.push([
             Cell::text(one.task.key.as_str()),
             Cell::text(one.task.dataset.as_str()),
-            Cell::text(one.task.configuration()),
-            Cell::text(one.task.split.as_deref().unwrap_or("as recorded")),
+            Cell::text(one.task.title()),
+            Cell::text(one.task.division()),
             Cell::Number(one.task.seed.to_string()),
             Cell::text(why),
         ]);

@@ -9,9 +9,12 @@ use taceva_core::Unit;
 use taceva_metrics::ClusterSums;
 use taceva_results::{EvaluationReport, Score, by_metric};
 
+use crate::file::ALL_METRICS;
 use crate::key::TaskKey;
 
 const SCHEMA: &str = "taceva.sweep-result/1.0";
+/// Variant of a score of labels: the score of the best constant prediction.
+pub(crate) const OF_CONSTANT: &str = "of_constant";
 
 /// Errors of each channel: group or contact point, number of its samples, and sum of their absolute errors.
 pub(crate) type PointErrors = BTreeMap<String, Vec<(String, u64, f64)>>;
@@ -81,6 +84,34 @@ impl TaskResult {
             ..score.clone()
         }));
         self
+    }
+
+    /// Adds those of `scores` of the labels called `name` whose metric is among `wanted`, with the score of the best constant. A wanted metric that
+    /// the labels lack has a reason. Scores of single classes are stored only in the evaluation.
+    pub(crate) fn add_label_scores(&mut self, name: &str, scores: &[Score], wanted: &[String]) {
+        let is_wanted = |score: &&Score| {
+            wanted
+                .iter()
+                .any(|name| *name == score.metric || name == ALL_METRICS)
+        };
+        let own = scores.iter().filter(is_wanted);
+        self.scores.extend(own.map(|score| Score {
+            variants: score.variant(OF_CONSTANT).cloned().into_iter().collect(),
+            ..score.clone()
+        }));
+        let known: Vec<&str> = scores.iter().map(|score| score.metric.as_str()).collect();
+        for metric in wanted {
+            if metric != ALL_METRICS && !known.contains(&metric.as_str()) {
+                let reason = format!(
+                    "`{name}` has no such score in this table, expected one of {}",
+                    known.join(", ")
+                );
+                self.scores.push(Score {
+                    value: Value::NotApplicable(reason),
+                    ..Score::of_number(metric, name, 0.0, Unit::One)
+                });
+            }
+        }
     }
 
     pub(crate) fn score(&self, metric: &str, channel: &str) -> Option<&Score> {

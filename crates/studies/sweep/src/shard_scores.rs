@@ -5,27 +5,24 @@ use std::path::PathBuf;
 
 use taceva_core::shown;
 use taceva_dataset::Digest;
+use taceva_evaluate::{EvaluateError, merge_task_states};
 
 use crate::collected_counts::Collected;
 use crate::error::SweepError;
 use crate::folder::SweepFolder;
-use crate::grid::PlannedTables;
+use crate::grid::{PlannedLabels, PlannedTables};
 use crate::outcome::sealed;
 use crate::task_list::TaskList;
 use crate::times;
 
-/// File of the scores, byte for byte as printed by `taceva score --format json`.
+/// File of the scores, byte for byte as printed by `taceva score --format json`, of channels or of tasks.
 const RESULT: &str = "score.json";
 
 /// Merges the shards in `folder` into the file of scores. Writes no file while a shard is missing.
 ///
 /// # Errors
 /// [`SweepError`] for a state that was edited or belongs to other tables. Also if the folder cannot be written.
-pub(crate) fn join(
-    folder: &SweepFolder,
-    list: &TaskList,
-    planned: &PlannedTables,
-) -> Result<Collected, SweepError> {
+pub(crate) fn join(folder: &SweepFolder, list: &TaskList) -> Result<Collected, SweepError> {
     let counts = list.counts(folder)?;
     let mut collected = Collected {
         scored: counts.scored,
@@ -53,21 +50,48 @@ pub(crate) fn join(
         .iter()
         .map(|task| folder.result(&task.key))
         .collect();
-    let (report, state) = taceva_evaluate::merge(&states)?;
-    let [truth, prediction] = planned.digests().map(|digest| digest.to_string());
-    let tables = &report.provenance.tables;
-    let is_same = |role: &str, digest: &String| tables.get(role) == Some(digest);
-    if !is_same("truth", &truth) || !is_same("prediction", &prediction) || !state.is_whole() {
-        return Err(SweepError::Kept {
-            path: folder.path().join("results"),
-            problem: format!(
-                "its states are not all shards of {}; remove the folder to compute them again",
-                shown(list.tasks.first().map_or("", |task| task.dataset.as_str()))
-            ),
-        });
-    }
-    let text = sealed(&report)? + "\n";
+    let merged = match (&list.tables, &list.label_tables) {
+        (Some(planned), _) => merged_scores(&states, planned)?,
+        (None, Some(planned)) => merged_labels(&states, planned)?,
+        (None, None) => None,
+    };
+    let text = merged.ok_or_else(|| SweepError::Kept {
+        path: folder.path().join("results"),
+        problem: format!(
+            "its states are not all shards of {}; remove the folder to compute them again",
+            shown(list.tasks.first().map_or("", |task| task.dataset.as_str()))
+        ),
+    })?;
     collected.digest = Digest::of(text.as_bytes()).to_string();
     folder.write(&path, text.as_bytes())?;
     Ok(collected)
+}
+
+/// Scores of channels from `states`; `None` unless they are all shards of the planned tables.
+fn merged_scores(
+    states: &[PathBuf],
+    planned: &PlannedTables,
+) -> Result<Option<String>, SweepError> {
+    let (report, state) = taceva_evaluate::merge(states)?;
+    let [truth, prediction] = planned.digests().map(|digest| digest.to_string());
+    let tables = &report.provenance.tables;
+    let is_same = |role: &str, digest: &String| tables.get(role) == Some(digest);
+    match is_same("truth", &truth) && is_same("prediction", &prediction) && state.is_whole() {
+        true => Ok(Some(sealed(&report)? + "\n")),
+        false => Ok(None),
+    }
+}
+
+/// Scores of tasks from `states`; `None` unless they are all shards of the planned tables.
+fn merged_labels(
+    states: &[PathBuf],
+    planned: &PlannedLabels,
+) -> Result<Option<String>, SweepError> {
+    let merged = merge_task_states(states)?;
+    if !planned.is_of(&merged) || !merged.is_whole() {
+        return Ok(None);
+    }
+    let text = serde_json::to_string_pretty(&merged.report());
+    let text = text.map_err(|error| EvaluateError::Request(error.to_string()))?;
+    Ok(Some(text + "\n"))
 }

@@ -21,6 +21,8 @@ pub(crate) struct WrittenSweep {
     #[serde(default)]
     pub(crate) scenes: Words,
     #[serde(default)]
+    pub(crate) task: Words,
+    #[serde(default)]
     pub(crate) models: Vec<toml::Value>,
     #[serde(default)]
     pub(crate) seeds: Option<toml::Value>,
@@ -68,6 +70,13 @@ impl Words {
             Words::Several(words) => words,
         }
     }
+
+    pub(crate) fn as_slice(&self) -> &[String] {
+        match self {
+            Words::One(word) => std::slice::from_ref(word),
+            Words::Several(words) => words,
+        }
+    }
 }
 
 /// Tables that are scored in shards.
@@ -81,6 +90,14 @@ pub(crate) struct WrittenScore {
     pub(crate) units: BTreeMap<String, String>,
     #[serde(default)]
     pub(crate) allow_invalid: bool,
+    #[serde(default)]
+    pub(crate) task: Words,
+    #[serde(default)]
+    pub(crate) cluster: Option<String>,
+    #[serde(default)]
+    pub(crate) threshold: BTreeMap<String, toml::Value>,
+    #[serde(default)]
+    pub(crate) debounce: BTreeMap<String, toml::Value>,
 }
 
 /// Combinations to skip.

@@ -41,6 +41,9 @@ impl TidyTable {
         columns.extend(settings.iter().map(|name| text(&format!("set.{name}"))));
         columns.push(text("split"));
         columns.push(("seed".to_owned(), WrittenKind::Integer));
+        if loaded.iter().any(|one| one.task.labels.is_some()) {
+            columns.push(text("task"));
+        }
         columns.extend(["status", "part", "metric", "channel", "unit", "better"].map(text));
         columns.extend(["value", "low", "high"].map(|name| (name.to_owned(), WrittenKind::Number)));
         columns.push(("n".to_owned(), WrittenKind::Integer));
@@ -77,11 +80,17 @@ impl TidyTable {
         );
         for error in &result.validation {
             let row = Score::of_number("rmse", &error.channel, error.rmse, error.unit);
-            self.rows
-                .push(scored(head.clone(), "validation", &row, &result.chosen_by));
+            self.rows.push(scored(
+                head.clone(),
+                one.task,
+                "validation",
+                &row,
+                &result.chosen_by,
+            ));
         }
         for score in &result.scores {
-            self.rows.push(scored(head.clone(), "test", score, ""));
+            self.rows
+                .push(scored(head.clone(), one.task, "test", score, ""));
         }
     }
 

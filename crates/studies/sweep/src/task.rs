@@ -4,8 +4,12 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use serde::{Deserialize, Serialize};
+use taceva_core::Unit;
 use taceva_evaluate::{EvaluateError, FitRequest};
+use taceva_metrics::Better;
 use taceva_models::{ModelSettings, Models};
+use taceva_results::Score;
+use taceva_tasks::TaskScore;
 
 use crate::folder::SweepFolder;
 use crate::key::TaskKey;
@@ -21,6 +25,9 @@ pub struct Task {
     pub path: PathBuf,
     /// Digest of the whole recording, including its header, at the time of planning.
     pub digest: String,
+    /// Task of the recording whose labels are predicted, such as `slip`; `None` for channels.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub labels: Option<String>,
     /// Name of the model.
     pub model: String,
     /// All settings that the sweep file gives for this task.
@@ -38,10 +45,11 @@ pub struct Task {
 pub(crate) const SHARD: &str = "shard";
 
 impl Task {
-    /// Value of `name` in this task. The name is a setting, or `dataset`, `model`, `split` or `seed`.
+    /// Value of `name` in this task. The name is a setting, or `dataset`, `task`, `model`, `split` or `seed`.
     pub fn word(&self, name: &str) -> Option<String> {
         match name {
             "dataset" => Some(self.dataset.clone()),
+            "task" => self.labels.clone(),
             "model" => Some(self.model.clone()),
             "split" => self.split.clone(),
             "seed" => Some(self.seed.to_string()),
@@ -54,6 +62,32 @@ impl Task {
         let settings = self.settings.iter();
         let settings = settings.map(|(key, value)| format!(" {key}={value}"));
         format!("{}{}", self.model, settings.collect::<String>())
+    }
+
+    /// Direction of good values of a score of this task.
+    pub(crate) fn better(&self, score: &Score) -> Better {
+        let unit = (score.unit != Unit::One).then(|| score.unit.symbol());
+        match &self.labels {
+            Some(_) => TaskScore::direction(&score.metric, unit),
+            None => score.better(),
+        }
+    }
+
+    /// Model with its settings, and the task whose labels it predicts: `lda size=32x32, task slip`.
+    pub(crate) fn title(&self) -> String {
+        match &self.labels {
+            Some(labels) => format!("{}, task {labels}", self.configuration()),
+            None => self.configuration(),
+        }
+    }
+
+    /// Split, or the words for its default: as recorded, or by the clusters of a task.
+    pub(crate) fn division(&self) -> &str {
+        match (&self.split, &self.labels) {
+            (Some(split), _) => split,
+            (None, Some(_)) => "by clusters",
+            (None, None) => "as recorded",
+        }
     }
 
     /// Replaces the path of the recording in `reason` by the recording's name, and makes other paths relative to the sweep folder. The text is then the same on

@@ -10,7 +10,7 @@ use taceva_dataset::Digest;
 
 use crate::error::SweepError;
 use crate::file::SweepFile;
-use crate::grid::{Grid, PlannedTables, sensor_digest};
+use crate::grid::{Grid, PlannedLabels, PlannedTables, sensor_digest};
 use crate::task::Task;
 
 pub use selection::Counts;
@@ -47,6 +47,9 @@ pub struct TaskList {
     /// Planned tables; their shards are the tasks.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(crate) tables: Option<PlannedTables>,
+    /// Planned tables with tasks; their shards are the tasks.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(crate) label_tables: Option<PlannedLabels>,
 }
 
 impl TaskList {
@@ -70,6 +73,7 @@ impl TaskList {
             vary: file.vary.clone().into_iter().collect(),
             tasks: grid.tasks,
             tables: grid.tables,
+            label_tables: grid.label_tables,
         })
     }
 
@@ -78,8 +82,13 @@ impl TaskList {
         std::fs::read(path).map_or(true, |text| Digest::of(&text) == self.file)
     }
 
+    /// True if the tasks score labels, such as slip, and not channels.
+    pub(crate) fn is_of_labels(&self) -> bool {
+        self.tasks.iter().any(|task| task.labels.is_some())
+    }
+
     /// True if the tasks are shards of two tables.
     pub fn is_of_tables(&self) -> bool {
-        self.tables.is_some()
+        self.tables.is_some() || self.label_tables.is_some()
     }
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use serde::{Deserialize, Serialize};
 use taceva_core::shown;
-use taceva_report::{Cell, Column, LimitsFile, Study, Table, accept};
+use taceva_report::{Cell, Column, LimitsFile, Study, Table, TaskResult as LabelScores, accept};
 
 use crate::analysis::{Found, Loaded};
 use crate::error::SweepError;
@@ -54,8 +54,11 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
         serial: String::new(),
         task: format!(
             "{}, {}, seed {}",
-            task.configuration(),
-            task.split.as_deref().unwrap_or("split as recorded"),
+            task.title(),
+            match &task.split {
+                Some(split) => split.clone(),
+                None => format!("split {}", task.division()),
+            },
             task.seed
         ),
         is_passed: false,
@@ -74,7 +77,13 @@ fn unit(folder: &SweepFolder, one: &Loaded<'_>, limits: &LimitsFile) -> Result<U
                     "{problem}; remove it and the file of the same name in `results` to run the task again"
                 ),
             };
-            let studies = Study::read(&text).map_err(|error| wrong(error.to_string()))?;
+            let studies = match &task.labels {
+                Some(labels) => {
+                    LabelScores::read(labels.as_str(), &text).map(|scores| vec![scores.study()])
+                }
+                None => Study::read(&text),
+            };
+            let studies = studies.map_err(|error| wrong(error.to_string()))?;
             let study = studies
                 .first()
                 .ok_or_else(|| wrong("no study".to_owned()))?;

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::str::FromStr;
 
 use taceva_core::shown;
-use taceva_evaluate::{ScoreRequest, TaskRequest, TaskRule, task_states};
+use taceva_evaluate::{ScoreRequest, Shard, TaskRequest, TaskRule, task_states};
 
 use super::super::{Context, Usage, origin, task_scores};
 use crate::args::Score;
@@ -17,12 +17,14 @@ pub(super) fn run(args: &Score, context: &Context) -> anyhow::Result<u8> {
     let request = TaskRequest {
         tables: ScoreRequest {
             key: args.key.clone(),
+            allow_invalid: args.allow_invalid,
             jobs: context.jobs,
             ..ScoreRequest::of_tables(&args.truth, &args.pred)
         },
         tasks: args.task.tasks.clone(),
         rules: rules(args)?,
         cluster: args.task.cluster.clone(),
+        shard: args.shard.unwrap_or(Shard::WHOLE),
     };
     let mut states = task_states(&request)?;
     // The truth of depth maps is a dataset, which states its origin.

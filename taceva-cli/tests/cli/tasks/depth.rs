@@ -206,6 +206,66 @@ fn places_are_scored_by_their_distance() {
     assert!(!report.to_string().contains("pose_rotation"), "{report:#}");
 }
 
+/// Tables of places in mm, with predictions `scale` times the truth; `follows` is false for predictions that do not follow it.
+fn places(bench: &Bench, scale: f64, follows: bool) {
+    let mut truth = "id,object,contact.x,contact.y,contact.z\n".to_owned();
+    let mut prediction = "id,contact.x,contact.y,contact.z\n".to_owned();
+    for row in 0..30_u32 {
+        let [x, y] = [row * 7 % 30, row * 11 % 30].map(|place| f64::from(place) - 14.5);
+        let sign = if follows || row * 13 % 7 < 3 {
+            1.0
+        } else {
+            -1.0
+        };
+        truth += &format!("{row},o{},{x},{y},2\n", row % 6);
+        let [x, y, z] = [x, y, 2.0].map(|part| part * sign * scale);
+        prediction += &format!("{row},{x},{y},{z}\n");
+    }
+    bench.write("truth.csv", &truth);
+    bench.write("pred.csv", &prediction);
+}
+
+#[test]
+fn places_in_metres_beside_millimetres_are_noted_with_the_unit_to_state() {
+    const SCORE: &str =
+        "score --truth truth.csv --pred pred.csv --cluster object --task contact=place";
+    let notes = |bench: &Bench, more: &str| {
+        let report = bench.json(&format!("{SCORE}{more}"));
+        let translation = estimate(&report, "pose_translation", None)["value"].as_f64();
+        (report["tasks"][0]["notes"].to_string(), translation)
+    };
+    let bench = Bench::new();
+    places(&bench, 0.001, true);
+    let (found, _) = notes(&bench, "");
+    let expected = "the predictions in `contact.x`, `contact.y` and `contact.z` follow the truth at about a thousandth of the truth";
+    assert!(found.contains(expected), "{found}");
+    assert!(found.contains("--task contact=place:unit=m,"), "{found}");
+    let (mended, error_mm) = notes(&bench, ":unit=m");
+    assert_eq!(mended, "[]");
+    assert!(error_mm.is_some_and(|error| error < 1e-9), "{error_mm:?}");
+    places(&bench, 1000.0, true);
+    let (found, _) = notes(&bench, "");
+    assert!(found.contains("--task contact=place:unit=um,"), "{found}");
+    let (found, _) = notes(&bench, ":unit=mm");
+    assert!(
+        found.contains("correct :unit=mm of --task contact"),
+        "{found}"
+    );
+    bench.refused(&format!("{SCORE}:unit=N"), 2, "not a unit of length");
+}
+
+#[test]
+fn places_in_the_unit_of_the_truth_and_predictions_near_zero_have_no_note() {
+    let bench = Bench::new();
+    for (scale, follows) in [(0.9, true), (0.1, true), (0.001, false)] {
+        places(&bench, scale, follows);
+        let report = bench
+            .json("score --truth truth.csv --pred pred.csv --cluster object --task contact=place");
+        let notes = &report["tasks"][0]["notes"];
+        assert_eq!(notes.to_string(), "[]", "{scale}");
+    }
+}
+
 #[test]
 fn depth_maps_are_no_labels_of_a_classifier_and_of_a_model_file() {
     let bench = Bench::new();

@@ -147,3 +147,75 @@ fn a_state_that_was_edited_is_refused() {
     assert_eq!(ran.code, 3, "{}", ran.err);
     assert!(ran.err.contains("1.state"), "{}", ran.err);
 }
+
+/// Tables of [`slip`] with onsets, thresholds and a row without a label.
+fn with_rules(bench: &Bench) -> String {
+    slip(bench);
+    let truth = std::fs::read_to_string(bench.path("truth.csv")).expect("written");
+    bench.write("truth.csv", &truth.replacen(",no_slip\n", ",\n", 1));
+    let rules = "--threshold slip=0.4 --debounce slip=2";
+    format!(
+        "score --truth truth.csv --pred pred.csv --task slip=event:positive=slip --cluster stroke {rules}"
+    )
+}
+
+#[test]
+fn any_number_of_shards_merges_to_the_bytes_of_one_pass() {
+    let bench = Bench::new();
+    let score = with_rules(&bench);
+    let whole = bench.ok(&format!("{score} --state-out whole.state --format json -q"));
+    let bytes = |name: &str| std::fs::read(bench.path(name)).expect(name);
+    // Six strokes, so some of nine shards have no row.
+    for shards in [1, 2, 3, 9] {
+        let mut states = Vec::new();
+        for number in 1..=shards {
+            let state = format!("{number}.state");
+            bench.ok(&format!(
+                "{score} --shard {number}/{shards} --state-out {state} --force -q"
+            ));
+            states.insert(0, state);
+        }
+        let states = states.join(" ");
+        let merged = bench.ok(&format!(
+            "merge {states} --state-out joined.state --force --format json -q"
+        ));
+        assert_eq!(merged, whole, "{shards}");
+        assert_eq!(bytes("joined.state"), bytes("whole.state"), "{shards}");
+    }
+    bench.refused("merge 1.state 2.state 1.state", 3, "shard 1 of 9 is also");
+    bench.refused("merge 1.state whole.state", 3, "has whole tables");
+    let part = bench.json("merge 1.state 3.state");
+    assert!(
+        part.to_string().contains("rows of shard 1, 3 of 9 alone"),
+        "{part:#}"
+    );
+    bench.ok(&format!("{score} --shard 2/8 --state-out other.state -q"));
+    bench.refused("merge 1.state other.state", 3, "one number of shards");
+}
+
+#[test]
+fn a_sweep_of_shards_of_tasks_ends_in_the_bytes_of_one_pass() {
+    let bench = Bench::new();
+    let whole = bench.ok(&format!("{} --format json -q", with_rules(&bench)));
+    let sweep = |shards: u32| {
+        format!(
+            "sweep_version = 1\n[score]\ntruth = \"truth.csv\"\npred = \"pred.csv\"\nshards = {shards}\ntask = \"slip=event:positive=slip\"\ncluster = \"stroke\"\nthreshold = {{ slip = 0.4 }}\ndebounce = {{ slip = 2 }}\n"
+        )
+    };
+    for shards in [1, 4] {
+        bench.write("which.toml", &sweep(shards));
+        let out = bench.ok("sweep which.toml --jobs 2 -q");
+        assert!(out.contains(&format!("{shards} scored, 0 failed")), "{out}");
+        let scores = std::fs::read_to_string(bench.path("which.sweep/score.json"));
+        assert_eq!(scores.expect("scores"), whole, "{shards}");
+    }
+    bench.refused("sweep show which.toml", 2, "score.json");
+    let metrics = format!("metrics = [\"mae\"]\n{}", sweep(2));
+    bench.write("which.toml", &metrics);
+    bench.refused("sweep which.toml", 3, "`metrics` is of channels");
+    let without_task = sweep(2).replace("task = \"slip=event:positive=slip\"\n", "");
+    bench.write("which.toml", &without_task);
+    bench.refused("sweep which.toml", 3, "`cluster` is of tasks: write `task");
+    bench.write("which.toml", &sweep(2).replace("event", "evnt"));
+    bench.refused("sweep which.toml", 3, "did you mean event?");
+}

@@ -3,7 +3,7 @@
 use super::Expected;
 
 /// Positions of poses are stored in mm.
-pub(super) const EXPECTED: [Expected; 5] = [
+pub(super) const EXPECTED: [Expected; 6] = [
     Expected {
         preset: "touch-and-go",
         rows: 4,
@@ -77,6 +77,21 @@ pub(super) const EXPECTED: [Expected; 5] = [
         pictures: &[0, 1, 2],
         point: Some("test:sugar:00"),
         attributes: &[("object", 0, "sugar"), ("part", 2, "train")],
+        time: None,
+    },
+    Expected {
+        preset: "active-clothing",
+        rows: 3,
+        channels: &[],
+        numbers: &[],
+        pictures: &[0, 1, 2],
+        point: Some("1:1"),
+        attributes: &[
+            ("task.textile", 1, "3"),
+            ("task.textile", 2, "6"),
+            ("cloth", 2, "2"),
+            ("trial", 2, "3"),
+        ],
         time: None,
     },
 ];

@@ -233,6 +233,8 @@ fn a_million_samples_of_a_thousand_classes_keep_a_cell_for_each_pair_that_occurs
         .expect("positions");
     // Three predictions of each class: 3,000 of a million cells.
     assert_eq!(classes.confusion().len(), 3000);
+    let written = serde_json::to_vec(&classes).expect("JSON");
+    assert!(written.len() < 64 << 20, "{}", written.len());
     let accuracy = value(&classes.scores(), "class_accuracy", None);
     assert_eq!(accuracy, Ok(0.334));
 }

@@ -1,8 +1,12 @@
 //! States of whole tasks, and their merges.
 
+use std::collections::BTreeSet;
+
 use taceva_tasks::depth::{DepthMap, DepthState, DepthTask};
+use taceva_tasks::events::{EventRule, EventState};
 use taceva_tasks::pose::{EulerErrors, Pose, PoseState, PoseTask};
-use taceva_tasks::{Classes, Ranking, TaskError, TaskState};
+use taceva_tasks::shape::{ShapeState, ShapeTask};
+use taceva_tasks::{Classes, Probabilities, Ranking, TaskError, TaskScore, TaskState, TopK};
 
 /// State of one clip with two samples.
 fn clip(name: &str, predicted: &str, score: f64) -> TaskState {
@@ -134,4 +138,35 @@ fn maps_of_two_parts_have_the_scores_of_all_and_their_counts_in_words() {
     assert_eq!(mae.expect("maps").estimate.value, Ok(0.3125));
     assert_eq!(scores.clusters, ["a", "b"]);
     assert_eq!(scores.notes, ["1 valid pixel with a negative depth, kept"]);
+}
+
+#[test]
+fn the_list_of_metrics_has_the_metric_of_every_score_and_no_other() {
+    let classes = Classes::new(["lost", "held"], Some("held")).expect("two names");
+    let mut probabilities = Probabilities::new(["lost", "held"], Some("held")).expect("two names");
+    let pushed = probabilities.push("cup", "held", &[0.25, 0.75]);
+    pushed.expect("two probabilities");
+    let mut places = TopK::new(["a", "b", "c"]).expect("three names");
+    let pushed = places.push("cup", "a", &[0.5, 0.25, 0.25]);
+    pushed.expect("three scores");
+    let map = DepthMap::new(1, 1, vec![0.5]).expect("a map");
+    let mut maps = DepthState::new(DepthTask::default());
+    maps.push("cup", 1, &map, &map).expect("one size");
+    let mut shapes = ShapeState::new(ShapeTask::default());
+    let point = [[0.0; 3]];
+    shapes.push("cup", 1, &point, &point).expect("a point");
+    let scores = [
+        classes.scores(),
+        Ranking::default().scores(),
+        probabilities.scores(),
+        places.scores(2),
+        EventState::new(EventRule::default()).scores(),
+        PoseState::new(PoseTask::default()).scores(),
+        maps.scores(),
+        shapes.scores(),
+    ];
+    let found: BTreeSet<&str> = scores.iter().flatten().map(|score| score.metric).collect();
+    let listed: BTreeSet<&str> = TaskScore::METRICS.iter().copied().collect();
+    assert_eq!(found, listed);
+    assert_eq!(listed.len(), TaskScore::METRICS.len());
 }

@@ -216,7 +216,9 @@ impl<'a> Predicted<'a> {
         state.notes.extend(unscored);
         state.classes = Some(self.classes);
         if let Some(scored) = self.scored {
-            scored.add_to(&mut state);
+            scored
+                .add_to(&mut state)
+                .map_err(|error| refused(task, &error))?;
         }
         if task.kind == TaskKind::Event {
             state.events = Some(onsets(self.frames, task)?);

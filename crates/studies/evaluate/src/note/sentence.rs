@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use taceva_core::{Channel, by_count, counted, shown};
+use taceva_core::{Channel, Unit, by_count, counted, shown};
 use taceva_results::OPTIMISTIC;
 
 use super::{Independence, Learning, Note, division};
@@ -203,6 +203,18 @@ impl fmt::Display for Note {
                 shown(channel),
                 f64::from(*period).to_radians(),
                 f64::from(*period) / 180.0
+            ),
+            Note::LikelyUnit {
+                channel,
+                unit,
+                is_small,
+            } => write!(
+                f,
+                "{0}: predictions follow the truth at about {1} its size, as numbers in m and mm do; write the truth and the predictions of \
+                 {0} in {2}",
+                shown(channel),
+                if *is_small { "a thousandth of" } else { "a thousand times" },
+                if *unit == Unit::One { "one unit" } else { unit.symbol() }
             ),
             Note::SameBytes => f.write_str(
                 "truth and predictions are byte-identical files: every error is 0, which no sensor reaches",

@@ -53,6 +53,16 @@ impl Shard {
         })
     }
 
+    /// Number of the shard, from 1.
+    pub fn number(self) -> u32 {
+        self.number
+    }
+
+    /// Number of all shards.
+    pub fn of(self) -> u32 {
+        self.of
+    }
+
     /// True if this is the only shard.
     pub fn is_whole(self) -> bool {
         self.of == 1

@@ -4,12 +4,13 @@ mod classes;
 mod depth;
 mod events;
 mod labels;
+mod likely_scale;
 mod pose;
 mod rule;
 mod score_columns;
 mod spec;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
@@ -20,6 +21,7 @@ use super::ScoreRequest;
 use super::agreement::Matching;
 use super::origins::stated_origins;
 use super::row_key::{KEY_NAMES, RowKeys};
+use super::shard::Shard;
 use super::tables::{self, Pairing};
 use crate::error::EvaluateError;
 use crate::task_state_file::TaskStates;
@@ -33,7 +35,8 @@ const CLUSTER: &str = "point_id";
 /// Request to score the tasks of two tables.
 #[derive(Clone, Debug)]
 pub struct TaskRequest {
-    /// The tables, the key that pairs their rows, and the number of threads. Channels and metrics are not read.
+    /// The tables, the key that pairs their rows, the use of numbers that are not finite, and the number of threads. Channels and metrics are not
+    /// read.
     pub tables: ScoreRequest,
     /// Tasks to score, with distinct names.
     pub tasks: Vec<TaskSpec>,
@@ -41,6 +44,8 @@ pub struct TaskRequest {
     pub rules: BTreeMap<String, TaskRule>,
     /// Column with the clusters: trajectory, clip or object; `None` for `point_id`.
     pub cluster: Option<String>,
+    /// Shard of the clusters, in the order of their names, whose rows are scored.
+    pub shard: Shard,
 }
 
 /// Both tables with their pairs of rows.
@@ -48,6 +53,8 @@ struct TaskTables {
     truth: CsvTable,
     prediction: CsvTable,
     pairs: Vec<RowPair>,
+    /// True if rows with a number that is not finite are counted and left out, false if they are refused.
+    allow_invalid: bool,
 }
 
 /// Numbers of two paired rows.
@@ -60,12 +67,13 @@ struct RowPair {
 /// States of the tasks of two tables, which can be written and merged, and whose [`report`](TaskStates::report) has the scores.
 ///
 /// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
-/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
+/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm, or the unit of the
+/// task in the predictions) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
 ///
 /// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
 ///
 /// ```
-/// use taceva_evaluate::{ScoreRequest, TaskRequest, task_states};
+/// use taceva_evaluate::{ScoreRequest, Shard, TaskRequest, task_states};
 /// # let folder = tempfile::tempdir()?;
 /// # let [truth, prediction] = ["truth.csv", "prediction.csv"].map(|name| folder.path().join(name));
 /// std::fs::write(&truth, "id,clip,grasp\n1,a,held\n2,a,lost\n3,b,held\n")?;
@@ -75,6 +83,7 @@ struct RowPair {
 ///     tasks: vec!["grasp=outcome:positive=held".parse()?],
 ///     rules: Default::default(),
 ///     cluster: Some("clip".to_owned()),
+///     shard: Shard::WHOLE,
 /// })?
 /// .report();
 /// let accuracy = &report.tasks[0].scores[0];
@@ -111,8 +120,10 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
         truth,
         prediction,
         pairs,
+        allow_invalid: request.tables.allow_invalid,
     };
     let clusters = Clusters::of(&tables, request.cluster.as_deref())?;
+    let clusters = clusters.in_shard(request.shard, &tables.pairs);
     for task in &request.tasks {
         let rule = request.rules.get(&task.name);
         states.tasks.push(match task.kind {
@@ -120,7 +131,10 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
             _ => classes::state(&tables, &clusters, task, rule)?,
         });
     }
-    Ok(states)
+    Ok(match request.shard {
+        Shard::WHOLE => states,
+        shard => states.of_shard(shard.number(), shard.of()),
+    })
 }
 
 /// Refuses no task, a task that is named twice, and a rule of an unknown task.
@@ -174,6 +188,8 @@ struct Clusters<'a> {
     table: &'a CsvTable,
     is_truth: bool,
     column: usize,
+    /// Clusters of the shard; `None` for all.
+    own: Option<BTreeSet<&'a str>>,
 }
 
 impl<'a> Clusters<'a> {
@@ -201,7 +217,43 @@ impl<'a> Clusters<'a> {
             table,
             is_truth,
             column: table.position(name)?,
+            own: None,
         })
+    }
+
+    /// The clusters of `shard` alone. All rows of a cluster are in one shard, so that sequences stay whole.
+    fn in_shard(self, shard: Shard, pairs: &[RowPair]) -> Clusters<'a> {
+        if shard.is_whole() {
+            return self;
+        }
+        let all: BTreeSet<&str> = pairs.iter().map(|pair| self.text(*pair)).collect();
+        let places = shard.rows(all.len() as u64);
+        let own = (0_u64..)
+            .zip(all)
+            .filter(|(place, _)| places.contains(place));
+        Clusters {
+            own: Some(own.map(|(_, cluster)| cluster).collect()),
+            ..self
+        }
+    }
+
+    /// True if the rows of `pair` are scored.
+    fn has(&self, pair: RowPair) -> bool {
+        let own = self.own.as_ref();
+        own.is_none_or(|own| own.contains(self.text(pair)))
+    }
+
+    /// Text of the column in a pair of rows; empty without a cluster.
+    fn text(&self, pair: RowPair) -> &'a str {
+        self.table.cell(self.row(pair), self.column)
+    }
+
+    /// Row of the table with the clusters.
+    fn row(&self, pair: RowPair) -> usize {
+        match self.is_truth {
+            true => pair.truth,
+            false => pair.prediction,
+        }
     }
 
     /// Name of the column.
@@ -211,18 +263,21 @@ impl<'a> Clusters<'a> {
 
     /// Cluster of a pair of rows.
     fn cell(&self, pair: RowPair) -> Result<&'a str, EvaluateError> {
-        let row = match self.is_truth {
-            true => pair.truth,
-            false => pair.prediction,
-        };
-        match self.table.cell(row, self.column) {
+        match self.text(pair) {
             "" => {
                 let expected = "expected the cluster of the row";
+                let row = self.row(pair);
                 Err(self.table.refuse(row, self.column, expected).into())
             }
             cluster => Ok(cluster),
         }
     }
+}
+
+/// True for a number that is NaN or infinite.
+fn is_not_finite(cell: &str) -> bool {
+    let number = cell.trim().parse::<f64>();
+    number.is_ok_and(|number| !number.is_finite())
 }
 
 /// Names for a message, separated by commas.

@@ -2,6 +2,7 @@
 
 mod independent;
 mod periods;
+mod units;
 
 use std::fmt::Write as _;
 use std::num::NonZeroUsize;

@@ -21,6 +21,7 @@ pub(super) fn result(error: f64) -> TaskResult {
         metrics: &[],
         sensor: None,
         plugin: None,
+        labels: None,
     });
     let mut result = TaskResult::new(key);
     result

@@ -9,7 +9,7 @@ use taceva_models::{SplitKind, SplitSpec};
 
 use super::place::FilePlace;
 use super::vary::vary;
-use super::{ModelEntry, SweepFile, folder_of, tables};
+use super::{ALL_METRICS, ModelEntry, SweepFile, folder_of, tables};
 use crate::condition::Condition;
 use crate::error::SweepError;
 use crate::seeds::seeds;
@@ -56,7 +56,8 @@ impl SweepFile {
         for split in &written.splits {
             let known = split.parse::<SplitSpec>();
             let known = known.map_err(|error| place.wrong("splits", error.to_string()))?;
-            if matches!(known.kind, SplitKind::Folds(_)) {
+            // A task is predicted by folds of clusters unless the file names another split.
+            if written.task.is_empty() && matches!(known.kind, SplitKind::Folds(_)) {
                 let problem = format!(
                     "`{}`: a sweep needs one split with validation and test parts, such as by-point or by-block",
                     shown(split)
@@ -64,7 +65,13 @@ impl SweepFile {
                 return Err(place.wrong("splits", problem));
             }
         }
+        if !written.task.is_empty() && written.sensor.is_some() {
+            let problem = "`sensor` cannot be combined with `task`: its facts are for metrics of channels; omit it";
+            return Err(place.wrong("sensor", problem.to_owned()));
+        }
         let (datasets, scenes) = (written.datasets.list(), written.scenes.list());
+        let labels = written.task.list();
+        place.check_distinct("task", &labels)?;
         place.check_distinct("datasets", &datasets)?;
         place.check_distinct("scenes", &scenes)?;
         if tables.is_none() && datasets.is_empty() && scenes.is_empty() {
@@ -78,7 +85,7 @@ impl SweepFile {
             false => written.splits.into_iter().map(Some).collect(),
         };
         let metrics = match written.metrics.is_empty() {
-            true => vec!["all".to_owned()],
+            true => vec![ALL_METRICS.to_owned()],
             false => written.metrics,
         };
         let skip = written.skip.r#where.list();
@@ -93,6 +100,7 @@ impl SweepFile {
             datasets,
             view: written.view,
             scenes,
+            labels,
             models,
             seeds,
             splits,

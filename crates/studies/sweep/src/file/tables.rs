@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use taceva_core::{Unit, shown};
 use taceva_models::Suggestion;
 
+use super::labels_entry::LabelsEntry;
 use super::place::FilePlace;
 use crate::error::SweepError;
 use crate::limits::MOST_TASKS;
@@ -26,6 +27,8 @@ pub struct TablesEntry {
     pub units: Vec<(String, Unit)>,
     /// True if non-finite cells are counted and skipped, false if they are rejected.
     pub allow_invalid: bool,
+    /// Tasks to score instead of channels.
+    pub labels: Option<LabelsEntry>,
 }
 
 impl TablesEntry {
@@ -64,6 +67,7 @@ impl TablesEntry {
             shards: written.shards,
             units: written.units.iter().map(unit).collect::<Result<_, _>>()?,
             allow_invalid: written.allow_invalid,
+            labels: LabelsEntry::of(written, place)?,
         })
     }
 }
@@ -73,6 +77,7 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
     let others = [
         ("datasets", !written.datasets.is_empty()),
         ("scenes", !written.scenes.is_empty()),
+        ("task", !written.task.is_empty()),
         ("models", !written.models.is_empty()),
         ("seeds", written.seeds.is_some()),
         ("splits", !written.splits.is_empty()),
@@ -80,13 +85,27 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
         ("where", !written.skip.r#where.is_empty()),
         ("limits", written.limits.is_some()),
     ];
-    match others.iter().find(|(_, is_there)| *is_there) {
-        None => Ok(()),
-        Some((key, _)) => Err(place.wrong(
+    if let Some((key, _)) = others.iter().find(|(_, is_there)| *is_there) {
+        return Err(place.wrong(
             key,
             format!(
                 "`{key}` cannot be combined with `[score]`: a sweep evaluates either recordings or tables; write two files"
             ),
+        ));
+    }
+    let has_tasks = written.score.as_ref();
+    let has_tasks = has_tasks.is_some_and(|score| !score.task.is_empty());
+    let of_channels = [
+        ("metrics", !written.metrics.is_empty()),
+        ("sensor", written.sensor.is_some()),
+    ];
+    match of_channels.iter().find(|(_, is_there)| *is_there) {
+        Some((key, _)) if has_tasks => Err(place.wrong(
+            key,
+            format!(
+                "`{key}` is of channels, and the `task` of `[score]` has all of its scores: omit it"
+            ),
         )),
+        _ => Ok(()),
     }
 }

@@ -2,11 +2,15 @@
 
 use std::collections::BTreeSet;
 
-use taceva_models::Models;
+use taceva_core::shown;
+use taceva_evaluate::EvaluateError;
+use taceva_metrics::catalogue;
+use taceva_models::{Models, Suggestion};
+use taceva_tasks::TaskScore;
 
 use super::Grid;
 use crate::error::SweepError;
-use crate::file::{ModelEntry, SweepFile};
+use crate::file::{ALL_METRICS, ModelEntry, SweepFile};
 use crate::limits::MOST_TASKS;
 
 /// Rejects a grid without tasks, or with too many.
@@ -21,7 +25,8 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
         .vary
         .iter()
         .map(|(key, values)| (key.as_str(), values.len()));
-    let counts: Vec<(&str, usize)> = counts.into_iter().chain(vary).collect();
+    let labels = (!file.labels.is_empty()).then_some(("task", file.labels.len()));
+    let counts: Vec<(&str, usize)> = counts.into_iter().chain(labels).chain(vary).collect();
     if let Some((key, _)) = counts.iter().find(|(_, count)| *count == 0) {
         return Err(file.wrong(
             key,
@@ -46,6 +51,39 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
         });
     }
     Ok(())
+}
+
+/// Rejects an unknown metric, and metrics of channels beside tasks or the reverse.
+pub(super) fn metrics(file: &SweepFile) -> Result<(), SweepError> {
+    let is_of_tasks = |name: &&String| TaskScore::METRICS.contains(&name.as_str());
+    if file.labels.is_empty() {
+        if let Some(name) = file.metrics.iter().find(is_of_tasks) {
+            let problem = format!(
+                "`metrics`: {name} is a score of tasks, and this sweep scores channels: write `task = \"NAME\"` with a task of the recordings; \
+                 a file has either tasks or channels"
+            );
+            return Err(file.wrong("metrics", problem));
+        }
+        let metrics = file.metrics.iter().map(String::as_str);
+        catalogue::select(metrics).map_err(EvaluateError::from)?;
+        return Ok(());
+    }
+    let mut others = file.metrics.iter().filter(|name| *name != ALL_METRICS);
+    let Some(name) = others.find(|name| !is_of_tasks(name)) else {
+        return Ok(());
+    };
+    let problem = match catalogue::select([name.as_str()]) {
+        Ok(_) => format!(
+            "`metrics`: {name} is of channels, and `task` scores labels: write scores of tasks, such as `metrics = [\"f1_macro\"]`, and score \
+             channels by a second file without `task`"
+        ),
+        Err(_) => format!(
+            "`metrics`: {}: {}",
+            shown(name),
+            Suggestion::of(name, TaskScore::METRICS.iter().copied())
+        ),
+    };
+    Err(file.wrong("metrics", problem))
 }
 
 /// Rejects a model that is listed twice with the same settings, and conditions on names that no task has.

@@ -18,6 +18,13 @@ pub(super) struct Common<'a> {
     pub(super) builds: BTreeMap<String, String>,
 }
 
+/// Division of the samples of a task.
+#[derive(Clone, Copy)]
+struct Division<'a> {
+    split: Option<&'a str>,
+    seed: u64,
+}
+
 impl Common<'_> {
     pub(super) fn combined(&self, recordings: &[Recording]) -> Grid {
         let file = self.file;
@@ -26,17 +33,23 @@ impl Common<'_> {
             tasks: Vec::new(),
             skipped: 0,
             tables: None,
+            label_tables: None,
         };
         for recording in recordings {
-            for split in &file.splits {
-                for &seed in &file.seeds {
-                    for settings in &varied {
-                        for model in &file.models {
-                            let task =
-                                self.task(recording, model, settings, split.as_deref(), seed);
-                            match file.skip.iter().any(|condition| condition.holds(&task)) {
-                                true => grid.skipped += 1,
-                                false => grid.tasks.push(task),
+            for labels in labels(file) {
+                for split in &file.splits {
+                    for &seed in &file.seeds {
+                        for settings in &varied {
+                            for model in &file.models {
+                                let division = Division {
+                                    split: split.as_deref(),
+                                    seed,
+                                };
+                                let task = self.task(recording, labels, model, settings, division);
+                                match file.skip.iter().any(|condition| condition.holds(&task)) {
+                                    true => grid.skipped += 1,
+                                    false => grid.tasks.push(task),
+                                }
                             }
                         }
                     }
@@ -52,10 +65,10 @@ impl Common<'_> {
     fn task(
         &self,
         recording: &Recording,
+        labels: Option<&str>,
         model: &ModelEntry,
         varied: &BTreeMap<String, String>,
-        split: Option<&str>,
-        seed: u64,
+        Division { split, seed }: Division<'_>,
     ) -> Task {
         let mut settings = varied.clone();
         settings.extend(model.set.clone());
@@ -69,18 +82,28 @@ impl Common<'_> {
             metrics: &self.file.metrics,
             sensor: self.sensor,
             plugin: plugin.map(String::as_str),
+            labels,
         });
         Task {
             key,
             dataset: recording.name.clone(),
             path: recording.path.clone(),
             digest: recording.digest.to_string(),
+            labels: labels.map(str::to_owned),
             model: model.name.clone(),
             settings,
             split: split.map(str::to_owned),
             seed,
             plugin: plugin.cloned(),
         }
+    }
+}
+
+/// Tasks whose labels are predicted; `None` for channels.
+fn labels(file: &SweepFile) -> Vec<Option<&str>> {
+    match file.labels.as_slice() {
+        [] => vec![None],
+        labels => labels.iter().map(|name| Some(name.as_str())).collect(),
     }
 }
 

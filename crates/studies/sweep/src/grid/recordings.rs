@@ -36,13 +36,19 @@ impl Named {
         }
     }
 
-    /// Digest of the recording at `path`, or its placeholder.
-    fn digest(&self, path: &Path, view: Option<&str>) -> Result<Digest, SweepError> {
-        match (opened(path, view), self.planned) {
+    /// Digest of the recording at `path`, or its placeholder. Rejects a recording without a task that `file` names.
+    fn digest(&self, path: &Path, file: &SweepFile) -> Result<Digest, SweepError> {
+        match (opened(path, file.view.as_deref()), self.planned) {
             (Err(SweepError::Dataset(DatasetError::NoDataset { .. })), Some(planned)) => {
                 Ok(planned)
             }
-            (found, _) => found.map(|(_, digest)| digest),
+            (found, _) => {
+                let (dataset, digest) = found?;
+                for name in &file.labels {
+                    dataset.of_task(name)?;
+                }
+                Ok(digest)
+            }
         }
     }
 }
@@ -100,7 +106,7 @@ pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, Sw
     for one in all {
         // Absolute, because jobs of a scheduler have another working folder.
         let path = std::path::absolute(&one.path).map_err(SweepError::io("find", &one.path))?;
-        let digest = one.digest(&path, file.view.as_deref())?;
+        let digest = one.digest(&path, file)?;
         let alike = recordings.iter().find(|other| other.digest == digest);
         if let Some(other) = alike {
             let problem = format!(

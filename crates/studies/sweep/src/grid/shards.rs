@@ -101,6 +101,7 @@ pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepE
             dataset: entry.name.clone(),
             path: truth.clone(),
             digest: tables.digests()[0].to_string(),
+            labels: None,
             model: "score".to_owned(),
             settings: BTreeMap::from([(SHARD.to_owned(), shard.to_string())]),
             split: None,
@@ -111,6 +112,7 @@ pub(super) fn grid(file: &SweepFile, entry: &TablesEntry) -> Result<Grid, SweepE
     Ok(Grid {
         tasks: tasks.collect::<Result<_, SweepError>>()?,
         skipped: 0,
+        label_tables: None,
         tables: Some(PlannedTables {
             truth,
             prediction,

@@ -18,7 +18,30 @@ pub(crate) struct ShardParts<'a> {
     pub(crate) sensor: Option<Digest>,
 }
 
+/// Inputs that determine the result of a shard of two tables with tasks.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct LabelShardParts<'a> {
+    /// Digests of the truth table and of the prediction table.
+    pub(crate) tables: [Digest; 2],
+    /// Shard number and number of shards: `2/7`.
+    pub(crate) shard: &'a str,
+    /// Tasks, cluster column and rules in words.
+    pub(crate) labels: &'a [String],
+}
+
 impl TaskKey {
+    pub(crate) fn of_label_shard(parts: LabelShardParts<'_>) -> TaskKey {
+        let mut bytes = KeyBytes::new("taceva-sweep of tables with tasks");
+        for table in parts.tables {
+            bytes.part(&table.to_string());
+        }
+        bytes.part(parts.shard);
+        for words in parts.labels {
+            bytes.part(words);
+        }
+        bytes.finish()
+    }
+
     pub(crate) fn of_shard(parts: ShardParts<'_>) -> TaskKey {
         let mut bytes = KeyBytes::new("taceva-sweep of tables");
         for table in parts.tables {

@@ -26,12 +26,12 @@ impl<'a> TaskLog<'a> {
             file: Mutex::new((!is_link).then(open).flatten()),
             whole,
         };
-        let split = task.split.as_deref().unwrap_or("as recorded");
+        let split = task.division();
         log.say(&format!(
             "task {} {} {} split {split} seed {}",
             task.key,
             task.dataset,
-            task.configuration(),
+            task.title(),
             task.seed
         ));
         log

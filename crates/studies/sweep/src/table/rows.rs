@@ -30,6 +30,7 @@ pub(super) fn head(task: &Task, settings: &BTreeSet<&str>, of_result: [&str; 3])
     }));
     cells.push(text(task.split.as_deref().unwrap_or_default()));
     cells.push(Cell::Integer(i128::from(task.seed)));
+    cells.extend(task.labels.as_deref().map(text));
     cells
 }
 
@@ -40,7 +41,13 @@ pub(super) fn without_scores(mut cells: Vec<Cell>, status: &str, reason: &str) -
     cells
 }
 
-pub(super) fn scored(mut cells: Vec<Cell>, part: &str, score: &Score, by: &str) -> Vec<Cell> {
+pub(super) fn scored(
+    mut cells: Vec<Cell>,
+    task: &Task,
+    part: &str,
+    score: &Score,
+    by: &str,
+) -> Vec<Cell> {
     let number = |value: Option<f64>| value.map_or(Cell::Null, Cell::Number);
     cells.extend(
         [
@@ -49,7 +56,7 @@ pub(super) fn scored(mut cells: Vec<Cell>, part: &str, score: &Score, by: &str) 
             &score.metric,
             &score.channel,
             score.unit.symbol(),
-            score.better().name(),
+            task.better(score).name(),
         ]
         .map(text),
     );

@@ -1,5 +1,7 @@
 //! Columns of classes and of their scores, as states of a task.
 
+use std::collections::BTreeMap;
+
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_tasks::events::EventRule;
@@ -28,6 +30,15 @@ pub(super) struct ClassRow<'a> {
     pub(super) scores: Vec<f64>,
 }
 
+/// Labelled samples of a task.
+struct LabelledRows<'a> {
+    rows: Vec<ClassRow<'a>>,
+    /// Number of rows without a label.
+    unlabelled: u64,
+    /// Number of rows with a score that is not finite.
+    invalid: u64,
+}
+
 /// State of a task with classes.
 pub(super) fn state(
     tables: &TaskTables,
@@ -43,11 +54,16 @@ pub(super) fn state(
         classes = classes.after_rule(rule.to_string());
     }
     let is_by_threshold = rule.is_some_and(|rule| rule.threshold.is_some());
-    let (mut rows, left_out) = rows(tables, clusters, task, &names, is_by_threshold)?;
+    let LabelledRows {
+        mut rows,
+        unlabelled,
+        invalid,
+    } = rows(tables, clusters, task, &names, is_by_threshold)?;
     let positive = names.positive(task);
     if let Some(rule) = rule {
         apply(rule, &mut rows, &names, task)?;
     }
+    rows.retain(|row| clusters.has(row.pair));
     for row in &rows {
         let [truth, predicted] = [row.truth, row.predicted];
         classes
@@ -57,7 +73,8 @@ pub(super) fn state(
     let mut state = empty(task, clusters);
     state.classes = Some(classes);
     state.notes.extend(names.note());
-    state.unlabelled = left_out as u64;
+    state.unlabelled = unlabelled;
+    state.invalid = invalid;
     state.is_sequence = rule.is_some_and(|rule| rule.debounce.is_some());
     if let Some(columns) = ScoreColumns::of(tables, task, &names)? {
         let positive = task.positive.as_deref();
@@ -67,7 +84,7 @@ pub(super) fn state(
             let pushed = scored.push(row.cluster, row.truth, &row.scores);
             pushed.map_err(refused)?;
         }
-        scored.add_to(&mut state);
+        scored.add_to(&mut state).map_err(refused)?;
     }
     if let (TaskKind::Event, Some(positive)) = (task.kind, positive) {
         events::add(&mut state, tables, &rows, positive, rule)?;
@@ -75,14 +92,14 @@ pub(super) fn state(
     Ok(state)
 }
 
-/// Labelled rows in the order of the truth, and the number of rows without a label.
+/// Labelled rows in the order of the truth.
 fn rows<'a>(
     tables: &'a TaskTables,
     clusters: &Clusters<'a>,
     task: &TaskSpec,
     names: &ClassNames,
     is_by_threshold: bool,
-) -> Result<(Vec<ClassRow<'a>>, usize), EvaluateError> {
+) -> Result<LabelledRows<'a>, EvaluateError> {
     let of_truth = ClassColumn::of(&tables.truth, &task.name, names)?;
     let columns = ScoreColumns::of(tables, task, names)?;
     let of_prediction = match &columns {
@@ -93,13 +110,23 @@ fn rows<'a>(
         }
         _ => Some(ClassColumn::of(&tables.prediction, &task.name, names)?),
     };
-    let mut rows = Vec::with_capacity(tables.pairs.len());
-    let mut left_out = 0;
+    let mut labelled = LabelledRows {
+        rows: Vec::with_capacity(tables.pairs.len()),
+        unlabelled: 0,
+        invalid: 0,
+    };
     for pair in &tables.pairs {
         let Some(truth) = of_truth.class(pair.truth)? else {
-            left_out += 1;
+            labelled.unlabelled += u64::from(clusters.has(*pair));
             continue;
         };
+        if let Some(columns) = &columns
+            && tables.allow_invalid
+            && columns.has_invalid(pair.prediction)
+        {
+            labelled.invalid += u64::from(clusters.has(*pair));
+            continue;
+        }
         let scores = match &columns {
             Some(columns) => columns.scores(pair.prediction)?,
             None => Vec::new(),
@@ -110,7 +137,7 @@ fn rows<'a>(
             Some(column) => column.stated(pair.prediction)?,
             None => ScoreColumns::greatest(&scores, task, names)?,
         };
-        rows.push(ClassRow {
+        labelled.rows.push(ClassRow {
             cluster: clusters.cell(*pair)?,
             pair: *pair,
             truth,
@@ -119,7 +146,7 @@ fn rows<'a>(
             scores,
         });
     }
-    Ok((rows, left_out))
+    Ok(labelled)
 }
 
 /// Refusal of predictions without classes and without scores.

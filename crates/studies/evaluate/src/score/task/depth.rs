@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::fs::File;
 use std::path::Path;
 
-use taceva_core::{SourceUnit, Unit, counted, shown};
+use taceva_core::{SourceUnit, counted, shown};
 use taceva_dataset::{Dataset, DatasetError, Digest, Task, TaskKind};
 use taceva_import::MapsFile;
 use taceva_models::Part;
@@ -23,6 +23,12 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
     if request.tasks.len() > 1 {
         return Err(EvaluateError::Request(format!(
             "`{}` has depth maps, whose truth is a dataset: score it without other tasks",
+            shown(&of.name)
+        )));
+    }
+    if !request.shard.is_whole() {
+        return Err(EvaluateError::Request(format!(
+            "`{}` has depth maps, which are scored whole: omit the shard",
             shown(&of.name)
         )));
     }
@@ -45,7 +51,7 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
     }
     let dataset = Dataset::open(truth)?;
     let task = task_of(&dataset, of, request.cluster.as_deref())?;
-    let unit = unit_of(of)?;
+    let unit = of.length_unit()?;
     let maps = MapsFile::open(prediction, None)?;
     let rows = dataset.table().rows();
     if maps.count() != rows as u64 {
@@ -160,20 +166,6 @@ fn task_of(dataset: &Dataset, of: &TaskSpec, cluster: Option<&str>) -> Result<Ta
         cluster.clone_into(&mut task.cluster);
     }
     Ok(task)
-}
-
-/// Unit of the predicted depths.
-fn unit_of(of: &TaskSpec) -> Result<SourceUnit, EvaluateError> {
-    let symbol = of.unit.as_deref().unwrap_or("mm");
-    let unit = SourceUnit::parse(symbol).ok();
-    let unit = unit.filter(|unit| unit.unit() == Unit::Millimetre);
-    unit.ok_or_else(|| {
-        EvaluateError::Request(format!(
-            "task `{}`: `unit={}` is not a unit of length, such as mm or um",
-            shown(&of.name),
-            shown(symbol)
-        ))
-    })
 }
 
 /// Definition with the gate of `of` and the size of a pixel of the dataset.

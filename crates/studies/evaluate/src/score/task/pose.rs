@@ -1,11 +1,13 @@
 //! Columns of poses and places, as states of a task.
 
+use taceva_core::{SourceUnit, shown};
 use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
 use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, Rotation};
 use taceva_tasks::{TaskState, WorstSample};
 
-use super::{Clusters, TaskSpec, TaskTables, empty};
+use super::likely_scale::{LikelyScale, VectorPair};
+use super::{Clusters, TaskSpec, TaskTables, empty, is_not_finite};
 use crate::error::EvaluateError;
 use crate::pose_definition::pose_definition;
 
@@ -17,6 +19,8 @@ struct PoseColumns<'a> {
     table: &'a CsvTable,
     /// Positions of the columns of translation, and of the quaternion of a pose.
     columns: Vec<usize>,
+    /// Unit of the translation; `None` for mm.
+    unit: Option<SourceUnit>,
     /// Noun for messages.
     noun: &'static str,
 }
@@ -32,14 +36,24 @@ impl<'a> PoseColumns<'a> {
         Ok(PoseColumns {
             table,
             columns: columns.collect::<Result<_, _>>()?,
+            unit: None,
             noun,
         })
     }
 
+    /// True if a number in a row is NaN or infinite.
+    fn has_invalid(&self, row: usize) -> bool {
+        let mut columns = self.columns.iter();
+        columns.any(|column| is_not_finite(self.table.cell(row, *column)))
+    }
+
     /// Pose in a row; `None` if all its cells are empty.
     fn pose(&self, row: usize) -> Result<Option<Pose>, EvaluateError> {
-        let cells = self.columns.iter();
-        let cells = cells.map(|column| self.table.number(row, *column));
+        let cells = self.columns.iter().zip(PARTS);
+        let cells = cells.map(|(column, part)| match &self.unit {
+            Some(unit) if !part.starts_with('q') => self.table.number_in_unit(row, *column, unit),
+            _ => self.table.number(row, *column),
+        });
         let cells: Vec<Option<f64>> = cells.collect::<Result<_, _>>()?;
         let numbers: Vec<f64> = cells.iter().copied().flatten().collect();
         let (translation, quaternion) = match numbers[..] {
@@ -82,14 +96,28 @@ pub(super) fn state(
     task: &TaskSpec,
 ) -> Result<TaskState, EvaluateError> {
     let truth = PoseColumns::of(&tables.truth, task)?;
-    let prediction = PoseColumns::of(&tables.prediction, task)?;
+    let prediction = PoseColumns {
+        unit: match &task.unit {
+            Some(_) => Some(task.length_unit()?),
+            None => None,
+        },
+        ..PoseColumns::of(&tables.prediction, task)?
+    };
     let mut state = PoseState::new(pose_definition(&task.name, task.thresholds.as_ref())?);
     let mut euler = (task.kind != TaskKind::Place).then(EulerErrors::default);
     let mut of_task = empty(task, clusters);
     let mut left_out = 0;
+    let mut vectors = Vec::with_capacity(tables.pairs.len());
     for pair in &tables.pairs {
+        let is_own = clusters.has(*pair);
+        if tables.allow_invalid
+            && (truth.has_invalid(pair.truth) || prediction.has_invalid(pair.prediction))
+        {
+            of_task.invalid += u64::from(is_own);
+            continue;
+        }
         let Some(true_pose) = truth.pose(pair.truth)? else {
-            left_out += 1;
+            left_out += u64::from(is_own);
             continue;
         };
         let Some(predicted) = prediction.pose(pair.prediction)? else {
@@ -99,6 +127,10 @@ pub(super) fn state(
             return Err(refused.into());
         };
         let cluster = clusters.cell(*pair)?;
+        vectors.push(VectorPair::of_poses(&true_pose, &predicted));
+        if !is_own {
+            continue;
+        }
         state.push(cluster, &true_pose, &predicted);
         if let Some(euler) = &mut euler {
             euler.push(&true_pose, &predicted);
@@ -109,6 +141,8 @@ pub(super) fn state(
         of_task.evidence.add_worst(worst);
     }
     of_task.unlabelled = left_out;
+    let scale = LikelyScale::of(&vectors);
+    of_task.notes.extend(scale.map(|scale| scale.remark(task)));
     of_task.pose = Some(state);
     of_task.euler = euler;
     Ok(of_task)

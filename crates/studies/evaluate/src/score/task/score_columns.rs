@@ -4,7 +4,7 @@ use taceva_core::{nearest, shown};
 use taceva_import::CsvTable;
 
 use super::labels::ClassNames;
-use super::{TaskSpec, TaskTables, listed};
+use super::{TaskSpec, TaskTables, is_not_finite, listed};
 use crate::error::EvaluateError;
 use crate::score::row_key::key_of;
 
@@ -73,6 +73,12 @@ impl<'a> ScoreColumns<'a> {
     /// True if each class has a column.
     pub(super) fn are_all(&self) -> bool {
         self.columns.iter().all(Option::is_some)
+    }
+
+    /// True if a score in a row is NaN or infinite.
+    pub(super) fn has_invalid(&self, row: usize) -> bool {
+        let mut columns = self.columns.iter().flatten();
+        columns.any(|column| is_not_finite(self.table.cell(row, *column)))
     }
 
     /// Scores of all classes in a row; NaN for a class without a column.

@@ -2,8 +2,10 @@
 
 use std::str::FromStr;
 
-use taceva_core::{nearest, shown};
+use taceva_core::{SourceUnit, Unit, nearest, shown};
 use taceva_dataset::{PoseThresholds, TaskKind};
+
+use crate::error::EvaluateError;
 
 /// A task of two tables: its column, its kind, and its classes.
 ///
@@ -30,7 +32,7 @@ pub struct TaskSpec {
     pub names: Vec<String>,
     /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose by its errors alone.
     pub thresholds: Option<PoseThresholds>,
-    /// Unit of predicted depths; `None` for mm.
+    /// Unit of predicted depths, places, or translations of poses; `None` for mm.
     pub unit: Option<String>,
     /// Depth above which a pixel is in contact, mm, as a decimal; `None` for 0.02.
     pub gate: Option<String>,
@@ -84,10 +86,26 @@ impl FromStr for TaskSpec {
 }
 
 impl TaskSpec {
+    /// Unit of predicted lengths.
+    ///
+    /// # Errors
+    /// [`EvaluateError::Request`] for an unknown unit, or one that is no length.
+    pub(super) fn length_unit(&self) -> Result<SourceUnit, EvaluateError> {
+        let symbol = self.unit.as_deref().unwrap_or("mm");
+        let unit = SourceUnit::parse(symbol).ok();
+        let unit = unit.filter(|unit| unit.unit() == Unit::Millimetre);
+        unit.ok_or_else(|| {
+            EvaluateError::Request(format!(
+                "task `{}`: `unit={}` is not a unit of length, such as mm or um",
+                shown(&self.name),
+                shown(symbol)
+            ))
+        })
+    }
+
     fn check(&self) -> Result<(), String> {
         let name = shown(&self.name);
         let has_classes = self.positive.is_some() || !self.names.is_empty();
-        let has_maps = self.unit.is_some() || self.gate.is_some();
         match self.kind {
             TaskKind::Place | TaskKind::Depth if has_classes || self.thresholds.is_some() => {
                 Err(format!(
@@ -95,8 +113,12 @@ impl TaskSpec {
                     self.kind.name()
                 ))
             }
-            kind if has_maps && kind != TaskKind::Depth => Err(format!(
-                "`{name}`: `unit` and `gate` are of depth maps, but its kind is {}",
+            kind if self.gate.is_some() && kind != TaskKind::Depth => Err(format!(
+                "`{name}`: `gate` is of depth maps, but its kind is {}",
+                kind.name()
+            )),
+            kind if self.unit.is_some() && kind.has_classes() => Err(format!(
+                "`{name}`: `unit` is of depths, places and poses, but its kind is {}",
                 kind.name()
             )),
             TaskKind::Pose if has_classes => Err(format!(

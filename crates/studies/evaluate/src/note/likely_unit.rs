@@ -1,0 +1,51 @@
+//! Channels whose predictions are probably in another unit than the truth.
+
+use taceva_results::{Interval, Score};
+
+use super::Note;
+
+/// Metric with the line through predictions over truth.
+const LINE: &str = "linearity";
+
+/// Ratios of units with neighbouring prefixes, such as m and mm.
+const RATIOS: [f64; 2] = [1e-3, 1e3];
+
+/// Greatest factor between an end of the interval of the slope and a ratio.
+const FACTOR: f64 = 1.5;
+
+impl Note {
+    /// Notes on channels whose predictions follow the truth at about a thousand times its size, or a thousandth.
+    ///
+    /// The whole interval of the slope decides, so that a model that predicts near zero has no note. A model that predicts near the mean of the
+    /// truth has none either, because its line passes far from zero.
+    pub(crate) fn likely_units(scores: &[Score]) -> Vec<Note> {
+        let lines = scores.iter();
+        let lines = lines.filter(|score| score.metric == LINE && score.of.is_empty());
+        lines.filter_map(likely_unit).collect()
+    }
+}
+
+fn likely_unit(line: &Score) -> Option<Note> {
+    let slope = line.variant("slope")?;
+    let ends = slope.interval.as_ref().and_then(Interval::ends)?;
+    let is_near = |ratio: &f64| {
+        let range = ratio / FACTOR..=ratio * FACTOR;
+        ends.iter().all(|end| range.contains(end))
+    };
+    let ratio = RATIOS.into_iter().find(is_near)?;
+    let offset = line.variant("offset")?;
+    if offset.value.number()?.abs() > ratio * range_of_truth(line)? {
+        return None;
+    }
+    Some(Note::LikelyUnit {
+        channel: line.channel.clone(),
+        unit: offset.unit,
+        is_small: ratio < 1.0,
+    })
+}
+
+/// Range of the truth, which is full scale; NaN if all predictions lie on the line.
+fn range_of_truth(line: &Score) -> Option<f64> {
+    let greatest = line.variant("greatest_deviation")?.value.number()?;
+    Some(greatest / line.value.number()?)
+}
