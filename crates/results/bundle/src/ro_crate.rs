@@ -184,7 +184,7 @@ fn file(file: &BundledFile) -> Value {
     })
 }
 
-/// References to `entities`: a list, and the reference alone if there is one.
+/// References to `entities`: a list, or a single reference for one entity.
 fn references(entities: &[Value]) -> Value {
     let references = entities.iter().map(|entity| json!({"@id": entity["@id"]}));
     let mut references: Vec<Value> = references.collect();

@@ -17,7 +17,7 @@ pub struct Verification {
     pub schema: &'static str,
     /// The bundle; `None` if its manifest cannot be read.
     pub bundle: Option<BundleFacts>,
-    /// Program that verified it.
+    /// Program that verified the bundle, with its version.
     pub program: String,
     /// Every level up to the requested level.
     pub levels: Vec<LevelCheck>,
@@ -42,9 +42,9 @@ pub struct Verification {
 pub struct BundleFacts {
     /// Name.
     pub name: String,
-    /// Day on which it was made.
+    /// Day on which the bundle was made.
     pub created: String,
-    /// Version of the program that made it.
+    /// Version of the program that made the bundle.
     pub taceva: String,
     /// Origin of the samples.
     pub source: String,
@@ -64,9 +64,9 @@ pub struct BundleFacts {
 pub struct LevelCheck {
     /// Level.
     pub level: Level,
-    /// True if every file and claim reached it.
+    /// True if every file and claim reached the level.
     pub reached: bool,
-    /// Reason why it was not reached.
+    /// Reason why the level was not reached.
     pub reason: Option<String>,
 }
 
@@ -77,10 +77,10 @@ pub enum Verdict {
     /// Equal, bit for bit.
     #[serde(rename = "equal")]
     Equal,
-    /// Within the tolerance.
+    /// Different, but within the tolerance.
     #[serde(rename = "within")]
     Within,
-    /// Another number.
+    /// Different by more than the tolerance.
     #[serde(rename = "differs")]
     Differs,
     /// Not computed again, for a reason.
@@ -147,9 +147,9 @@ pub struct OtherCheck {
 pub struct Summary {
     /// Equal, bit for bit.
     pub equal: u64,
-    /// Within the tolerance.
+    /// Different, but within the tolerance.
     pub within: u64,
-    /// Another number.
+    /// Different by more than the tolerance.
     pub differs: u64,
     /// Not computed again.
     pub not_recomputable: u64,

@@ -37,7 +37,7 @@ pub struct VerifyRequest {
 }
 
 impl VerifyRequest {
-    /// Verification of the bundle at `path`, as deep as its files allow, with equal bits.
+    /// Verification of the bundle at `path`, as deep as its files allow, with tolerance 0.
     pub fn new(path: &Path) -> VerifyRequest {
         VerifyRequest {
             path: path.to_owned(),
@@ -59,7 +59,7 @@ impl VerifyRequest {
     }
 }
 
-/// Verifies a bundle. Nothing of it is executed.
+/// Verifies a bundle. Executes no content of the bundle.
 ///
 /// # Errors
 /// [`BundleError::File`] if it cannot be read. A damaged bundle is not an error: its damage is listed.

@@ -1,5 +1,5 @@
-//! Results of several seeds beside published numbers of the same sensors: marks numbers that are at least as good, and computes the agreement of the order of
-//! the sensors.
+//! Compares results of several seeds with published numbers of the same sensors. Marks numbers that are at least as good, and computes rank
+//! correlations.
 //!
 //! ```text
 //! cargo run --release -p taceva-report --example beside_published -- runs/*/results.json

@@ -24,7 +24,7 @@ pub(crate) const BETWEEN: BudgetSource = source("error.between", "place to place
 pub(crate) const WITHIN: BudgetSource = source("error.within", "one reading", "readings = 1\n");
 /// Repeated presses. [`WITHIN`] includes them.
 pub(crate) const REPEATS: BudgetSource = source("repeatability", "repeats", "readings = 1\n");
-/// Heights from which depths count. Residuals and repeats include their errors.
+/// Zero heights of depths. Residuals and repeats include their errors.
 pub(crate) const ZERO: BudgetSource = source("zero_u_mm", "zero of depths", "");
 /// Light scenes.
 pub(crate) const LIGHT: BudgetSource = source("r_light", "other light", "");

@@ -42,7 +42,7 @@ pub struct EvaluationReport {
     /// Scores with other training seeds; `None` if not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
-    /// Scores of tasks, such as slip; empty unless the scene asks for one.
+    /// Scores of tasks, such as slip; empty unless the scene requests a task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tasks: Vec<StudyTask>,
     /// Samples behind the scores, if available. They are not part of the JSON.

@@ -18,13 +18,13 @@ use crate::report::TaskScores;
 use crate::top_k::TopK;
 use crate::undefined::Undefined;
 
-/// Places of `top_k`.
+/// Values of k of `top_k`.
 const PLACES: [u64; 2] = [2, 3];
 
 /// Kind of a task of places, whose states are poses without rotation.
 const PLACE: &str = "place";
 
-/// Scores of poses that a place has.
+/// Pose scores that apply to places.
 const OF_PLACES: [&str; 2] = ["pose_translation", "pose_axis"];
 
 /// Sums of one task by cluster, with the definition of the task.
@@ -277,7 +277,7 @@ fn both<T>(
     }
 }
 
-/// Remarks of two states: equal ones as they are, others in the order of letters, so that the order of merges changes nothing.
+/// Remarks of two states: unchanged if equal, otherwise sorted, so that the order of merges has no effect.
 fn joined(ours: Vec<String>, theirs: Vec<String>) -> Vec<String> {
     if ours == theirs {
         return ours;

@@ -121,7 +121,7 @@ impl Cache {
         notes.iter().cloned().collect()
     }
 
-    /// Stages of the run so far, study by study. Each record states whether the result was reused.
+    /// Finished stages of the run, study by study. Each record states whether the result was reused.
     pub fn stages(&self) -> Vec<StageRecord> {
         let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
         let mut records = records.clone();

@@ -19,16 +19,16 @@ pub const CLASSIFIERS: [&str; 8] = [
     "auto",
 ];
 
-/// Number of [`CLASSIFIERS`] that predict no numbers, the first ones.
+/// Number of entries at the start of [`CLASSIFIERS`] that cannot predict numbers.
 const CLASSIFIERS_ALONE: usize = 3;
 
 /// Setting of models that predict either numbers or classes.
 const HEAD: &str = "head";
 
-/// Model of poses, and of classes, if the user names none.
+/// Default models of poses and of classes.
 const USUAL: [&str; 2] = ["ridge", "lda"];
 
-/// Model for the task called `name` if the user names none.
+/// Default model for the task called `name`.
 pub fn usual_model(dataset: &Dataset, name: &str) -> &'static str {
     let [of_poses, of_classes] = USUAL;
     let mut tasks = dataset.tasks().iter().map(|own| own.task());
@@ -41,7 +41,7 @@ pub fn usual_model(dataset: &Dataset, name: &str) -> &'static str {
 /// `fit` with the settings by which its model predicts the labels of `task`: classes, or the numbers of a pose.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] for a model of numbers and a task of classes, and the reverse.
+/// [`EvaluateError::Request`] for a model of numbers with a task of classes, or the reverse.
 pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
     if task.kind != TaskKind::Pose {
         return as_classifier(fit, task);
@@ -86,7 +86,7 @@ fn as_classifier(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateErr
     })
 }
 
-/// Dataset whose labels are those that `model` predicts: the classes of its task, if the dataset has the task; otherwise `None`.
+/// Dataset with the classes of the model's task as labels; `None` if the dataset lacks the task.
 ///
 /// # Errors
 /// [`EvaluateError::Unsuited`] for a task of the same name with other classes.

@@ -24,8 +24,8 @@ use task_cells::TaskCells;
 /// Predicts a part of `dataset`. The default is the unseen data: the test part of the model's own dataset, or all rows of any other dataset. Each prediction
 /// includes the distance of its frame from the training part, if the model computes it.
 ///
+/// # Errors
 /// [`EvaluateError`] if the model cannot be used on the dataset, or the dataset cannot be read.
-/// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
 pub fn predict(
     dataset: &Dataset,
     model: &Model,
@@ -61,8 +61,8 @@ fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
 
 /// Predictions of `model` for the rows of `target`, clipped to the bounds of the model, and unclipped.
 ///
+/// # Errors
 /// [`EvaluateError`] if the model cannot be used on the dataset, or the dataset cannot be read.
-/// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
 pub fn predict_target(
     dataset: &Dataset,
     model: &Model,
@@ -118,7 +118,7 @@ fn features_of(
     }
 }
 
-/// Column whose clusters the windows of a model do not cross; `None` for a model without a task.
+/// Column with the clusters for the windows of a model; `None` for a model without a task.
 fn clusters_of(model: &Model) -> Option<&str> {
     let task = model.card().provenance.task.as_ref();
     task.map(|task| task.cluster.as_str())

@@ -48,7 +48,7 @@ pub struct TaskStates {
 }
 
 impl TaskStates {
-    /// No tasks yet, of rows that were paired as `paired` says. `tables` has the digests of the tables by their role.
+    /// State without tasks. `paired` describes the pairing of rows, and `tables` has the digests of the tables by their role.
     pub fn new(paired: String, tables: BTreeMap<String, String>) -> TaskStates {
         TaskStates {
             schema: TASK_STATE_SCHEMA.to_owned(),
@@ -132,7 +132,7 @@ impl TaskStates {
         labels(self).intersection(&labels(other)).next().cloned()
     }
 
-    /// True if the file at `path` says that it has states of tasks.
+    /// True if the file at `path` has a schema of states of tasks.
     pub fn is_at(path: &Path) -> bool {
         let head = read_capped(path)
             .ok()

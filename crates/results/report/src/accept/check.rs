@@ -30,7 +30,7 @@ pub struct LimitCheck {
     pub decision: Option<Decision>,
     /// Effect of the guard on the limit, such as `the limit divided by 1.57`. `None` without a guard, or if the guard has the unit of the value.
     pub guard: Option<String>,
-    /// Result as a word: that of the decision, or pass or fail without a decision rule.
+    /// Result in one word: the word of the decision, or pass or fail without a decision rule.
     pub verdict: Word,
     /// True if the score meets the limit.
     pub is_kept: bool,

@@ -62,7 +62,7 @@ pub struct Sensor {
     /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
-    /// Errors with faults of the pictures; `None` if no fault was tested.
+    /// Prediction errors on pictures with faults; `None` if no fault was tested.
     #[serde(skip)]
     pub faults: Option<FaultResult>,
     /// Unpublished numbers, each with the reason.

@@ -18,7 +18,7 @@ use crate::results::Study;
 const PLACES: [&str; 2] = ["calibration", "point_id"];
 /// Part of the protocol with several light scenes, and the column of the scene.
 const LIGHTS: [&str; 2] = ["light-sweep", "scene"];
-/// Sources of the budget, beside the certificate.
+/// Sources of the budget, in addition to the certificate.
 const SOURCES: [BudgetSource; 3] = [BETWEEN, WITHIN, BIAS];
 /// Command that writes a budget file.
 const TEMPLATE: &str = "taceva budget --template RESULT.json > budget.toml";

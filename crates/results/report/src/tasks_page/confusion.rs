@@ -95,7 +95,7 @@ fn matrix(task: &TaskScores, pairs: &BTreeMap<[&str; 2], Pair>) -> Table {
     table
 }
 
-/// Table of the most frequent errors. Of equally frequent ones, that of the smaller class comes first.
+/// Table of the most frequent errors. Among equally frequent errors, the error of the smaller class comes first.
 fn most_confused(task: &TaskScores, pairs: &BTreeMap<[&str; 2], Pair>) -> Table {
     let mut wrong: Vec<(&str, &str, Pair)> = pairs
         .iter()

@@ -1,4 +1,4 @@
-//! Refused frames and rules.
+//! Errors of frames and rules of events.
 
 /// Reason why a frame or a rule of events is refused.
 ///
@@ -34,7 +34,7 @@ pub enum EventError {
         /// Row of the frame.
         row: u64,
     },
-    /// Times that go back.
+    /// A time earlier than the time of the frame before.
     #[error(
         "row {row}: time {time_s} s is before {before_s} s of row {before_row}, expected times that do not go back; sort the rows by time"
     )]
@@ -51,10 +51,10 @@ pub enum EventError {
     /// A threshold that is not finite.
     #[error("the threshold is {0}, expected a finite number")]
     Threshold(f64),
-    /// A debounce of no frame.
+    /// A debounce of 0 frames.
     #[error("debounce is 0, expected 1 frame or more")]
     Debounce,
-    /// A tolerance that is no time.
+    /// A tolerance that is not a valid time, s.
     #[error("the tolerance is {0} s, expected a number from 0 to 1e6 s")]
     Tolerance(f64),
 }

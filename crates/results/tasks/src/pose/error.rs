@@ -1,4 +1,4 @@
-//! Refused poses and thresholds.
+//! Errors of poses and thresholds.
 
 /// Reason why a pose, a point or a threshold is refused.
 ///

@@ -1,4 +1,4 @@
-//! Refused clouds and thresholds.
+//! Errors of clouds and thresholds.
 
 /// Reason why a cloud of points or a threshold is refused.
 ///

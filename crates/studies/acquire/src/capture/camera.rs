@@ -116,8 +116,8 @@ impl Camera<'_> {
         device_error(kind, self.driver, "capture a frame", why)
     }
 
-    /// Adds a frame to `queue`. Returns false if the receiver no longer exists. If the queue is full, a frame of a real device is dropped, and a bench or a
-    /// recording waits.
+    /// Adds a frame to `queue`. Returns false if the receiver no longer exists. If the queue is full, a frame of a real device is dropped, and a
+    /// simulated or replayed device waits.
     fn put(&self, queue: &SyncSender<Taken>, taken: Taken) -> bool {
         if self.source != DriverSource::Real {
             return queue.send(taken).is_ok();

@@ -154,7 +154,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Notes a turn that was late during a motion, and a reading that was found stale.
+    /// Records a turn that was late during a motion, and a reading that was found stale.
     fn time(&mut self, turn: &Turn) {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
@@ -174,7 +174,7 @@ impl Watcher<'_> {
         self.punctuality.settle(turn.ended_s);
     }
 
-    /// Handles cancellation. The first ends the motion in progress, but not the retreat after it. The second also ends the retreat.
+    /// Handles cancellation. The first cancellation ends the motion in progress, but not the retreat. The second cancellation also ends the retreat.
     fn obey(&mut self) {
         // Read first, so that a second request between both calls is seen.
         let is_insisted = self.progress.is_insisted();

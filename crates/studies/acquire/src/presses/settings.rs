@@ -46,7 +46,7 @@ impl OpenRig {
     }
 }
 
-/// Setting that names the driver of the sensor. The drivers of labels stand with their certificates.
+/// Setting that names the driver of the sensor. Drivers of instruments for labels are stored with the certificates.
 pub(crate) fn sensor_driver(key: &str) -> (String, String) {
     ("sensor_driver".to_owned(), key.to_owned())
 }

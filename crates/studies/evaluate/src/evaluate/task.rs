@@ -17,10 +17,10 @@ use crate::task_state_file::TaskStates;
 use crate::task_view::{in_words, window_of};
 use crate::work::Work;
 
-/// Most folds of the default division.
+/// Maximum number of folds of the default division.
 pub(super) const MOST_FOLDS: usize = 5;
 
-/// Division that keeps each cluster of `task` whole: five folds, or one for each of fewer clusters.
+/// Division that keeps each cluster of `task` whole: five folds, or one fold for each cluster if there are fewer.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for fewer than two clusters.
@@ -45,8 +45,8 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
 
 /// Fits `fit` to the labels of the task called `name`, predicts the samples of unseen clusters, and scores them.
 ///
-/// Without a stated split, [`task_division`] divides the samples. The model of classes is one of
-/// [`CLASSIFIERS`](crate::CLASSIFIERS); a pose needs a model of numbers.
+/// Without a stated split, [`task_division`] divides the samples. A task of classes needs one of [`CLASSIFIERS`](crate::CLASSIFIERS); a task of poses
+/// needs a model of numbers.
 ///
 /// # Errors
 /// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster,
@@ -95,7 +95,7 @@ fn split_of(dataset: &Dataset, task: &Task, stated: Option<&str>) -> Result<Stri
     }
 }
 
-/// Evaluation that predicts the labels of the test part. Its own metric is not read.
+/// Evaluation that predicts the labels of the test part. Its metrics are not used.
 fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
     EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
@@ -207,7 +207,7 @@ pub(super) fn unscored(scored: u64, labelled: usize) -> Option<String> {
     })
 }
 
-/// Remark on each class of a single cluster, which no model has learnt that predicts the cluster.
+/// Remark on each class that occurs in a single cluster. The model that predicts this cluster has not seen the class.
 fn of_one_cluster(dataset: &Dataset, task: &Task, clusters: &[Option<String>]) -> Vec<String> {
     let mut found: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
     let own = dataset.table().task(&task.name);
@@ -266,7 +266,7 @@ pub(super) fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError>
     )))
 }
 
-/// Position of a class that a channel holds as a number.
+/// Position of a class from its number in a channel.
 pub(super) fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     let classes = (0_u32..).take(task.names.len());
     let found = classes

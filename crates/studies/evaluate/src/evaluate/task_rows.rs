@@ -20,7 +20,7 @@ use crate::work::Work;
 /// Rows to score.
 #[derive(Clone, Copy, Debug)]
 pub struct TaskRows<'a> {
-    /// Rows of the dataset, ascending. All others are neither learnt from nor predicted.
+    /// Rows of the dataset, ascending. Other rows are not used for training or prediction.
     pub rows: &'a [usize],
     /// Number of rows of a cluster per second, for the times of onsets.
     pub rate_hz: f64,
@@ -146,7 +146,7 @@ impl<'a> Strokes<'a> {
         }
     }
 
-    /// Division in which every cluster of number `fold` modulo `folds` is tested, and all others are learnt from.
+    /// Division that tests every cluster with a number equal to `fold` modulo `folds`, and trains on all others.
     fn divided(
         &self,
         dataset: &Dataset,

@@ -84,7 +84,7 @@ impl Sequences {
     }
 }
 
-/// Column whose clusters windows do not cross.
+/// Name of the column with the clusters; windows do not cross clusters.
 fn required(window: FrameWindow, column: Option<&str>) -> Result<&str, EvaluateError> {
     column.ok_or_else(|| {
         EvaluateError::Request(format!(

@@ -6,10 +6,10 @@ use taceva_models::{ClassProbabilities, Model, TaskCard};
 
 use crate::error::EvaluateError;
 
-/// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
+/// Suffixes of the columns of a pose: translation in mm, then the quaternion.
 const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
-/// Task of predictions, with what tables say beside the predicted classes.
+/// Task of predictions, with the cells of tables in addition to predicted classes.
 #[derive(Debug)]
 pub(super) struct TaskCells {
     card: TaskCard,
@@ -37,7 +37,7 @@ impl TaskCells {
         }))
     }
 
-    /// Columns of the labels: one of classes, or the seven of a pose.
+    /// Columns of the labels: one column for classes, or seven columns for a pose.
     pub(super) fn label_columns(&self) -> Vec<String> {
         let ends = POSE.iter().filter(|_| self.is_pose());
         let of_pose: Vec<String> = ends

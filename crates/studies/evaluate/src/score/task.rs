@@ -28,7 +28,7 @@ use crate::task_state_file::TaskStates;
 pub use rule::TaskRule;
 pub use spec::TaskSpec;
 
-/// Column with the clusters if the caller names none.
+/// Default column with the clusters.
 const CLUSTER: &str = "point_id";
 
 /// Request to score the tasks of two tables.
@@ -60,8 +60,8 @@ struct RowPair {
 
 /// Scores the tasks of two tables.
 ///
-/// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each
-/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
+/// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each class in
+/// columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, and a place only the first three.
 ///
 /// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
 ///
@@ -83,7 +83,7 @@ struct RowPair {
 /// ```
 ///
 /// # Errors
-/// [`EvaluateError`] if a table cannot be read, rows do not pair, a column is missing, or a cell is no class, number or rotation.
+/// [`EvaluateError`] if a table cannot be read, rows cannot be paired, a column is missing, or a cell is invalid.
 pub fn score_tasks(request: &TaskRequest) -> Result<TaskReport, EvaluateError> {
     task_states(request).map(|states| states.report())
 }
@@ -131,7 +131,7 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     Ok(states)
 }
 
-/// Refuses no task, a task that is named twice, and a rule of an unknown task.
+/// Refuses a request without a task, a task that is named twice, and a rule of an unknown task.
 fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
     let names = || request.tasks.iter().map(|task| task.name.as_str());
     if request.tasks.is_empty() {

@@ -76,7 +76,7 @@ struct Price<'a> {
     frame_s: f64,
     travel_mm_s: f64,
     segment_mm: f64,
-    /// Assumed depth of a load, in mm, for each N.
+    /// Assumed depth of a load, in mm/N.
     depth_mm_per_n: f64,
 }
 

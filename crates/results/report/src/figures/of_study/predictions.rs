@@ -57,7 +57,7 @@ const PANELS: [Plane; 4] = [
 
 /// Predictions of a sensor in a panel.
 struct Cloud {
-    /// Position of its study.
+    /// Index of the study, from 0.
     study: usize,
     dots: Vec<Dot>,
 }

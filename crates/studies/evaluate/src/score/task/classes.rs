@@ -21,7 +21,7 @@ pub(super) struct ClassRow<'a> {
     pub(super) truth: u32,
     /// Position of the predicted class, after the rule.
     pub(super) predicted: u32,
-    /// Position of the predicted class, after the threshold alone.
+    /// Position of the predicted class, after the threshold, before the debounce.
     pub(super) before_debounce: u32,
     /// Scores of the classes; empty if the predictions have none.
     pub(super) scores: Vec<f64>,
@@ -115,7 +115,7 @@ fn rows<'a>(
     Ok((rows, left_out))
 }
 
-/// Refusal of predictions without classes and without scores.
+/// Error for predictions without classes and without scores.
 fn without_predictions(tables: &TaskTables, task: &TaskSpec) -> EvaluateError {
     let table = &tables.prediction;
     EvaluateError::Tables {
@@ -167,7 +167,7 @@ fn apply(
     Ok(())
 }
 
-/// Refuses a threshold that no probability can cross. Log-odds have scores beyond 0 to 1, and take any threshold.
+/// Refuses a threshold outside 0 to 1 for scores within 0 to 1. Other scores, such as log-odds, accept any threshold.
 fn check_threshold(threshold: f64, rows: &[ClassRow<'_>], positive: u32) -> Result<(), String> {
     let scores = rows.iter();
     let scores = scores.filter_map(|row| ScoreColumns::of_class(&row.scores, positive));
@@ -183,7 +183,7 @@ fn check_threshold(threshold: f64, rows: &[ClassRow<'_>], positive: u32) -> Resu
     }
 }
 
-/// Adds the states of ranks, probabilities and places of classes.
+/// Adds the states of the ranking, the probabilities and the places of classes.
 fn of_scores(
     state: &mut TaskState,
     rows: &[ClassRow<'_>],

@@ -1,4 +1,4 @@
-//! Depth maps of a dataset beside those of an array, as states of a task.
+//! Compares true depth maps of a dataset with predicted depth maps of an array. The results are states of a task.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -76,7 +76,7 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
     Ok(states)
 }
 
-/// Content of both sides.
+/// True depth maps of a dataset, and predicted depth maps of a file.
 struct Scored<'a> {
     dataset: &'a Dataset,
     task: &'a Task,
@@ -177,7 +177,7 @@ fn mean_error_mm(truth: &DepthMap, predicted: &DepthMap) -> Option<f64> {
     (!valid.is_empty()).then(|| valid.iter().sum::<f64>() / valid.len() as f64)
 }
 
-/// The task of the dataset, with the clusters of the column `cluster` if that is named.
+/// The task of the dataset, with the clusters of the column `cluster` if a column is named.
 fn task_of(dataset: &Dataset, of: &TaskSpec, cluster: Option<&str>) -> Result<Task, EvaluateError> {
     let own = dataset.tasks().iter().map(|own| own.task());
     let found = own.clone().find(|task| task.name == of.name);

@@ -9,7 +9,7 @@ use taceva_tasks::{TaskState, WorstSample};
 use super::{Clusters, TaskSpec, TaskTables, empty};
 use crate::error::EvaluateError;
 
-/// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
+/// Suffixes of the columns of a pose: translation in mm, then the quaternion.
 const PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
 /// Columns of poses, or of places, which are poses without rotation.
