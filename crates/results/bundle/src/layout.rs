@@ -28,7 +28,7 @@ pub(crate) const HEADER: &str = "dataset.toml";
 pub(crate) const HEADER_ROLE: &str = "dataset";
 /// Folder of recordings with pictures.
 pub(crate) const FRAMES: &str = "frames";
-/// Role of the files of these recordings.
+/// Role of the files of recordings with pictures.
 pub(crate) const FRAMES_ROLE: &str = "frames";
 /// Role of a model file.
 pub(crate) const MODEL_ROLE: &str = "model";

@@ -26,7 +26,7 @@ const UNFINISHED: &str = "Draft: author or licence is missing.";
 pub struct Manifest {
     /// [`BUNDLE_SCHEMA`].
     pub schema: String,
-    /// Name in words.
+    /// Name of the bundle for readers.
     pub name: String,
     /// Day on which the bundle was made.
     pub created: String,
@@ -162,7 +162,7 @@ pub struct TableFiles {
 pub struct Withheld {
     /// Role of the file.
     pub role: String,
-    /// Reason.
+    /// Reason why the file was left out.
     pub reason: String,
     /// Digest of the file.
     pub digest: String,

@@ -23,9 +23,9 @@ const MOST_ADDRESS: usize = 200;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Organization {
-    /// Name.
+    /// Name of the organization.
     pub name: String,
-    /// Address of its page, which identifies it.
+    /// Address of a page of the organization, which identifies the organization.
     pub url: String,
 }
 

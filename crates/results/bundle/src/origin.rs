@@ -1,4 +1,4 @@
-//! Subject and inputs of results, compared with those of their states.
+//! Compares subject and inputs of results with their states.
 
 use taceva_core::shown;
 use taceva_results::{EvaluationReport, OPTIMISTIC, Provenance};

@@ -38,7 +38,7 @@ pub(crate) struct Recomputation {
     /// Scores, subject and provenance, computed from the states.
     pub(crate) states: Result<EvaluationReport, Stop>,
     pub(crate) tables: Result<TableScores, Stop>,
-    /// Table of samples, compared with the model on its recording.
+    /// Comparison of the table of samples with the model on its recording.
     pub(crate) model: Result<PredictionCheck, Stop>,
     pub(crate) fit: Result<FitScores, Stop>,
 }
@@ -46,9 +46,9 @@ pub(crate) struct Recomputation {
 /// Outcome of a repeated fit.
 #[derive(Clone, Debug)]
 pub(crate) enum FitScores {
-    /// The same model.
+    /// The repeated fit gives the same model.
     Equal,
-    /// Scores of another model.
+    /// The repeated fit gives another model, with these scores.
     Other(Vec<Score>),
 }
 

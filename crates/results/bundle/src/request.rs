@@ -15,7 +15,7 @@ pub struct BundleRequest {
     pub result: PathBuf,
     /// Day on which the bundle is made, such as `2026-11-28`.
     pub created: String,
-    /// Name in words; `None` to use the sensors of the results.
+    /// Name of the bundle for readers; `None` to use the sensors of the results.
     pub name: Option<String>,
     /// Authors; none for a draft.
     pub authors: Vec<Author>,
@@ -33,7 +33,7 @@ pub struct BundleRequest {
     pub texts: Vec<PathBuf>,
     /// Model files of the results.
     pub models: Vec<PathBuf>,
-    /// True if model files are added; those of a run come from its folder. Otherwise the bundle states only their digests.
+    /// True if model files are added; model files of a run come from its folder. Otherwise the bundle states only their digests.
     pub adds_models: bool,
     /// True if the pictures behind predictions are added, with the labels of their recordings. Otherwise the bundle states only the digests of the
     /// recordings.

@@ -9,7 +9,7 @@ use crate::manifest::{BundledFile, Manifest, StudyFiles, licence_address};
 
 /// Profile of a run of programs.
 const PROFILE: &str = "https://w3id.org/ro/wfrun/process/0.5";
-/// The program, by the address of its repository.
+/// Address of the repository of the program.
 const PROGRAM: &str = env!("CARGO_PKG_REPOSITORY");
 /// The run that computed the claims again.
 const RUN: &str = "#recomputation";

@@ -40,7 +40,7 @@ pub struct Verification {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct BundleFacts {
-    /// Name.
+    /// Name of the bundle.
     pub name: String,
     /// Day on which the bundle was made.
     pub created: String,
@@ -62,7 +62,7 @@ pub struct BundleFacts {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct LevelCheck {
-    /// Level.
+    /// Level of verification.
     pub level: Level,
     /// True if every file and claim reached the level.
     pub reached: bool,
@@ -103,9 +103,9 @@ impl std::fmt::Display for Verdict {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ClaimCheck {
-    /// Study of the results, from 0.
+    /// Index of the study in the results, from 0.
     pub study: usize,
-    /// Metric.
+    /// Metric, such as `mae`.
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
@@ -118,7 +118,7 @@ pub struct ClaimCheck {
     pub recomputed: Option<f64>,
     /// Deepest level that the claim reached.
     pub level: Level,
-    /// Verdict.
+    /// Verdict on the claim.
     pub verdict: Verdict,
     /// Reason, if the verdict is not `equal`, or why no deeper level was reached.
     pub reason: Option<String>,
@@ -131,13 +131,13 @@ pub struct ClaimCheck {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct OtherCheck {
-    /// Study of the results, from 0.
+    /// Index of the study in the results, from 0.
     pub study: usize,
     /// Part of the results: `mae of Fz`, `by_recording`.
     pub part: String,
     /// [`Verdict::Differs`] or [`Verdict::NotRecomputable`].
     pub verdict: Verdict,
-    /// Reason.
+    /// Reason for the verdict.
     pub reason: String,
 }
 

@@ -8,7 +8,7 @@ pub(crate) struct BudgetSource {
     /// Figure of the result: `error.within`.
     pub(crate) figure: &'static str,
     pub(crate) name: &'static str,
-    /// Lines with further keys. A value `?` is left to the user.
+    /// Lines with further keys. The user must replace a value `?`.
     pub(crate) keys: &'static str,
 }
 

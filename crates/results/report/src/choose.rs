@@ -184,7 +184,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choice
 }
 
-/// Numbers of `sensor` by other definitions than those of the needs, each property once.
+/// Numbers of `sensor` with other definitions than the needs, each property once.
 fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let mut found: Vec<String> = Vec::new();
     for property in needs.iter().flat_map(Need::properties) {

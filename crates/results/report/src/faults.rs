@@ -157,7 +157,7 @@ impl FaultResult {
         self.list.digest.clone() + &tested.collect::<String>()
     }
 
-    /// Wanted faults without scores, with the severity if it is known: `tear 5`.
+    /// Requested faults without scores, with the severity if it is known: `tear 5`.
     pub(crate) fn untested(&self) -> Vec<String> {
         let unreached = self.faults.iter().flat_map(|fault| {
             let unreached = fault.unreached.iter();

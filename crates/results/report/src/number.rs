@@ -25,7 +25,7 @@ pub struct FormattedValue {
 }
 
 impl FormattedValue {
-    /// Formats `value` to a twentieth of the width of `interval`, or to four digits without one.
+    /// Formats `value` to a twentieth of the width of `interval`, or to four digits without an interval.
     pub fn of(value: &Value, interval: Option<&Interval>) -> FormattedValue {
         let Some(number) = value.number() else {
             return FormattedValue {

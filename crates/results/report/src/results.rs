@@ -81,7 +81,7 @@ pub struct Made {
     pub chosen_by: Option<String>,
     /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
-    /// Number of presses in the recording, including failed ones; 0 if the result does not state it.
+    /// Number of presses in the recording, including failed presses; 0 if unknown.
     pub presses: u64,
     /// Digest of the truth table, if two tables were compared.
     pub truth: Option<String>,
@@ -169,7 +169,7 @@ impl Study {
         Ok(reports.into_iter().map(Study::from).collect())
     }
 
-    /// Study without scores, for the result of `taceva stress` alone.
+    /// Study without scores, for a single result of `taceva stress`.
     pub fn of_faults(faults: FaultResult) -> Study {
         let subject = faults.subject.clone();
         Study {
@@ -224,7 +224,7 @@ impl Study {
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// Spread of `score` between trainings of the model. `score` is one of [`deciding`](Study::deciding). `None` for fewer than two values.
+    /// Spread of `score` between trainings of the model. `score` is a score of [`deciding`](Study::deciding). `None` for fewer than two values.
     pub(crate) fn trainings(&self, score: &Score) -> Option<TrainingSpread> {
         let variant = score.decided_by().map(|variant| variant.name.as_str());
         let values = self.values_of_trainings(&score.metric, variant, &score.channel);

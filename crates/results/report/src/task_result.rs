@@ -347,7 +347,7 @@ impl ResultScore {
 }
 
 impl ResultEstimate {
-    /// Ends of the interval; `None` without one.
+    /// Ends of the interval; `None` without an interval.
     pub(crate) fn ends(&self) -> Option<[f64; 2]> {
         match self.ci95 {
             Ends::Known(ends) => Some(ends),

@@ -71,7 +71,7 @@ pub struct Provenance {
     pub frames_decoded: u64,
     /// Third-party plugins behind the result.
     pub plugins: Vec<String>,
-    /// Digest of the table of samples written beside the result.
+    /// Digest of the table of samples written next to the result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_table: Option<String>,
     /// Accepted manual edits of the inputs: file, date, reason and digests.

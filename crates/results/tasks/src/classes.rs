@@ -173,7 +173,7 @@ impl Classes {
         self.clusters.names()
     }
 
-    /// Rule that was applied to the predictions; empty without one.
+    /// Rule that was applied to the predictions; empty without a rule.
     pub(crate) fn rule(&self) -> &str {
         &self.rule
     }

@@ -165,7 +165,7 @@ fn nearest_name(name: &str, names: &[String]) -> Option<String> {
     nearest(name, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
-/// The suggestion at the end of a message; empty without one.
+/// Suggestion at the end of a message; empty without a suggestion.
 fn did_you_mean(nearest: &Option<String>) -> String {
     match nearest {
         Some(name) => format!("; did you mean \"{}\"?", shown(name)),

@@ -1,4 +1,4 @@
-//! State of one task, from which its scores are computed, alone or merged with the states of other tables.
+//! State of one task. Its scores are computed from the state, which can be merged with states of other tables.
 
 use std::collections::BTreeSet;
 
@@ -29,7 +29,7 @@ const OF_PLACES: [&str; 2] = ["pose_translation", "pose_axis"];
 
 /// Sums of one task by cluster, with the definition of the task.
 ///
-/// The scores depend on the samples alone: states of parts of a table, merged in any order, have the scores of the whole table.
+/// The scores depend only on the samples: states of parts of a table, merged in any order, have the scores of the whole table.
 ///
 /// ```
 /// use taceva_tasks::{Classes, TaskState};

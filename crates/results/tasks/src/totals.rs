@@ -93,7 +93,7 @@ pub(crate) fn checked_counts<const SUMS: usize, const COUNTS: usize>(
     Ok(all)
 }
 
-/// Totals of one cluster, and of all others.
+/// Totals of one cluster, and of all other clusters.
 #[derive(Debug)]
 struct Without<'a, const SUMS: usize, const COUNTS: usize> {
     own: &'a Totals<SUMS, COUNTS>,

@@ -55,7 +55,7 @@ pub struct CaptureRequest {
     pub lasts: Option<Duration>,
     /// Number of frames to record; `None` records until the capture is cancelled.
     pub frames: Option<u64>,
-    /// Rig file of all devices, whose axes and latencies the recording keeps; `None` if selectors name the devices.
+    /// Rig file of all devices, whose axes and latencies the recording stores; `None` if selectors name the devices.
     pub rig: Option<RigFile>,
 }
 
@@ -65,7 +65,7 @@ pub struct CaptureRequest {
 pub struct Onlookers<'a> {
     /// Viewer that receives forces and counts of lost frames.
     pub viewer: Option<&'a dyn Viewer>,
-    /// Predictor that receives frames. Its [table](LivePredictor::with_table) is written beside the recording.
+    /// Predictor that receives frames. Its [table](LivePredictor::with_table) is written next to the recording.
     pub predictor: Option<&'a LivePredictor<'a>>,
 }
 

@@ -124,7 +124,7 @@ fn clusters_of(model: &Model) -> Option<&str> {
     task.map(|task| task.cluster.as_str())
 }
 
-/// Rows whose inputs `model` reads to predict `rows`: these rows, or those of their windows.
+/// Rows whose inputs `model` reads to predict `rows`: these rows, or the rows of their windows.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a row without a cluster.

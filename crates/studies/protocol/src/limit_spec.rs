@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use crate::text::Setting;
 
-/// Limits in a scene. If a limit is absent, that of the device applies.
+/// Limits in a scene. If a limit is absent, the limit of the device applies.
 ///
 /// # Units
 /// mm, N and mm/s; `Pz` is the indentation depth, `Fz` the normal force, `Fxy` the magnitude of the shear.

@@ -32,7 +32,7 @@ pub struct Budget {
     pub schema: String,
     /// Name of the measurand.
     pub measurand: String,
-    /// Reading of the instrument; `None` if an expression alone gives the value.
+    /// Reading of the instrument; `None` if an expression gives the value without a reading.
     pub at: Option<f64>,
     /// Unit of all values and uncertainties.
     pub unit: String,

@@ -1,4 +1,4 @@
-//! Initial budget file, with every measured figure and with comments on the missing ones.
+//! Initial budget file, with every measured figure and with comments on missing figures.
 
 use taceva_metrology::budget::{BudgetText, Evidence, Figure, Missing, MonteCarlo};
 use taceva_results::not_measured;

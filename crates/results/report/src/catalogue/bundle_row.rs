@@ -41,7 +41,7 @@ const SHORT: usize = 8;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
-    /// Study of the bundle's results, from 0.
+    /// Index of the study in the results of the bundle, from 0.
     #[serde(default)]
     pub study: usize,
     /// Metric: `mae`.

@@ -22,7 +22,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Scale that contains all true positions and the predicted ones of `picks`; `None` if a channel of the plane is missing.
+    /// Scale that contains all true positions and the predicted positions of `picks`; `None` if a channel of the plane is missing.
     pub(super) fn of(samples: &Samples, picks: &[Pick], study: usize) -> Option<Place> {
         let greatest = |names: [&str; 2]| {
             let channels = names.into_iter().filter_map(|name| samples.channel(name));

@@ -74,7 +74,7 @@ pub(super) fn part(task: &TaskScores, at: usize) -> Option<Markup> {
     })
 }
 
-/// Table with the true classes as rows and the predicted ones as columns.
+/// Table with the true classes as rows and the predicted classes as columns.
 fn matrix(task: &TaskScores, pairs: &BTreeMap<[&str; 2], Pair>) -> Table {
     let names = task.names.iter().map(String::as_str);
     let columns = ["true class"].into_iter().chain(names).map(Column::new);

@@ -16,7 +16,7 @@ pub(super) const DELAYS: usize = 0;
 pub(super) const DURATIONS: usize = 1;
 /// Index of the number of matched onsets.
 pub(super) const MATCHED: usize = 0;
-/// Index of the number of onsets, true and predicted ones together.
+/// Index of the number of onsets, true and predicted onsets together.
 pub(super) const ONSETS: usize = 1;
 /// Index of the number of predicted onsets.
 pub(super) const PREDICTED: usize = 2;

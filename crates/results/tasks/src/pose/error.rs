@@ -58,7 +58,7 @@ pub enum PoseError {
     /// Thresholds that do not ascend.
     #[error("threshold `{text}` after a greater or equal threshold, expected ascending thresholds")]
     Order {
-        /// Text of the threshold that is not greater than the one before.
+        /// Text of the threshold that is not greater than the threshold before.
         text: String,
     },
     /// No threshold for an axis.

@@ -10,7 +10,7 @@ pub(super) const BINS: u64 = 15;
 
 /// Expected calibration error in [`BINS`] bins of equal numbers of samples. `levels` ascend.
 ///
-/// A level is in the bin of its middle sample, so equal probabilities are never divided, and the error depends on the samples alone. Levels without
+/// A level is in the bin of its middle sample, so equal probabilities are never divided, and the error depends only on the samples. Levels without
 /// samples change nothing.
 pub(super) fn expected_error(levels: &[Level]) -> Result<f64, Undefined> {
     let n = Sides::of(levels).n();

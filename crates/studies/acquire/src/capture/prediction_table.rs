@@ -1,4 +1,4 @@
-//! Table of predictions, written beside a recording.
+//! Table of predictions, written next to a recording.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;

@@ -96,7 +96,7 @@ impl Streams<'_> {
         self.counts.count_damaged();
     }
 
-    /// Counts of lost frames so far.
+    /// Current counts of lost frames.
     pub(super) fn facts(&self) -> StreamFacts {
         self.counts.facts()
     }

@@ -47,7 +47,7 @@ impl StudyCache<'_> {
         Ok(value)
     }
 
-    /// Returns the recording at `place`. If there is none, links the one stored under `key`. Otherwise calls `make` and stores its result.
+    /// Returns the recording at `place`, or links the recording stored under `key`. If neither exists, calls `make` and stores its result.
     pub fn recording<E>(
         self,
         key: &Key,

@@ -1,4 +1,4 @@
-//! Scores predictions of a caller's own model, by the same rules as those of built-in models.
+//! Scores predictions of a caller's own model, by the rules of built-in models.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;

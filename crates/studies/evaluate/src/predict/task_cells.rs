@@ -80,7 +80,7 @@ impl TaskCells {
         self.card.kind == TaskKind::Pose.name()
     }
 
-    /// Column with the clusters; `None` if the table has it already.
+    /// Column with the clusters; `None` if the table already has this column.
     pub(super) fn cluster_column<'a>(&'a self, head: &[&str]) -> Option<&'a str> {
         let column = self.card.cluster.as_str();
         (!head.contains(&column)).then_some(column)

@@ -1,4 +1,4 @@
-//! Scores the phases of a run from the table of its samples. Each state holds the sums of the phase that its provenance names.
+//! Scores the phases of a run from the table of its samples. Each state contains the sums of the phase that its provenance names.
 
 use std::num::NonZeroUsize;
 

@@ -6,7 +6,7 @@ use taceva_import::CsvTable;
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Column names that identify a row key. The first is the name that this program writes. The empty name is that of an unnamed index.
+/// Column names that identify a row key. This program writes the first name. An unnamed index has the empty name.
 pub(super) const KEY_NAMES: [&str; 5] = ["sample", "id", "sample_id", "index", ""];
 
 /// Choice of the row key that pairs two tables.

@@ -60,10 +60,11 @@ struct RowPair {
 
 /// Scores the tasks of two tables.
 ///
-/// The column of a task has its name. The truth holds classes by name or by position. The predictions hold classes too, or a score for each class in
-/// columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, and a place only the first three.
+/// The column of a task has its name. The truth contains classes by name or by position. The predictions also contain classes, or a score for each
+/// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm) and `.qx`, `.qy`, `.qz`, `.qw`, and a place only the first
+/// three.
 ///
-/// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
+/// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each sample, in the same order.
 ///
 /// ```
 /// use taceva_evaluate::{ScoreRequest, TaskRequest, score_tasks};

@@ -128,7 +128,7 @@ impl Signals {
     }
 }
 
-/// Rejects a rig with two clocks: that of a simulated bench and that of the machine.
+/// Rejects a rig with two clocks: the clock of a simulated bench and the clock of the machine.
 ///
 /// A real sensor may join a bench. Its frames are then stamped on arrival, and the recording counts as simulated.
 fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {

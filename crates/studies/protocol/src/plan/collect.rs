@@ -47,7 +47,7 @@ impl MetricNeeds {
     }
 }
 
-/// Phase for a metric: the one that varies the fields that the metric reads.
+/// Phase for a metric: the phase that varies the fields that the metric reads.
 fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
     let reads = |field| fields.contains(field);
     match id {

@@ -43,7 +43,7 @@ pub struct PlannedWear {
     pub minutes: f64,
 }
 
-/// The cycles, their time, and the presses before the measured ones.
+/// The cycles, their time, and the presses before the measured presses.
 impl fmt::Display for PlannedWear {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let cycles = counted(self.cycles, "cycle");

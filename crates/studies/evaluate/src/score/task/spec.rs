@@ -28,7 +28,7 @@ pub struct TaskSpec {
     pub positive: Option<String>,
     /// Classes in their order; empty to use the names in both tables.
     pub names: Vec<String>,
-    /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose by its errors alone.
+    /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose only by its errors.
     pub thresholds: Option<PoseThresholds>,
     /// Unit of predicted depths; `None` for mm.
     pub unit: Option<String>,
