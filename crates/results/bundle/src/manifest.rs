@@ -83,7 +83,7 @@ impl BundledFile {
         self.sha256.strip_prefix("sha256:").unwrap_or(&self.sha256)
     }
 
-    /// Media type, as Croissant names it.
+    /// Media type, for Croissant.
     pub(crate) fn media_type(&self) -> &'static str {
         match self.path.rsplit('.').next() {
             Some("json") => "application/json",
@@ -151,7 +151,7 @@ pub struct TableFiles {
     pub truth: String,
     /// The predictions.
     pub prediction: String,
-    /// Key of the rows that the caller chose.
+    /// Name of the key column that the caller chose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
 }

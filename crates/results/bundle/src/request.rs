@@ -54,7 +54,7 @@ pub struct ScoredTables {
     pub truth: PathBuf,
     /// The predictions.
     pub prediction: PathBuf,
-    /// Key of the rows that the caller chose.
+    /// Name of the key column that the caller chose; `None` to find the column by its name.
     pub key: Option<String>,
 }
 

@@ -145,13 +145,13 @@ pub struct OtherCheck {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Summary {
-    /// Equal, bit for bit.
+    /// Number of equal claims, bit for bit.
     pub equal: u64,
-    /// Different, but within the tolerance.
+    /// Number of different claims within the tolerance.
     pub within: u64,
-    /// Different by more than the tolerance.
+    /// Number of claims that differ by more than the tolerance.
     pub differs: u64,
-    /// Not computed again.
+    /// Number of claims that were not computed again.
     pub not_recomputable: u64,
 }
 

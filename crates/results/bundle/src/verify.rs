@@ -17,7 +17,7 @@ use crate::source::Source;
 use crate::study_check::{NO_SUCH_NUMBER, StudyCheck};
 use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verification};
 
-/// Request of a verification.
+/// Request for a verification.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct VerifyRequest {
@@ -49,7 +49,7 @@ impl VerifyRequest {
         }
     }
 
-    /// Level to reach.
+    /// Requested level. The default is [`Level::Model`] with recordings, otherwise [`Level::Predictions`].
     fn deepest(&self) -> Level {
         let default = match self.datasets.is_empty() {
             true => Level::Predictions,

@@ -7,7 +7,7 @@ use taceva_core::shown;
 use taceva_metrics::{Standing, plane_of};
 use taceva_results::{ResultsError, Subject};
 
-/// Placeholder of results for a fault that ends the skill at no severity.
+/// Severity in results for a fault that ends the skill at no severity.
 pub(crate) const NEVER: u8 = 6;
 /// Schema of the results.
 const SCHEMA: &str = "taceva.stress/1";

@@ -2,7 +2,7 @@
 
 use taceva_metrics::{Dyadic, Fraction};
 
-/// 2⁶⁴.
+/// 2⁶⁴, the number of values of a 64-bit limb.
 const LIMB: f64 = 18_446_744_073_709_551_616.0;
 
 /// Quotient of two counts.

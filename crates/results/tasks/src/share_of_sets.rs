@@ -23,13 +23,13 @@ const Z: f64 = 1.96;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PublishedShare {
-    /// Right samples.
+    /// Number of right samples.
     pub hits: u64,
-    /// All samples.
+    /// Number of all samples.
     pub samples: u64,
-    /// Test sets.
+    /// Number of test sets.
     pub sets: u32,
-    /// Published half-width of the interval.
+    /// Published half-width of the interval, as a share.
     pub half_width: f64,
 }
 

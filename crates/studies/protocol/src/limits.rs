@@ -55,7 +55,7 @@ pub struct RigLimits {
 /// mm.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Overshoot {
-    /// Length of a segment.
+    /// Length of a segment, mm.
     pub segment_mm: f64,
     /// Overshoot with healthy signals: one segment, the braking distance and the margin for pose noise.
     pub healthy_mm: f64,

@@ -21,7 +21,7 @@ const SOURCES: [BudgetSource; 8] = [
     CERTIFICATE,
 ];
 
-/// Data for the file.
+/// Data for an initial budget file.
 #[derive(Clone, Copy, Debug)]
 pub struct BudgetTemplate<'a> {
     /// Sensor of the result.

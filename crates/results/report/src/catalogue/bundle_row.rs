@@ -20,7 +20,7 @@ const PREFIX: &str = "sha256:";
 pub(crate) const DEPTH_NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` \
                                      computes it again from sums, and `predictions` from tables of truth and prediction. `model` predicts again on the \
                                      recording, and `fit` fits the model again.";
-/// Digits of a digest in names.
+/// Number of digits of a digest in names.
 const SHORT: usize = 8;
 
 /// Number of a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the entries.

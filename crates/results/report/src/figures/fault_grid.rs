@@ -45,7 +45,7 @@ pub(crate) struct FaultRow {
     pub(crate) degradation: [Option<f64>; 5],
     /// True for each severity of 1 to 5 that was skipped: the fault has no such severity, or the recording lacks required data.
     pub(crate) skipped: [bool; 5],
-    /// First severity without skill.
+    /// First severity without skill, from 1; `None` if the skill remains.
     pub(crate) skill_ends: Option<u8>,
 }
 

@@ -4,7 +4,7 @@ use super::{Table, Words};
 use crate::escape;
 use crate::wrap::wrapped;
 
-/// Gap between two columns of plain text.
+/// Gap between two columns of plain text, in characters.
 const GAP: usize = 2;
 
 impl Table {

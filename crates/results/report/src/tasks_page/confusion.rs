@@ -16,9 +16,9 @@ use crate::table::{Cell, Column, Table};
 const MOST_CLASSES: usize = 12;
 /// Number of listed pairs of more classes.
 const PAIRS: usize = 20;
-/// Room for the names of the true classes, canvas units.
+/// Width for the names of the true classes, canvas units.
 const LEFT: f64 = 150.0;
-/// Room above the matrix, canvas units.
+/// Space above the matrix, canvas units.
 const TOP: f64 = 34.0;
 
 /// Number of samples of a true class that are predicted as a class.

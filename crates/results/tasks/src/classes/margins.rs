@@ -8,11 +8,11 @@ use crate::undefined::Undefined;
 /// Counts of one class.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Margin {
-    /// Samples of the class.
+    /// Number of samples of the class.
     pub(crate) truth: u64,
-    /// Samples predicted as the class.
+    /// Number of samples predicted as the class.
     pub(crate) predicted: u64,
-    /// Samples of the class that are predicted as the class.
+    /// Number of samples of the class that are predicted as the class.
     pub(crate) hits: u64,
 }
 
@@ -150,7 +150,7 @@ impl Margins {
         self.of.iter().map(|of| u64::from(of.truth > 0)).sum()
     }
 
-    /// Samples of the most frequent class.
+    /// Number of samples of the most frequent class.
     pub(crate) fn most(&self) -> u64 {
         self.of.iter().map(|of| of.truth).max().unwrap_or(0)
     }

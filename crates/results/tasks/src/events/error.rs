@@ -17,7 +17,7 @@ pub enum EventError {
     Score {
         /// Row of the frame.
         row: u64,
-        /// Value found.
+        /// Score found.
         value: f64,
     },
     /// A time that is not finite, or too great.
@@ -25,7 +25,7 @@ pub enum EventError {
     Time {
         /// Row of the frame.
         row: u64,
-        /// Value found.
+        /// Time found, s.
         value: f64,
     },
     /// A frame without a time in a sequence with times.
@@ -41,11 +41,11 @@ pub enum EventError {
     TimeGoesBack {
         /// Row of the frame with the earlier time.
         row: u64,
-        /// Time of this frame.
+        /// Time of this frame, s.
         time_s: f64,
         /// Row of the frame before.
         before_row: u64,
-        /// Time of the frame before.
+        /// Time of the frame before, s.
         before_s: f64,
     },
     /// A threshold that is not finite.

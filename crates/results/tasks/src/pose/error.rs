@@ -18,7 +18,7 @@ pub enum PoseError {
         row: u64,
         /// Name of the coordinate: `x`, `y`, `z`.
         axis: &'static str,
-        /// Value found.
+        /// Coordinate found, mm.
         value: f64,
     },
     /// The norm of a quaternion is not 1.

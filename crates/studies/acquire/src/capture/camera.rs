@@ -12,7 +12,7 @@ use super::device_error;
 use super::predictor::LivePredictor;
 use super::streams::Counts;
 
-/// Capacity of the queue of frames.
+/// Capacity of the frame queue, in frames.
 pub(super) const ROOM: usize = 8;
 /// Deadline for each call that requests a frame.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));

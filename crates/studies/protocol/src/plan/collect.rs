@@ -9,7 +9,7 @@ use crate::phase_kind::PhaseKind;
 use crate::press::Press;
 use crate::reason::{PlanReason, PlanSkip, Subject};
 
-/// Requirements of a metric: those in the catalogue, and the phase that fulfils them.
+/// Requirements of a metric in the catalogue, and the phase that fulfils them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct MetricNeeds {
     pub(crate) id: String,

@@ -66,7 +66,7 @@ pub(super) struct Mailbox {
     driver: DriverKey,
     axes: Axes,
     has_tare: bool,
-    /// Number of readings when `read` was last called.
+    /// Number of received readings when `read` was last called.
     taken: u64,
     sequence: Option<u64>,
 }

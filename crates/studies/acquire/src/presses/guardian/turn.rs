@@ -15,12 +15,12 @@ const INTENDED_S: f64 = 0.025;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     pub(super) began_s: f64,
-    /// Requested end of the rest.
+    /// Requested end of the rest before the turn, s.
     pub(super) due_s: f64,
-    /// Actual end of the rest.
+    /// Actual end of the rest before the turn, s.
     pub(super) awake_s: f64,
     pub(super) ended_s: f64,
-    /// Time for which the thread was ready to run but had no processor; `None` if the kernel does not state it.
+    /// Time, s, for which the thread was ready to run but had no processor; `None` if the kernel does not state it.
     pub(super) queued_s: Option<f64>,
 }
 
