@@ -47,7 +47,7 @@ pub struct MadeBundle {
 /// Makes a bundle at `out`: one file if the name ends in `.tar.gz`, else a folder. On failure, `out` is unchanged.
 ///
 /// # Errors
-/// [`BundleError::Input`] if results, states and tables do not belong together; others if a file cannot be read or written.
+/// [`BundleError::Input`] if results, states and tables do not belong together; other errors if a file cannot be read or written.
 pub fn make(request: &BundleRequest, out: &Path) -> Result<MadeBundle, BundleError> {
     let inputs = Inputs::find(request)?;
     let name = out.file_name().unwrap_or_default().to_string_lossy();

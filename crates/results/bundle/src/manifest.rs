@@ -34,7 +34,7 @@ pub struct Manifest {
     pub taceva: String,
     /// SPDX identifier of the licence; `None` for a draft.
     pub licence: Option<String>,
-    /// Authors; none for a draft.
+    /// Authors; empty for a draft.
     pub authors: Vec<Author>,
     /// Organization of the authors, which publishes the bundle.
     #[serde(default, skip_serializing_if = "Option::is_none")]

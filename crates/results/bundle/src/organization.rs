@@ -62,7 +62,7 @@ impl fmt::Display for Organization {
     }
 }
 
-/// True for an address of the web whose characters need no escape.
+/// True for a web address without characters that need escaping.
 fn is_address(text: &str) -> bool {
     let is_web = ["https://", "http://"].iter().any(|scheme| {
         let rest = text.strip_prefix(scheme);

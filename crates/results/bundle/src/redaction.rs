@@ -127,7 +127,7 @@ fn is_path(word: &str) -> bool {
     drive || is_rooted || beginnings.iter().any(|own| word.starts_with(own))
 }
 
-/// Length of the path at the start of `rest`: up to the closing quote, or the end of the word without one.
+/// Length of the path at the start of `rest`: up to the closing quote, or the end of the word without a quote.
 fn path_length(rest: &str, quote: Option<char>) -> usize {
     let ends = |letter: char| match quote {
         Some(quote) => letter == quote || letter == ',' || letter == '\n',

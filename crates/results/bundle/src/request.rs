@@ -17,7 +17,7 @@ pub struct BundleRequest {
     pub created: String,
     /// Name of the bundle for readers; `None` to use the sensors of the results.
     pub name: Option<String>,
-    /// Authors; none for a draft.
+    /// Authors; empty for a draft.
     pub authors: Vec<Author>,
     /// Organization of the authors, which publishes the bundle.
     pub organization: Option<Organization>,

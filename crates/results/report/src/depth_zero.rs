@@ -22,7 +22,7 @@ const DEPTH: &str = "Pz";
 /// ```
 ///
 /// # Errors
-/// A message if `channel` has no zero, or no sample has a fitted one.
+/// A message if `channel` has no zero, or no sample has a fitted zero.
 pub fn depth_zero_figure(samples: &Samples, channel: &str) -> Result<Figure, String> {
     let labels = samples.channel(channel).filter(|_| channel == DEPTH);
     let labels = labels.ok_or_else(|| {

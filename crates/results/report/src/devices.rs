@@ -81,7 +81,7 @@ pub(crate) fn devices(study: &Study) -> Vec<Device> {
     devices.filter(|device| !device.facts.is_empty()).collect()
 }
 
-/// Table of the devices of measured recordings; `None` if no recording states one.
+/// Table of the devices of measured recordings; `None` if no recording states a device.
 ///
 /// ```
 /// let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "gel", "source": "recorded"}, "metrics": {},

@@ -64,7 +64,7 @@ impl Light {
         ))
     }
 
-    /// Remark on nearly constant light: `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`. `None` without the flag.
+    /// Remark on nearly constant light: `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`. `None` if the score lacks this flag.
     pub(crate) fn low_stimulus(&self) -> Option<String> {
         if !self.is_low {
             return None;

@@ -16,7 +16,7 @@ const BEYOND: usize = 3;
 /// Value and interval, formatted to the digits that the interval supports.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormattedValue {
-    /// Formatted value; empty if there is none.
+    /// Formatted value; empty without a value.
     pub value: String,
     /// Both formatted ends of the interval; `None` without an interval.
     pub interval: Option<[String; 2]>,

@@ -28,7 +28,7 @@ use crate::faults::FaultResult;
 
 /// Text in the method of an interval that leaves out groups of the split.
 pub(crate) const BY_GROUP: &str = " by group";
-/// Definition of published numbers whose source states none.
+/// Definition of published numbers whose source states no definition.
 pub(crate) const PUBLISHED: &str = "published";
 
 /// Results of one sensor, from an [`EvaluationReport`] or from published numbers.
@@ -89,7 +89,7 @@ pub struct Made {
     pub seen_part: Option<String>,
     /// Scored part of the split: `test` or `all`; `None` without a split.
     pub part: Option<String>,
-    /// Number of joined recordings; 0 for a single one.
+    /// Number of joined recordings; 0 for a single recording.
     pub recordings: usize,
     /// Cross-validation as text, if each sample was held out once: `5-fold cross-validation by point`.
     pub folds: Option<String>,

@@ -71,7 +71,7 @@ pub struct TaskAnswer {
     pub sides: Sides<usize>,
     /// Both values; `None` for an undefined value.
     pub values: Sides<Option<f64>>,
-    /// Difference with its test, or the reason why there is none.
+    /// Difference with its test, or the reason why there is no difference.
     pub difference: Result<Difference, String>,
     /// Position of the result that is shown to be better.
     pub winner: Option<usize>,

@@ -14,7 +14,7 @@ use crate::task::StudyTask;
 
 /// Schema of one evaluation report.
 ///
-/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4. The schema after this one is 1.5.
+/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4. The next schema is 1.5.
 pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
 
 /// Scores of one sensor, with subject and provenance.

@@ -28,7 +28,7 @@ pub struct TaskNumber<'a> {
     pub unit: &'a str,
     /// The score; `None` if it is undefined.
     pub value: Option<f64>,
-    /// 95 % interval by cluster, if there is one.
+    /// 95 % interval by cluster, if there is an interval.
     pub interval: Option<[f64; 2]>,
     /// Score of the best constant prediction, if a constant has a score.
     pub of_constant: Option<f64>,

@@ -35,7 +35,7 @@ pub struct Estimate {
     /// Score of the best constant prediction; `None` if no constant has a score.
     pub of_constant: Option<f64>,
     /// Score without each cluster with samples, in the order of cluster names, for comparisons in pairs. Reports omit these scores; single classes
-    /// have none.
+    /// have no such scores.
     pub left_out: Vec<LeftOut>,
 }
 

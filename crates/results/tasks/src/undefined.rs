@@ -44,7 +44,7 @@ pub enum Undefined {
     NoPixelSize,
     /// There is no true or predicted onset.
     NoOnset,
-    /// No predicted onset matches a true one.
+    /// No predicted onset matches a true onset.
     NoMatch,
     /// A sequence has no times.
     NoTimes,

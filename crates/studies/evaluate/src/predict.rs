@@ -45,8 +45,7 @@ pub fn predict(
     })
 }
 
-/// Group of each row of `target`, from the split of the model, or else from a column that names groups. It replaces the contact point if no contact point is
-/// named.
+/// Group of each row of `target`, from the split of the model, or else from a column that names groups. The group replaces a missing contact point.
 fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
     let divided = target.divided.as_ref();
     if let Some(groups) = divided.and_then(|divided| divided.groups.as_ref()) {

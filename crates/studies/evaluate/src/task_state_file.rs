@@ -185,7 +185,7 @@ impl TaskStates {
 /// Merges files with states of tasks.
 ///
 /// # Errors
-/// [`EvaluateError::State`] with the first file that does not merge with those before it. [`EvaluateError::Request`] without a file.
+/// [`EvaluateError::State`] with the first file that cannot be merged with the earlier files. [`EvaluateError::Request`] without a file.
 pub fn merge_task_states(paths: &[PathBuf]) -> Result<TaskStates, EvaluateError> {
     let mut merged: Option<TaskStates> = None;
     for path in paths {

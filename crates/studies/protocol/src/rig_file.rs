@@ -187,7 +187,7 @@ impl RigFile {
     ///
     /// - invalid TOML, or an unknown key, with the most similar known key;
     /// - axes that form no right-handed frame;
-    /// - a certificate of another instrument, or one that contradicts itself;
+    /// - a certificate of another instrument, or a certificate that contradicts itself;
     /// - a place, latency, patience or limit out of range.
     pub fn parse(source_name: &str, text: &str) -> Result<RigFile, SceneError> {
         let text = Text::new(source_name, text)?;

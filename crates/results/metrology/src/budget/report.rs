@@ -219,7 +219,7 @@ impl Budget {
         self.half_width().map(two_digits)
     }
 
-    /// Half-width of the interval; the greater one for an asymmetric interval. Equals U unless the interval is from draws.
+    /// Half-width of the interval; the greater half-width for an asymmetric interval. Equals U unless the interval is from draws.
     pub fn half_width(&self) -> Option<f64> {
         match self.method {
             Method::FirstOrder => self.expanded,

@@ -224,7 +224,7 @@ impl Measured {
     }
 }
 
-/// True for an address of the web whose characters need no escape.
+/// True for a web address without characters that need escaping.
 ///
 /// ```
 /// use taceva_report::catalogue::is_address;

@@ -83,7 +83,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
     table
 }
 
-/// Known prices: `510 USD`, `15 USD (parts)`; a dash if there is none.
+/// Known prices: `510 USD`, `15 USD (parts)`; a dash without prices.
 pub(crate) fn prices(sensor: &Sensor) -> String {
     let prices = sensor.prices.iter().map(|price| match price.goods {
         Goods::Sensor => price.shown(),
@@ -93,7 +93,7 @@ pub(crate) fn prices(sensor: &Sensor) -> String {
     or_dash(prices.collect())
 }
 
-/// Ways to get a sensor: `bought; built`; a dash if none is known.
+/// Ways to get a sensor: `bought; built`; a dash if no way is known.
 fn ways(sensor: &Sensor) -> String {
     let ways = sensor.availability.iter();
     or_dash(ways.map(|offer| offer.way.word().to_owned()).collect())

@@ -69,7 +69,7 @@ fn entry(study: &Study, name: &str, number: usize) -> Markup {
     }
 }
 
-/// Budget of the default channel at the median of its labels, or the reason why there is none.
+/// Budget of the default channel at the median of its labels, or the reason why there is no budget.
 fn budget(study: &Study) -> Result<Budget, String> {
     let Some(samples) = &study.samples else {
         let remedy = "`--samples-out` of evaluate writes them beside the result";

@@ -46,7 +46,7 @@ impl Place {
         })
     }
 
-    /// Circle with the true and the predicted position; empty if one of them is unknown.
+    /// Circle with the true and the predicted position; empty if a position is unknown.
     pub(super) fn draw(&self, samples: &Samples, pick: &Pick) -> Markup {
         let pair = |name: &str| samples.channel(name)?.pair(pick.row);
         let (Some([true_x, predicted_x]), Some([true_y, predicted_y])) =

@@ -75,7 +75,7 @@ pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) ->
     }
 }
 
-/// Published number for the sensor of `study`; `None` if the paper states none.
+/// Published number for the sensor of `study`; `None` if the paper states no number.
 pub(super) fn printed(study: &Study, metric: &str, channel: &str) -> Option<f64> {
     let sensor = find(&study.sensor)?;
     let is_meant = |result: &&Published| result.metric == metric && result.channel == channel;

@@ -164,7 +164,7 @@ impl ScoreTable {
         count.filter(|n| *n > 0)
     }
 
-    /// Intervals of the caption: `, with 95 % intervals`, or the reason why there are none.
+    /// Intervals of the caption: `, with 95 % intervals`, or the reason why there are no intervals.
     fn intervals(&self) -> String {
         if self.valued().any(|cell| cell.ends.is_some()) {
             return ", with 95 % intervals".to_owned();

@@ -48,7 +48,7 @@ pub(super) fn difference(subjects: Sides<Subject<'_>>, seed: u64) -> Result<Diff
 /// Parts of the clusters in a score.
 struct Parts {
     clusters: Vec<Part>,
-    /// Greatest magnitude of the numbers whose difference is a part.
+    /// Greatest magnitude of the terms n s and n′ s′.
     greatest: f64,
 }
 

@@ -51,7 +51,7 @@ impl Sides {
     }
 }
 
-/// Probability that a positive sample has a greater score than a negative one, equal scores counted half.
+/// Probability that a positive sample has a greater score than a negative sample; equal scores count half.
 ///
 /// `levels` ascend. Levels without samples do not change the result.
 pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
@@ -104,7 +104,7 @@ pub(crate) fn average_precision_of_rest(levels: &[Level]) -> Result<f64, Undefin
     Ok(sum / positive as f64)
 }
 
-/// Number of positive samples. Undefined if there are none.
+/// Number of positive samples. Undefined without positive samples.
 fn positives(levels: &[Level]) -> Result<u64, Undefined> {
     let sides = Sides::of(levels);
     match (sides.n(), sides.positive) {

@@ -30,7 +30,7 @@ type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
 /// Function from totals to a value.
 type ValueOf = fn(&ShapeTotals) -> Result<f64, Undefined>;
 
-/// Definition of a task of shapes: the threshold τ of F scores, by default none.
+/// Definition of a task of shapes: the threshold τ of F scores, by default no threshold.
 ///
 /// ```
 /// use taceva_tasks::shape::ShapeTask;

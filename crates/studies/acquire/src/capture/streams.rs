@@ -64,7 +64,7 @@ impl Counts {
 /// Streams of frames and readings from the devices.
 pub(super) struct Streams<'a> {
     pub(super) queue: Receiver<Taken>,
-    /// Readings of the transducer, if there is one.
+    /// Readings of the transducer, if there is a transducer.
     pub(super) track: Option<&'a Track>,
     pub(super) counts: &'a Counts,
 }

@@ -167,7 +167,7 @@ impl ClockFollower {
         ])
     }
 
-    /// Adds the offset of a frame to its block. The first frame after the end of a block begins the next one, so that no block spans a pause.
+    /// Adds the offset of a frame to its block. The first frame after the end of a block begins the next block, so that no block spans a pause.
     fn see(&mut self, seen: Offset) {
         let lasts_s = (BLOCK_S * 2.0_f64.powi(self.merged)).min(BLOCK_MAX_S);
         if let Some(block) = self.block {

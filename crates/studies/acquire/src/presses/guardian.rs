@@ -1,8 +1,8 @@
 //! Guard threads of a run on real devices. They detect limits that are exceeded during a motion.
 //!
 //! One thread owns the force transducer: it shows each reading to the [`Supervisor`] and stores it for the run. Another thread reads the pose of the
-//! robot, over a connection of its own if the robot has one, and the enabling switch. It also watches for missing readings and cancellation. Both
-//! threads halt through the supervisor, which makes all decisions.
+//! robot, over its own connection if the robot has a second connection, and the enabling switch. It also watches for missing readings and
+//! cancellation. Both threads halt through the supervisor, which makes all decisions.
 //!
 //! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
 //! milliseconds. A turn that took too long is printed with its cause, and so are the counts of a session at its end.
@@ -43,7 +43,7 @@ pub(super) struct Guarded<'a> {
     /// Key of the transducer's driver.
     pub(super) driver: DriverKey,
     pub(super) limits: RigLimits,
-    /// Enabling switch, if the rig has one.
+    /// Enabling switch, if the rig has a switch.
     pub(super) switch: Option<&'a dyn EnablingSwitch>,
     pub(super) cancel: &'a Cancel,
     pub(super) progress: &'a dyn Progress,

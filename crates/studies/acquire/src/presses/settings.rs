@@ -26,8 +26,8 @@ impl OpenRig {
         warnings
     }
 
-    /// Shows the operator, if any, the warnings of the devices and the contradictions of certificates. Messages in `shown` are omitted, and the others are
-    /// added to `shown`.
+    /// Shows the operator, if any, the warnings of the devices and the contradictions of certificates. Messages in `shown` are omitted, and other
+    /// messages are added to `shown`.
     pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
         let Some(operator) = workshop.operator else {
             return;

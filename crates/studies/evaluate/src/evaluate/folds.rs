@@ -69,7 +69,7 @@ pub(crate) fn by_default(dataset: &Dataset, seed: u64) -> Result<Option<Folds<'_
     }
 }
 
-/// Folds of the cross-validation that `request` names; `None` if it names none.
+/// Folds of the cross-validation that `request` names; `None` if it names no cross-validation.
 ///
 /// # Errors
 /// Errors of [`of`].

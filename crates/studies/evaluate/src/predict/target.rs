@@ -27,7 +27,7 @@ pub struct Target {
     pub part: DataPart,
     /// Rows to predict, ascending.
     pub rows: Vec<usize>,
-    /// Division of the dataset, if there is one.
+    /// Division of the dataset, if the dataset is divided.
     pub divided: Option<Divided>,
     /// Number of rows of the part that lack the input of the model.
     pub left_out: usize,

@@ -91,7 +91,7 @@ impl TaskCells {
         self.clusters[row].clone().unwrap_or_default()
     }
 
-    /// Columns of the probabilities, one for each class; none if the model does not estimate them.
+    /// Columns of the probabilities, one column for each class; empty if the model does not estimate probabilities.
     pub(super) fn score_columns(&self) -> Vec<String> {
         let names = self.card.names.iter();
         let names = names.filter(|_| self.probabilities.is_some());

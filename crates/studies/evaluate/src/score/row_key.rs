@@ -120,7 +120,7 @@ impl RowKeys {
             .flat_map(|pair| [pair.truth.as_str(), pair.prediction.as_str()])
     }
 
-    /// Key columns that must agree in every pair of rows. These are the keys that did not pair the rows; there are none if the caller chose the pairing.
+    /// Key columns that must agree in every pair of rows. These are the keys that did not pair the rows; empty if the caller chose the pairing.
     pub(super) fn others(&self, by: Option<&KeyPair>) -> impl Iterator<Item = &KeyPair> {
         let pairs = self.pairs.iter().filter(|_| !self.is_chosen);
         pairs.filter(move |pair| Some(*pair) != by)

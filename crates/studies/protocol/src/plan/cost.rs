@@ -22,7 +22,7 @@ pub struct Cost {
     pub minutes: f64,
 }
 
-/// Frame rate assumed if none is stated, in frames per second. It is just below the frame rate of the slowest sensor in the TacEva study.
+/// Frame rate assumed if no rate is stated, in frames per second. It is just below the frame rate of the slowest sensor in the TacEva study.
 const UNKNOWN_RATE: f64 = 24.0;
 /// Duration of reading force and pose after a segment, in s.
 const LOOK_S: f64 = 0.005;

@@ -22,7 +22,7 @@ pub struct RigSensor {
     pub opaque: Option<Setting<bool>>,
     /// True if the gel has markers. A scene must not state the opposite.
     pub markers: Option<Setting<bool>>,
-    /// Outline of the sensing surface, seen from above. A scene may state a smaller one.
+    /// Outline of the sensing surface, seen from above. A scene may state a smaller outline.
     pub footprint: Option<Setting<FootprintSpec>>,
     /// Calibration certificate.
     pub certificate: Option<Certificate>,

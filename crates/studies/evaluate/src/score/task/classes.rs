@@ -23,7 +23,7 @@ pub(super) struct ClassRow<'a> {
     pub(super) predicted: u32,
     /// Position of the predicted class, after the threshold, before the debounce.
     pub(super) before_debounce: u32,
-    /// Scores of the classes; empty if the predictions have none.
+    /// Scores of the classes; empty if the predictions have no scores.
     pub(super) scores: Vec<f64>,
 }
 

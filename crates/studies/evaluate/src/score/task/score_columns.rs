@@ -21,11 +21,11 @@ pub(super) struct ScoreColumns<'a> {
 }
 
 impl<'a> ScoreColumns<'a> {
-    /// Columns of the scores of `task`; `None` if the predictions have none.
+    /// Columns of the scores of `task`; `None` if the predictions have no such columns.
     ///
     /// # Errors
-    /// [`EvaluateError`] for a column of an unknown class, or if some classes have a column and others have none. If there are two classes, a column
-    /// of the positive class suffices.
+    /// [`EvaluateError`] for a column of an unknown class, or if only some classes have a column. If there are two classes, a column of the positive
+    /// class suffices.
     pub(super) fn of(
         tables: &'a TaskTables,
         task: &TaskSpec,
@@ -119,7 +119,7 @@ impl<'a> ScoreColumns<'a> {
     }
 }
 
-/// Classes without a column of scores, although others have one.
+/// Classes without a column of scores, although other classes have a column.
 struct Unmatched<'a> {
     missing: Vec<&'a str>,
     stated: Vec<&'a str>,
