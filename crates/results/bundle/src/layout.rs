@@ -16,9 +16,9 @@ pub(crate) const CITATION: &str = "CITATION.cff";
 pub(crate) const LICENCE: &str = "LICENSE";
 /// The claims for the hub of Hugging Face.
 pub(crate) const EVAL_RESULTS: &str = ".eval_results/taceva.yaml";
-/// The description as a Croissant.
+/// File with the description as a Croissant.
 pub(crate) const CROISSANT: &str = "croissant.json";
-/// The description as an RO-Crate.
+/// File with the description as an RO-Crate.
 pub(crate) const CRATE: &str = "ro-crate-metadata.json";
 /// Files that the manifest generates.
 pub(crate) const GENERATED: [&str; 6] = [CARD, CITATION, LICENCE, EVAL_RESULTS, CROISSANT, CRATE];

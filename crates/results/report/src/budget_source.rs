@@ -1,4 +1,4 @@
-//! Sources of a budget that a result can give.
+//! Sources of a budget that a result can provide.
 
 use crate::escape::toml_string as quoted;
 
@@ -38,7 +38,7 @@ pub(crate) const DRIFT: BudgetSource = source(
 pub(crate) const CERTIFICATE: BudgetSource = source("certificate", "reference", "");
 
 impl BudgetSource {
-    /// The source in a budget file.
+    /// Text of the source for a budget file.
     pub(crate) fn text(&self) -> String {
         format!(
             "[[source]]\nname = {}\nfrom = {}\n{}",

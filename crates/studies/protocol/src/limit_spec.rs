@@ -35,7 +35,7 @@ impl LimitSpec {
         ]
     }
 
-    /// Merges the limits of this table with those of `outer` as defaults.
+    /// Merges the limits of this table with the limits of `outer` as defaults.
     pub(crate) fn or(self, outer: LimitSpec) -> LimitSpec {
         LimitSpec {
             depth_max_mm: self.depth_max_mm.or(outer.depth_max_mm),

@@ -93,7 +93,7 @@ impl PhaseInputs<'_> {
         }
     }
 
-    /// Cycles of load before the measured presses of `stage`, in order.
+    /// Load cycles before the measured presses of `stage`, in order.
     pub(crate) fn loads(&self, stage: &WearStage) -> Vec<Press> {
         let spec = self.protocol.wear.as_ref();
         let load = spec.and_then(|spec| Some((spec, WearLoad::from_name(&spec.load.value)?)));

@@ -72,7 +72,7 @@ pub struct Plan {
     pub frame: Option<FrameInfo>,
     /// Size to which frames are reduced before storage; `None` stores full frames.
     pub kept_frames: Option<FrameSize>,
-    /// Cycles of load before the measured presses; `None` without `[protocol.wear]`.
+    /// Load cycles before the measured presses; `None` without `[protocol.wear]`.
     pub wear: Option<PlannedWear>,
     /// Estimated cost.
     pub cost: Cost,

@@ -32,7 +32,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// Score with the value, unit and interval of the variant, or the reason why there is no such variant.
+    /// Score with the value, unit and interval of the variant, or the reason why the variant is missing.
     pub(super) fn score(&self) -> Result<Score, String> {
         let Some(name) = self.variant else {
             return Ok(self.whole.clone());

@@ -91,6 +91,6 @@ impl Roughly {
 pub struct Missing {
     /// Name of the metric.
     pub metric: String,
-    /// Reason why it is missing.
+    /// Reason why the number is missing.
     pub reason: String,
 }

@@ -164,7 +164,7 @@ fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
     format!("{median:.1e}").parse().unwrap_or(median)
 }
 
-/// Measured figures: figures of residuals, and figures that the budget lists as effects without a source.
+/// Measured figures of residuals, and figures that the budget lists as effects without a source.
 fn evidence(
     study: &Study,
     samples: &Samples,

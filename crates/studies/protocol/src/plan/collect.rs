@@ -104,7 +104,7 @@ pub struct Fit {
     pub phase: PhaseKind,
 }
 
-/// A plan in progress. It is complete at first, and becomes smaller with each pass.
+/// A plan in progress. The plan is complete at first, and becomes smaller with each pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Collected {
     pub(crate) metrics: Vec<PlannedMetric>,

@@ -1,4 +1,4 @@
-//! Cycles of load of a stage, put before its measured presses after all passes. No pass removes cycles.
+//! Load cycles of a stage, put before its measured presses after all passes. No pass removes cycles.
 
 use std::fmt;
 
