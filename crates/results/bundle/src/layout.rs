@@ -2,7 +2,7 @@
 
 /// The manifest, written last and sealed.
 pub(crate) const MANIFEST: &str = "bundle.json";
-/// The results, as they were written.
+/// The results of the bundle.
 pub(crate) const RESULTS: &str = "results.json";
 /// The digest of the samples.
 pub(crate) const SAMPLES: &str = "samples.json";
@@ -16,9 +16,9 @@ pub(crate) const CITATION: &str = "CITATION.cff";
 pub(crate) const LICENCE: &str = "LICENSE";
 /// The claims for the hub of Hugging Face.
 pub(crate) const EVAL_RESULTS: &str = ".eval_results/taceva.yaml";
-/// The description as a Croissant.
+/// File with the description as a Croissant.
 pub(crate) const CROISSANT: &str = "croissant.json";
-/// The description as an RO-Crate.
+/// File with the description as an RO-Crate.
 pub(crate) const CRATE: &str = "ro-crate-metadata.json";
 /// Files that the manifest generates.
 pub(crate) const GENERATED: [&str; 6] = [CARD, CITATION, LICENCE, EVAL_RESULTS, CROISSANT, CRATE];
@@ -28,11 +28,11 @@ pub(crate) const HEADER: &str = "dataset.toml";
 pub(crate) const HEADER_ROLE: &str = "dataset";
 /// Folder of recordings with pictures.
 pub(crate) const FRAMES: &str = "frames";
-/// Role of the files of these recordings.
+/// Role of the files of recordings with pictures.
 pub(crate) const FRAMES_ROLE: &str = "frames";
 /// Role of a model file.
 pub(crate) const MODEL_ROLE: &str = "model";
-/// Texts that a bundle may hold.
+/// Optional text files of a bundle.
 pub(crate) const TEXTS: [&str; 5] = [
     "scene.toml",
     "rig.toml",
@@ -43,7 +43,7 @@ pub(crate) const TEXTS: [&str; 5] = [
 
 /// Maximum number of files in a bundle.
 pub(crate) const MOST_FILES: usize = 4096;
-/// Maximum number of files of recordings with pictures; the rest is left for the other files.
+/// Maximum number of files of recordings with pictures; 256 remain for the other files.
 pub(crate) const MOST_FRAMES: usize = MOST_FILES - 256;
 /// Default maximum size of all files together, bytes.
 pub const MOST_BYTES: u64 = 2 << 30;
@@ -69,10 +69,10 @@ pub(crate) const MOST_NAME: usize = 255;
 pub(crate) const MOST_PARTS: usize = 8;
 /// Maximum ratio of the unpacked to the packed size of a bundle, before [`GROWTH_BYTES`] is added.
 pub(crate) const GROWTH: u64 = 128;
-/// Unpacked bytes that a packed bundle of any size may have in addition.
+/// Unpacked size, bytes, that is allowed in addition to the ratio [`GROWTH`].
 pub(crate) const GROWTH_BYTES: u64 = 64 << 20;
 
-/// True for a name that a bundle gives to its files.
+/// True for the name of a file or folder of bundles.
 pub(crate) fn is_own(name: &str) -> bool {
     let fixed = [MANIFEST, RESULTS, SAMPLES, ENVIRONMENT];
     let is_inner = ["states/", "tables/", "model/", "frames/"]

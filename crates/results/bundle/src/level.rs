@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-/// Depth to which a bundle is verified. Each level needs those before.
+/// Depth to which a bundle is verified. Each level requires the levels before it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 #[non_exhaustive]
@@ -17,7 +17,7 @@ pub enum Level {
     Scores,
     /// Tables reproduce the states and the scores.
     Predictions,
-    /// The model reproduces the predictions of the tables on its recording.
+    /// The model reproduces the predictions in the tables from its recording.
     Model,
     /// A fit by the model card reproduces the model, or gives scores within the intervals of the claims.
     Fit,

@@ -5,7 +5,7 @@ use taceva_core::nearest;
 /// Longest licence, in bytes.
 const MOST_LICENCE: usize = 64;
 
-/// Identifiers of licences for data, documents, designs and software. Each has a page at SPDX, to which forms link.
+/// Identifiers of licences for data, documents, designs and software. Generated files link to the SPDX page of the licence.
 const KNOWN: [&str; 60] = [
     "0BSD",
     "AGPL-3.0-only",
@@ -69,7 +69,7 @@ const KNOWN: [&str; 60] = [
     "etalab-2.0",
 ];
 
-/// True for an SPDX identifier of a licence in use for data or software, in the letters of SPDX.
+/// True for an SPDX identifier of a licence in use for data or software, with the upper and lower case of SPDX.
 ///
 /// ```
 /// use taceva_bundle::is_licence;
@@ -79,7 +79,7 @@ pub fn is_licence(text: &str) -> bool {
     KNOWN.contains(&text)
 }
 
-/// Expected licence in words, for a `text` that is none, with the nearest identifier.
+/// Expectation for the message on an invalid licence `text`, with the nearest identifier.
 ///
 /// ```
 /// assert_eq!(

@@ -1,4 +1,4 @@
-//! Makes a bundle: writes it beside its target, compares it with numbers that are computed again, then renames it.
+//! Makes a bundle: writes a temporary copy, compares its numbers with recomputed numbers, then renames the copy.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -47,7 +47,7 @@ pub struct MadeBundle {
 /// Makes a bundle at `out`: one file if the name ends in `.tar.gz`, else a folder. On failure, `out` is unchanged.
 ///
 /// # Errors
-/// [`BundleError::Input`] if results, states and tables do not belong together; others if a file cannot be read or written.
+/// [`BundleError::Input`] if results, states and tables do not belong together; other errors if a file cannot be read or written.
 pub fn make(request: &BundleRequest, out: &Path) -> Result<MadeBundle, BundleError> {
     let inputs = Inputs::find(request)?;
     let name = out.file_name().unwrap_or_default().to_string_lossy();
@@ -74,7 +74,7 @@ pub fn make(request: &BundleRequest, out: &Path) -> Result<MadeBundle, BundleErr
     Ok(made)
 }
 
-/// Rejects a folder with anything but files of a bundle.
+/// Rejects a folder with files that do not belong to a bundle.
 fn check_replaceable(out: &Path) -> Result<(), BundleError> {
     let refused = |what: &str| {
         let problem = format!("{what}, which is not replaced; name another place");
@@ -219,7 +219,7 @@ fn set_levels(
     Ok(())
 }
 
-/// `problem` with the files that the caller named in place of their copies below `root`.
+/// `problem` with the paths of the caller in place of their copies below `root`.
 fn as_given(problem: &str, manifest: &Manifest, inputs: &Inputs, root: &Path) -> String {
     let mut problem = problem.to_owned();
     for (files, study) in manifest.studies.iter().zip(&inputs.studies) {

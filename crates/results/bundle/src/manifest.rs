@@ -26,15 +26,15 @@ const UNFINISHED: &str = "Draft: author or licence is missing.";
 pub struct Manifest {
     /// [`BUNDLE_SCHEMA`].
     pub schema: String,
-    /// Name in words.
+    /// Name of the bundle for readers.
     pub name: String,
-    /// Day on which it was made.
+    /// Day on which the bundle was made.
     pub created: String,
-    /// Version of the program that made it.
+    /// Version of the program that made the bundle.
     pub taceva: String,
     /// SPDX identifier of the licence; `None` for a draft.
     pub licence: Option<String>,
-    /// Authors; none for a draft.
+    /// Authors; empty for a draft.
     pub authors: Vec<Author>,
     /// Organization of the authors, which publishes the bundle.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -83,7 +83,7 @@ impl BundledFile {
         self.sha256.strip_prefix("sha256:").unwrap_or(&self.sha256)
     }
 
-    /// Media type, as Croissant names it.
+    /// Media type, for Croissant.
     pub(crate) fn media_type(&self) -> &'static str {
         match self.path.rsplit('.').next() {
             Some("json") => "application/json",
@@ -105,10 +105,10 @@ pub struct StudyFiles {
     /// Origin of the samples of the study, as in the results.
     #[serde(default)]
     pub source: String,
-    /// States; several are merged.
+    /// Paths of the states; several states are merged.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub states: Vec<String>,
-    /// Two tables that were scored.
+    /// Scored tables of truth and predictions.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tables: Option<TableFiles>,
     /// The table of samples that an evaluation wrote.
@@ -143,7 +143,7 @@ impl StudyFiles {
     }
 }
 
-/// Two tables that were scored.
+/// Scored tables of truth and predictions.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct TableFiles {
@@ -151,7 +151,7 @@ pub struct TableFiles {
     pub truth: String,
     /// The predictions.
     pub prediction: String,
-    /// Key of the rows that the caller chose.
+    /// Name of the key column that the caller chose.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub key: Option<String>,
 }
@@ -162,7 +162,7 @@ pub struct TableFiles {
 pub struct Withheld {
     /// Role of the file.
     pub role: String,
-    /// Reason.
+    /// Reason why the file was left out.
     pub reason: String,
     /// Digest of the file.
     pub digest: String,
@@ -261,7 +261,7 @@ impl Manifest {
     }
 }
 
-/// Digest of the model file behind `report`; `None` for a model that the caller holds, the models of a cross-validation, or none.
+/// Digest of the model file behind `report`; `None` for a model in memory, the models of a cross-validation, or no model.
 pub(crate) fn model_digest(report: &EvaluationReport) -> Option<&str> {
     let own = &report.provenance;
     let is_file = |digest: &&str| digest.starts_with("sha256:") && own.cross_validation().is_none();
@@ -274,7 +274,7 @@ pub(crate) fn licence_address(licence: &str) -> String {
     format!("https://spdx.org/licenses/{licence}")
 }
 
-/// The fault of a seal with the remedy for a manifest, whose edits no command accepts.
+/// Message on a broken seal. It replaces the command for accepting edits, which does not apply to manifests.
 fn unsealed(fault: &str) -> String {
     let fault = fault.split("; restore it").next().unwrap_or(fault);
     format!("{fault}; restore it, or make the bundle again with `taceva bundle`")

@@ -1,4 +1,4 @@
-//! Names of the files in a bundle, and their number.
+//! Rules for the names and the number of the files in a bundle.
 
 use std::collections::BTreeMap;
 
@@ -10,7 +10,7 @@ use crate::layout::{MOST_FILES, MOST_NAME, MOST_PARTS};
 /// Rule of names.
 pub(crate) const RULE: &str = "names lead to files inside the bundle";
 
-/// The fault of a name in a bundle; `None` for a relative path of plain parts.
+/// The fault of a name in a bundle; `None` for a valid relative path.
 pub(crate) fn fault(name: &str) -> Option<String> {
     if name.len() > MOST_NAME {
         return Some(format!(
@@ -44,7 +44,7 @@ pub(crate) fn fault(name: &str) -> Option<String> {
     })
 }
 
-/// Rejects more files or bytes than the limits.
+/// Rejects too many files, or more than `most` bytes.
 pub(crate) fn check_amount(files: usize, bytes: u64, most: u64) -> Result<(), BundleError> {
     let rule = "a bundle is not too large to read";
     let refused = |problem: String| Err(BundleError::Damaged(Damage::new(".", rule, problem)));

@@ -23,9 +23,9 @@ const MOST_ADDRESS: usize = 200;
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[non_exhaustive]
 pub struct Organization {
-    /// Name.
+    /// Name of the organization.
     pub name: String,
-    /// Address of its page, which identifies it.
+    /// Address of a page of the organization, which identifies the organization.
     pub url: String,
 }
 
@@ -62,7 +62,7 @@ impl fmt::Display for Organization {
     }
 }
 
-/// True for an address of the web whose characters need no escape.
+/// True for a web address without characters that need escaping.
 fn is_address(text: &str) -> bool {
     let is_web = ["https://", "http://"].iter().any(|scheme| {
         let rest = text.strip_prefix(scheme);

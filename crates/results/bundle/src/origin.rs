@@ -1,11 +1,11 @@
-//! Subject and inputs of results, compared with those of their states.
+//! Compares subject and inputs of results with their states.
 
 use taceva_core::shown;
 use taceva_results::{EvaluationReport, OPTIMISTIC, Provenance};
 
-/// Parts of `report` that name another subject or other inputs than its states, each with the reason.
+/// Parts of `report` whose subject or inputs differ from the states, each with the reason.
 ///
-/// States of a run hold the facts of its recording alone, so settings are compared where a state has them.
+/// States of a run contain only facts of the recording. Settings are compared only if a state contains them.
 pub(crate) fn differences(
     report: &EvaluationReport,
     state: &EvaluationReport,

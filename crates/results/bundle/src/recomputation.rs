@@ -23,11 +23,11 @@ pub(crate) struct Stop {
     pub(crate) is_absent: bool,
 }
 
-/// Scores of a study by its tables.
+/// Scores of a study, computed from its tables.
 #[derive(Clone, Debug)]
 pub(crate) struct TableScores {
     pub(crate) scores: Vec<Score>,
-    /// True if the sums must equal those of the state, and do not.
+    /// True if the sums differ from those of the state although they must be equal.
     pub(crate) has_other_sums: bool,
     /// Metrics that cannot be computed from the tables.
     pub(crate) left_out: Vec<Skip>,
@@ -35,10 +35,10 @@ pub(crate) struct TableScores {
 
 /// Scores of a study, computed again.
 pub(crate) struct Recomputation {
-    /// Scores, subject and provenance by the states.
+    /// Scores, subject and provenance, computed from the states.
     pub(crate) states: Result<EvaluationReport, Stop>,
     pub(crate) tables: Result<TableScores, Stop>,
-    /// Table of samples, compared with the model on its recording.
+    /// Comparison of the table of samples with the model on its recording.
     pub(crate) model: Result<PredictionCheck, Stop>,
     pub(crate) fit: Result<FitScores, Stop>,
 }
@@ -46,9 +46,9 @@ pub(crate) struct Recomputation {
 /// Outcome of a repeated fit.
 #[derive(Clone, Debug)]
 pub(crate) enum FitScores {
-    /// The same model.
+    /// The repeated fit gives the same model.
     Equal,
-    /// Scores of another model.
+    /// The repeated fit gives another model, with these scores.
     Other(Vec<Score>),
 }
 
@@ -63,13 +63,13 @@ pub(crate) struct RecomputationSettings<'a> {
     pub(crate) datasets: Option<&'a [PathBuf]>,
     /// True if models are fitted again.
     pub(crate) fits: bool,
-    /// True if this machine has the instruction sets of the one that made the bundle.
+    /// True if this machine has the instruction sets of the machine that made the bundle.
     pub(crate) has_same_sets: bool,
     pub(crate) work: Work<'a>,
 }
 
 impl Recomputation {
-    /// Recomputation of nothing, for a level that needs none.
+    /// Empty recomputation, for a level that needs no scores.
     pub(crate) fn none() -> Recomputation {
         Recomputation {
             states: Err(Stop::absent("not requested")),
@@ -172,7 +172,7 @@ pub(crate) fn states(source: &Source, files: &StudyFiles) -> Result<Vec<ReadStat
     files.states.iter().map(read).collect()
 }
 
-/// Scores of `states`; several are merged, or stand side by side if their plans differ.
+/// Scores of `states`; states with equal plans are merged.
 fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
     if states.is_empty() {
         let reason = "no state: evaluate or score again with --state-out, and give the state to `taceva bundle --state`";
@@ -187,7 +187,7 @@ fn of_states(states: &[ReadState]) -> Result<EvaluationReport, Stop> {
     as_read(&report)
 }
 
-/// Scores of the tables in `files`: by the plan of the only state, or by the states of the phases of a run.
+/// Scores of the tables in `files`: with the plan of the only state, or with the states of the phases of a run.
 fn of_tables(
     source: &Source,
     files: &StudyFiles,
@@ -262,7 +262,7 @@ fn of_model(
     })
 }
 
-/// Fits the model in `files` again on one of `datasets`. If the result is another model, scores it by the plan of the only state.
+/// Fits the model in `files` again on one of `datasets`. If the result is another model, scores it with the plan of the only state.
 fn of_fit(
     source: &Source,
     files: &StudyFiles,
@@ -308,7 +308,7 @@ fn check_named(datasets: &[PathBuf], report: &EvaluationReport) -> Result<(), St
     Err(Stop::absent(&reason))
 }
 
-/// `report` as it is read from its JSON, so that both sides of a comparison have one form.
+/// `report` after a round trip through JSON, so that both sides of a comparison have one form.
 fn as_read(report: &EvaluationReport) -> Result<EvaluationReport, Stop> {
     let text = sealed(report).map_err(Stop::failed)?;
     let mut reports = read(&text).map_err(Stop::failed)?;

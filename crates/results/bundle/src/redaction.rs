@@ -102,7 +102,7 @@ pub fn redacted(text: &str, what: &[Redaction]) -> (String, u64) {
     (written, count)
 }
 
-/// Start of the absolute path in a word: at its beginning, or behind a mark such as that of a driver's argument.
+/// Start of the absolute path in a word: at its beginning, or after a character such as `:` or `@`.
 fn path_start(word: &str) -> Option<usize> {
     let marks = word.char_indices();
     let marks = marks.filter(|(_, own)| ":`<>|@".contains(*own));
@@ -127,7 +127,7 @@ fn is_path(word: &str) -> bool {
     drive || is_rooted || beginnings.iter().any(|own| word.starts_with(own))
 }
 
-/// Length of the path at the start of `rest`: up to the closing quote, or the end of the word without one.
+/// Length of the path at the start of `rest`: up to the closing quote, or the end of the word without a quote.
 fn path_length(rest: &str, quote: Option<char>) -> usize {
     let ends = |letter: char| match quote {
         Some(quote) => letter == quote || letter == ',' || letter == '\n',
@@ -145,7 +145,7 @@ fn is_host(key: &str, word: &str) -> bool {
     HOST_KEYS.contains(&key) || word.contains("://") || is_local || is_address(word)
 }
 
-/// True if a part of the word is an address: of IPv4, of IPv6 or of an interface.
+/// True if a part of the word is an IPv4, IPv6 or MAC address.
 fn is_address(word: &str) -> bool {
     let of_four = |part: &str| part.parse::<std::net::Ipv4Addr>().is_ok();
     // The interface stands behind `%`.

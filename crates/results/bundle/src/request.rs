@@ -7,7 +7,7 @@ use crate::author::Author;
 use crate::organization::Organization;
 use crate::redaction::Redaction;
 
-/// Request of a bundle.
+/// Inputs and settings for making a bundle.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct BundleRequest {
@@ -15,9 +15,9 @@ pub struct BundleRequest {
     pub result: PathBuf,
     /// Day on which the bundle is made, such as `2026-11-28`.
     pub created: String,
-    /// Name in words; `None` for the sensors of the results.
+    /// Name of the bundle for readers; `None` to use the sensors of the results.
     pub name: Option<String>,
-    /// Authors; none for a draft.
+    /// Authors; empty for a draft.
     pub authors: Vec<Author>,
     /// Organization of the authors, which publishes the bundle.
     pub organization: Option<Organization>,
@@ -25,15 +25,15 @@ pub struct BundleRequest {
     pub licence: Option<String>,
     /// States of the results, for results of one study.
     pub states: Vec<PathBuf>,
-    /// Two tables that were scored, for results of one study.
+    /// Scored tables of truth and predictions, for results of one study.
     pub tables: Option<ScoredTables>,
-    /// Recordings whose headers are added, and pictures on request. Not needed for a run.
+    /// Recordings whose headers are added, with their pictures if `adds_frames` is true. Not needed for a run.
     pub datasets: Vec<PathBuf>,
-    /// Texts that are added by their names: `scene.toml`, `rig.toml`, `map.toml`, `limits.toml`, `tasks.toml`.
+    /// Text files that are added under their names: `scene.toml`, `rig.toml`, `map.toml`, `limits.toml`, `tasks.toml`.
     pub texts: Vec<PathBuf>,
     /// Model files of the results.
     pub models: Vec<PathBuf>,
-    /// True if model files are added; those of a run come from its folder. Otherwise the bundle states only their digests.
+    /// True if model files are added; model files of a run come from its folder. Otherwise the bundle states only their digests.
     pub adds_models: bool,
     /// True if the pictures behind predictions are added, with the labels of their recordings. Otherwise the bundle states only the digests of the
     /// recordings.
@@ -46,7 +46,7 @@ pub struct BundleRequest {
     pub jobs: NonZeroUsize,
 }
 
-/// Two tables that were scored.
+/// Scored tables of truth and predictions.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct ScoredTables {
@@ -54,12 +54,12 @@ pub struct ScoredTables {
     pub truth: PathBuf,
     /// The predictions.
     pub prediction: PathBuf,
-    /// Key of the rows that the caller chose.
+    /// Name of the key column that the caller chose; `None` to find the column by its name.
     pub key: Option<String>,
 }
 
 impl ScoredTables {
-    /// The table of the truth and that of the predictions, paired by a key that is found by its name unless it is given.
+    /// Pairs the rows of two tables by the column `key`; `None` finds the column by its name.
     pub fn new(truth: &Path, prediction: &Path, key: Option<&str>) -> ScoredTables {
         ScoredTables {
             truth: truth.to_owned(),

@@ -9,7 +9,7 @@ use crate::manifest::{BundledFile, Manifest, StudyFiles, licence_address};
 
 /// Profile of a run of programs.
 const PROFILE: &str = "https://w3id.org/ro/wfrun/process/0.5";
-/// The program, by the address of its repository.
+/// Address of the repository of the program.
 const PROGRAM: &str = env!("CARGO_PKG_REPOSITORY");
 /// The run that computed the claims again.
 const RUN: &str = "#recomputation";
@@ -184,7 +184,7 @@ fn file(file: &BundledFile) -> Value {
     })
 }
 
-/// References to `entities`: a list, and the reference alone if there is one.
+/// References to `entities`: a list, or a single reference for one entity.
 fn references(entities: &[Value]) -> Value {
     let references = entities.iter().map(|entity| json!({"@id": entity["@id"]}));
     let mut references: Vec<Value> = references.collect();

@@ -13,7 +13,7 @@ use crate::error::BundleError;
 /// Schema of `samples.json`.
 pub(crate) const SAMPLES_SCHEMA: &str = "taceva.samples/1";
 
-/// Names of the column with the ids of samples.
+/// Possible names of the column with the ids of samples.
 pub(crate) const IDS: [&str; 4] = [Samples::KEY, "id", "sample_id", "index"];
 /// Column with the digest of each frame.
 const FRAME: &str = "frame_sha256";
@@ -53,7 +53,7 @@ pub(crate) struct SampleDigest {
 /// Samples of one study.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct StudySamples {
-    /// `samples` for a digest over id, frame and labels of each; `provenance` without a table.
+    /// `samples` for a digest over id, frame and labels of each sample; `provenance` without a table.
     pub(crate) by: String,
     /// Number of samples; `None` without a table.
     pub(crate) count: Option<u64>,
@@ -72,7 +72,7 @@ impl SampleDigest {
 }
 
 impl StudySamples {
-    /// Samples in the table at `path`, whose labels are its columns of numbers.
+    /// Samples in the table at `path`, with its numeric columns as labels.
     ///
     /// # Errors
     /// [`BundleError::Evaluate`] if it is not a table.
@@ -81,7 +81,7 @@ impl StudySamples {
         Ok(StudySamples::of_read(&table))
     }
 
-    /// Samples in `table`, whose labels are its columns of numbers.
+    /// Samples in `table`, with its numeric columns as labels.
     pub(crate) fn of_read(table: &CsvTable) -> StudySamples {
         let names = table.names();
         let position = |name: &str| names.iter().position(|own| own == name);

@@ -21,7 +21,7 @@ const UNPACKED: &str = ".taceva-unpacked-bundle-";
 pub(crate) struct Source {
     root: PathBuf,
     files: BTreeMap<String, u64>,
-    /// Removed on drop.
+    /// Temporary folder of an unpacked bundle, removed on drop.
     unpacked: Option<TemporaryFolder>,
 }
 
@@ -29,8 +29,7 @@ impl Source {
     /// Opens the bundle at `path`, whose files have at most `most` bytes together.
     ///
     /// # Errors
-    /// [`BundleError::Damaged`] for links, special files, names that are refused, and too many files or bytes; [`BundleError::File`] if
-    /// it cannot be read.
+    /// [`BundleError::Damaged`] for links, special files, invalid names, and too many files or bytes; [`BundleError::File`] if it cannot be read.
     pub(crate) fn open(path: &Path, most: u64) -> Result<Source, BundleError> {
         let about = fs::metadata(path).map_err(BundleError::file(path))?;
         if about.is_dir() {
@@ -105,7 +104,7 @@ impl Source {
         &self.files
     }
 
-    /// `problem` with names in the bundle in place of paths below the folder of an unpacked one.
+    /// `problem` with names in the bundle in place of paths below the temporary folder.
     pub(crate) fn as_named(&self, problem: &str) -> String {
         match self.unpacked {
             Some(_) => problem.replace(&format!("{}{MAIN_SEPARATOR}", shown(&self.root)), ""),

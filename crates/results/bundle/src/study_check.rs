@@ -295,7 +295,7 @@ impl ClaimCheck {
         self
     }
 
-    /// The same claim, which was not compared with `what`.
+    /// The same claim, marked as not compared with `what`.
     fn not_compared(self, what: &str, stop: &Stop) -> ClaimCheck {
         ClaimCheck {
             is_absent: stop.is_absent,

@@ -17,7 +17,7 @@ pub struct Verification {
     pub schema: &'static str,
     /// The bundle; `None` if its manifest cannot be read.
     pub bundle: Option<BundleFacts>,
-    /// Program that verified it.
+    /// Program that verified the bundle, with its version.
     pub program: String,
     /// Every level up to the requested level.
     pub levels: Vec<LevelCheck>,
@@ -40,11 +40,11 @@ pub struct Verification {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct BundleFacts {
-    /// Name.
+    /// Name of the bundle.
     pub name: String,
-    /// Day on which it was made.
+    /// Day on which the bundle was made.
     pub created: String,
-    /// Version of the program that made it.
+    /// Version of the program that made the bundle.
     pub taceva: String,
     /// Origin of the samples.
     pub source: String,
@@ -62,11 +62,11 @@ pub struct BundleFacts {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct LevelCheck {
-    /// Level.
+    /// Level of verification.
     pub level: Level,
-    /// True if every file and claim reached it.
+    /// True if every file and claim reached the level.
     pub reached: bool,
-    /// Reason why it was not reached.
+    /// Reason why the level was not reached.
     pub reason: Option<String>,
 }
 
@@ -77,10 +77,10 @@ pub enum Verdict {
     /// Equal, bit for bit.
     #[serde(rename = "equal")]
     Equal,
-    /// Within the tolerance.
+    /// Different, but within the tolerance.
     #[serde(rename = "within")]
     Within,
-    /// Another number.
+    /// Different by more than the tolerance.
     #[serde(rename = "differs")]
     Differs,
     /// Not computed again, for a reason.
@@ -103,9 +103,9 @@ impl std::fmt::Display for Verdict {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
 pub struct ClaimCheck {
-    /// Study of the results, from 0.
+    /// Index of the study in the results, from 0.
     pub study: usize,
-    /// Metric.
+    /// Metric, such as `mae`.
     pub metric: String,
     /// Channel or plane.
     pub channel: String,
@@ -118,7 +118,7 @@ pub struct ClaimCheck {
     pub recomputed: Option<f64>,
     /// Deepest level that the claim reached.
     pub level: Level,
-    /// Verdict.
+    /// Verdict on the claim.
     pub verdict: Verdict,
     /// Reason, if the verdict is not `equal`, or why no deeper level was reached.
     pub reason: Option<String>,
@@ -131,13 +131,13 @@ pub struct ClaimCheck {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct OtherCheck {
-    /// Study of the results, from 0.
+    /// Index of the study in the results, from 0.
     pub study: usize,
     /// Part of the results: `mae of Fz`, `by_recording`.
     pub part: String,
     /// [`Verdict::Differs`] or [`Verdict::NotRecomputable`].
     pub verdict: Verdict,
-    /// Reason.
+    /// Reason for the verdict.
     pub reason: String,
 }
 
@@ -145,13 +145,13 @@ pub struct OtherCheck {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[non_exhaustive]
 pub struct Summary {
-    /// Equal, bit for bit.
+    /// Number of equal claims, bit for bit.
     pub equal: u64,
-    /// Within the tolerance.
+    /// Number of different claims within the tolerance.
     pub within: u64,
-    /// Another number.
+    /// Number of claims that differ by more than the tolerance.
     pub differs: u64,
-    /// Not computed again.
+    /// Number of claims that were not computed again.
     pub not_recomputable: u64,
 }
 

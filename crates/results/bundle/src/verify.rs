@@ -17,7 +17,7 @@ use crate::source::Source;
 use crate::study_check::{NO_SUCH_NUMBER, StudyCheck};
 use crate::verification::{BundleFacts, ClaimCheck, OtherCheck, Verdict, Verification};
 
-/// Request of a verification.
+/// Request for a verification.
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct VerifyRequest {
@@ -37,7 +37,7 @@ pub struct VerifyRequest {
 }
 
 impl VerifyRequest {
-    /// Verification of the bundle at `path`, as deep as its files allow, with equal bits.
+    /// Verification of the bundle at `path`, as deep as its files allow, with tolerance 0.
     pub fn new(path: &Path) -> VerifyRequest {
         VerifyRequest {
             path: path.to_owned(),
@@ -49,7 +49,7 @@ impl VerifyRequest {
         }
     }
 
-    /// Level to reach.
+    /// Requested level. The default is [`Level::Model`] with recordings, otherwise [`Level::Predictions`].
     fn deepest(&self) -> Level {
         let default = match self.datasets.is_empty() {
             true => Level::Predictions,
@@ -59,7 +59,7 @@ impl VerifyRequest {
     }
 }
 
-/// Verifies a bundle. Nothing of it is executed.
+/// Verifies a bundle. Executes no content of the bundle.
 ///
 /// # Errors
 /// [`BundleError::File`] if it cannot be read. A damaged bundle is not an error: its damage is listed.

@@ -30,7 +30,7 @@ impl<'a> Writer<'a> {
         }
     }
 
-    /// Files that were written, by their paths.
+    /// Written files, sorted by path.
     pub(crate) fn sorted(&self) -> Vec<BundledFile> {
         let mut files = self.files.clone();
         files.sort_by(|one, other| one.path.cmp(&other.path));
@@ -188,7 +188,7 @@ impl<'a> Writer<'a> {
     }
 }
 
-/// Ending of the copy of a table: `parquet`, else `csv`.
+/// File extension of the copy of a table: `parquet`, else `csv`.
 fn ending(path: &Path) -> &'static str {
     let is_parquet = path
         .extension()

@@ -43,7 +43,7 @@ fn entry_of(mark: &str, value: &Value, depth: usize, text: &mut String) {
     }
 }
 
-/// A text, a number or a word. An empty list or map has the form of JSON.
+/// Formats a scalar. An empty list or map has the form of JSON.
 fn of_scalar(value: &Value) -> String {
     match value {
         Value::String(text) => quoted(text),

@@ -196,7 +196,7 @@ pub struct Open {
 }
 
 impl Open {
-    /// Waits for the answer for at most `patience`; `None` if there is none.
+    /// Waits for the answer for at most `patience`; `None` if there is no answer.
     pub fn answer(&self, patience: Duration) -> Option<Answer> {
         let shared = &self.live.shared;
         let is_open = |inside: &mut Inside| match &inside.state.question {

@@ -5,7 +5,7 @@ use taceva_core::Frame;
 /// Saturation and sharpness of one frame, for adjusting the camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Sight {
-    /// Share of pixel values at full scale, 0 to 1, with the definition of `taceva check`.
+    /// Share of pixel values at full scale, 0 to 1, as in `taceva check`.
     pub(crate) saturated: f64,
     /// Mean square of the Laplacian (4 times a pixel minus its four neighbours) of the first colour, in steps² of 8 bits. Sharpness is greatest in focus.
     /// Values of different scenes are not comparable.

@@ -81,9 +81,9 @@ pub struct ToleranceInterval {
     pub sd: f64,
     /// Factor k of the standard deviation.
     pub k: f64,
-    /// Lower end.
+    /// Lower end of the interval.
     pub low: f64,
-    /// Upper end.
+    /// Upper end of the interval.
     pub high: f64,
 }
 

@@ -1,5 +1,5 @@
-//! Results of several seeds beside published numbers of the same sensors: marks numbers that are at least as good, and computes the agreement of the order of
-//! the sensors.
+//! Compares results of several seeds with published numbers of the same sensors. Marks numbers that are at least as good, and computes rank
+//! correlations.
 //!
 //! ```text
 //! cargo run --release -p taceva-report --example beside_published -- runs/*/results.json
@@ -175,7 +175,7 @@ fn short(value: f64, width: f64) -> String {
     FormattedValue::number(value, Some([value - width / 2.0, value + width / 2.0])).value
 }
 
-/// Kendall's rank correlation of our numbers with published ones; `None` for fewer than two sensors.
+/// Kendall's rank correlation of our numbers with published numbers; `None` for fewer than two sensors.
 ///
 /// Σ wₚ sₚ / Σ wₚ over the pairs p of sensors. s is 1 for the same order, −1 for the opposite order, and 0 if two numbers are equal. w is ½ if our
 /// intervals overlap, else 1.
@@ -247,7 +247,7 @@ mod tests {
         assert!(tau(&far[..1]).is_none());
     }
 
-    /// A result with one seed. The mean absolute error of Fz of each of four sensors is the published one times its factor.
+    /// A result with one seed. The mean absolute error of Fz of each of four sensors is the published error times its factor.
     fn result(seed: u64, factors: [f64; 4]) -> (String, String) {
         result_of("ViTacTip", seed, factors)
     }

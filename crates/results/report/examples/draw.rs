@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Studies of a result, with the samples in the file beside it.
+/// Studies of a result, with samples from `RESULT.samples.csv`.
 fn studies(result: &Path) -> Result<Vec<Study>, Box<dyn Error>> {
     let mut studies = Study::read(&fs::read_to_string(result)?)?;
     let samples = result.with_extension("samples.csv");

@@ -1,4 +1,4 @@
-//! Sources of a budget that a result can give.
+//! Sources of a budget that a result can provide.
 
 use crate::escape::toml_string as quoted;
 
@@ -8,7 +8,7 @@ pub(crate) struct BudgetSource {
     /// Figure of the result: `error.within`.
     pub(crate) figure: &'static str,
     pub(crate) name: &'static str,
-    /// Lines with further keys. A value `?` is left to the user.
+    /// Lines with further keys. The user must replace a value `?`.
     pub(crate) keys: &'static str,
 }
 
@@ -24,7 +24,7 @@ pub(crate) const BETWEEN: BudgetSource = source("error.between", "place to place
 pub(crate) const WITHIN: BudgetSource = source("error.within", "one reading", "readings = 1\n");
 /// Repeated presses. [`WITHIN`] includes them.
 pub(crate) const REPEATS: BudgetSource = source("repeatability", "repeats", "readings = 1\n");
-/// Heights from which depths count. Residuals and repeats include their errors.
+/// Zero heights of depths. Residuals and repeats include their errors.
 pub(crate) const ZERO: BudgetSource = source("zero_u_mm", "zero of depths", "");
 /// Light scenes.
 pub(crate) const LIGHT: BudgetSource = source("r_light", "other light", "");
@@ -38,7 +38,7 @@ pub(crate) const DRIFT: BudgetSource = source(
 pub(crate) const CERTIFICATE: BudgetSource = source("certificate", "reference", "");
 
 impl BudgetSource {
-    /// The source in a budget file.
+    /// Text of the source for a budget file.
     pub(crate) fn text(&self) -> String {
         format!(
             "[[source]]\nname = {}\nfrom = {}\n{}",

@@ -156,7 +156,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choice
 }
 
-/// Numbers of `sensor` by other definitions than those of the needs, each property once.
+/// Numbers of `sensor` with other definitions than the needs, each property once.
 fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs.iter().flat_map(Need::properties);
     let found = taceva_core::distinct(properties.filter_map(|property| {

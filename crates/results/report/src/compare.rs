@@ -79,7 +79,7 @@ pub struct Answer {
     pub verdict: Verdict,
     /// Difference and interval of the verdict, with the raw and the adjusted p value.
     pub difference: Option<Difference>,
-    /// Reason why there is no verdict; `None` if there is one.
+    /// Reason why there is no verdict; `None` if there is a verdict.
     pub reason: Option<String>,
     /// Reason why the number of groups is too small to show any difference.
     pub out_of_reach: Option<String>,

@@ -1,14 +1,14 @@
-//! Uncertainty of the heights from which depths count, as a figure of a budget.
+//! Uncertainty of the zero heights of depths, as a figure of a budget.
 
 use taceva_metrology::budget::{Figure, Freedom};
 use taceva_results::Samples;
 
-/// Channel of depths, the only one that counts from a zero.
+/// Channel of depths, the only channel with a zero.
 const DEPTH: &str = "Pz";
 
 /// Figure of `channel` from the column [`Samples::ZERO_U`]: the root mean square of the standard uncertainties of its zeros.
 ///
-/// A note states how many depths count from the first contact instead, so that the figure does not apply to them.
+/// A note states the number of depths that are measured from the first contact, to which the figure does not apply.
 ///
 /// ```
 /// use taceva_results::Samples;
@@ -22,7 +22,7 @@ const DEPTH: &str = "Pz";
 /// ```
 ///
 /// # Errors
-/// A message if `channel` has no zero, or no sample has a fitted one.
+/// A message if `channel` has no zero, or no sample has a fitted zero.
 pub fn depth_zero_figure(samples: &Samples, channel: &str) -> Result<Figure, String> {
     let labels = samples.channel(channel).filter(|_| channel == DEPTH);
     let labels = labels.ok_or_else(|| {

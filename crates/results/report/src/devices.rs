@@ -17,10 +17,10 @@ pub(crate) struct Device {
 /// Kind of a device.
 pub(crate) struct DeviceKind {
     instrument: Instrument,
-    /// Prefix of the names of its settings.
+    /// Prefix of the names of the device settings.
     prefix: &'static str,
     pub(crate) name: &'static str,
-    /// Predicate of its work in a recording.
+    /// Predicate of a sentence on the device, such as `moved the tip`.
     pub(crate) work: &'static str,
 }
 
@@ -29,12 +29,12 @@ pub(crate) struct DeviceKind {
 pub(crate) struct DeviceFact {
     name: String,
     value: String,
-    /// The fact within a sentence.
+    /// Words for the fact in a sentence.
     pub(crate) words: String,
 }
 
 impl DeviceFact {
-    /// A fact whose name and value are its words: `driver camera/v4l2`.
+    /// A fact with the words `name value`, such as `driver camera/v4l2`.
     fn named(name: &str, value: &str) -> DeviceFact {
         DeviceFact {
             name: name.to_owned(),
@@ -81,7 +81,7 @@ pub(crate) fn devices(study: &Study) -> Vec<Device> {
     devices.filter(|device| !device.facts.is_empty()).collect()
 }
 
-/// Table of the devices of measured recordings; `None` if no recording states one.
+/// Table of the devices of measured recordings; `None` if no recording states a device.
 ///
 /// ```
 /// let result = r#"{"schema": "taceva.evaluation/1.0", "subject": {"sensor": "gel", "source": "recorded"}, "metrics": {},

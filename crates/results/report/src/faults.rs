@@ -7,7 +7,7 @@ use taceva_core::shown;
 use taceva_metrics::{Standing, plane_of};
 use taceva_results::{ResultsError, Subject};
 
-/// Placeholder of results for a fault that ends the skill at no severity.
+/// Severity in results for a fault that ends the skill at no severity.
 pub(crate) const NEVER: u8 = 6;
 /// Schema of the results.
 const SCHEMA: &str = "taceva.stress/1";
@@ -157,7 +157,7 @@ impl FaultResult {
         self.list.digest.clone() + &tested.collect::<String>()
     }
 
-    /// Wanted faults without scores, with the severity if it is known: `tear 5`.
+    /// Requested faults without scores, with the severity if it is known: `tear 5`.
     pub(crate) fn untested(&self) -> Vec<String> {
         let unreached = self.faults.iter().flat_map(|fault| {
             let unreached = fault.unreached.iter();

@@ -18,13 +18,13 @@ pub(crate) struct Light {
     pub(crate) is_low: bool,
 }
 
-/// One scene relative to the reference light. Errors are those of predictions before clipping to the bounds of the model.
+/// One scene relative to the reference light. Errors are computed from predictions before clipping to the bounds of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Scene {
     pub(crate) name: String,
     /// Ratio of brightness to the reference light.
     pub(crate) light: Option<f64>,
-    /// Ratio of the mean absolute error to that in reference light.
+    /// Ratio of the mean absolute error to the error in reference light.
     pub(crate) error: Option<f64>,
 }
 
@@ -64,7 +64,7 @@ impl Light {
         ))
     }
 
-    /// Remark on nearly constant light: `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`. `None` without the flag.
+    /// Remark on nearly constant light: `light changed by 0.0089 % to 10.1 %: stimulus hardly changed`. `None` if the score lacks this flag.
     pub(crate) fn low_stimulus(&self) -> Option<String> {
         if !self.is_low {
             return None;

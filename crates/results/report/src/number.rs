@@ -16,7 +16,7 @@ const BEYOND: usize = 3;
 /// Value and interval, formatted to the digits that the interval supports.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct FormattedValue {
-    /// Formatted value; empty if there is none.
+    /// Formatted value; empty without a value.
     pub value: String,
     /// Both formatted ends of the interval; `None` without an interval.
     pub interval: Option<[String; 2]>,
@@ -25,7 +25,7 @@ pub struct FormattedValue {
 }
 
 impl FormattedValue {
-    /// Formats `value` to a twentieth of the width of `interval`, or to four digits without one.
+    /// Formats `value` to a twentieth of the width of `interval`, or to four digits without an interval.
     pub fn of(value: &Value, interval: Option<&Interval>) -> FormattedValue {
         let Some(number) = value.number() else {
             return FormattedValue {

@@ -1,4 +1,4 @@
-//! Results in the layout of the TacEva study: its tables, with published numbers beside ours.
+//! Results in the layout of the TacEva study: its tables, with published numbers next to ours.
 
 mod beside;
 mod contradictions;
@@ -27,7 +27,7 @@ pub struct PaperForm {
     pub tables: Vec<(String, Table)>,
     /// Tables without any value, each with the reason.
     pub absent: Vec<(String, String)>,
-    /// Published numbers of figures, beside ours, each with the name of the figure: `figure-3c`.
+    /// Published numbers of figures, next to ours, each with the name of the figure: `figure-3c`.
     pub figures: Vec<(String, Table)>,
     /// Contradictions in the study, one sentence each.
     pub contradictions: Vec<String>,
@@ -79,7 +79,8 @@ impl PaperForm {
         out
     }
 
-    /// Figures of the study as Markdown: drawn figures with caption and published numbers, other figures with the reason. Images are SVG files beside the text.
+    /// Figures of the study as Markdown: drawn figures with caption and published numbers, other figures with the reason. Images are SVG files next
+    /// to the text.
     pub fn markdown_of(&self, figures: &StudyFigures) -> String {
         let mut out = String::new();
         for figure in &figures.drawn {

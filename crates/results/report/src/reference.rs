@@ -13,7 +13,7 @@ use taceva_metrology::budget::Certificate;
 /// ```
 ///
 /// # Errors
-/// The reason, in words: no certificate, several, or labels without one beside others.
+/// The reason as text: no certificate, several certificates, or only some labels with a certificate.
 pub fn reference_certificate(
     all: &[Traceability],
     channel: &str,

@@ -28,7 +28,7 @@ use crate::faults::FaultResult;
 
 /// Text in the method of an interval that leaves out groups of the split.
 pub(crate) const BY_GROUP: &str = " by group";
-/// Definition of published numbers whose source states none.
+/// Definition of published numbers whose source states no definition.
 pub(crate) const PUBLISHED: &str = "published";
 
 /// Results of one sensor, from an [`EvaluationReport`] or from published numbers.
@@ -81,7 +81,7 @@ pub struct Made {
     pub chosen_by: Option<String>,
     /// Number of samples by part of the split: `train`, `validation`, `test`.
     pub samples: Vec<(String, u64)>,
-    /// Number of presses in the recording, including failed ones; 0 if the result does not state it.
+    /// Number of presses in the recording, including failed presses; 0 if unknown.
     pub presses: u64,
     /// Digest of the truth table, if two tables were compared.
     pub truth: Option<String>,
@@ -89,7 +89,7 @@ pub struct Made {
     pub seen_part: Option<String>,
     /// Scored part of the split: `test` or `all`; `None` without a split.
     pub part: Option<String>,
-    /// Number of joined recordings; 0 for a single one.
+    /// Number of joined recordings; 0 for a single recording.
     pub recordings: usize,
     /// Cross-validation as text, if each sample was held out once: `5-fold cross-validation by point`.
     pub folds: Option<String>,
@@ -169,7 +169,7 @@ impl Study {
         Ok(reports.into_iter().map(Study::from).collect())
     }
 
-    /// Study without scores, for the result of `taceva stress` alone.
+    /// Study without scores, for a single result of `taceva stress`.
     pub fn of_faults(faults: FaultResult) -> Study {
         let subject = faults.subject.clone();
         Study {
@@ -224,7 +224,7 @@ impl Study {
         scores.filter(move |score| score.metric == metric)
     }
 
-    /// Spread of `score` between trainings of the model. `score` is one of [`deciding`](Study::deciding). `None` for fewer than two values.
+    /// Spread of `score` between trainings of the model. `score` is a score of [`deciding`](Study::deciding). `None` for fewer than two values.
     pub(crate) fn trainings(&self, score: &Score) -> Option<TrainingSpread> {
         let variant = score.decided_by().map(|variant| variant.name.as_str());
         let values = self.values_of_trainings(&score.metric, variant, &score.channel);

@@ -30,7 +30,7 @@ pub struct ScoreTable {
     pub rows: Vec<ScoreRow>,
     /// Comparison of each score between each pair of studies.
     pub answers: Vec<Answer>,
-    /// Sentence on channels whose labels have different spreads; `None` if there are none.
+    /// Sentence on channels whose labels have different spreads; `None` without such channels.
     pub(crate) spread: Option<String>,
     about: Vec<caption::About>,
 }

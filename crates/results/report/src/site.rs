@@ -153,7 +153,7 @@ fn row(sensor: &Sensor) -> Markup {
     }
 }
 
-/// Number of properties that the work reports.
+/// Number of properties that the publication reports.
 fn properties_reported(entry: &Sensor) -> usize {
     let words = entry.reported.values();
     words.filter(|word| *word == "yes").count()

@@ -40,7 +40,7 @@ pub(crate) fn words(
     }
 }
 
-/// Note below a table on the `scores` (metric and channel) whose labels have different spreads; `None` if there are none.
+/// Note below a table on the `scores` (metric and channel) whose labels have different spreads; `None` without such scores.
 pub(crate) fn note(studies: &[Study], names: &[String], scores: &[(&str, &str)]) -> Option<String> {
     let all: Vec<usize> = (0..studies.len()).collect();
     let differing = scores.iter().filter_map(|(metric, channel)| {

@@ -18,8 +18,8 @@ pub use render::TASK_COMPARISON_SCHEMA;
 
 /// Scores of the tasks of several results side by side, with the test of each score of each pair of results.
 ///
-/// If both results have the same labels and their states are known, a score is tested in pairs by the signs of the clusters. Otherwise it is
-/// tested by the intervals of both. All scores and pairs of one task form one family of Holm's procedure. Scores of other definitions, and scores
+/// If both results have the same labels and their states are known, a score is tested in pairs by the signs of the clusters. Otherwise it is tested
+/// by the intervals of both scores. All scores and pairs of one task form one family of Holm's procedure. Scores of other definitions, and scores
 /// that are not shown to be better than the best constant, are not ranked.
 ///
 /// ```
@@ -71,7 +71,7 @@ pub struct TaskAnswer {
     pub sides: Sides<usize>,
     /// Both values; `None` for an undefined value.
     pub values: Sides<Option<f64>>,
-    /// Difference with its test, or the reason why there is none.
+    /// Difference with its test, or the reason why there is no difference.
     pub difference: Result<Difference, String>,
     /// Position of the result that is shown to be better.
     pub winner: Option<usize>,
@@ -95,7 +95,7 @@ struct Subject<'a> {
 }
 
 impl TaskComparison {
-    /// Compares every pair of `results`. `metrics` selects scores by their metric; empty selects all. `seed` is that of the random signs.
+    /// Compares every pair of `results`. `metrics` selects scores by their metric; empty selects all. `seed` is the seed of the random signs.
     pub fn of(results: &[TaskResult], metrics: &[String], seed: u64) -> TaskComparison {
         let mut notes: Vec<String> = Vec::new();
         let mut answers = Vec::new();

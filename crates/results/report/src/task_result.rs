@@ -1,4 +1,4 @@
-//! Scores of tasks as a result: read from a report or taken from states, and as a study for limits.
+//! Scores of tasks as a result: read from a report or computed from states, and as a study for limits.
 
 use std::collections::BTreeMap;
 
@@ -101,7 +101,7 @@ struct Head {
 }
 
 impl TaskResult {
-    /// True if `text` says that it has scores of tasks.
+    /// True if `text` has a schema of scores of tasks.
     pub fn is_in(text: &str) -> bool {
         let head: Option<Head> = serde_json::from_str(text).ok();
         head.is_some_and(|head| head.schema.starts_with(ANY_VERSION))
@@ -144,7 +144,7 @@ impl TaskResult {
         Ok(result)
     }
 
-    /// The same result with the scores without each cluster of `other`, if both are of the same tables and scores.
+    /// The same result with the scores without each cluster of `other`, if both results have the same tables and scores.
     #[must_use]
     pub fn with_clusters_of(self, other: TaskResult) -> TaskResult {
         let is_same = self.tables == other.tables && numbers(&self) == numbers(&other);
@@ -173,7 +173,7 @@ impl TaskResult {
         self.tasks.iter().find(|task| task.name == name)
     }
 
-    /// Study whose channels are the tasks, for limits. A score in a unit that limits do not know, such as 1/min, is left out.
+    /// Study whose channels are the tasks, for limits. Omits scores in a unit that limits do not support, such as 1/min.
     pub fn study(&self) -> Study {
         let mut scores: Vec<Score> = Vec::new();
         for task in &self.tasks {
@@ -204,7 +204,7 @@ impl TaskResult {
     }
 }
 
-/// Value of each score, for the question whether two results are the same.
+/// Bits of each score, to compare two results.
 fn numbers(result: &TaskResult) -> Vec<Option<u64>> {
     let scores = result.tasks.iter().flat_map(|task| &task.scores);
     scores
@@ -212,7 +212,7 @@ fn numbers(result: &TaskResult) -> Vec<Option<u64>> {
         .collect()
 }
 
-/// Adds `score` to `scores`, as a variant of its metric if it is one.
+/// Adds `score` to `scores`, as a score or as a variant of its metric.
 fn enter(scores: &mut Vec<Score>, task: &ResultTask, score: &ResultScore) {
     let own = task.score_of(score);
     let Some(name) = &score.variant else {
@@ -242,7 +242,7 @@ fn enter(scores: &mut Vec<Score>, task: &ResultTask, score: &ResultScore) {
 }
 
 impl ResultTask {
-    /// Scores that readers compare: the main number of each metric, or its variants if it has no main number; no scores of single classes.
+    /// Scores that readers compare: the main number of each metric, or its variants if there is no main number. Omits scores of single classes.
     pub(crate) fn compared(&self) -> impl Iterator<Item = &ResultScore> {
         self.scores
             .iter()
@@ -264,7 +264,7 @@ impl ResultTask {
         scores.find(|score| score.metric == of.metric && score.variant == of.variant)
     }
 
-    /// Everything that defines `score`: its words, its unit, the classes and the column of the clusters.
+    /// Everything that defines `score`: definition, unit, classes and column of the clusters.
     pub(crate) fn meaning(&self, score: &ResultScore) -> String {
         let mut names: Vec<&str> = self.names.iter().map(String::as_str).collect();
         // The order of the classes changes no score.
@@ -280,7 +280,7 @@ impl ResultTask {
         )
     }
 
-    /// `score` as a score of the channel that the task is.
+    /// Converts `score` to a score whose channel is the task.
     pub(crate) fn score_of(&self, score: &ResultScore) -> Score {
         let of = &score.estimate;
         let value = match of.value {
@@ -328,7 +328,7 @@ impl ResultScore {
         }
     }
 
-    /// A score counts if its whole interval is better than the score of the best constant, or if no constant has a score.
+    /// Standing of the score. It counts if its whole interval is better than the score of the best constant, or if there is no such constant.
     pub(crate) fn standing(&self) -> Standing {
         let Some(constant) = self.estimate.of_constant else {
             return Standing::Counts;
@@ -347,7 +347,7 @@ impl ResultScore {
 }
 
 impl ResultEstimate {
-    /// Ends of the interval; `None` without one.
+    /// Ends of the interval; `None` without an interval.
     pub(crate) fn ends(&self) -> Option<[f64; 2]> {
         match self.ci95 {
             Ends::Known(ends) => Some(ends),

@@ -8,7 +8,7 @@ use taceva_tasks::{Estimate, PublicNumber, TaskReport, TaskScore, TaskScores};
 use crate::number::numeral;
 use crate::table::{Cell, Column, Table};
 
-/// Greatest number of classes whose confusion stands below the scores.
+/// Greatest number of classes whose confusion is listed below the scores.
 const MOST_CLASSES: usize = 12;
 
 /// Table of the scores of tasks for readers. Scores of single classes are only in [`task_numbers`].
@@ -166,7 +166,7 @@ fn remarks(task: &TaskScores) -> Vec<String> {
     remarks
 }
 
-/// Number of a public program beside the right one.
+/// Number as computed by a public program, with the correct number.
 fn as_published(number: &PublicNumber) -> String {
     let unit = (number.unit).map_or_else(String::new, |unit| format!(" {unit}"));
     let right = match number.right {

@@ -1,4 +1,4 @@
-//! Page of the scores of tasks: what is confused, curves, delays, and the samples with the greatest errors.
+//! Page of the scores of tasks: confused classes, curves, delays, and the samples with the greatest errors.
 
 mod confusion;
 mod curve;
@@ -12,9 +12,9 @@ use taceva_tasks::{TaskReport, TaskScores};
 use crate::html::{Document, Picture};
 use crate::tasks::task_table;
 
-/// Page of the scores of tasks as one HTML file. The first table is that of [`task_table`].
+/// Page of the scores of tasks as one HTML file. The first table comes from [`task_table`].
 ///
-/// `pictures` are those of the samples with the greatest errors; the study of a picture is the position of its task in the report.
+/// `pictures` show the samples with the greatest errors. The study of a picture is the index of its task in the report.
 ///
 /// ```
 /// use taceva_report::task_page;

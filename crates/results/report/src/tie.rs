@@ -13,7 +13,7 @@ use taceva_results::Score;
 
 /// Metric of gratings. Values are shares of few presses, so ties are frequent.
 pub(crate) const GRATINGS: &str = "sr";
-/// Default tolerance of a spacing in mm, if a score states none.
+/// Default tolerance of a spacing in mm, if a score states no tolerance.
 const TOLERANCE_MM: f64 = 0.05;
 const NM: f64 = 1e6;
 

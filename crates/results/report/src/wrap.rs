@@ -1,6 +1,6 @@
 //! Wraps text to a width.
 
-/// Additional indent of lines after the first one.
+/// Additional indent of lines after the first line, in characters.
 const HANGING: usize = 4;
 
 /// Wraps text to lines of at most `width` characters, indented by `indent`. Lines after the first have 4 more spaces. Breaks a word that is longer than a line.

@@ -41,7 +41,7 @@ impl Provenance {
         }
     }
 
-    /// Description of the samples and models of a [cross-validation](Provenance::cross_validation); `None` without one.
+    /// Description of the samples and models of a [cross-validation](Provenance::cross_validation); `None` without a cross-validation.
     ///
     /// ```
     /// use taceva_results::Provenance;

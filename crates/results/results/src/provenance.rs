@@ -60,7 +60,7 @@ pub struct Provenance {
     /// Instruments of the labels with their certificates, over all recordings.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub traceability: Vec<Traceability>,
-    /// Settings of the devices that made the recordings, such as `force_rate_hz`; for several recordings those that are equal in all.
+    /// Settings of the devices that made the recordings, such as `force_rate_hz`; for several recordings, settings that are equal in all.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub devices: BTreeMap<String, String>,
     /// UTC day of the last recording that has instruments.
@@ -71,7 +71,7 @@ pub struct Provenance {
     pub frames_decoded: u64,
     /// Third-party plugins behind the result.
     pub plugins: Vec<String>,
-    /// Digest of the table of samples written beside the result.
+    /// Digest of the table of samples written next to the result.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub samples_table: Option<String>,
     /// Accepted manual edits of the inputs: file, date, reason and digests.

@@ -14,7 +14,7 @@ use crate::task::StudyTask;
 
 /// Schema of one evaluation report.
 ///
-/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4. The schema after this one is 1.5.
+/// Unreleased versions wrote `taceva.evaluation/1` and 1.1 to 1.4. The next schema is 1.5.
 pub const EVALUATION_SCHEMA: &str = "taceva.evaluation/1.0";
 
 /// Scores of one sensor, with subject and provenance.
@@ -42,7 +42,7 @@ pub struct EvaluationReport {
     /// Scores with other training seeds; `None` if not requested.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over_seeds: Option<OverSeeds>,
-    /// Scores of tasks, such as slip; empty unless the scene asks for one.
+    /// Scores of tasks, such as slip; empty unless the scene requests a task.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub tasks: Vec<StudyTask>,
     /// Samples behind the scores, if available. They are not part of the JSON.

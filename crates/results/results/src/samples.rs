@@ -97,7 +97,7 @@ impl Samples {
     pub const GROUP: &'static str = "group";
     /// Name of the column with fold numbers, from 1. Each fold was predicted by its own model.
     pub const FOLD: &'static str = "fold";
-    /// Name of the column with the standard uncertainty of the height from which the depth of a sample counts, in mm.
+    /// Name of the column with the standard uncertainty of the height from which the depth of a sample is measured, in mm.
     pub const ZERO_U: &'static str = "zero_u_mm";
     /// Suffix of the columns with predictions.
     pub const PREDICTED: &'static str = "_predicted";

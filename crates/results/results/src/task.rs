@@ -1,4 +1,4 @@
-//! Scores of tasks that a study measured beside those of its channels.
+//! Scores of tasks that a study measured in addition to the scores of its channels.
 
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
@@ -28,9 +28,9 @@ pub struct TaskNumber<'a> {
     pub unit: &'a str,
     /// The score; `None` if it is undefined.
     pub value: Option<f64>,
-    /// 95 % interval by cluster, if there is one.
+    /// 95 % interval by cluster, if there is an interval.
     pub interval: Option<[f64; 2]>,
-    /// Score of the best constant prediction, if it has one.
+    /// Score of the best constant prediction, if a constant has a score.
     pub of_constant: Option<f64>,
     /// Number of samples.
     pub n: u64,

@@ -7,7 +7,7 @@ mod simulated;
 
 use simulated::{Cluster, Held, Strokes};
 
-/// Recordings of each row.
+/// Number of simulated recordings for each row of the table.
 const RUNS: u32 = 1000;
 
 fn main() {
@@ -31,7 +31,7 @@ fn main() {
     }
 }
 
-/// The share, with the number of runs without an interval; a dash if none was computed.
+/// Share as text, with the number of runs without an interval; a dash if no interval was computed.
 fn shown(held: Held) -> String {
     match (held.intervals, RUNS - held.intervals) {
         (0, _) => "–".to_owned(),

@@ -49,7 +49,7 @@ fn main() -> Result<(), TaskError> {
     Ok(())
 }
 
-/// Time of `work`.
+/// Duration of `work`.
 fn timed(work: impl FnOnce()) -> Duration {
     let start = Instant::now();
     work();

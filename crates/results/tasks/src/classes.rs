@@ -15,8 +15,8 @@ use crate::score::TaskScore;
 
 /// Counts of true and predicted classes by cluster, from which all scores of classes are computed.
 ///
-/// A cluster is what is alike: a trajectory, a clip, an object. The counts are sparse: classes that never meet take no memory. Any order of
-/// samples, and any merge of states, gives the same counts.
+/// Samples of one cluster, such as a trajectory, a clip or an object, are not independent. Counts of 0 use no memory. The counts do not depend on the
+/// order of samples or merges.
 ///
 /// ```
 /// use taceva_tasks::Classes;
@@ -37,7 +37,7 @@ pub struct Classes {
     clusters: ByCluster<Cells>,
 }
 
-/// A state as read, with counts that may contradict the names.
+/// State before its checks. Its counts may contradict the names.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,
@@ -123,7 +123,7 @@ pub struct ConfusionCell<'a> {
 const MOST_DENSE: usize = 256;
 
 impl Classes {
-    /// No samples of the classes `names`; F1, precision, recall and specificity of the task are those of `positive`.
+    /// State without samples, for the classes `names`. F1, precision, recall and specificity of the task describe the class `positive`.
     ///
     /// # Errors
     /// [`TaskError::TooFewNames`], [`TaskError::SameName`] or [`TaskError::UnknownPositive`].
@@ -139,9 +139,9 @@ impl Classes {
         })
     }
 
-    /// The same state for predictions after the rule in words `rule`, such as `threshold 0.4 strict, debounce 3`.
+    /// The same state for predictions to which the rule `rule` was applied, such as `threshold 0.4 strict, debounce 3`.
     ///
-    /// The rule stands in each definition. States of different rules do not merge.
+    /// Each definition contains the rule. States with different rules cannot be merged.
     #[must_use]
     pub fn after_rule(self, rule: impl Into<String>) -> Classes {
         Classes {
@@ -173,12 +173,12 @@ impl Classes {
         self.clusters.names()
     }
 
-    /// Rule that was applied to the predictions; empty without one.
+    /// Rule that was applied to the predictions; empty without a rule.
     pub(crate) fn rule(&self) -> &str {
         &self.rule
     }
 
-    /// Counts of all clusters but those called `names`.
+    /// Counts of all clusters except those in `names`.
     pub(crate) fn without_clusters(&self, names: &[&str]) -> Classes {
         let mut left = self.clone();
         left.clusters.remove(names);
@@ -186,7 +186,7 @@ impl Classes {
         left
     }
 
-    /// Numbers of right and of all samples of each cluster.
+    /// Number of samples with the right class, and number of all samples, of each cluster.
     pub(crate) fn hits_by_cluster(&self) -> Vec<[u64; 2]> {
         let of_cells = |cells: &Cells| -> [u64; 2] {
             let hits = cells
@@ -197,10 +197,10 @@ impl Classes {
         self.clusters.values().map(of_cells).collect()
     }
 
-    /// Adds a sample of `cluster` by the names of both classes.
+    /// Adds a sample of `cluster` by the names of its true and predicted class.
     ///
     /// # Errors
-    /// [`TaskError::UnknownClass`] with the nearest name. Nothing is added then.
+    /// [`TaskError::UnknownClass`] with the nearest name. No sample is added on an error.
     pub fn push(&mut self, cluster: &str, truth: &str, predicted: &str) -> Result<(), TaskError> {
         let row = self.n + 1;
         let cell = Cell {
@@ -211,10 +211,10 @@ impl Classes {
         Ok(())
     }
 
-    /// Adds the samples of `cluster` by the positions of both classes among the names.
+    /// Adds the samples of `cluster` by the positions of their true and predicted classes among the names.
     ///
     /// # Errors
-    /// [`TaskError::OtherLength`] or [`TaskError::UnknownPosition`]. Nothing is added then.
+    /// [`TaskError::OtherLength`] or [`TaskError::UnknownPosition`]. No sample is added on an error.
     ///
     /// ```
     /// use taceva_tasks::Classes;
@@ -313,7 +313,7 @@ impl Classes {
         cells.collect()
     }
 
-    /// All scores: of the task first, then of each class.
+    /// All scores, first those of the task, then those of each class.
     ///
     /// | metric | variants | constant to beat |
     /// |---|---|---|

@@ -31,17 +31,17 @@ impl<T> ByCluster<T> {
         self.0.keys().map(String::as_str)
     }
 
-    /// Takes the clusters called `names` away.
+    /// Removes the clusters in `names`.
     pub(crate) fn remove(&mut self, names: &[&str]) {
         self.0.retain(|name, _| !names.contains(&name.as_str()));
     }
 
-    /// Sums of all clusters, to be changed.
+    /// Mutable sums of all clusters, in the order of their names.
     pub(crate) fn values_mut(&mut self) -> impl Iterator<Item = &mut T> {
         self.0.values_mut()
     }
 
-    /// Sums of `cluster`, created by `T::default` at first.
+    /// Sums of `cluster`, created by `T::default` if missing.
     pub(crate) fn entry(&mut self, cluster: &str) -> &mut T
     where
         T: Default,
@@ -53,7 +53,7 @@ impl<T> ByCluster<T> {
         self.0.get_mut(cluster).expect("inserted above if missing")
     }
 
-    /// Adds the sums of `other`, those of equal clusters by `add`.
+    /// Adds the sums of `other`. `add` combines the sums of a cluster that both contain.
     pub(crate) fn merge(&mut self, other: ByCluster<T>, add: impl Fn(&mut T, T))
     where
         T: Default,

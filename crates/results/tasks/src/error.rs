@@ -1,4 +1,4 @@
-//! Refused samples and definitions of tasks.
+//! Errors of tasks.
 
 use taceva_core::{counted, nearest, shown};
 use thiserror::Error;
@@ -49,7 +49,7 @@ pub enum TaskError {
         /// Number of names.
         have: usize,
     },
-    /// One name twice.
+    /// Two classes with the same name.
     #[error("names: \"{}\" occurs twice, expected each name once", shown(.name))]
     SameName {
         /// The name.
@@ -95,7 +95,7 @@ pub enum TaskError {
         /// Number of rows of the truth.
         expected: usize,
     },
-    /// A stored state that no samples give.
+    /// A stored state that no samples can produce.
     #[error("a stored state has {}, which no samples give; score the samples again", shown(.found))]
     Damaged {
         /// Part found.
@@ -123,7 +123,7 @@ pub enum TaskError {
 }
 
 impl TaskError {
-    /// Class `name` of `column`, which is not among `names`.
+    /// Error for the class `name` of `column`, which is not among `names`.
     pub(crate) fn unknown_class(
         row: u64,
         column: &'static str,
@@ -138,21 +138,21 @@ impl TaskError {
         }
     }
 
-    /// Stored state with the part `found`.
+    /// Error for a stored state with the invalid part `found`.
     pub(crate) fn damaged(found: impl Into<String>) -> TaskError {
         TaskError::Damaged {
             found: found.into(),
         }
     }
 
-    /// `n` + `count`, for counts of a stored state.
+    /// `n` + `count`, for counts of a stored state; an error from 2⁵³ on.
     pub(crate) fn checked_count(n: u64, count: u64) -> Result<u64, TaskError> {
         // Twice the number of samples occurs in formulas, and their products in 128 bits.
         let sum = n.checked_add(count).filter(|sum| *sum < 1 << 53);
         sum.ok_or_else(|| TaskError::damaged("more than 2^53 samples"))
     }
 
-    /// Positive class `name`, which is not among `names`.
+    /// Error for the positive class `name`, which is not among `names`.
     pub(crate) fn unknown_positive(name: &str, names: &[String]) -> TaskError {
         TaskError::UnknownPositive {
             name: name.to_owned(),
@@ -165,7 +165,7 @@ fn nearest_name(name: &str, names: &[String]) -> Option<String> {
     nearest(name, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
-/// The suggestion at the end of a message; empty without one.
+/// Suggestion at the end of a message; empty without a suggestion.
 fn did_you_mean(nearest: &Option<String>) -> String {
     match nearest {
         Some(name) => format!("; did you mean \"{}\"?", shown(name)),

@@ -24,9 +24,9 @@ use crate::undefined::Undefined;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Estimate {
-    /// The score, rounded once, or the reason for a missing one.
+    /// The score, rounded once, or the reason why it is missing.
     pub value: Result<f64, Undefined>,
-    /// 95 % interval over choices of clusters.
+    /// 95 % interval over clusters.
     pub interval: Interval,
     /// Number of samples.
     pub n: u64,
@@ -34,13 +34,13 @@ pub struct Estimate {
     pub clusters: u64,
     /// Score of the best constant prediction; `None` if no constant has a score.
     pub of_constant: Option<f64>,
-    /// Score without each cluster with samples, in the order of the names of the clusters, for comparisons in pairs. Reports omit it, and scores of
-    /// single classes have none.
+    /// Score without each cluster with samples, in the order of cluster names, for comparisons in pairs. Reports omit these scores; single classes
+    /// have no such scores.
     pub left_out: Vec<LeftOut>,
 }
 
 impl Estimate {
-    /// The same estimate with an interval whose lower end is `least` or more, the least possible value of the score.
+    /// The same estimate, with a lower interval end of at least `least`, the least possible score.
     pub(crate) fn at_least(mut self, least: f64) -> Estimate {
         if let Interval::Jackknife { low, .. } = &mut self.interval {
             *low = low.max(least);
@@ -49,7 +49,7 @@ impl Estimate {
     }
 }
 
-/// `{value, undefined, ci95, method, standard_error, degrees_of_freedom, n, clusters, of_constant}`; `undefined` is the reason of a missing value.
+/// `{value, undefined, ci95, method, standard_error, degrees_of_freedom, n, clusters, of_constant}`; `undefined` is the reason for a missing value.
 impl Serialize for Estimate {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         let mut into = serializer.serialize_struct("Estimate", 9)?;
@@ -76,7 +76,7 @@ pub(crate) struct Part {
     pub(crate) value: Result<f64, Undefined>,
 }
 
-/// Estimate from the score of all clusters and the scores with one cluster left out each. Clusters without a sample are skipped.
+/// Estimate from the score of all clusters and the scores without each cluster. Clusters without a sample are skipped.
 pub(crate) fn estimate(
     value: Result<f64, Undefined>,
     range: Range,
@@ -104,7 +104,7 @@ pub(crate) fn estimate(
     }
 }
 
-/// Range of a share: between its ends by odds, at an end by Wilson's interval with as many samples as clusters.
+/// Range of a share. Values strictly between 0 and 1 use log odds. 0 and 1 use Wilson's interval with the number of clusters as samples.
 pub(crate) fn share(value: Result<f64, Undefined>) -> Range {
     match value {
         Ok(value) if 0.0 < value && value < 1.0 => Range::Ratio,

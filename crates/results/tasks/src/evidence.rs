@@ -1,9 +1,9 @@
-//! Content of the page of a task beside its scores.
+//! Content of the page of a task in addition to its scores.
 
-/// Greatest number of samples with the greatest errors.
+/// Maximum number of listed samples.
 const MOST_WORST: usize = 10;
 
-/// Content of the page of a task beside its scores: a curve, delays, and the samples with the greatest errors.
+/// Content of the page of a task in addition to its scores: a curve, delays, and the samples with the greatest errors.
 ///
 /// ```
 /// use taceva_tasks::{TaskEvidence, WorstSample};
@@ -16,7 +16,7 @@ const MOST_WORST: usize = 10;
 #[non_exhaustive]
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TaskEvidence {
-    /// Points of the curve of precision and recall, from the greatest threshold on; empty without scores.
+    /// Points of the curve of precision and recall, in order of descending threshold; empty without scores.
     pub curve: Vec<CurvePoint>,
     /// Share of positive samples; `None` without a curve.
     pub prevalence: Option<f64>,
@@ -76,7 +76,7 @@ impl WorstSample {
 }
 
 impl TaskEvidence {
-    /// Adds a sample to those with the greatest errors, if its error is among them. Of equal errors, the first added one comes first.
+    /// Adds a sample if its error is among the greatest errors. Among equal errors, the sample added first comes first.
     pub fn add_worst(&mut self, sample: WorstSample) {
         let behind = |own: &WorstSample| own.error.total_cmp(&sample.error).is_ge();
         let at = self.worst.iter().take_while(|own| behind(own)).count();

@@ -40,7 +40,7 @@ impl TryFrom<Stored> for Names {
 }
 
 impl Names {
-    /// Names, with the positive one if the task has one.
+    /// Names, with the positive class if the task has a positive class.
     ///
     /// # Errors
     /// [`TaskError::TooFewNames`], [`TaskError::SameName`] or [`TaskError::UnknownPositive`].
@@ -127,7 +127,7 @@ impl Names {
         }
     }
 
-    /// Refuses a number of scores other than that of the classes, and a score that is not finite.
+    /// Refuses scores that are not finite, or whose number differs from the number of classes.
     pub(crate) fn check_scores(&self, row: u64, scores: &[f64]) -> Result<(), TaskError> {
         if scores.len() != self.len() {
             return Err(TaskError::SomeScores {

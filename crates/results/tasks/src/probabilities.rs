@@ -18,7 +18,7 @@ use taceva_metrics::Range;
 
 /// Probabilities of all classes by cluster.
 ///
-/// A row is probabilities if each number is in 0 to 1 and their sum is 1 ± 10⁻⁶. A state with another row has no score, with the reason.
+/// Each number of a row must be in 0 to 1, and their sum must be 1 ± 10⁻⁶. Otherwise the scores of the state are undefined, with the reason.
 ///
 /// ```
 /// use taceva_tasks::{Probabilities, Undefined};
@@ -41,7 +41,7 @@ pub struct Probabilities {
     ranking: Ranking,
 }
 
-/// A state as read, with counts that may contradict each other.
+/// State before its checks. Its counts may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,
@@ -77,7 +77,7 @@ impl TryFrom<Stored> for Probabilities {
 const SUM_WITHIN: f64 = 1e-6;
 
 impl Probabilities {
-    /// No samples of the classes `names`. The calibration and the ranking are those of `positive`.
+    /// State without samples, for the classes `names`. Calibration and ranking use the class `positive`.
     ///
     /// # Errors
     /// [`TaskError::TooFewNames`], [`TaskError::SameName`] or [`TaskError::UnknownPositive`].
@@ -96,7 +96,7 @@ impl Probabilities {
     /// Adds a sample of `cluster` with a number for each class, in the order of the names.
     ///
     /// # Errors
-    /// [`TaskError::UnknownClass`], [`TaskError::SomeScores`] or [`TaskError::NotFinite`]. Nothing is added then.
+    /// [`TaskError::UnknownClass`], [`TaskError::SomeScores`] or [`TaskError::NotFinite`]. No sample is added on an error.
     pub fn push(&mut self, cluster: &str, truth: &str, row: &[f64]) -> Result<(), TaskError> {
         let at = self.n + 1;
         let truth = self.names.position(at, "truth", truth)? as usize;
@@ -129,13 +129,13 @@ impl Probabilities {
         Ok(self)
     }
 
-    /// The numbers of the positive class, for `roc_auc` and `average_precision`; `None` without a positive class.
+    /// Probabilities of the positive class, for `roc_auc` and `average_precision`; `None` without a positive class.
     #[must_use]
     pub fn ranking(&self) -> Option<&Ranking> {
         self.names.positive().map(|_| &self.ranking)
     }
 
-    /// `brier` and `log_loss`, and `ece` of the positive class of two.
+    /// `brier` and `log_loss`, and `ece` of the positive class if there are two classes.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let mut all = Losses::default();

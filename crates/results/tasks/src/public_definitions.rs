@@ -1,4 +1,4 @@
-//! Numbers of a task as public programs compute them.
+//! Scores of a task by the definitions of public programs.
 
 use crate::classes::Classes;
 use crate::pose::{EulerErrors, PoseState};
@@ -7,13 +7,13 @@ use crate::score::TaskScore;
 use crate::share_of_sets::PublishedShare;
 use crate::state::TaskState;
 
-/// Rule of Sparsh before the F1 of slip.
+/// Rule that Sparsh applies before it computes the F1 of slip.
 const RULE_OF_SPARSH: &str = "threshold 0.4 strict, debounce 3";
 /// Names of the axes of rotation.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
 impl TaskState {
-    /// Numbers of the task as `program` computes them, each with the right one; empty if the program has none of such a task.
+    /// Numbers of the task as `program` computes them, each with the correct number; empty if the program does not score such a task.
     ///
     /// | program | number | definition there |
     /// |---|---|---|

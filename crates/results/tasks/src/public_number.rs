@@ -1,4 +1,4 @@
-//! Public programs, and their numbers beside the right ones.
+//! Public programs, and their numbers with the correct numbers.
 
 use std::fmt;
 use std::str::FromStr;
@@ -6,7 +6,7 @@ use std::str::FromStr;
 use serde::{Serialize, Serializer};
 use taceva_core::{nearest, shown};
 
-/// Public program whose numbers can be computed beside ours. More programs may be added.
+/// Public program whose numbers can be computed in addition to ours. More programs may be added.
 ///
 /// ```
 /// use taceva_tasks::PublicProgram;
@@ -47,7 +47,7 @@ impl PublicProgram {
         }
     }
 
-    /// Tasks that have numbers of the program.
+    /// Tasks that the program scores.
     #[must_use]
     pub const fn of_tasks(self) -> &'static str {
         match self {
@@ -86,7 +86,7 @@ impl Serialize for PublicProgram {
     }
 }
 
-/// Number as a public program computes it, beside the right one.
+/// Number as a public program computes it, with the correct number.
 ///
 /// ```
 /// use taceva_tasks::{Classes, PublicProgram, TaskState};
@@ -109,7 +109,7 @@ pub struct PublicNumber {
     pub value: f64,
     /// Unit of both values; `None` for pure numbers.
     pub unit: Option<&'static str>,
-    /// The right value; `None` if the task has no data for it.
+    /// Correct value; `None` if the task has no data for it.
     pub right: Option<f64>,
     /// The reason for the difference, in one line.
     pub difference: String,

@@ -2,7 +2,7 @@
 
 use taceva_metrics::{Dyadic, Fraction};
 
-/// 2⁶⁴.
+/// 2⁶⁴, the number of values of a 64-bit limb.
 const LIMB: f64 = 18_446_744_073_709_551_616.0;
 
 /// Quotient of two counts.
@@ -28,7 +28,7 @@ pub(crate) fn ratio(above: u128, below: u128) -> f64 {
 
 /// Sum of `terms` divided by `by`, rounded once; `by` is above 0.
 ///
-/// The sum is cut to multiples of 2⁻¹²⁸ a term, which leaves two bounds. If both round to one number, the number is right. Otherwise the
+/// Each term is truncated to a multiple of 2⁻¹²⁸, which gives two bounds of the sum. If both round to one number, this is the result. Otherwise the
 /// sum is computed as one fraction, whose size grows with the number of terms.
 pub(crate) fn sum_over(terms: impl Iterator<Item = Quotient> + Clone, by: u64) -> f64 {
     let [mut units, mut upper, mut lower] = [0_u128; 3];

@@ -1,4 +1,4 @@
-//! Scores of two classes by cluster, and how well they rank the positive class above the negative one.
+//! Scores of positive and negative samples by cluster, and measures of their ranking.
 
 mod key;
 mod levels;
@@ -23,8 +23,8 @@ use crate::undefined::Undefined;
 
 /// Scores of positive and negative samples by cluster. A score is any finite number, greater for the positive class.
 ///
-/// The state counts samples of each different score. Beyond 65,536 different scores, all scores are rounded to multiples of 2⁻¹⁶, half to
-/// even, and flagged. This depends on the samples alone, so order and merges change nothing.
+/// The state counts samples by distinct score. Above 65,536 distinct scores, all scores are rounded to multiples of 2⁻¹⁶, half to even, and flagged.
+/// The result depends only on the samples, not on order and merges.
 ///
 /// ```
 /// use taceva_tasks::Ranking;
@@ -44,13 +44,13 @@ pub struct Ranking {
     clusters: ByCluster<Counts>,
 }
 
-/// Score of levels in ascending order.
+/// Function that computes a measure from levels in ascending order.
 type Value = fn(&[Level]) -> Result<f64, Undefined>;
 
 /// Samples by their score.
 type Counts = BTreeMap<ScoreKey, Sides>;
 
-/// Most different scores that are kept as they are.
+/// Maximum number of distinct scores that are not rounded.
 const MOST_SCORES: usize = 65_536;
 
 fn add(counts: &mut Counts, key: ScoreKey, sides: Sides) {
@@ -69,7 +69,7 @@ impl Ranking {
     /// Adds a sample of `cluster`.
     ///
     /// # Errors
-    /// [`TaskError::NotFinite`] for a score that is NaN or infinite. Nothing is added then.
+    /// [`TaskError::NotFinite`] for a score that is NaN or infinite. No sample is added on an error.
     pub fn push(&mut self, cluster: &str, score: f64, is_positive: bool) -> Result<(), TaskError> {
         self.push_rows(cluster, &[score], &[is_positive])
     }
@@ -77,7 +77,7 @@ impl Ranking {
     /// Adds the samples of `cluster`, sorted once.
     ///
     /// # Errors
-    /// [`TaskError::OtherLength`], or [`TaskError::NotFinite`] for a score that is NaN or infinite. Nothing is added then.
+    /// [`TaskError::OtherLength`], or [`TaskError::NotFinite`] for a score that is NaN or infinite. No sample is added on an error.
     pub fn push_rows(
         &mut self,
         cluster: &str,
@@ -111,7 +111,7 @@ impl Ranking {
         Ok(())
     }
 
-    /// All samples of both states.
+    /// Merges the samples of both states.
     #[must_use]
     pub fn merge(mut self, mut other: Ranking) -> Ranking {
         if self.is_on_grid {
@@ -197,7 +197,7 @@ impl Ranking {
         Sides::of(&self.levels()).prevalence()
     }
 
-    /// Properties of the scores that limit what is computed from them.
+    /// Properties of the scores that limit the results.
     pub(crate) fn flags(&self) -> Vec<ScoreFlag> {
         let mut flags = Vec::new();
         if self.all.len() == 1 {
@@ -213,9 +213,9 @@ impl Ranking {
         flags
     }
 
-    /// `value` of all samples, and `of_rest` of all but those of each cluster.
+    /// `value` of all samples, and `of_rest` of the samples without each cluster.
     ///
-    /// Each cluster is taken away from one list of levels and put back, so that many clusters need one list.
+    /// Each cluster is subtracted from a single list of levels and added again, to save memory.
     pub(crate) fn value_and_parts(
         &self,
         value: Value,

@@ -36,7 +36,7 @@ pub struct TaskReport {
 }
 
 impl TaskReport {
-    /// Report without tasks by this version of the program, of rows that were paired as `paired` says.
+    /// Report without tasks by the program version `taceva`. `paired` describes the pairing of rows.
     #[must_use]
     pub fn new(taceva: impl Into<String>, paired: impl Into<String>) -> TaskReport {
         TaskReport {

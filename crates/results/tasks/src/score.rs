@@ -145,7 +145,7 @@ impl TaskScore {
         }
     }
 
-    /// The same score with Wilson's interval of `hits` of `trials` beside; without for no trial.
+    /// The same score with Wilson's interval of `hits` of `trials`, as if frames were independent; without this interval for 0 trials.
     pub(crate) fn beside(self, hits: u64, trials: u64) -> TaskScore {
         let wilson = (trials > 0).then(|| Interval::wilson(hits, trials));
         TaskScore {
@@ -163,7 +163,7 @@ impl TaskScore {
     }
 }
 
-/// Property of the samples that limits a score; in files its words.
+/// Property of the samples that limits a score; files contain its words.
 ///
 /// ```
 /// use taceva_tasks::ScoreFlag;

@@ -10,8 +10,8 @@ const Z: f64 = 1.96;
 
 /// A published share of right samples over several test sets, with the half-width 1.96 SD / √samples.
 ///
-/// SD is the standard deviation over the sets. Divided by the root of the number of *samples*, it is the uncertainty of nothing: the sets are
-/// as many as they are.
+/// SD is the standard deviation over the sets. The division by the root of the number of *samples* is wrong, because the number of sets determines
+/// the uncertainty.
 ///
 /// ```
 /// use taceva_tasks::PublishedShare;
@@ -23,13 +23,13 @@ const Z: f64 = 1.96;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct PublishedShare {
-    /// Right samples.
+    /// Number of right samples.
     pub hits: u64,
-    /// All samples.
+    /// Number of all samples.
     pub samples: u64,
-    /// Test sets.
+    /// Number of test sets.
     pub sets: u32,
-    /// Published half-width of the interval.
+    /// Published half-width of the interval, as a share.
     pub half_width: f64,
 }
 
@@ -64,7 +64,7 @@ impl PublishedShare {
         ratio(u128::from(self.hits), u128::from(self.samples))
     }
 
-    /// Standard deviation over the sets, from the published half-width. As in NumPy, the mean square is over as many sets as there are.
+    /// Standard deviation over the sets, from the published half-width. As in NumPy, the variance divides by the number of sets.
     #[must_use]
     pub fn sd_over_sets(&self) -> f64 {
         self.half_width / PublishedShare::half_width_of(1.0, self.samples)

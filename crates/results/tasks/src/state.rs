@@ -1,4 +1,4 @@
-//! State of one task, from which its scores are computed, alone or merged with the states of other tables.
+//! State of one task. Its scores are computed from the state, which can be merged with states of other tables.
 
 use std::collections::BTreeSet;
 
@@ -18,18 +18,18 @@ use crate::report::TaskScores;
 use crate::top_k::TopK;
 use crate::undefined::Undefined;
 
-/// Places of `top_k`.
+/// Values of k of `top_k`.
 const PLACES: [u64; 2] = [2, 3];
 
 /// Kind of a task of places, whose states are poses without rotation.
 const PLACE: &str = "place";
 
-/// Scores of poses that a place has.
+/// Pose scores that apply to places.
 const OF_PLACES: [&str; 2] = ["pose_translation", "pose_axis"];
 
 /// Sums of one task by cluster, with the definition of the task.
 ///
-/// The scores depend on the samples alone: states of parts of a table, merged in any order, have the scores of the whole table.
+/// The scores depend only on the samples: states of parts of a table, merged in any order, have the scores of the whole table.
 ///
 /// ```
 /// use taceva_tasks::{Classes, TaskState};
@@ -291,7 +291,7 @@ fn both<T>(
     }
 }
 
-/// Remarks of two states: equal ones as they are, others in the order of letters, so that the order of merges changes nothing.
+/// Remarks of two states: unchanged if equal, otherwise sorted, so that the order of merges has no effect.
 fn joined(ours: Vec<String>, theirs: Vec<String>) -> Vec<String> {
     if ours == theirs {
         return ours;

@@ -35,7 +35,7 @@ pub struct TopK {
     clusters: ByCluster<Places>,
 }
 
-/// A state as read, with counts that may contradict the names.
+/// State before its checks. Its counts may contradict the names.
 #[derive(Deserialize)]
 struct Stored {
     names: Names,
@@ -67,16 +67,16 @@ impl TryFrom<Stored> for TopK {
     }
 }
 
-/// Samples by the place of their class.
+/// Number of samples by the place of their class.
 type Places = BTreeMap<Place, u64>;
 
 /// Place of the true class; in files `above+equal`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 struct Place {
-    /// Classes with a greater score.
+    /// Number of classes with a greater score.
     above: u64,
-    /// Classes with an equal score, with the true class itself.
+    /// Number of classes with an equal score, including the true class.
     equal: u64,
 }
 
@@ -99,14 +99,14 @@ impl TryFrom<String> for Place {
     }
 }
 
-/// Value of a score that is equal to others for the first k places.
+/// Treatment of classes with equal scores at the k-th place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Ties {
     /// The expected share if equal scores are ordered at random.
     Expected,
-    /// The class stands before all equal ones.
+    /// The true class precedes all classes with an equal score.
     For,
-    /// The class stands after all equal ones.
+    /// The true class follows all classes with an equal score.
     Against,
 }
 
@@ -130,7 +130,7 @@ impl Place {
 }
 
 impl TopK {
-    /// No samples of the classes `names`.
+    /// State without samples, for the classes `names`.
     ///
     /// # Errors
     /// [`TaskError::TooFewNames`] or [`TaskError::SameName`].
@@ -145,7 +145,7 @@ impl TopK {
     /// Adds a sample of `cluster` with a score of each class, in the order of the names. Scores are any finite numbers.
     ///
     /// # Errors
-    /// [`TaskError::UnknownClass`], [`TaskError::SomeScores`] or [`TaskError::NotFinite`]. Nothing is added then.
+    /// [`TaskError::UnknownClass`], [`TaskError::SomeScores`] or [`TaskError::NotFinite`]. No sample is added on an error.
     pub fn push(&mut self, cluster: &str, truth: &str, scores: &[f64]) -> Result<(), TaskError> {
         let row = self.n + 1;
         let truth = self.names.position(row, "truth", truth)?;
@@ -181,7 +181,7 @@ impl TopK {
         Ok(self)
     }
 
-    /// `top_k` with equal scores shared, then its variants `ties_for` and `ties_against`.
+    /// `top_k` with the expected share for equal scores, then its variants `ties_for` and `ties_against`.
     #[must_use]
     pub fn scores(&self, k: u64) -> Vec<TaskScore> {
         let score = |ties, name: &str, words: &str| {

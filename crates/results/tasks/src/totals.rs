@@ -14,7 +14,7 @@ use crate::undefined::Undefined;
 pub(crate) struct Totals<const SUMS: usize, const COUNTS: usize> {
     /// Sums of numbers.
     pub(crate) sums: [ExactSum; SUMS],
-    /// Counts of things.
+    /// Counts, such as pixels or poses.
     pub(crate) counts: [u64; COUNTS],
 }
 
@@ -38,7 +38,7 @@ impl<const SUMS: usize, const COUNTS: usize> Totals<SUMS, COUNTS> {
         }
     }
 
-    /// Takes the totals of `other`, a part of these, away.
+    /// Subtracts the totals of `other`, which these totals must include.
     fn subtract(&mut self, other: &Totals<SUMS, COUNTS>) {
         for (sum, other) in self.sums.iter_mut().zip(&other.sums) {
             sum.subtract(other);
@@ -48,7 +48,7 @@ impl<const SUMS: usize, const COUNTS: usize> Totals<SUMS, COUNTS> {
         }
     }
 
-    /// Sum `sum` over count `count`, rounded once.
+    /// Quotient of the sum at index `sum` and the count at index `count`, rounded once.
     pub(crate) fn mean(&self, sum: usize, count: usize) -> Result<f64, Undefined> {
         match self.counts[count] {
             0 => Err(Undefined::Empty),
@@ -80,7 +80,7 @@ impl<'de, const SUMS: usize, const COUNTS: usize> Deserialize<'de> for Totals<SU
 /// Counts of all clusters of a stored state.
 ///
 /// # Errors
-/// [`TaskError::Damaged`] for more than 2⁵³.
+/// [`TaskError::Damaged`] for a count of more than 2⁵³.
 pub(crate) fn checked_counts<const SUMS: usize, const COUNTS: usize>(
     clusters: &ByCluster<Totals<SUMS, COUNTS>>,
 ) -> Result<[u64; COUNTS], TaskError> {
@@ -93,14 +93,14 @@ pub(crate) fn checked_counts<const SUMS: usize, const COUNTS: usize>(
     Ok(all)
 }
 
-/// Totals of one cluster, and of all others.
+/// Totals of one cluster, and of all other clusters.
 #[derive(Debug)]
 struct Without<'a, const SUMS: usize, const COUNTS: usize> {
     own: &'a Totals<SUMS, COUNTS>,
     rest: Totals<SUMS, COUNTS>,
 }
 
-/// Totals of all clusters, and without each of them.
+/// Totals of all clusters, and totals without each cluster.
 #[derive(Debug)]
 pub(crate) struct LeaveOneOut<'a, const SUMS: usize, const COUNTS: usize> {
     total: Totals<SUMS, COUNTS>,
@@ -132,7 +132,7 @@ impl<'a, const SUMS: usize, const COUNTS: usize> LeaveOneOut<'a, SUMS, COUNTS> {
         &self.total
     }
 
-    /// Estimate of `value`, whose range follows from it. The samples are those of count `count`.
+    /// Estimate of `value`, with the possible range that `range` returns for it. The count at index `count` is the number of samples.
     pub(crate) fn estimate(
         &self,
         count: usize,
@@ -149,7 +149,7 @@ impl<'a, const SUMS: usize, const COUNTS: usize> LeaveOneOut<'a, SUMS, COUNTS> {
         estimate(found, range(found), &parts, of_constant)
     }
 
-    /// `value` without an interval, such as a maximum. The samples are those of count `count`.
+    /// `value` without an interval, such as a maximum. The count at index `count` is the number of samples.
     pub(crate) fn without_interval(
         &self,
         count: usize,
@@ -169,12 +169,12 @@ impl<'a, const SUMS: usize, const COUNTS: usize> LeaveOneOut<'a, SUMS, COUNTS> {
     }
 }
 
-/// Range of an error.
+/// Range of values of an error: positive.
 pub(crate) fn error(_: Result<f64, Undefined>) -> Range {
     Range::Positive
 }
 
-/// Range of a signed number.
+/// Range of values of a signed number: any.
 pub(crate) fn signed(_: Result<f64, Undefined>) -> Range {
     Range::Any
 }

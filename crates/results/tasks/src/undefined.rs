@@ -24,7 +24,7 @@ pub enum Undefined {
     NoPrediction,
     /// No sample is of the negative class.
     NoNegative,
-    /// Some scores are no probabilities: outside 0 to 1, or with another sum than 1 over the classes.
+    /// Some scores are not probabilities: outside 0 to 1, or with a sum other than 1 over the classes.
     NotProbabilities,
     /// A class of probability 0 came true, so the logarithmic loss is infinite.
     InfiniteLoss,
@@ -42,9 +42,9 @@ pub enum Undefined {
     BothEmpty,
     /// The task states no size of a pixel.
     NoPixelSize,
-    /// No onset, neither true nor predicted.
+    /// There is no true or predicted onset.
     NoOnset,
-    /// No predicted onset matches a true one.
+    /// No predicted onset matches a true onset.
     NoMatch,
     /// A sequence has no times.
     NoTimes,

@@ -55,17 +55,17 @@ pub struct CaptureRequest {
     pub lasts: Option<Duration>,
     /// Number of frames to record; `None` records until the capture is cancelled.
     pub frames: Option<u64>,
-    /// Rig file of all devices, whose axes and latencies the recording keeps; `None` if a device is named otherwise.
+    /// Rig file of all devices, whose axes and latencies the recording stores; `None` if selectors name the devices.
     pub rig: Option<RigFile>,
 }
 
-/// Optional viewer and predictor of a capture. They never delay it.
+/// Optional viewer and predictor of a capture. They never delay the capture.
 #[derive(Clone, Copy, Default)]
 #[non_exhaustive]
 pub struct Onlookers<'a> {
     /// Viewer that receives forces and counts of lost frames.
     pub viewer: Option<&'a dyn Viewer>,
-    /// Predictor that receives frames. Its [table](LivePredictor::with_table) is written beside the recording.
+    /// Predictor that receives frames. Its [table](LivePredictor::with_table) is written next to the recording.
     pub predictor: Option<&'a LivePredictor<'a>>,
 }
 
@@ -108,7 +108,7 @@ pub struct CaptureState {
     pub late_force: u64,
     /// Normal force at the last frame, in N; `None` if it is unknown.
     pub normal_n: Option<f64>,
-    /// Least normal force so far, in N. A value far below 0 indicates an axis with the wrong sign.
+    /// Least normal force since the start, in N. A value far below 0 indicates an axis with the wrong sign.
     pub least_normal_n: f64,
 }
 

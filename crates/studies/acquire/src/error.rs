@@ -92,7 +92,7 @@ pub enum AcquireError {
     Model {
         /// Path of the model file.
         path: PathBuf,
-        /// Reason why the model cannot read them.
+        /// Reason why the model cannot read the frames.
         problem: String,
     },
     /// The lock of a device cannot be acquired.

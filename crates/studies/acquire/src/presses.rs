@@ -72,7 +72,7 @@ impl PlannedStudy {
         }
     }
 
-    /// True if the study presses, and any of its devices is real.
+    /// True if the study makes presses with at least one real device.
     pub fn is_real(&self, drivers: &Drivers) -> bool {
         matches!(&self.source, StudySource::Rig(rig) if !rig.is_only_simulated(drivers))
     }

@@ -14,8 +14,8 @@ use crate::recordings;
 /// Number of rows in a batch: large enough that merging is rare, small enough that a batch fits into the cache.
 pub(crate) const BATCH_ROWS: usize = 1 << 12;
 
-/// Metric of the frame rate and the field of view. Only frames at rest without contact have the full rate, so it reads times from its phase,
-/// and all else from every row.
+/// Metric of the frame rate and the field of view. Only frames at rest without contact have the full rate, so the metric reads times from its phase,
+/// and everything else from every row.
 pub const OF_SENSOR: &str = "intrinsic";
 
 /// Source of rows with truth and prediction. Any thread may read any range.
@@ -68,7 +68,7 @@ fn accumulate_block(
     Ok(evaluator)
 }
 
-/// The plan restricted to fewer metrics. Its states can be merged with those of the whole plan.
+/// The plan restricted to fewer metrics. Its states can be merged with states of the whole plan.
 ///
 /// # Errors
 /// [`EvaluateError::Scores`] for an unusable constant or setting.

@@ -85,9 +85,9 @@ impl Cache {
         }
     }
 
-    /// Shares this cache among many tasks, in this process and in other processes that use the folder. Features are computed for whole recordings, whatever
-    /// rows a task needs. One task computes them while the others wait. Each frame is then decoded once for each kind of features, if the cache can store
-    /// these.
+    /// Shares this cache among many tasks, in this process and in other processes that use the folder. Features are computed for whole recordings,
+    /// whatever rows a task needs. One task computes them while other tasks wait. Each frame is then decoded once for each kind of features, if the
+    /// cache can store these features.
     #[must_use]
     pub fn of_many(self) -> Cache {
         Cache {
@@ -137,7 +137,7 @@ impl Cache {
         notes.iter().cloned().collect()
     }
 
-    /// Stages of the run so far, study by study. Each record states whether the result was reused.
+    /// Finished stages of the run, study by study. Each record states whether the result was reused.
     pub fn stages(&self) -> Vec<StageRecord> {
         let records = self.records.lock().unwrap_or_else(PoisonError::into_inner);
         let mut records = records.clone();

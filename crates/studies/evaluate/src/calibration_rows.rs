@@ -45,7 +45,7 @@ impl PlannedRows {
     /// Rows of `dataset` that its run divides. `None` if the dataset is not a recording of a run, or if the run's plan divides nothing.
     ///
     /// # Errors
-    /// [`EvaluateError::RunFolder`] if the plan beside the recording cannot be read.
+    /// [`EvaluateError::RunFolder`] if the plan next to the recording cannot be read.
     pub(crate) fn of(dataset: &Dataset) -> Result<Option<PlannedRows>, EvaluateError> {
         match dataset.recordings() {
             [] => PlannedRows::of_recording(dataset),

@@ -19,7 +19,7 @@ pub const CLASSIFIERS: [&str; 8] = [
     "auto",
 ];
 
-/// Number of [`CLASSIFIERS`] that predict no numbers, the first ones.
+/// Number of entries at the start of [`CLASSIFIERS`] that cannot predict numbers.
 const CLASSIFIERS_ALONE: usize = 3;
 
 /// Setting of models that predict either numbers or classes.
@@ -44,7 +44,7 @@ fn usual(kind: TaskKind) -> &'static str {
 /// `fit` with the settings by which its model predicts the labels of `task`: classes, or the numbers of a pose or of a depth map.
 ///
 /// # Errors
-/// [`EvaluateError::Request`] for a model of numbers and a task of classes, and the reverse.
+/// [`EvaluateError::Request`] for a model of numbers with a task of classes, or the reverse.
 pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateError> {
     let labels = match task.kind {
         TaskKind::Pose => "poses",
@@ -91,7 +91,7 @@ fn as_classifier(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateErr
     })
 }
 
-/// Dataset whose labels are those that `model` predicts: the classes of its task, if the dataset has the task; otherwise `None`.
+/// Dataset with the classes of the model's task as labels; `None` if the dataset lacks the task.
 ///
 /// # Errors
 /// [`EvaluateError::Unsuited`] for a task of the same name with other classes.

@@ -63,7 +63,7 @@ pub enum EvaluateError {
     /// A Parquet table of scores cannot be read.
     #[error(transparent)]
     Parquet(#[from] TableError),
-    /// A state file cannot be read or merged with the others.
+    /// A state file cannot be read or merged with other state files.
     #[error("{}: {problem}", taceva_core::shown(path))]
     State {
         /// Path of the file.

@@ -77,7 +77,7 @@ pub(crate) struct SplitFields {
     times_s: Option<Vec<f64>>,
     parts: Option<Vec<String>>,
     column: Option<(String, Vec<String>)>,
-    /// All columns if the requested column is missing, to suggest another one.
+    /// All columns if the requested column is missing, to suggest another column.
     alternatives: Vec<(String, Vec<String>)>,
     recordings: Option<Vec<String>>,
     sections: Vec<usize>,

@@ -92,8 +92,8 @@ fn least(pairs: usize) -> f64 {
     LEAST.max(DEVIATIONS / (pairs as f64).sqrt())
 }
 
-/// Resemblance of the rank pairs, and their number. It is one minus their mean squared difference divided by that of independent ranks. `None` if all ranks are
-/// equal.
+/// Resemblance of the rank pairs, and number of pairs. The resemblance is 1 − d/e with the mean squared difference d of the pairs, and e of
+/// independent ranks. `None` if all ranks are equal.
 fn resemblance(pairs: impl Iterator<Item = [f64; 2]>) -> Option<(f64, usize)> {
     let (mut count, mut apart, mut sum, mut squares) = (0_usize, 0.0, 0.0, 0.0);
     for [one, other] in pairs {

@@ -89,7 +89,7 @@ pub enum Note {
     DepthZeros {
         /// Name of the recording, if several were joined.
         recording: Option<String>,
-        /// Median uncertainty over the samples that have one, in mm.
+        /// Median uncertainty over the samples with an uncertainty, in mm.
         median_mm: f64,
         /// Greatest uncertainty, in mm.
         most_mm: f64,
@@ -221,7 +221,7 @@ pub enum Note {
         /// Serial numbers of all planned units.
         of: Vec<String>,
     },
-    /// Detection limit of the normal force, or the reason why there is none.
+    /// Detection limit of the normal force, or the reason why there is no limit.
     DetectionLimit(Detection),
     /// Method that predicted the spacings of gratings.
     Spacings(&'static str),

@@ -24,8 +24,8 @@ use task_cells::TaskCells;
 /// Predicts a part of `dataset`. The default is the unseen data: the test part of the model's own dataset, or all rows of any other dataset. Each prediction
 /// includes the distance of its frame from the training part, if the model computes it.
 ///
+/// # Errors
 /// [`EvaluateError`] if the model cannot be used on the dataset, or the dataset cannot be read.
-/// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
 pub fn predict(
     dataset: &Dataset,
     model: &Model,
@@ -42,8 +42,7 @@ pub fn predict(
     })
 }
 
-/// Group of each row of `target`, from the split of the model, or else from a column that names groups. It replaces the contact point if no contact point is
-/// named.
+/// Group of each row of `target`, from the split of the model, or else from a column that names groups. The group replaces a missing contact point.
 fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
     let divided = target.divided.as_ref();
     if let Some(groups) = divided.and_then(|divided| divided.groups.as_ref()) {
@@ -58,8 +57,8 @@ fn groups(dataset: &Dataset, target: &Target) -> Option<Vec<String>> {
 
 /// Predictions of `model` for the rows of `target`, clipped to the bounds of the model, and unclipped.
 ///
+/// # Errors
 /// [`EvaluateError`] if the model cannot be used on the dataset, or the dataset cannot be read.
-/// [`EvaluateError`] if the model does not fit the dataset, or the dataset cannot be read.
 pub fn predict_target(
     dataset: &Dataset,
     model: &Model,
@@ -127,13 +126,13 @@ fn features_of(
     }
 }
 
-/// Column whose clusters the windows of a model do not cross; `None` for a model without a task.
+/// Column with the clusters for the windows of a model; `None` for a model without a task.
 fn clusters_of(model: &Model) -> Option<&str> {
     let task = model.card().provenance.task.as_ref();
     task.map(|task| task.cluster.as_str())
 }
 
-/// Rows whose inputs `model` reads to predict `rows`: these rows, or those of their windows.
+/// Rows whose inputs `model` reads to predict `rows`: these rows, or the rows of their windows.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for a row without a cluster.

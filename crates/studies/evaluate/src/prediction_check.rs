@@ -1,4 +1,4 @@
-//! Compares labels and predictions in a table of samples with those of a recording and a model file.
+//! Compares labels and predictions in a table of samples with a recording and a model file.
 
 mod beside_channels;
 
@@ -219,7 +219,7 @@ fn other_samples(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option
     })
 }
 
-/// Description of the first difference between the labels of the table and those of `rows` of `dataset`.
+/// Description of the first difference between the labels of the table and the labels of `rows` of `dataset`.
 fn other_labels(dataset: &Dataset, rows: &[usize], samples: &Samples) -> Option<String> {
     let table = dataset.table();
     table

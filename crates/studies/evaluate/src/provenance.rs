@@ -101,7 +101,7 @@ pub fn model(model: &Model) -> Result<ModelProvenance, EvaluateError> {
     })
 }
 
-/// Description of the setting that a fit chose, and of the criterion; `None` if it chose none.
+/// Description of the setting that a fit chose, and of the criterion; `None` if it chose no setting.
 fn chosen_by(choice: &Choice) -> Option<String> {
     let how = match choice.by {
         ChosenBy::Nobody => return None,

@@ -101,7 +101,7 @@ pub fn recount_samples(
     Recount::of(file, total, left_out)
 }
 
-/// Divides the metrics of `plan` into those that can be computed from a table of samples, and the others.
+/// Divides the metrics of `plan` into metrics that can be computed from a table of samples, and other metrics.
 fn covered(plan: &MetricPlan) -> (Vec<&'static Metric>, Vec<Skip>) {
     let (mut metrics, mut left_out) = (Vec::new(), Vec::new());
     let exact: FieldSet = EXACT.into_iter().collect();

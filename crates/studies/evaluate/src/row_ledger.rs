@@ -163,7 +163,7 @@ impl AllTaken {
         Ok(())
     }
 
-    /// True if all states are of shards of one input.
+    /// True if all states belong to shards of one input.
     pub(crate) fn is_of_shards_of_one_input(&self) -> bool {
         let mut taken = self.taken.iter().map(|(_, taken)| taken);
         let first = taken.next();

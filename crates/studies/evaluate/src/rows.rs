@@ -265,7 +265,7 @@ pub fn require_samples(dataset: &Dataset) -> Result<(), EvaluateError> {
     }
 }
 
-/// Channels among `channels` with a label in at least one sample with a frame. If there are none, all of `channels`.
+/// Channels among `channels` with a label in at least one sample with a frame. Without such channels, all of `channels`.
 pub(crate) fn seen_channels(dataset: &Dataset, channels: &Channels) -> Channels {
     let table = dataset.table();
     let is_seen = |channel: &&Channel| {

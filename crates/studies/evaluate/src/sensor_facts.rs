@@ -5,7 +5,7 @@ use taceva_metrics::SensorFacts;
 
 use crate::error::EvaluateError;
 
-/// Sensor facts of `file`. Facts missing there are read from the header of `dataset`.
+/// Sensor facts of `file`. Missing facts are read from the header of `dataset`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] if the header has a footprint with impossible lengths.
@@ -34,7 +34,7 @@ pub(crate) fn of_dataset(
     })
 }
 
-/// Facts of `file`. Facts missing there are taken from `otherwise`.
+/// Facts of `file`. Missing facts come from `otherwise`.
 pub(crate) fn of_file(file: &SensorFile, otherwise: SensorFacts) -> SensorFacts {
     let reference_scene = file.reference_scene.clone();
     SensorFacts::default()

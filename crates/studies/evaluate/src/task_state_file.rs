@@ -61,7 +61,7 @@ struct Shards {
 }
 
 impl TaskStates {
-    /// No tasks yet, of rows that were paired as `paired` says. `tables` has the digests of the tables by their role.
+    /// State without tasks. `paired` describes the pairing of rows, and `tables` has the digests of the tables by their role.
     pub fn new(paired: String, tables: BTreeMap<String, String>) -> TaskStates {
         TaskStates {
             schema: TASK_STATE_SCHEMA.to_owned(),
@@ -208,7 +208,7 @@ impl TaskStates {
         labels(self).intersection(&labels(other)).next().cloned()
     }
 
-    /// True if the file at `path` says that it has states of tasks.
+    /// True if the file at `path` has a schema of states of tasks.
     pub fn is_at(path: &Path) -> bool {
         let head = read_capped(path)
             .ok()
@@ -261,7 +261,7 @@ impl TaskStates {
 /// Merges files with states of tasks.
 ///
 /// # Errors
-/// [`EvaluateError::State`] with the first file that does not merge with those before it. [`EvaluateError::Request`] without a file.
+/// [`EvaluateError::State`] with the first file that cannot be merged with the earlier files. [`EvaluateError::Request`] without a file.
 pub fn merge_task_states(paths: &[PathBuf]) -> Result<TaskStates, EvaluateError> {
     let mut merged: Option<TaskStates> = None;
     for path in paths {

@@ -1,4 +1,4 @@
-//! Cross-validated fit. The model is fitted on every sample; its scores are those of models that were fitted without some samples.
+//! Cross-validated fit. The model is fitted on every sample; its scores come from models that were fitted without some samples.
 
 use taceva_dataset::Dataset;
 use taceva_models::{Checkpoints, ValidationCard, ValidationScore};

@@ -4,7 +4,7 @@ use std::fmt;
 
 /// Id of a press or a plan: a 128-bit hash of its content, written as 32 hexadecimal digits.
 ///
-/// The hash is FNV-1a. Accidental collisions are negligible, but deliberate ones are possible.
+/// The hash is FNV-1a. Accidental collisions are negligible, but deliberate collisions are possible.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ContentId(u128);
 

@@ -12,11 +12,11 @@ use taceva_core::Footprint;
 pub struct FootprintSpec {
     /// Shape of the outline.
     pub shape: Shape,
-    /// Radius of a disc.
+    /// Radius of a disc, mm.
     pub radius_mm: Option<f64>,
-    /// Half the width of a rectangle.
+    /// Half the width of a rectangle, mm.
     pub half_x_mm: Option<f64>,
-    /// Half the height of a rectangle.
+    /// Half the height of a rectangle, mm.
     pub half_y_mm: Option<f64>,
 }
 

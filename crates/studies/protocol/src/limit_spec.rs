@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use crate::text::Setting;
 
-/// Limits in a scene. If a limit is absent, that of the device applies.
+/// Limits in a scene. If a limit is absent, the limit of the device applies.
 ///
 /// # Units
 /// mm, N and mm/s; `Pz` is the indentation depth, `Fz` the normal force, `Fxy` the magnitude of the shear.
@@ -35,7 +35,7 @@ impl LimitSpec {
         ]
     }
 
-    /// Merges the limits of this table with those of `outer` as defaults.
+    /// Merges the limits of this table with the limits of `outer` as defaults.
     pub(crate) fn or(self, outer: LimitSpec) -> LimitSpec {
         LimitSpec {
             depth_max_mm: self.depth_max_mm.or(outer.depth_max_mm),

@@ -23,7 +23,7 @@ pub struct RigLimits {
     pub normal_max: Newton,
     /// Greatest shear force; by default the limit of the normal force, or the range of the transducer if that is smaller.
     pub shear_max: Newton,
-    /// Greatest force that the transducer measures; `None` if its descriptor states none.
+    /// Greatest force that the transducer measures; `None` if its descriptor states no force.
     pub saturation: Option<Newton>,
     /// Greatest speed out of contact, in mm/s.
     pub speed_max_mm_s: f64,
@@ -55,7 +55,7 @@ pub struct RigLimits {
 /// mm.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct Overshoot {
-    /// Length of a segment.
+    /// Length of a segment, mm.
     pub segment_mm: f64,
     /// Overshoot with healthy signals: one segment, the braking distance and the margin for pose noise.
     pub healthy_mm: f64,
@@ -67,7 +67,7 @@ pub struct Overshoot {
 pub const SEGMENT_S: f64 = 0.015;
 /// Number of bit-equal readings, each after a motion, at which the signal counts as frozen.
 pub const FROZEN_READINGS: u32 = 8;
-/// Deceleration assumed for a robot that states none, in mm/s². At 1 m/s², an arm stops from 5 mm/s within 0.0125 mm.
+/// Deceleration assumed for a robot that states no deceleration, in mm/s². At 1 m/s², an arm stops from 5 mm/s within 0.0125 mm.
 const DECELERATION_MM_S2: f64 = 1_000.0;
 /// Least length of a segment, in standard deviations of the reported pose.
 const SEGMENT_NOISES: f64 = 4.0;

@@ -29,7 +29,7 @@ pub(crate) struct PhaseInputs<'a> {
     pub(crate) depth_max: Nanometre,
     /// Units of the sensor, never empty. All phases except the surface map use only the first unit, unless the scene repeats presses on every unit.
     pub(crate) units: &'a [String],
-    /// Light scenes, that of calibration first; empty if the light cannot be set.
+    /// Light scenes, the calibration scene first; empty if the light cannot be set.
     pub(crate) lights: &'a [String],
     /// True if the gel has markers. Without markers, shear leaves no visible trace.
     pub(crate) markers: bool,
@@ -99,7 +99,7 @@ impl PhaseInputs<'_> {
         }
     }
 
-    /// Cycles of load before the measured presses of `stage`, in order.
+    /// Load cycles before the measured presses of `stage`, in order.
     pub(crate) fn loads(&self, stage: &WearStage) -> Vec<Press> {
         let spec = self.protocol.wear.as_ref();
         let load = spec.and_then(|spec| Some((spec, WearLoad::from_name(&spec.load.value)?)));

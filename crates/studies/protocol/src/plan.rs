@@ -56,7 +56,7 @@ pub struct Plan {
     pub channels: Vec<String>,
     /// Units to measure, in the order of measurement.
     pub units: Vec<String>,
-    /// Light scenes, that of calibration first.
+    /// Light scenes, the calibration scene first.
     pub lights: Vec<String>,
     /// Skipped metrics, phases, models, fields and channels, with reasons.
     pub skipped: Vec<PlanSkip>,
@@ -72,7 +72,7 @@ pub struct Plan {
     pub frame: Option<FrameInfo>,
     /// Size to which frames are reduced before storage; `None` stores full frames.
     pub kept_frames: Option<FrameSize>,
-    /// Cycles of load before the measured presses; `None` without `[protocol.wear]`.
+    /// Load cycles before the measured presses; `None` without `[protocol.wear]`.
     pub wear: Option<PlannedWear>,
     /// Estimated cost.
     pub cost: Cost,
@@ -118,7 +118,7 @@ impl Plan {
         Channels::new(channels).unwrap_or_default()
     }
 
-    /// Facts about the sensor that metrics read. The reference light scene is that of calibration.
+    /// Facts about the sensor that metrics read. The reference light scene is the calibration scene.
     pub fn sensor_facts(&self) -> SensorFacts {
         let depth_max_mm = self.limits.as_ref().map(|limits| limits.depth_max.0);
         let footprint = self

@@ -36,7 +36,7 @@ pub enum Motion {
     Touch,
     /// First contact, followed by these waypoints in order.
     Indent(Vec<Waypoint>),
-    /// First contact, followed by a load that wears the gel. It gives no sample.
+    /// First contact, followed by a load that wears the gel. The load gives no sample.
     Load(LoadCycle),
 }
 
@@ -182,7 +182,7 @@ impl Press {
         }
     }
 
-    /// The cycle of load that the press makes; `None` for a measured press.
+    /// Load cycle of the press; `None` for a measured press.
     pub fn load(&self) -> Option<&LoadCycle> {
         match &self.motion {
             Motion::Load(cycle) => Some(cycle),

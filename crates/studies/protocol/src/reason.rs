@@ -15,7 +15,7 @@ const FOOTPRINT_LINE: &str = "`footprint = { shape = \"disc\", radius_mm = … }
 pub struct PlanSkip {
     /// Skipped part.
     pub subject: Subject,
-    /// Reason why it is skipped.
+    /// Reason why the part is skipped.
     pub reason: PlanReason,
 }
 

@@ -69,7 +69,7 @@ pub struct RigFile {
     pub operator: Option<RigOperator>,
     /// Devices that change specimen, unit or light automatically.
     pub changers: RigChangers,
-    /// Limits of the rig, which may only tighten those of its devices.
+    /// Limits of the rig, which may only tighten the limits of its devices.
     pub limits: LimitSpec,
     pub(crate) text: Text,
 }
@@ -77,7 +77,7 @@ pub struct RigFile {
 /// A robot and its mounting relative to the sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigRobot {
-    /// Selector of its driver.
+    /// Selector of the driver.
     pub driver: Setting<String>,
     /// Body that the robot moves.
     pub carries: Carried,
@@ -106,13 +106,13 @@ pub enum Carried {
 /// A force transducer and its mounting relative to the sensor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigForce {
-    /// Selector of its driver.
+    /// Selector of the driver.
     pub driver: Setting<String>,
     /// Axes of the transducer that correspond to the axes of the sensor. A positive Fz presses into the gel.
     pub axes: Setting<SignedAxes>,
     /// Delay between a reading and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
-    /// Standard uncertainty of this delay, in ms, measured by taps.
+    /// Standard uncertainty of `latency_ms`, in ms, measured by taps.
     pub latency_u_ms: Option<Setting<f64>>,
     /// Greatest change of a component of the zero during a press, in N. `None` for 5 times the least force that counts as contact.
     pub zero_step_max_n: Option<f64>,
@@ -187,7 +187,7 @@ impl RigFile {
     ///
     /// - invalid TOML, or an unknown key, with the most similar known key;
     /// - axes that form no right-handed frame;
-    /// - a certificate of another instrument, or one that contradicts itself;
+    /// - a certificate of another instrument, or a certificate that contradicts itself;
     /// - a place, latency, patience or limit out of range.
     pub fn parse(source_name: &str, text: &str) -> Result<RigFile, SceneError> {
         let text = Text::new(source_name, text)?;

@@ -32,7 +32,7 @@ pub struct Certificate {
     pub laboratory: String,
     /// Serial number in the certificate.
     pub serial: String,
-    /// Serial number read by the instrument's driver; `None` if the driver reads none.
+    /// Serial number read by the instrument's driver; `None` if the driver reads no serial number.
     pub instrument_serial: Option<String>,
     /// Coverage of the expanded uncertainties.
     pub coverage: Coverage,
@@ -120,7 +120,7 @@ impl Certificate {
         }
     }
 
-    /// Warning for a certificate that had expired on the day of the recording, or may have. Dates in one form compare as text.
+    /// Warning for a certificate that had or may have expired on the day of the recording. Dates in one form compare as text.
     pub(super) fn expiry(&self) -> Option<String> {
         let (number, until) = (&self.number, self.valid_until.as_ref()?);
         match &self.recorded_on {

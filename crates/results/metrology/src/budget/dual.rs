@@ -35,7 +35,7 @@ impl Scalar for f64 {
     }
 }
 
-/// Value of an expression with its derivatives, in units of the expression divided by those of the inputs.
+/// Value of an expression with its derivatives, in the unit of the expression, divided by the units of the inputs.
 ///
 /// This type gets no further field: derivatives of third order are not computed.
 ///

@@ -33,7 +33,7 @@ impl Input {
         rows.or(self.figure.as_ref().and_then(|figure| figure.n))
     }
 
-    /// Reservation of the figure; `None` without one.
+    /// Reservation of the figure; `None` without a reservation.
     pub(super) fn note(&self) -> Option<String> {
         let note = self.figure.as_ref()?.note.as_ref()?;
         Some(format!("{}: {note}", self.name))

@@ -21,7 +21,7 @@ const FACTOR: u64 = 1 << 33;
 
 /// Request for a Monte Carlo check of a budget.
 ///
-/// Draws are computed in blocks of 10⁴. Each draw is a function of seed, source and counter alone.
+/// Draws are computed in blocks of 10⁴. Each draw depends only on seed, source and counter.
 ///
 /// ```
 /// use taceva_metrology::budget::MonteCarlo;

@@ -5,8 +5,8 @@ use super::evidence::Evidence;
 use super::input::Input;
 use super::report::Missing;
 
-/// Uncertainty of the height from which depths count. The depth label of each press has the error of its own zero, which residuals and repeats therefore
-/// contain.
+/// Uncertainty of the height from which depths are measured. The depth label of each press has the error of its own zero, which residuals and repeats
+/// therefore contain.
 const ZERO: &str = "zero_u_mm";
 
 /// Figures of residuals, each with the figures included in it.

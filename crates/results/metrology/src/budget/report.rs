@@ -32,7 +32,7 @@ pub struct Budget {
     pub schema: String,
     /// Name of the measurand.
     pub measurand: String,
-    /// Reading of the instrument; `None` if an expression alone gives the value.
+    /// Reading of the instrument; `None` if an expression gives the value without a reading.
     pub at: Option<f64>,
     /// Unit of all values and uncertainties.
     pub unit: String,
@@ -219,7 +219,7 @@ impl Budget {
         self.half_width().map(two_digits)
     }
 
-    /// Half-width of the interval; the greater one for an asymmetric interval. Equals U unless the interval is from draws.
+    /// Half-width of the interval; the greater half-width for an asymmetric interval. Equals U unless the interval is from draws.
     pub fn half_width(&self) -> Option<f64> {
         match self.method {
             Method::FirstOrder => self.expanded,

@@ -55,7 +55,7 @@ impl Limits {
     /// Values from `least` to `most`.
     ///
     /// # Errors
-    /// [`ConformityError::Limits`] unless the lower limit is below the upper one.
+    /// [`ConformityError::Limits`] unless the lower limit is below the upper limit.
     pub fn between(least: f64, most: f64) -> Result<Limits, ConformityError> {
         Limits::of(Some(least), Some(most))
     }
@@ -63,7 +63,7 @@ impl Limits {
     /// Values from `least` to `most`. `None` leaves a side unbounded.
     ///
     /// # Errors
-    /// [`ConformityError::Number`] for a limit that is not finite, [`ConformityError::Limits`] unless the lower limit is below the upper one.
+    /// [`ConformityError::Number`] for a limit that is not finite, [`ConformityError::Limits`] unless the lower limit is below the upper limit.
     pub fn of(least: Option<f64>, most: Option<f64>) -> Result<Limits, ConformityError> {
         for end in [least, most].into_iter().flatten() {
             check("the limit", end, end.is_finite(), "a finite number")?;

@@ -36,8 +36,8 @@ impl Population {
     /// The variance between units is the variance of their values minus the mean variance of their measurements, on the scale of `measured`.
     ///
     /// # Errors
-    /// [`ConformityError::Number`] for fewer than five units, a value outside the scale, a measurement without an uncertainty, or units whose
-    /// differences are within their uncertainties.
+    /// [`ConformityError::Number`] for fewer than five units, a value outside the scale, a measurement without an uncertainty, or differences of
+    /// units within their uncertainties.
     pub fn of(
         units: &[Measurement],
         measured: &Measurement,

@@ -17,7 +17,7 @@ pub(super) enum OpenScale {
 }
 
 impl OpenScale {
-    /// Scales, other than that of the value, on which interval ends may be symmetric.
+    /// Scales other than [`OpenScale::Own`] on which interval ends may be symmetric.
     pub(super) fn candidates(scale: Scale) -> &'static [OpenScale] {
         match scale {
             Scale::Logarithm => &[OpenScale::Logarithm, OpenScale::Remainder],

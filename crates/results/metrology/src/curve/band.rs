@@ -46,9 +46,9 @@ impl std::fmt::Display for CovarianceOf {
 pub struct Band {
     /// Value y(x) of the curve, in the unit of y.
     pub value: f64,
-    /// Lower end.
+    /// Lower end of the band.
     pub low: f64,
-    /// Upper end.
+    /// Upper end of the band.
     pub high: f64,
     /// Standard uncertainty. The half-width is a multiple of this uncertainty.
     pub u: f64,

@@ -187,7 +187,7 @@ pub struct IndicationSummary {
 }
 
 impl IndicationSummary {
-    /// Summarises presses with a defined q and skips the others.
+    /// Summarises presses with a defined q and skips other presses.
     ///
     /// # Errors
     /// [`CurveUndefined::TooFewRows`] without any press.

@@ -19,9 +19,9 @@ use taceva_metrics::distributions::student_t;
 pub struct InversePrediction {
     /// Reference value x at which y(x) equals the reading.
     pub x: f64,
-    /// Lower end.
+    /// Lower end of the interval.
     pub low: f64,
-    /// Upper end.
+    /// Upper end of the interval.
     pub high: f64,
     /// Half-width t u(x) without Fieller's correction, as in DIN 32645.
     pub half_width: f64,

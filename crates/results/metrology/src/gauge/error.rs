@@ -58,7 +58,7 @@ pub enum GaugeError {
         part: String,
         /// Label of the operator.
         operator: String,
-        /// Readings found.
+        /// Number of readings.
         have: usize,
         /// Number of readings in most cells.
         expected: usize,
@@ -70,7 +70,7 @@ pub enum GaugeError {
     UnequalParts {
         /// Label of the operator.
         operator: String,
-        /// Parts found.
+        /// Number of parts.
         have: usize,
         /// Number of parts of most operators.
         expected: usize,
@@ -80,13 +80,13 @@ pub enum GaugeError {
         "{have} operators, expected at least 2: reproducibility is a difference between operators"
     )]
     TooFewOperators {
-        /// Operators found.
+        /// Number of operators.
         have: usize,
     },
     /// Fewer than two parts.
     #[error("{have} complete parts, expected at least 2: parts span the range of the study")]
     TooFewParts {
-        /// Parts found.
+        /// Number of parts.
         have: usize,
     },
     /// Fewer than two trials.
@@ -94,7 +94,7 @@ pub enum GaugeError {
         "{have} readings of each part by each operator, expected at least 2: repeatability is a difference between repeats"
     )]
     TooFewTrials {
-        /// Trials found.
+        /// Number of trials.
         have: usize,
     },
     /// A nested study with the range method.

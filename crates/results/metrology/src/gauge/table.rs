@@ -50,7 +50,7 @@ pub struct TableRow {
     pub ss: f64,
     /// Mean square; `None` for the total.
     pub ms: Option<f64>,
-    /// F ratio to the mean square of the next lower source; `None` without one.
+    /// F ratio to the mean square of the next lower source; `None` without a lower source.
     pub f: Option<f64>,
     /// p value of the F ratio; `None` without a ratio.
     pub p: Option<f64>,

@@ -22,7 +22,7 @@ pub struct LimitCheck {
     pub value: Option<f64>,
     /// Ends of the confidence interval of the score; `None` if the score has no interval.
     pub ends: Option<[f64; 2]>,
-    /// Number of trainings of the model whose variance the interval includes; 0 if none.
+    /// Number of trainings of the model whose variance the interval includes; 0 if the model was trained once.
     pub trainings: usize,
     /// Number of samples of the score.
     pub n: u64,
@@ -30,11 +30,11 @@ pub struct LimitCheck {
     pub decision: Option<Decision>,
     /// Effect of the guard on the limit, such as `the limit divided by 1.57`. `None` without a guard, or if the guard has the unit of the value.
     pub guard: Option<String>,
-    /// Result as a word: that of the decision, or pass or fail without a decision rule.
+    /// Result in one word: the word of the decision, or pass or fail without a decision rule.
     pub verdict: Word,
     /// True if the score meets the limit.
     pub is_kept: bool,
-    /// Reason why the score does not meet the limit, or a remark that it does so without an interval.
+    /// Reason why the score does not meet the limit, or a remark that the score meets the limit without an interval.
     pub reason: Option<String>,
     /// Risks of wrong decisions among units of one process, or the reason why they are unknown. `None` if no units are given.
     pub process: Option<Result<ProcessRisk, String>>,

@@ -62,7 +62,7 @@ pub(super) fn of_decision(
     }
 }
 
-/// Acceptance limits as text, such as `≤ 0.0432`; `None` if there are none.
+/// Acceptance limits as text, such as `≤ 0.0432`; `None` without acceptance limits.
 pub(super) fn acceptance(decision: &Decision) -> Option<String> {
     let limits = decision.acceptance.as_ref()?;
     Some(bounds(limits.least(), limits.most()))

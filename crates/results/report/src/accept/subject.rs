@@ -16,7 +16,7 @@ pub(super) struct Subject<'a> {
 }
 
 impl<'a> Subject<'a> {
-    /// Score of `study` to which `limit` applies, or the reason why there is none. A limit without a variant applies to the variant that verdicts
+    /// Score of `study` to which `limit` applies, or the reason why there is no score. A limit without a variant applies to the variant that verdicts
     /// use.
     pub(super) fn find(study: &'a Study, limit: &'a Limit) -> Result<Subject<'a>, String> {
         let (metric, variant) = match limit.metric.split_once('.') {
@@ -32,7 +32,7 @@ impl<'a> Subject<'a> {
         })
     }
 
-    /// Score with the value, unit and interval of the variant, or the reason why there is no such variant.
+    /// Score with the value, unit and interval of the variant, or the reason why the variant is missing.
     pub(super) fn score(&self) -> Result<Score, String> {
         let Some(name) = self.variant else {
             return Ok(self.whole.clone());

@@ -13,7 +13,7 @@ use taceva_results::{Score, not_measured};
 
 /// Distance of a limit from the result, as a share of the value.
 const MARGIN: f64 = 0.2;
-/// Significant digits of a limit. More digits would suggest a higher accuracy.
+/// Number of significant digits of a limit. More digits would suggest a higher accuracy.
 const DIGITS: i32 = 3;
 /// Decision rule of the template.
 const GUARDED: DecisionRule = DecisionRule::Guarded {

@@ -1,4 +1,4 @@
-//! Initial budget file, with every measured figure and with comments on the missing ones.
+//! Initial budget file, with every measured figure and with comments on missing figures.
 
 use taceva_metrology::budget::{BudgetText, Evidence, Figure, Missing, MonteCarlo};
 use taceva_results::not_measured;
@@ -21,7 +21,7 @@ const SOURCES: [BudgetSource; 8] = [
     CERTIFICATE,
 ];
 
-/// Data for the file.
+/// Data for an initial budget file.
 #[derive(Clone, Copy, Debug)]
 pub struct BudgetTemplate<'a> {
     /// Sensor of the result.

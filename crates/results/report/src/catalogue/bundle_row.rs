@@ -21,7 +21,7 @@ const PREFIX: &str = "sha256:";
 pub(crate) const DEPTH_NOTE: &str = "The level states how deep a number was verified when it was added. `files` and `form` compare bytes and seals. `scores` \
                                      computes it again from sums, and `predictions` from tables of truth and prediction. `model` predicts again on the \
                                      recording, and `fit` fits the model again.";
-/// Digits of a digest in names.
+/// Number of digits of a digest in names.
 const SHORT: usize = 8;
 
 /// Number of a bundle. The fields are the keys of a row in an entry. The struct gets no further field without a new version of the entries.
@@ -42,7 +42,7 @@ const SHORT: usize = 8;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Measured {
-    /// Study of the bundle's results, from 0.
+    /// Index of the study in the results of the bundle, from 0.
     #[serde(default)]
     pub study: usize,
     /// Metric: `mae`.
@@ -228,7 +228,7 @@ impl Measured {
     }
 }
 
-/// True for an address of the web whose characters need no escape.
+/// True for a web address without characters that need escaping.
 ///
 /// ```
 /// use taceva_report::catalogue::is_address;

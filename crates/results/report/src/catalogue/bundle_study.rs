@@ -9,7 +9,7 @@ use super::bundle_row::{Measured, Origin, short};
 use super::entry::Sensor;
 use crate::results::{Made, Study, by_published_r2};
 
-/// Interval method for rows that state none.
+/// Interval method for rows without a stated method.
 const AS_STATED: &str = "as the bundle states it";
 
 impl Sensor {

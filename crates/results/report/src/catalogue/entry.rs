@@ -62,7 +62,7 @@ pub struct Sensor {
     /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
-    /// Errors with faults of the pictures; `None` if no fault was tested.
+    /// Prediction errors on pictures with faults; `None` if no fault was tested.
     #[serde(skip)]
     pub faults: Option<FaultResult>,
     /// Unpublished numbers, each with the reason.
@@ -87,7 +87,7 @@ pub enum Kind {
 }
 
 impl Sensor {
-    /// Published number of a metric and channel; `None` if the source states none, or only an inexact one.
+    /// Published number of a metric and channel; `None` if the source states no number, or only an inexact number.
     pub fn result(&self, metric: &str, channel: &str) -> Option<&Published> {
         let exact = self.results.iter().filter(|result| result.bound.is_none());
         let mut named = exact.filter(|result| result.metric == metric);
@@ -112,7 +112,7 @@ impl Sensor {
         ways.any(|offer| offer.way == Way::Bought)
     }
 
-    /// Lowest exact price of a ready sensor in `currency`; `None` if none is known.
+    /// Lowest exact price of a ready sensor in `currency`; `None` if no price is known.
     pub fn price_in(&self, currency: &str) -> Option<&Price> {
         let ready = self.prices.iter().filter(|price| price.is_comparable());
         let ready = ready.filter(|price| price.currency == currency);

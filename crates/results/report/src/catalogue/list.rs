@@ -12,7 +12,7 @@ use crate::table::{Column, Direction, Table};
 pub(crate) const MECHANISMS: &str = "IMM: the camera maps intensity. MDM: the camera follows displacements of markers. MFM: the sensor fuses modalities. \
                                      Magnetic, capacitive, resistive and optical sensors have taxels and no camera.";
 
-/// Table with one row for each sensor. A note names the studies of sensors. Counts of bundle numbers have a column if there are any.
+/// Table with one row for each sensor. A note names the studies of sensors. A column counts the numbers of bundles, if there are any.
 pub fn list(sensors: &[Sensor]) -> Table {
     let error = |name: &str, unit: &str| {
         let column = Column::new(name).unit(unit);
@@ -83,7 +83,7 @@ pub fn list(sensors: &[Sensor]) -> Table {
     table
 }
 
-/// Known prices: `510 USD`, `15 USD (parts)`; a dash if there is none.
+/// Known prices: `510 USD`, `15 USD (parts)`; a dash without prices.
 pub(crate) fn prices(sensor: &Sensor) -> String {
     let prices = sensor.prices.iter().map(|price| match price.goods {
         Goods::Sensor => price.shown(),
@@ -93,7 +93,7 @@ pub(crate) fn prices(sensor: &Sensor) -> String {
     or_dash(prices.collect())
 }
 
-/// Ways to get a sensor: `bought; built`; a dash if none is known.
+/// Ways to get a sensor: `bought; built`; a dash if no way is known.
 fn ways(sensor: &Sensor) -> String {
     let ways = sensor.availability.iter();
     or_dash(ways.map(|offer| offer.way.word().to_owned()).collect())
@@ -199,7 +199,7 @@ fn of_bundle(row: &Measured) -> [String; 7] {
     ]
 }
 
-/// Table of all numbers of a sensor, with source and conditions: published ones, then those of bundles.
+/// Table of all numbers of a sensor, with source and conditions: published numbers, then numbers of bundles.
 pub fn details(sensor: &Sensor) -> Table {
     let others = [
         "channel",

@@ -1,4 +1,4 @@
-//! Price of a sensor, and ways to get one.
+//! Price of a sensor, and ways to get a sensor.
 
 use serde::Deserialize;
 

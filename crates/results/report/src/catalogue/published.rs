@@ -13,7 +13,7 @@ pub struct Source {
     pub id: String,
     /// Authors, title, journal and year of the publication.
     pub text: String,
-    /// URL, if there is one.
+    /// URL of the source, if there is a URL.
     pub link: Option<String>,
 }
 
@@ -91,6 +91,6 @@ impl Roughly {
 pub struct Missing {
     /// Name of the metric.
     pub metric: String,
-    /// Reason why it is missing.
+    /// Reason why the number is missing.
     pub reason: String,
 }

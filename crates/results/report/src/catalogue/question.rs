@@ -25,7 +25,7 @@ pub enum Question {
     Accuracy,
     /// Price of the sensor.
     Price,
-    /// Seller, or files for building it.
+    /// Seller, or files for building the sensor.
     Availability,
 }
 

@@ -41,7 +41,7 @@ impl Sensor {
     }
 }
 
-/// Lower-case letters and digits of a name; the whole name if it has none.
+/// Lower-case letters and digits of a name; the whole name if it has no letters and digits.
 fn letters(name: &str) -> String {
     let lower = name.to_lowercase();
     let letters: String = lower.chars().filter(|own| own.is_alphanumeric()).collect();

@@ -5,8 +5,8 @@ use crate::catalogue::Sensor;
 use crate::faults::FaultResult;
 use crate::names::listed;
 
-/// Removes sensors from `remaining` and returns them, if a need ranks by faults and the tested faults or severities differ. The faults that most
-/// sensors have stay; of several, those of the first sensor.
+/// Removes sensors from `remaining` and returns them, if a need ranks by faults and the tested faults or severities differ. Keeps the sensors with
+/// the most frequent list of faults, or with the list of the first sensor in a tie.
 pub(super) fn take_apart(remaining: &mut Vec<&Sensor>, needs: &[Need]) -> Vec<Dropped> {
     let mut ranks = needs.iter().flat_map(|need| &need.ranks);
     let ranks_by_faults =
@@ -40,7 +40,7 @@ fn result<'a>(sensor: &&'a Sensor) -> Option<&'a FaultResult> {
     sensor.faults.as_ref()
 }
 
-/// Name of the list with the start of its digest, because lists of other severities have the same name, and what was not tested.
+/// Name of the fault list, start of its digest, and untested faults. Lists of other severities have the same name.
 fn shown(result: &FaultResult) -> String {
     let list = &result.list;
     let digest: String = list.digest.chars().take(8).collect();

@@ -3,7 +3,7 @@
 use super::{Candidate, Choice};
 use crate::names::listed;
 
-/// Names of the first places.
+/// Words for the first two ranks.
 const FIRST: &str = "first";
 const SECOND: &str = "second";
 

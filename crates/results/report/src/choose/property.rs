@@ -20,7 +20,7 @@ pub enum Property {
     Resolution(&'static str),
     /// Mean degradation of the error of a channel over the faults of a list, as a ratio.
     Degradation(&'static str),
-    /// Mean over the faults of a list of the severity at which the skill of a channel ends, 1 to 6.
+    /// Severity at which the skill of a channel ends, 1 to 6; mean over the faults of a list.
     SkillEnd(&'static str),
     /// Indentation per normal force, in mm/N.
     Sensitivity,

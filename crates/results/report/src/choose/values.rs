@@ -64,7 +64,7 @@ impl Choice {
         known + self.other_definitions.len() + self.unknown.len()
     }
 
-    /// Rank such as `1` or `2 (tie)`, or a word for the reason why the sensor has none.
+    /// Rank such as `1` or `2 (tie)`, or a word for the reason why the sensor has no rank.
     fn place_of(&self, name: &str) -> String {
         let mut ranked = self.ranked.iter().zip(self.places()).enumerate();
         let found = ranked.find(|(_, (candidate, _))| candidate.name == name);

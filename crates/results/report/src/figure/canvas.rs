@@ -96,7 +96,7 @@ impl Label {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Points {
     pub(crate) at: Vec<[f64; 2]>,
-    /// Tooltips of the dots: none, or one for each dot.
+    /// Tooltips of the dots: empty, or one tooltip for each dot.
     pub(crate) words: Vec<String>,
 }
 

@@ -1,4 +1,4 @@
-//! Places names beside dots. Avoids overlap with dots and other names.
+//! Places names next to dots. Avoids overlap with dots and other names.
 
 use super::canvas::{Anchor, Ink, Label, width_of};
 use super::panel::Area;
@@ -6,7 +6,7 @@ use super::panel::Area;
 /// Half the side of the square that a dot occupies.
 const DOT: f64 = 6.5;
 const SIZE: f64 = 11.0;
-/// Positions of a name beside its dot, best first.
+/// Positions of a name next to its dot, best first.
 const PLACES: [([f64; 2], Anchor); 10] = [
     // Above a line that continues from the dot.
     ([8.0, -7.0], Anchor::Start),

@@ -122,7 +122,7 @@ impl Scale {
     }
 }
 
-/// Lowest and highest finite value; `None` if there is none.
+/// Lowest and highest finite value; `None` without a finite value.
 pub(crate) fn extent(values: impl IntoIterator<Item = f64>) -> Option<[f64; 2]> {
     values.into_iter().filter(|value| value.is_finite()).fold(
         None,

@@ -5,18 +5,18 @@ use taceva_metrics::elementary::logarithm;
 use crate::figure::{Anchor, Canvas, Figure, Ink, Label, Stroke, diverging, short};
 use crate::number::significant;
 
-/// Severities of a fault.
+/// Number of severities of a fault.
 const SEVERITIES: usize = 5;
-/// Ratio of errors with the last colour.
+/// Ratio of errors at the end of the colour scale.
 const MOST: f64 = 100.0;
-/// Places of a panel: left edge of its cells, space above them, size of a cell.
+/// Dimensions of a panel: left edge of its cells, space above them, size of a cell.
 const LEFT: f64 = 118.0;
 const ABOVE: f64 = 52.0;
 const CELL: [f64; 2] = [66.0, 22.0];
-/// Lines of a hatched cell.
+/// Number of lines in a hatched cell.
 const HATCHES: u32 = 6;
 
-/// Errors with faults, beside those without.
+/// Errors with faults, relative to errors without faults.
 #[derive(Clone, Debug)]
 pub(crate) struct FaultGrid {
     /// Title of the figure.
@@ -43,9 +43,9 @@ pub(crate) struct FaultRow {
     pub(crate) fault: String,
     /// Degradation at severities 1 to 5; `None` for a severity that was not tested, or without a ratio.
     pub(crate) degradation: [Option<f64>; 5],
-    /// True for each severity of 1 to 5 that was skipped: the fault cannot have it, or the recording lacks what the fault needs.
+    /// True for each severity of 1 to 5 that was skipped: the fault has no such severity, or the recording lacks required data.
     pub(crate) skipped: [bool; 5],
-    /// First severity without skill.
+    /// First severity without skill, from 1; `None` if the skill remains.
     pub(crate) skill_ends: Option<u8>,
 }
 

@@ -8,7 +8,7 @@ use crate::results::Study;
 
 /// Curve of one sensor.
 pub(super) struct Line {
-    /// Position of its study.
+    /// Index of the study, from 0.
     pub(super) study: usize,
     pub(super) levels: Vec<Level>,
 }

@@ -10,7 +10,7 @@ use taceva_results::Samples;
 use super::levels::sheets;
 use super::overlay::{Ways, Words, draw as overlay};
 
-/// Magnification of the spread in the drawing.
+/// Factor by which the drawing enlarges the spread.
 const LARGER: f64 = 3.0;
 
 pub(super) fn curves(studies: &[Study], room: Option<f64>) -> Option<Figure> {

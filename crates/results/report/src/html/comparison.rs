@@ -81,10 +81,10 @@ impl Comparison {
     }
 }
 
-/// Answers about one score in which the same study is the better one.
+/// Answers about one score in which the same study is better.
 struct Won<'a> {
     winner: usize,
-    /// Answers about the score; at least one.
+    /// Answers about the score; at least one answer.
     answers: Vec<&'a Answer>,
 }
 

@@ -18,7 +18,7 @@ use crate::results::Study;
 const PLACES: [&str; 2] = ["calibration", "point_id"];
 /// Part of the protocol with several light scenes, and the column of the scene.
 const LIGHTS: [&str; 2] = ["light-sweep", "scene"];
-/// Sources of the budget, beside the certificate.
+/// Sources of the budget, in addition to the certificate.
 const SOURCES: [BudgetSource; 3] = [BETWEEN, WITHIN, BIAS];
 /// Command that writes a budget file.
 const TEMPLATE: &str = "taceva budget --template RESULT.json > budget.toml";
@@ -69,7 +69,7 @@ fn entry(study: &Study, name: &str, number: usize) -> Markup {
     }
 }
 
-/// Budget of the default channel at the median of its labels, or the reason why there is none.
+/// Budget of the default channel at the median of its labels, or the reason why there is no budget.
 fn budget(study: &Study) -> Result<Budget, String> {
     let Some(samples) = &study.samples else {
         let remedy = "`--samples-out` of evaluate writes them beside the result";
@@ -164,7 +164,7 @@ fn middle(samples: &Samples, channel: &str, part: &str) -> f64 {
     format!("{median:.1e}").parse().unwrap_or(median)
 }
 
-/// Measured figures: those of residuals, and others that the budget lists as effects without a source.
+/// Measured figures of residuals, and figures that the budget lists as effects without a source.
 fn evidence(
     study: &Study,
     samples: &Samples,

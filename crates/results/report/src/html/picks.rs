@@ -15,7 +15,7 @@ pub struct Pick {
     pub id: String,
     /// Row among the samples.
     pub row: usize,
-    /// True for one of the worst samples, false for one of the best.
+    /// True for one of the worst samples, false for one of the best samples.
     pub is_worst: bool,
     /// Mean error over channels, as a share of the range of the true values.
     pub error: f64,

@@ -17,7 +17,7 @@ use taceva_results::Samples;
 /// Frame of a sample.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Position of its study.
+    /// Index of the study in the report, from 0.
     pub study: usize,
     /// Sample id.
     pub id: String,

@@ -22,7 +22,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Scale that contains all true positions and the predicted ones of `picks`; `None` if a channel of the plane is missing.
+    /// Scale that contains all true positions and the predicted positions of `picks`; `None` if a channel of the plane is missing.
     pub(super) fn of(samples: &Samples, picks: &[Pick], study: usize) -> Option<Place> {
         let greatest = |names: [&str; 2]| {
             let channels = names.into_iter().filter_map(|name| samples.channel(name));
@@ -46,7 +46,7 @@ impl Place {
         })
     }
 
-    /// Circle with the true and the predicted position; empty if one of them is unknown.
+    /// Circle with the true and the predicted position; empty if a position is unknown.
     pub(super) fn draw(&self, samples: &Samples, pick: &Pick) -> Markup {
         let pair = |name: &str| samples.channel(name)?.pair(pick.row);
         let (Some([true_x, predicted_x]), Some([true_y, predicted_y])) =

@@ -48,7 +48,7 @@ fn methods(table: &ScoreTable) -> Vec<String> {
     methods.into_iter().map(named).collect()
 }
 
-/// Text of a provenance entry, where left-out samples are named samples of other parts of the protocol.
+/// Text of a provenance entry, with left-out samples described as samples of other parts of the protocol.
 fn of_parts(term: &str, text: &str) -> String {
     match term {
         "samples" => text.replace("left_out ", "of other parts of the protocol "),

@@ -1,4 +1,4 @@
-//! Scores beside published numbers of the same sensor and definition.
+//! Scores next to published numbers of the same sensor and definition.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;

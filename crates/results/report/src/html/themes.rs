@@ -15,7 +15,7 @@ struct Section {
     id: &'static str,
     title: &'static str,
     theme: Option<Theme>,
-    /// Prefixes of the ids of its figures.
+    /// Prefixes of the ids of the figures in the section.
     figures: &'static [&'static str],
 }
 

@@ -9,7 +9,7 @@ use crate::results::Study;
 /// Encoded frames of one sensor, equal in size and brightness scale.
 #[derive(Clone, Debug)]
 pub struct Triple {
-    /// Position of its study.
+    /// Index of the study in the report, from 0.
     pub study: usize,
     /// Media type: `image/png` or `image/jpeg`.
     pub media_type: &'static str,

@@ -1,4 +1,4 @@
-//! Our values beside the values that the study prints.
+//! Our values next to the values that the study prints.
 
 use crate::catalogue::{Published, find};
 use crate::number::{FormattedValue, fixed};
@@ -34,7 +34,7 @@ impl Digits {
     }
 }
 
-/// Our score of a metric and channel beside the published number; a dash if our score is missing.
+/// Our score of a metric and channel next to the published number; a dash if our score is missing.
 pub(super) fn cell(
     studies: &[Study],
     scores: &ScoreTable,
@@ -56,7 +56,7 @@ pub(super) fn cell(
     Cell::Estimate(estimate)
 }
 
-/// Our value beside a published value.
+/// Our value next to a published value.
 pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) -> Estimate {
     let below = printed.map(|printed| {
         let shown = digits.print(printed);
@@ -75,7 +75,7 @@ pub(super) fn beside(ours: Option<f64>, printed: Option<f64>, digits: Digits) ->
     }
 }
 
-/// Published number for the sensor of `study`; `None` if the paper states none.
+/// Published number for the sensor of `study`; `None` if the paper states no number.
 pub(super) fn printed(study: &Study, metric: &str, channel: &str) -> Option<f64> {
     let sensor = find(&study.sensor)?;
     let is_meant = |result: &&Published| result.metric == metric && result.channel == channel;

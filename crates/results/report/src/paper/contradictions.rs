@@ -38,7 +38,7 @@ pub(super) fn all() -> Vec<String> {
     said
 }
 
-/// Contradiction on gratings: success rates in the text are not between those of lines and dots in the figure.
+/// Contradiction on gratings: success rates in the text are not between the rates of lines and dots in the figure.
 fn gratings() -> Option<String> {
     let words = SENSORS.iter().filter_map(|name| {
         let sensor = find(name)?;

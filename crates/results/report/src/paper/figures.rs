@@ -1,4 +1,4 @@
-//! Numbers that the study publishes in its figures, beside ours.
+//! Numbers that the study publishes in its figures, next to ours.
 
 use std::collections::BTreeMap;
 

@@ -179,7 +179,7 @@ impl Sheet<'_> {
         table
     }
 
-    /// Table IV: one row for each scene and one for the mean; one column for each plane and sensor that ambient light reaches.
+    /// Table IV: one row for each scene and one row for the mean; one column for each plane and sensor that ambient light reaches.
     fn lighting(&self) -> Table {
         let lit = self.with("r_light");
         let pairs = BLOCKS

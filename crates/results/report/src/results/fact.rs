@@ -1,6 +1,6 @@
 //! Properties of a sensor other than scores.
 
-/// Published property of a sensor other than a score, such as its size or price. Tables show facts beside scores. Facts are never compared.
+/// Published property of a sensor other than a score, such as its size or price. Tables show facts next to scores. Facts are never compared.
 ///
 /// ```
 /// let digit = taceva_report::catalogue::find("DIGIT").expect("there").as_study();

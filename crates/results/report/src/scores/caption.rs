@@ -87,7 +87,7 @@ impl ScoreTable {
         }
     }
 
-    /// ` on 20 simulated test samples of 3 recordings`; empty for published numbers, which rarely state it.
+    /// ` on 20 simulated test samples of 3 recordings`; empty for published numbers, which rarely state the number.
     fn samples(&self) -> String {
         let sources: BTreeSet<&str> = self.sources.iter().map(String::as_str).collect();
         if sources.iter().all(|source| *source == "published") {
@@ -162,7 +162,7 @@ impl ScoreTable {
         count.filter(|n| *n > 0)
     }
 
-    /// Intervals of the caption: `, with 95 % intervals`, or the reason why there are none.
+    /// Intervals of the caption: `, with 95 % intervals`, or the reason why there are no intervals.
     fn intervals(&self) -> String {
         if self.valued().any(|cell| cell.ends.is_some()) {
             return ", with 95 % intervals".to_owned();

@@ -44,7 +44,7 @@ struct Sheet<'a> {
 impl ScoreTable {
     /// Main scores as tables with intervals below the values, each of the width of a paper column.
     ///
-    /// Rows are channels for one study. Columns are studies for several. Columns and rows that do not fit form further tables.
+    /// For one study, rows are channels. For several studies, columns are studies. Columns and rows that do not fit form further tables.
     pub fn for_column(&self, caption: &str) -> Vec<Table> {
         let main = self.main();
         let sheet = match main.names.len() == 1 && main.is_of_accuracy() {

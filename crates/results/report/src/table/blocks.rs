@@ -63,7 +63,7 @@ impl Table {
         rows.all(|row| matches!(row.cells[column], Cell::Text(_)))
     }
 
-    /// Width of a column and the gap beside it, in TeX points.
+    /// Width of a column and the gap next to it, in TeX points.
     fn column_pt(&self, column: usize) -> f64 {
         let head = self.columns[column].head();
         let head = letters_pt(head.plain(), SMALL_SIZE).min(HEAD_PT);

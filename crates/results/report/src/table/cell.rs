@@ -27,9 +27,9 @@ pub struct Estimate {
     pub unit: String,
     /// Remark for readers, if any.
     pub remark: Option<String>,
-    /// Sign after the value, explained by a note; empty if there is none.
+    /// Sign after the value, explained by a note; empty without a sign.
     pub mark: &'static str,
-    /// True if significantly better than all others of its row.
+    /// True if significantly better than all other cells of the row.
     pub is_best: bool,
 }
 

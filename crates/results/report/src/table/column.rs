@@ -34,7 +34,7 @@ pub enum Direction {
 /// Alignment of cells.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Align {
-    /// Right-aligned if the column holds only numbers.
+    /// Right-aligned if the column contains only numbers.
     #[default]
     Auto,
     /// Left-aligned.

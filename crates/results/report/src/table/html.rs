@@ -6,9 +6,9 @@ use super::{Cell, Column, Direction, Row, Table};
 use crate::escape;
 use crate::markup::{metric_link, scroll};
 
-/// Cells longer than this are wrapped, in characters.
+/// Maximum length of a cell without wrapping, in characters.
 const LONG: usize = 28;
-/// Cells longer than this are wrapped into wide lines, in characters.
+/// Maximum length of a cell without wide wrapped lines, in characters.
 const VERY_LONG: usize = 70;
 
 impl Table {

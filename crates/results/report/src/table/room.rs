@@ -4,7 +4,7 @@ use crate::escape::{LETTER, is_set_everywhere, latex as escape};
 
 /// Column width of a two-column IEEE page: 3.5 in, in TeX points, less a small margin.
 pub(crate) const COLUMN_PT: f64 = 249.0;
-/// Text width of such a page: 7.16 in, less a small margin.
+/// Text width of a two-column IEEE page: 7.16 in, less a small margin.
 pub(super) const PAGE_PT: f64 = 510.0;
 /// Greatest number of letters in a word without breaks, and in the pieces of a longer word.
 const WHOLE: usize = 14;

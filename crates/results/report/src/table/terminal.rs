@@ -4,11 +4,11 @@ use super::{Table, Words};
 use crate::escape;
 use crate::wrap::wrapped;
 
-/// Gap between two columns of plain text.
+/// Gap between two columns of plain text, in characters.
 const GAP: usize = 2;
 
 impl Table {
-    /// Text in lines of at most `width` characters. Columns that do not fit beside the first column follow below, again beside the first column.
+    /// Text in lines of at most `width` characters. Columns that do not fit next to the first column follow below, again next to the first column.
     ///
     /// If no column fits, each column is a list of its head and one line for each row. A table without rows has no heads.
     ///
@@ -57,7 +57,7 @@ impl Table {
         widths
     }
 
-    /// Columns after the first column, in groups that fit beside the first column.
+    /// Columns after the first column, in groups that fit next to the first column.
     fn groups(&self, widths: &[usize], width: usize) -> Vec<Vec<usize>> {
         let mut groups: Vec<Vec<usize>> = Vec::new();
         let mut used = 0;
@@ -80,7 +80,7 @@ impl Table {
         groups
     }
 
-    /// Table of the first column and the given ones, without caption and notes.
+    /// Table of the first column and the given columns, without caption and notes.
     fn part(&self, columns: &[usize]) -> Table {
         let shown: Vec<usize> = [0].into_iter().chain(columns.iter().copied()).collect();
         let Table { columns, rows, .. } = self.of_columns(&shown);

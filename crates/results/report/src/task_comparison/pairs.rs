@@ -4,14 +4,13 @@ use taceva_metrics::{ClusterSum, ClusterSums, Difference, Sides, SignFlip};
 
 use super::Subject;
 
-/// 2⁴⁰: parts of clusters are rounded to so small a share of the score of all samples.
+/// 2⁴⁰: parts of clusters are rounded to about 1/2⁴⁰ of the greatest number.
 const FINE: f64 = 1_099_511_627_776.0;
 
-/// Tests equal scores by the signs of the clusters, or returns the reason why the results do not pair.
+/// Tests the difference of two scores by the signs of the clusters, or returns the reason why this is impossible.
 ///
-/// Each cluster has its part of a score: the score of all samples, with the samples of all clusters as weights, minus the score without the cluster,
-/// with the samples of the others as weights. For a mean over samples, the part is the sum over the cluster. For other scores it is the sum to first
-/// order. The parts are shifted to have the score as their mean, so that the difference is that of the scores.
+/// The part of a cluster in a score is n s − n′ s′: score s of all n samples, score s′ of the n′ samples of other clusters. For a mean over samples,
+/// the part is the sum over the cluster. For other scores the part is the sum to first order. The parts are shifted so that their mean is the score.
 pub(super) fn difference(subjects: Sides<Subject<'_>>, seed: u64) -> Result<Difference, String> {
     let Sides { a, b } = subjects;
     let between = format!("{} and {}", a.result.name, b.result.name);
@@ -49,7 +48,7 @@ pub(super) fn difference(subjects: Sides<Subject<'_>>, seed: u64) -> Result<Diff
 /// Parts of the clusters in a score.
 struct Parts {
     clusters: Vec<Part>,
-    /// Greatest magnitude of the numbers whose difference is a part.
+    /// Greatest magnitude of the terms n s and n′ s′.
     greatest: f64,
 }
 
@@ -61,7 +60,7 @@ struct Part {
 }
 
 impl Parts {
-    /// Part of the score for each cluster, or the reason why it has none.
+    /// Part of the score for each cluster, or the reason why a cluster has no part.
     fn of(side: Subject<'_>) -> Result<Parts, &'static str> {
         const SOME_CLUSTERS: &str = "has clusters without a part in it";
         let left_out = &side.score.left_out;
@@ -93,7 +92,7 @@ impl Parts {
         Ok(Parts { clusters, greatest })
     }
 
-    /// The parts as multiples of `grain`. Sums of counts are whole again, so equal clusters of two models are equal to the bit.
+    /// The parts as multiples of `grain`. Sums of counts become integers, so equal clusters of two models have equal bits.
     fn on_grid(self, grain: f64) -> ClusterSums {
         let sums = self.clusters.into_iter().map(|part| {
             let mut sum = ClusterSum::default();

@@ -21,7 +21,7 @@ const METHOD: &str = "All scores and pairs of a task form one family. A differen
 struct Line<'a> {
     task: &'a str,
     score: &'a ResultScore,
-    /// The score of each result; `None` for a result without it.
+    /// The score of each result; `None` for a result without the score.
     cells: Vec<Option<&'a ResultScore>>,
 }
 

@@ -16,9 +16,9 @@ use crate::table::{Cell, Column, Table};
 const MOST_CLASSES: usize = 12;
 /// Number of listed pairs of more classes.
 const PAIRS: usize = 20;
-/// Room for the names of the true classes, canvas units.
+/// Width for the names of the true classes, canvas units.
 const LEFT: f64 = 150.0;
-/// Room above the matrix, canvas units.
+/// Space above the matrix, canvas units.
 const TOP: f64 = 34.0;
 
 /// Number of samples of a true class that are predicted as a class.
@@ -74,7 +74,7 @@ pub(super) fn part(task: &TaskScores, at: usize) -> Option<Markup> {
     })
 }
 
-/// Table with the true classes as rows and the predicted ones as columns.
+/// Table with the true classes as rows and the predicted classes as columns.
 fn matrix(task: &TaskScores, pairs: &BTreeMap<[&str; 2], Pair>) -> Table {
     let names = task.names.iter().map(String::as_str);
     let columns = ["true class"].into_iter().chain(names).map(Column::new);
@@ -95,7 +95,7 @@ fn matrix(task: &TaskScores, pairs: &BTreeMap<[&str; 2], Pair>) -> Table {
     table
 }
 
-/// Table of the most frequent errors. Of equally frequent ones, that of the smaller class comes first.
+/// Table of the most frequent errors. Among equally frequent errors, the error of the smaller class comes first.
 fn most_confused(task: &TaskScores, pairs: &BTreeMap<[&str; 2], Pair>) -> Table {
     let mut wrong: Vec<(&str, &str, Pair)> = pairs
         .iter()

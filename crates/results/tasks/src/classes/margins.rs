@@ -8,11 +8,11 @@ use crate::undefined::Undefined;
 /// Counts of one class.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Margin {
-    /// Samples of the class.
+    /// Number of samples of the class.
     pub(crate) truth: u64,
-    /// Samples predicted as the class.
+    /// Number of samples predicted as the class.
     pub(crate) predicted: u64,
-    /// Samples of the class that are predicted so.
+    /// Number of samples of the class that are predicted as the class.
     pub(crate) hits: u64,
 }
 
@@ -22,7 +22,7 @@ impl Margin {
         quotient(self.hits, self.truth)
     }
 
-    /// 2 hits / (samples of the class + samples predicted so), which is 2 tp / (2 tp + fp + fn).
+    /// 2 hits / (samples of the class + samples predicted as the class), which is 2 tp / (2 tp + fp + fn).
     fn f1(self) -> Quotient {
         quotient(2 * self.hits, self.truth + self.predicted)
     }
@@ -46,7 +46,7 @@ struct ClassMargin {
     margin: Margin,
 }
 
-/// Margins of a cluster: counts of the classes that occur in it, so that many clusters of many classes take little memory.
+/// Margins of a cluster: counts of only the classes that occur in the cluster, to save memory.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PartMargins {
     /// Number of samples.
@@ -94,7 +94,7 @@ pub(crate) enum Counted {
     Seen,
     /// Classes in the truth.
     InTruth,
-    /// All names; a class that is nowhere has F1 = 0.
+    /// All names; a class without true or predicted samples has F1 = 0.
     AllNames,
 }
 
@@ -110,7 +110,7 @@ pub(crate) struct Margins {
 type Score = Result<f64, Undefined>;
 
 impl Margins {
-    /// Margins of no sample of `classes` classes.
+    /// Margins without samples, for `classes` classes.
     pub(crate) fn empty(classes: usize) -> Margins {
         Margins {
             n: 0,
@@ -129,7 +129,7 @@ impl Margins {
         }
     }
 
-    /// Takes the samples of `part`, which are among these, away.
+    /// Subtracts the samples of `part`, which these margins must include.
     pub(crate) fn subtract(&mut self, part: &PartMargins) {
         self.n -= part.n;
         for ClassMargin { position, margin } in &part.of {
@@ -150,7 +150,7 @@ impl Margins {
         self.of.iter().map(|of| u64::from(of.truth > 0)).sum()
     }
 
-    /// Samples of the most frequent class.
+    /// Number of samples of the most frequent class.
     pub(crate) fn most(&self) -> u64 {
         self.of.iter().map(|of| of.truth).max().unwrap_or(0)
     }
@@ -219,20 +219,20 @@ impl Margins {
         self.over(of.hits, of.truth, Undefined::NoPositive)
     }
 
-    /// Samples of other classes than that at `position` that are predicted as others, and all samples of other classes.
+    /// Number of true negatives of the class at `position`, and number of all its negatives.
     pub(crate) fn rejected(&self, position: usize) -> [u64; 2] {
         let of = self.of[position];
         let negatives = self.n - of.truth;
         [negatives - (of.predicted - of.hits), negatives]
     }
 
-    /// Share of the samples of other classes than that at `position` that are predicted as others.
+    /// Specificity of the class at `position`: true negatives divided by all negatives.
     pub(crate) fn specificity(&self, position: usize) -> Score {
         let [rejected, negatives] = self.rejected(position);
         self.over(rejected, negatives, Undefined::NoNegative)
     }
 
-    /// Cohen's kappa: agreement beyond that of independent labels with the same shares, over the greatest such agreement.
+    /// Cohen's kappa: agreement beyond chance, divided by the greatest possible agreement beyond chance.
     pub(crate) fn kappa(&self) -> Score {
         let n = &exact(u128::from(self.n));
         let by_chance = &self.products(|of| [of.truth, of.predicted]);
@@ -276,7 +276,7 @@ impl Margins {
         }
     }
 
-    /// above / below; `reason` if `below` is 0, unless there is no sample at all.
+    /// Quotient of `above` and `below`. Undefined as empty without samples, otherwise with `reason` if `below` is 0.
     fn over(&self, above: u64, below: u64, reason: Undefined) -> Score {
         match (self.n, below) {
             (0, _) => Err(Undefined::Empty),

@@ -11,14 +11,14 @@ use crate::undefined::Undefined;
 
 type Score = Result<f64, Undefined>;
 
-/// Margins of all clusters, and of each.
+/// Margins of all clusters together, and of each cluster.
 struct Confusion<'a> {
     rule: &'a str,
     all: Margins,
     parts: &'a [PartMargins],
 }
 
-/// All scores of the margins `parts` of the clusters.
+/// All scores, computed from the margins `parts` of the clusters.
 pub(super) fn scores(names: &Names, rule: &str, parts: &[PartMargins]) -> Vec<TaskScore> {
     let mut all = Margins::empty(names.len());
     for part in parts {
@@ -173,7 +173,7 @@ impl Confusion<'_> {
         self.estimate(value, share, of_constant)
     }
 
-    /// Estimate of a number from 0 to 1 that depends on the counts of the class at `position` alone.
+    /// Estimate of a number from 0 to 1 that depends only on the counts of the class at `position`.
     fn share_of_class(
         &self,
         position: usize,
@@ -200,7 +200,7 @@ impl Confusion<'_> {
         estimate(found, range(found), &parts, of_constant)
     }
 
-    /// `value` of each cluster and of the margins without it.
+    /// Score without each cluster: `value` of the margins of the cluster and of all other clusters.
     fn left_out(&self, value: impl Fn(&PartMargins, &Margins) -> Score) -> Vec<Part> {
         let mut left = self.all.clone();
         let parts = self.parts.iter().map(|part| {
@@ -219,7 +219,7 @@ impl Margins {
         (self.n > 0).then(|| ratio(u128::from(self.most()), u128::from(self.n)))
     }
 
-    /// F1 of the class at `position` if all samples are predicted so: 2π / (1 + π).
+    /// F1 of the class at `position` if all samples are predicted as this class: 2π / (1 + π).
     fn f1_of_constant(&self, position: usize) -> Option<f64> {
         let truth = self.of[position].truth;
         (self.n > 0).then(|| ratio(2 * u128::from(truth), u128::from(self.n + truth)))
@@ -237,7 +237,7 @@ impl Margins {
         self.f1_of_most(self.most(), self.n)
     }
 
-    /// `weight` × F1 of the most frequent class / `by`, all samples predicted so.
+    /// `weight` / `by` × F1 of the most frequent class, if all samples are predicted as this class.
     fn f1_of_most(&self, weight: u64, by: u64) -> Option<f64> {
         let f1 = Quotient {
             above: 2 * u128::from(self.most()) * u128::from(weight),

@@ -1,6 +1,6 @@
-//! Refused depth maps and definitions.
+//! Errors of depth maps and of their definitions.
 
-/// Reason why a depth map, a pair of them or a definition is refused.
+/// Reason why a depth map, a pair of depth maps or a definition is refused.
 ///
 /// ```
 /// use taceva_tasks::depth::DepthMap;
@@ -60,10 +60,10 @@ pub enum DepthError {
         /// Name of the map with the expected size.
         of: &'static str,
     },
-    /// A gate that is no depth.
+    /// A contact gate that is not a valid depth, mm.
     #[error("the gate is {0} mm, expected a number from 0 to 1e9 mm")]
     Gate(f64),
-    /// A size of a pixel that is not above 0, or out of range.
+    /// A pixel size that is not above 0, or too great, mm.
     #[error("the size of a pixel is {0} mm, expected a number from 1e-9 to 1e9 mm")]
     PixelSize(f64),
 }

@@ -21,7 +21,7 @@ pub struct DepthMap {
     mm: Vec<f64>,
 }
 
-/// A map as written; invalid pixels are missing numbers.
+/// Serialized map; invalid pixels are missing numbers.
 #[derive(Serialize, Deserialize)]
 struct Stored {
     rows: usize,
@@ -52,7 +52,7 @@ impl DepthMap {
     /// Map of `rows` × `columns` depths in mm, row by row. Negative depths are kept.
     ///
     /// # Errors
-    /// [`DepthError::NoPixel`], [`DepthError::Pixels`] for another number of depths, [`DepthError::Depth`] for an infinite one.
+    /// [`DepthError::NoPixel`], [`DepthError::Pixels`] for another number of depths, [`DepthError::Depth`] for an infinite depth.
     pub fn new(rows: usize, columns: usize, mm: Vec<f64>) -> Result<DepthMap, DepthError> {
         if rows == 0 || columns == 0 {
             return Err(DepthError::NoPixel { rows, columns });
@@ -78,7 +78,7 @@ impl DepthMap {
     /// Map of depths in the unit `mm`, `um` or `m`.
     ///
     /// # Errors
-    /// [`DepthError::Unit`] for another or an empty text; those of [`new`](DepthMap::new).
+    /// [`DepthError::Unit`] for another or an empty text; otherwise errors of [`new`](DepthMap::new).
     pub fn in_unit(
         rows: usize,
         columns: usize,
@@ -110,12 +110,12 @@ impl DepthMap {
         &self.mm
     }
 
-    /// Depth of a pixel in mm, which is within the map.
+    /// Depth of a pixel of the map, mm.
     pub(super) fn at(&self, row: usize, column: usize) -> f64 {
         self.mm[row * self.columns + column]
     }
 
-    /// The map with the pixels alone that are valid in `other`, which is of the same size.
+    /// The map with only the pixels that are also valid in `other`, a map of the same size.
     pub(super) fn where_valid(&self, other: &DepthMap) -> DepthMap {
         let pixels = self.mm.iter().zip(&other.mm);
         let mm = pixels.map(|(&depth, other)| match other.is_nan() {

@@ -8,19 +8,19 @@ use crate::vector::{cross, degrees, dot, length};
 /// Normal of a flat surface.
 const FLAT: [f64; 3] = [0.0, 0.0, 1.0];
 
-/// Sums of the angles between true normals and others, in degrees.
+/// Sums of the angles between true and other normals, in degrees.
 #[derive(Default)]
 pub(super) struct NormalAngles {
     /// Angles between true and predicted normals.
     pub(super) prediction: ExactSum,
-    /// Angles between true normals and that of a flat surface.
+    /// Angles between true normals and the normal of a flat surface.
     pub(super) flat: ExactSum,
     /// Number of normals.
     pub(super) count: u64,
 }
 
 impl NormalAngles {
-    /// Angles of all pixels off the edge that are valid in both maps, and so are their four neighbours.
+    /// Angles of all inner pixels that are valid in both maps together with their four neighbours.
     ///
     /// `pixel_mm` has the distances of neighbouring columns and rows. Slopes are central differences.
     pub(super) fn of(truth: &DepthMap, prediction: &DepthMap, pixel_mm: [f64; 2]) -> NormalAngles {

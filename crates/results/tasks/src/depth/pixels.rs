@@ -79,7 +79,7 @@ pub(super) struct MapSums {
 }
 
 impl MapSums {
-    /// Sums over the pixels that are valid in both maps, which are of one size. Depths above `gate_mm` are contact.
+    /// Sums over the pixels that are valid in both maps, which have the same size. Depths above `gate_mm` are contact.
     pub(super) fn of(truth: &DepthMap, prediction: &DepthMap, gate_mm: f64) -> MapSums {
         let mut sums = MapSums {
             totals: DepthTotals::default(),
@@ -124,7 +124,7 @@ impl MapSums {
         *greatest = greatest.max((truth - prediction).abs());
     }
 
-    /// Adds the map's own scores.
+    /// Adds the scores of the map to the sums over maps.
     fn add_map(&mut self) {
         let totals = &mut self.totals;
         totals.counts[ALL_MAPS] = 1;
@@ -189,7 +189,7 @@ pub(super) fn scaled_root_mean_square(totals: &DepthTotals) -> Option<f64> {
     Some(left.root_over(&(&predictions * &pixels)))
 }
 
-/// Pixels with contact in both maps over those with contact in either; `None` without contact.
+/// Ratio of pixels with contact in both maps to pixels with contact in either map; `None` without contact.
 pub(super) fn overlap(totals: &DepthTotals) -> Option<f64> {
     let [both, either] = [BOTH, EITHER].map(|index| u128::from(totals.counts[index]));
     (either > 0).then(|| ratio(both, either))

@@ -13,10 +13,10 @@ use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, error, signed};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of maps, and without each.
+/// Totals of all clusters of maps, and totals without each cluster.
 type Clusters<'a> = LeaveOneOut<'a, SUMS, COUNTS>;
 
-/// An error of depth over pixels, and over the maps' own.
+/// An error of depth over pixels, and its mean over maps.
 struct Measure {
     metric: &'static str,
     words: &'static str,
@@ -52,7 +52,7 @@ const MEASURES: [Measure; 3] = [
 ];
 
 impl DepthState {
-    /// Scores of all maps. The constant of errors is the mean map of training if the task has it, and that of normals is a flat surface.
+    /// Scores of all maps. The constant of errors is the mean training map, if the task has one. The constant of normals is a flat surface.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
@@ -81,7 +81,7 @@ impl DepthState {
         scores
     }
 
-    /// Greatest errors. A maximum has no interval; the mean of the maps' own has one.
+    /// Greatest errors. A maximum has no interval; the mean of the greatest errors of maps has an interval.
     fn greatest_scores(&self, clusters: &Clusters<'_>) -> [TaskScore; 3] {
         let greatest = |area: Area| {
             let of = |totals: &DepthTotals, greatest: &[f64; 2]| {
@@ -98,7 +98,7 @@ impl DepthState {
         self.three("depth_max", "greatest |truth - prediction|", all)
     }
 
-    /// Scores of a metric: over valid pixels, the mean of maps, and in contact.
+    /// Scores of a metric: over valid pixels, as mean over maps, and over pixels in contact.
     fn three(
         &self,
         metric: &'static str,
@@ -115,7 +115,7 @@ impl DepthState {
         ]
     }
 
-    /// Overlap of areas of contact: over all pixels, and the mean of maps.
+    /// Overlap of contact areas: over all pixels, and as mean over maps.
     fn overlap_scores(&self, clusters: &Clusters<'_>) -> [TaskScore; 2] {
         let all = |totals: &DepthTotals| overlap(totals).ok_or_else(|| without_contact(totals));
         let per_map = |totals: &DepthTotals| match totals.counts[CONTACT_MAPS] {
@@ -164,7 +164,7 @@ fn millimetres(metric: &'static str, words: String, estimate: Estimate) -> TaskS
     }
 }
 
-/// `value` of an area, or the reason that it has no pixel.
+/// `value` of an area, or the reason why the area has no pixel.
 fn of_area(totals: &DepthTotals, area: Area, value: Option<f64>) -> Result<f64, Undefined> {
     value.ok_or_else(|| match totals.counts[ALL.pixels] {
         0 => without_pixel(totals),

@@ -13,7 +13,7 @@ use crate::clusters::ByCluster;
 use crate::error::TaskError;
 use crate::totals::checked_counts;
 
-/// Sums of a task of depth maps by cluster. Order and merges do not change a bit of the scores.
+/// Sums of a task of depth maps by cluster. Scores have the same bits for any order of samples and merges.
 ///
 /// ```
 /// use taceva_tasks::depth::{DepthMap, DepthState, DepthTask};
@@ -36,7 +36,7 @@ pub struct DepthState {
     pub(super) greatest_of_constant: [f64; 2],
 }
 
-/// A state as read, with counts that may contradict each other.
+/// State before its checks. Its counts may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     task: DepthTask,
@@ -84,10 +84,10 @@ impl DepthState {
         }
     }
 
-    /// Adds the true and the predicted map of row `row`, of `cluster`.
+    /// Adds the true and the predicted map of row `row` to `cluster`.
     ///
     /// # Errors
-    /// [`DepthError::OtherSize`] if the maps, or the constant, are of another size.
+    /// [`DepthError::OtherSize`] if the maps or the constant differ in size.
     pub fn push(
         &mut self,
         cluster: &str,
@@ -134,7 +134,7 @@ impl DepthState {
         Ok(())
     }
 
-    /// Both states as one.
+    /// Merges both states.
     ///
     /// # Errors
     /// [`TaskError::OtherDefinition`] if the tasks differ.
@@ -165,7 +165,7 @@ impl DepthState {
         self.count(ALL_MAPS) - self.count(MAPS)
     }
 
-    /// Number of pairs of maps with valid pixels and no contact in either. `contact_iou` leaves them out.
+    /// Number of pairs of maps with valid pixels and no contact in either. `contact_iou` omits these pairs.
     #[must_use]
     pub fn maps_without_contact(&self) -> u64 {
         self.count(EMPTY_MAPS)
@@ -184,7 +184,7 @@ impl DepthState {
     }
 }
 
-/// Raises `greatest` to `others` where these are greater.
+/// Replaces values of `greatest` by greater values of `others`.
 fn raise(greatest: &mut [f64; 2], others: [f64; 2]) {
     for (own, other) in greatest.iter_mut().zip(others) {
         *own = own.max(other);

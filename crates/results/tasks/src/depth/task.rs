@@ -7,9 +7,9 @@ use super::map::DepthMap;
 use crate::error::TaskError;
 use crate::vector::GREATEST_MM;
 
-/// Definition of a task of depth maps: the gate of contact, the size of a pixel, the constant to beat.
+/// Definition of a task of depth maps: contact gate, pixel size, constant to beat.
 ///
-/// By default the gate is 0.02 mm, and the other two are missing.
+/// By default the gate is 0.02 mm, without pixel size and constant.
 ///
 /// ```
 /// use taceva_tasks::depth::{DepthMap, DepthTask};
@@ -27,7 +27,7 @@ pub struct DepthTask {
     constant: Option<DepthMap>,
 }
 
-/// A task as read, with numbers that may be out of range.
+/// Task before its checks. Its numbers may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     gate_mm: f64,

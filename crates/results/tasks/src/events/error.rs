@@ -1,4 +1,4 @@
-//! Refused frames and rules.
+//! Errors of frames and rules of events.
 
 /// Reason why a frame or a rule of events is refused.
 ///
@@ -17,7 +17,7 @@ pub enum EventError {
     Score {
         /// Row of the frame.
         row: u64,
-        /// Value found.
+        /// Score found.
         value: f64,
     },
     /// A time that is not finite, or too great.
@@ -25,7 +25,7 @@ pub enum EventError {
     Time {
         /// Row of the frame.
         row: u64,
-        /// Value found.
+        /// Time found, s.
         value: f64,
     },
     /// A frame without a time in a sequence with times.
@@ -34,27 +34,27 @@ pub enum EventError {
         /// Row of the frame.
         row: u64,
     },
-    /// Times that go back.
+    /// A time earlier than the time of the frame before.
     #[error(
         "row {row}: time {time_s} s is before {before_s} s of row {before_row}, expected times that do not go back; sort the rows by time"
     )]
     TimeGoesBack {
         /// Row of the frame with the earlier time.
         row: u64,
-        /// Time of this frame.
+        /// Time of this frame, s.
         time_s: f64,
         /// Row of the frame before.
         before_row: u64,
-        /// Time of the frame before.
+        /// Time of the frame before, s.
         before_s: f64,
     },
     /// A threshold that is not finite.
     #[error("the threshold is {0}, expected a finite number")]
     Threshold(f64),
-    /// A debounce of no frame.
+    /// A debounce of 0 frames.
     #[error("debounce is 0, expected 1 frame or more")]
     Debounce,
-    /// A tolerance that is no time.
+    /// A tolerance that is not a valid time, s.
     #[error("the tolerance is {0} s, expected a number from 0 to 1e6 s")]
     Tolerance(f64),
 }

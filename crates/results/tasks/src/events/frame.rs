@@ -38,7 +38,7 @@ impl Frame {
     }
 }
 
-/// Checks the frames of a sequence, and returns their times; `None` if no frame has one.
+/// Checks the frames of a sequence, and returns their times; `None` if no frame has a time.
 pub(super) fn checked_times(frames: &[Frame]) -> Result<Option<Vec<f64>>, EventError> {
     for &Frame { row, score, .. } in frames {
         if !score.is_finite() {

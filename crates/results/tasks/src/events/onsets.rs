@@ -27,7 +27,7 @@ struct Candidate {
 
 /// Pairs of onsets at most `tolerance_s` apart, one to one, in the order of true onsets.
 ///
-/// The nearest pair matches first. Of equally near pairs, the one with the earlier true onset comes first, then the one with the earlier
+/// The nearest pair matches first. Among equally near pairs, the pair with the earlier true onset matches first, then the pair with the earlier
 /// predicted onset. Times are finite.
 #[must_use]
 pub fn match_onsets(truth_s: &[f64], predicted_s: &[f64], tolerance_s: f64) -> Vec<OnsetPair> {
@@ -73,7 +73,7 @@ pub fn match_onsets(truth_s: &[f64], predicted_s: &[f64], tolerance_s: f64) -> V
     pairs
 }
 
-/// Times of the frames whose label is true after a false one. A sequence that begins with a true label has no onset there.
+/// Times of frames with a true label after a frame with a false label. A true label at the start of a sequence is not an onset.
 pub(super) fn onset_times(labels: &[bool], times_s: &[f64]) -> Vec<f64> {
     let steps = labels.windows(2).zip(times_s.iter().skip(1));
     let onsets = steps.filter(|(step, _)| !step[0] && step[1]);

@@ -1,4 +1,4 @@
-//! Rules from scores to labels of events.
+//! Rules that convert scores to labels of events.
 
 use serde::{Deserialize, Serialize};
 
@@ -7,8 +7,8 @@ use crate::error::TaskError;
 
 /// Rule of a task of events: threshold, debounce, tolerance of onsets.
 ///
-/// The default is a threshold of 0.5, no debounce, and a tolerance of 0.2 s. All three stand in the definitions of scores, and states of
-/// different rules do not merge.
+/// The default is a threshold of 0.5, no debounce, and a tolerance of 0.2 s. Definitions of scores contain all three. States with different rules
+/// cannot be merged.
 ///
 /// ```
 /// use taceva_tasks::events::EventRule;
@@ -25,7 +25,7 @@ pub struct EventRule {
     tolerance_s: f64,
 }
 
-/// A rule as read, with numbers that may be out of range.
+/// Rule before its checks. Its numbers may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     threshold: f64,
@@ -64,7 +64,7 @@ impl EventRule {
         }
     }
 
-    /// The same rule with an event from the frame number `debounce` in a row above the threshold.
+    /// The same rule with an event from the `debounce`-th consecutive frame above the threshold.
     ///
     /// # Errors
     /// [`EventError::Debounce`] for 0.
@@ -95,7 +95,7 @@ impl EventRule {
         self.tolerance_s
     }
 
-    /// Labels of one sequence: true from the frame number `debounce` in a row whose score is above the threshold.
+    /// Labels of one sequence: true from the `debounce`-th consecutive frame with a score above the threshold.
     #[must_use]
     pub fn labels(self, scores: &[f64]) -> Vec<bool> {
         let mut run = 0_u32;

@@ -12,7 +12,7 @@ use crate::score::{ScoreFlag, TaskScore};
 use crate::totals::{LeaveOneOut, error, signed};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of sequences, and without each.
+/// Totals of all clusters of sequences, and totals without each cluster.
 type Clusters<'a> = LeaveOneOut<'a, 2, 6>;
 
 impl EventState {
@@ -101,7 +101,7 @@ fn mean_delay(totals: &EventTotals) -> Result<f64, Undefined> {
     }
 }
 
-/// Predicted onsets without a true one, per minute.
+/// Predicted onsets without a matching true onset, per minute.
 fn false_alarms(totals: &EventTotals) -> Result<f64, Undefined> {
     check_times(totals)?;
     let duration_s = totals.sums[DURATIONS].to_dyadic();

@@ -16,7 +16,7 @@ pub(super) const DELAYS: usize = 0;
 pub(super) const DURATIONS: usize = 1;
 /// Index of the number of matched onsets.
 pub(super) const MATCHED: usize = 0;
-/// Index of the number of onsets, true and predicted ones together.
+/// Index of the number of onsets, true and predicted onsets together.
 pub(super) const ONSETS: usize = 1;
 /// Index of the number of predicted onsets.
 pub(super) const PREDICTED: usize = 2;
@@ -30,7 +30,7 @@ pub(super) const UNTIMED: usize = 5;
 /// Totals of a cluster of sequences.
 pub(super) type EventTotals = Totals<2, 6>;
 
-/// Sums of a task of events by cluster. The order of sequences and merges do not change a bit of the scores.
+/// Sums of a task of events by cluster. Scores have the same bits for any order of sequences and merges.
 ///
 /// ```
 /// use taceva_tasks::events::{EventRule, EventState, Frame};
@@ -49,7 +49,7 @@ pub struct EventState {
     pub(super) delays: Vec<f64>,
 }
 
-/// A state as read, with counts and delays that may contradict each other.
+/// State before its checks. Its counts and delays may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     rule: EventRule,
@@ -136,7 +136,7 @@ impl EventState {
         &self.delays
     }
 
-    /// Both states as one.
+    /// Merges both states.
     ///
     /// # Errors
     /// [`TaskError::OtherDefinition`] if the rules differ.

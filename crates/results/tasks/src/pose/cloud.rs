@@ -9,7 +9,7 @@ use crate::vector::{length, minus};
 pub(super) struct PointDistances {
     /// Distances of the same point in both poses: ADD.
     pub(super) same: ExactSum,
-    /// Distances of each true point to the nearest predicted one: ADD-S.
+    /// Distances of each true point to the nearest predicted point: ADD-S.
     pub(super) nearest: ExactSum,
 }
 

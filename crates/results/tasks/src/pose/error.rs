@@ -1,4 +1,4 @@
-//! Refused poses and thresholds.
+//! Errors of poses and thresholds.
 
 /// Reason why a pose, a point or a threshold is refused.
 ///
@@ -18,7 +18,7 @@ pub enum PoseError {
         row: u64,
         /// Name of the coordinate: `x`, `y`, `z`.
         axis: &'static str,
-        /// Value found.
+        /// Coordinate found, mm.
         value: f64,
     },
     /// The norm of a quaternion is not 1.
@@ -58,7 +58,7 @@ pub enum PoseError {
     /// Thresholds that do not ascend.
     #[error("threshold `{text}` after a greater or equal threshold, expected ascending thresholds")]
     Order {
-        /// Text of the threshold that is not greater than the one before.
+        /// Text of the threshold that is not greater than the threshold before.
         text: String,
     },
     /// No threshold for an axis.

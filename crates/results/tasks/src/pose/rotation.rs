@@ -107,7 +107,7 @@ impl Rotation {
         [x, y, z, self.scalar]
     }
 
-    /// Angle of the rotation from one to the other, in degrees from 0 to 180.
+    /// Angle of the rotation from this rotation to `other`, in degrees from 0 to 180.
     ///
     /// The angle is 2 atan2(‖v‖, |w|) of the quaternion self⁻¹ other, with vector v and scalar w. Norms cancel out.
     #[must_use]

@@ -7,7 +7,7 @@ use crate::score::TaskScore;
 use crate::totals::{LeaveOneOut, error};
 use crate::undefined::Undefined;
 
-/// Totals of all clusters of poses, and without each.
+/// Totals of all clusters of poses, and totals without each cluster.
 type Clusters<'a> = LeaveOneOut<'a, 7, 4>;
 
 /// Name of an axis with a sum and with bins.
@@ -16,7 +16,7 @@ const AXIS_NAMES: [&str; 3] = ["x", "y", "z"];
 const BIN_NAMES: [&str; 3] = ["x", "y", "yaw"];
 
 impl PoseState {
-    /// Scores of all poses. The constant of errors is zero motion, and the constant of bins the most frequent one.
+    /// Scores of all poses. The constant of errors is zero motion, and the constant of bins is the most frequent bin.
     #[must_use]
     pub fn scores(&self) -> Vec<TaskScore> {
         let clusters = Clusters::of(&self.clusters);
@@ -45,7 +45,7 @@ impl PoseState {
         scores
     }
 
-    /// Mean of the sum `sum` over poses, beside that of zero motion.
+    /// Mean of the sum `sum` over poses, with the error of zero motion as the constant.
     fn error(
         &self,
         clusters: &Clusters<'_>,
@@ -128,7 +128,7 @@ fn most(bins: &[u64]) -> u64 {
     bins.iter().copied().max().unwrap_or_default()
 }
 
-/// `right` over `n` poses of `axes` axes each.
+/// `right` divided by the number of axes of all poses, `n` × `axes`.
 fn of_all(right: u64, n: u64, axes: usize) -> Result<f64, Undefined> {
     match n {
         0 => Err(Undefined::Empty),

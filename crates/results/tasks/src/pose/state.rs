@@ -48,7 +48,7 @@ pub struct PoseTask {
     pub(super) points: Vec<[f64; 3]>,
 }
 
-/// A task as read, with points that may be no numbers.
+/// Task before its checks. Its points may be NaN or infinite.
 #[derive(Deserialize)]
 struct StoredTask {
     thresholds: Option<Thresholds>,
@@ -88,7 +88,7 @@ impl PoseTask {
     }
 }
 
-/// Sums of a task of poses by cluster. Order and merges do not change a bit of the scores.
+/// Sums of a task of poses by cluster. Scores have the same bits for any order of samples and merges.
 ///
 /// ```
 /// use taceva_tasks::pose::{Pose, PoseState, PoseTask};
@@ -109,7 +109,7 @@ pub struct PoseState {
     pub(super) bins: [Vec<u64>; 3],
 }
 
-/// A state as read, with counts that may contradict each other.
+/// State before its checks. Its counts may contradict each other.
 #[derive(Deserialize)]
 struct Stored {
     task: PoseTask,
@@ -213,7 +213,7 @@ impl PoseState {
         Some(means.into_iter().collect::<ExactSum>().to_f64() / f64::from(count))
     }
 
-    /// Both states as one.
+    /// Merges both states.
     ///
     /// # Errors
     /// [`TaskError::OtherDefinition`] if thresholds or points differ.

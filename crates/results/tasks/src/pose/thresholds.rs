@@ -6,13 +6,13 @@ use super::error::PoseError;
 
 /// Greatest number of digits before and after the point of a threshold.
 const DIGITS: usize = 6;
-/// Thousandths of a nanometre in a millimetre, and of a microdegree in a degree.
+/// Number of picometres in a millimetre, and of nanodegrees in a degree.
 const FINE: f64 = 1e9;
 
 /// Thresholds of a classified change of pose, as decimals in mm and in degrees.
 ///
-/// n thresholds cut an axis at ± each into 2 n + 1 bins. A bin includes its lower end. Values and thresholds are compared in nanometres and in
-/// microdegrees to three places, so that a value of −0.1 mm is at the threshold 0.1, although neither is a binary number.
+/// n thresholds, each with both signs, divide an axis into 2 n + 1 bins. A bin includes its lower end. Values and thresholds are compared in whole
+/// picometres or nanodegrees. A value of −0.1 mm therefore equals the threshold 0.1, although binary numbers represent neither exactly.
 ///
 /// ```
 /// use taceva_tasks::pose::Thresholds;
@@ -102,7 +102,7 @@ impl TryFrom<Decimals> for Thresholds {
     }
 }
 
-/// Number of thresholds, the negative ones included, that do not exceed `value`.
+/// Number of thresholds, including negative thresholds, that do not exceed `value`.
 fn bin(cuts: &[u64], value: f64) -> usize {
     let fine = (value * FINE).round();
     let bounds = cuts.iter().map(|cut| (cut * 1000) as f64);

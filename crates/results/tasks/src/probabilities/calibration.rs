@@ -10,8 +10,8 @@ pub(super) const BINS: u64 = 15;
 
 /// Expected calibration error in [`BINS`] bins of equal numbers of samples. `levels` ascend.
 ///
-/// A level is in the bin of its middle sample, so equal probabilities are never divided, and the error depends on the samples alone.
-/// Levels without samples add nothing, because bins ascend with them.
+/// A level is in the bin of its middle sample, so equal probabilities are never divided, and the error depends only on the samples. Levels without
+/// samples change nothing.
 pub(super) fn expected_error(levels: &[Level]) -> Result<f64, Undefined> {
     let n = Sides::of(levels).n();
     if n == 0 {
@@ -35,7 +35,7 @@ pub(super) fn expected_error(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(sum.to_dyadic().over(&Dyadic::from(n)))
 }
 
-/// Sum of true minus predicted shares in the present bin.
+/// Sum of true minus predicted shares in the current bin.
 #[derive(Default)]
 struct Bins {
     at: u128,
@@ -49,7 +49,7 @@ impl Bins {
         self.sum.add_product(-count, level.score);
     }
 
-    /// Adds the size of the bin's sum to `all`, and begins a bin.
+    /// Adds the magnitude of the sum of the bin to `all`, and begins a new bin.
     fn close_into(&mut self, all: &mut ExactSum) {
         let sum = std::mem::take(&mut self.sum);
         match sum.to_dyadic().is_negative() {

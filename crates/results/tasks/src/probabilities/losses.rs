@@ -11,20 +11,20 @@ use crate::undefined::Undefined;
 /// Sums of the losses of some samples.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Losses {
-    /// Samples with probabilities.
+    /// Number of samples with probabilities.
     n: u64,
-    /// Samples whose numbers are no probabilities.
+    /// Number of samples whose numbers are not probabilities.
     others: u64,
-    /// Samples whose class has probability 0.
+    /// Number of samples whose class has probability 0.
     impossible: u64,
     squares: ExactSum,
     logarithms: ExactSum,
-    /// Samples of each class, by position.
+    /// Number of samples of each class, by position.
     classes: Vec<u64>,
 }
 
 impl Losses {
-    /// Adds a sample of the class `truth` with the probabilities `row`. `of_two` is the positive one of two classes.
+    /// Adds a sample of the class `truth` with the probabilities `row`. `of_two` is the position of the positive class if there are two classes.
     pub(super) fn add(&mut self, of_two: Option<usize>, truth: usize, row: &[f64]) {
         self.n += 1;
         self.classes.resize(row.len(), 0);
@@ -52,7 +52,7 @@ impl Losses {
         }
     }
 
-    /// Adds a sample whose numbers are no probabilities.
+    /// Adds a sample whose numbers are not probabilities.
     pub(super) fn add_other(&mut self) {
         self.others += 1;
     }
@@ -71,7 +71,7 @@ impl Losses {
         }
     }
 
-    /// The losses without those of `part`, which is among them.
+    /// The losses without those of `part`, which must be included.
     pub(super) fn without(&self, part: &Losses) -> Losses {
         let mut left = self.clone();
         left.n -= part.n;
@@ -107,7 +107,7 @@ impl Losses {
         self.n + self.others
     }
 
-    /// Mean square of probability minus 1 or 0.
+    /// Brier score: mean squared difference of probability and outcome, 1 or 0.
     pub(super) fn brier(&self) -> Result<f64, Undefined> {
         self.mean(&self.squares)
     }
@@ -128,7 +128,7 @@ impl Losses {
         }
     }
 
-    /// Mean square of the shares of the classes as probabilities: π (1 − π), summed over the classes unless they are two.
+    /// Brier score with the class shares π as probabilities: π (1 − π), summed over the classes if there are more than two.
     pub(super) fn brier_of_shares(&self, of_two: Option<usize>) -> Option<f64> {
         let square = |count: &u64| Quotient {
             above: u128::from(*count) * u128::from(self.n - count),
@@ -144,7 +144,7 @@ impl Losses {
         }
     }
 
-    /// Mean logarithmic loss of the shares of the classes as probabilities: −Σ π ln π.
+    /// Mean logarithmic loss with the class shares π as probabilities: −Σ π ln π.
     pub(super) fn log_loss_of_shares(&self) -> Option<f64> {
         let seen = self.classes.iter().filter(|count| **count > 0);
         let terms = seen.map(|count| {

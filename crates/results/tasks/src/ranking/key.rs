@@ -1,9 +1,9 @@
 //! Scores as integers with the same order.
 
-/// Steps of the grid in a unit.
+/// Number of grid steps in a score difference of 1.
 const STEPS: f64 = 65_536.0;
 
-/// Least size from which each binary64 is a multiple of a step.
+/// Magnitude from which every binary64 number is a multiple of a grid step.
 const ON_GRID: f64 = 137_438_953_472.0;
 
 /// Key of a finite score: an integer with the order of the scores. Both zeros are equal.

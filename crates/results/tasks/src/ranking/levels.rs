@@ -5,14 +5,14 @@ use serde::{Deserialize, Serialize};
 use crate::quotient::{Quotient, ratio, sum_over};
 use crate::undefined::Undefined;
 
-/// Samples of one score.
+/// Numbers of samples with one score.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Level {
     /// The score.
     pub(crate) score: f64,
-    /// Samples of the positive class.
+    /// Number of samples of the positive class.
     pub(crate) positive: u64,
-    /// Samples of the negative class.
+    /// Number of samples of the negative class.
     pub(crate) negative: u64,
 }
 
@@ -26,7 +26,7 @@ impl Level {
     }
 }
 
-/// Samples of the positive and of the negative class.
+/// Numbers of samples of the positive and of the negative class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Sides {
     pub(crate) positive: u64,
@@ -51,9 +51,9 @@ impl Sides {
     }
 }
 
-/// Probability that a positive sample has a greater score than a negative one, equal scores counted half.
+/// Probability that a positive sample has a greater score than a negative sample; equal scores count half.
 ///
-/// `levels` ascend. Levels without samples change no score of this file.
+/// `levels` ascend. Levels without samples do not change the result.
 pub(crate) fn roc_auc(levels: &[Level]) -> Result<f64, Undefined> {
     let sides = Sides::of(levels);
     match (sides.positive, sides.negative) {
@@ -89,7 +89,7 @@ pub(crate) fn average_precision(levels: &[Level]) -> Result<f64, Undefined> {
     Ok(sum_over(terms.iter().copied(), positive))
 }
 
-/// Same as [`average_precision`], but faster, because each term is rounded. For the rankings of a jackknife, each without one cluster.
+/// Same as [`average_precision`], but faster, because each term is rounded. Used for the rankings of a jackknife, each without one cluster.
 pub(crate) fn average_precision_of_rest(levels: &[Level]) -> Result<f64, Undefined> {
     let positive = positives(levels)?;
     let mut above = Sides::default();
@@ -104,7 +104,7 @@ pub(crate) fn average_precision_of_rest(levels: &[Level]) -> Result<f64, Undefin
     Ok(sum / positive as f64)
 }
 
-/// Number of positive samples. Undefined if there are none.
+/// Number of positive samples. Undefined without positive samples.
 fn positives(levels: &[Level]) -> Result<u64, Undefined> {
     let sides = Sides::of(levels);
     match (sides.n(), sides.positive) {

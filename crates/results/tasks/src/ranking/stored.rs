@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::{Counts, Level, MOST_SCORES, Ranking, ScoreKey, Sides, add};
 use crate::error::TaskError;
 
-/// A ranking as written.
+/// Serialized ranking.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Stored {
     is_on_grid: bool,

@@ -17,9 +17,9 @@ pub(super) struct OneWay {
 }
 
 impl OneWay {
-    /// Distances of `from` to `onto`, in mm. Both clouds have a point.
+    /// Distances of `from` to `onto`, in mm. Both clouds have at least one point.
     ///
-    /// The search leaves out points by their distance along x, so a cloud of n points at one x takes n steps a point.
+    /// The search skips points by their distance along x. With n points at equal x, it takes n steps for each point.
     pub(super) fn of(from: &[[f64; 3]], onto: &[[f64; 3]], tau_mm: Option<f64>) -> OneWay {
         let search = NearestPoints::new(onto.iter().copied());
         let mut way = OneWay {

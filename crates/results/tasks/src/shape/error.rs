@@ -1,4 +1,4 @@
-//! Refused clouds and thresholds.
+//! Errors of clouds and thresholds.
 
 /// Reason why a cloud of points or a threshold is refused.
 ///
@@ -30,7 +30,7 @@ pub enum ShapeError {
         cloud: &'static str,
         /// Number of the point, from 1.
         point: usize,
-        /// Value found.
+        /// Coordinate found, mm.
         value: f64,
     },
     /// A threshold of distances that is not above 0.

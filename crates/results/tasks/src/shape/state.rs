@@ -25,12 +25,12 @@ const CLOUDS: usize = 0;
 
 /// Totals of a cluster of clouds.
 type ShapeTotals = Totals<4, 1>;
-/// Totals of all clusters of clouds, and without each.
+/// Totals of all clusters of clouds, and totals without each cluster.
 type Clusters<'a> = LeaveOneOut<'a, 4, 1>;
 /// Function from totals to a value.
 type ValueOf = fn(&ShapeTotals) -> Result<f64, Undefined>;
 
-/// Definition of a task of shapes: the threshold τ of F scores, by default none.
+/// Definition of a task of shapes: the threshold τ of F scores, by default no threshold.
 ///
 /// ```
 /// use taceva_tasks::shape::ShapeTask;
@@ -64,7 +64,7 @@ impl ShapeTask {
     }
 }
 
-/// Sums of a task of shapes by cluster. Order and merges do not change a bit of the scores.
+/// Sums of a task of shapes by cluster. Scores have the same bits for any order of samples and merges.
 ///
 /// ```
 /// use taceva_tasks::shape::{ShapeState, ShapeTask};
@@ -80,7 +80,7 @@ pub struct ShapeState {
     clusters: ByCluster<ShapeTotals>,
 }
 
-/// A state as read, with a τ and counts that may be out of range.
+/// State before its checks. τ and counts may be out of range.
 #[derive(Deserialize)]
 struct Stored {
     task: ShapeTask,
@@ -139,7 +139,7 @@ impl ShapeState {
         Ok(())
     }
 
-    /// Both states as one.
+    /// Merges both states.
     ///
     /// # Errors
     /// [`TaskError::OtherDefinition`] if the tasks differ.
@@ -189,7 +189,7 @@ impl ShapeState {
         ]
     }
 
-    /// Mean F score in the sum `sum`.
+    /// Mean F score, computed from the sum `sum`.
     fn f_score(
         &self,
         clusters: &Clusters<'_>,

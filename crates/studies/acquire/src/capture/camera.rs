@@ -12,7 +12,7 @@ use super::device_error;
 use super::predictor::LivePredictor;
 use super::streams::Counts;
 
-/// Capacity of the queue of frames.
+/// Capacity of the frame queue, in frames.
 pub(super) const ROOM: usize = 8;
 /// Deadline for each call that requests a frame.
 const CALL: Deadline = Deadline::after(Duration::from_millis(100));
@@ -26,7 +26,7 @@ const REST: Duration = Duration::from_millis(5);
 pub(super) struct Taken {
     pub(super) frame: Frame,
     pub(super) stamp: Stamp,
-    /// Encoded file, if the camera sent one.
+    /// Encoded file, if the camera sent a file.
     pub(super) sent: Option<Vec<u8>>,
 }
 
@@ -116,8 +116,8 @@ impl Camera<'_> {
         device_error(kind, self.driver, "capture a frame", why)
     }
 
-    /// Adds a frame to `queue`. Returns false if the receiver no longer exists. If the queue is full, a frame of a real device is dropped, and a bench or a
-    /// recording waits.
+    /// Adds a frame to `queue`. Returns false if the receiver no longer exists. If the queue is full, a frame of a real device is dropped, and a
+    /// simulated or replayed device waits.
     fn put(&self, queue: &SyncSender<Taken>, taken: Taken) -> bool {
         if self.source != DriverSource::Real {
             return queue.send(taken).is_ok();

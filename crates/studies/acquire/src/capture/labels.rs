@@ -54,12 +54,12 @@ impl Labels {
         }
     }
 
-    /// Number of samples created so far.
+    /// Number of created samples.
     pub(super) fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Number of frames without a force so far, by cause.
+    /// Number of frames without a force, by cause.
     pub(super) fn lost(&self) -> LostForces {
         self.lost
     }

@@ -1,4 +1,4 @@
-//! Table of predictions, written beside a recording.
+//! Table of predictions, written next to a recording.
 
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -30,7 +30,8 @@ impl PredictionTable {
         self.predictions.push(prediction);
     }
 
-    /// CSV text of the predictions of recorded frames, matched by time stamp. Columns are `sample`, `t_s`, `distance`, and one for each channel.
+    /// CSV text of the predictions of recorded frames, matched by time stamp. Columns are `sample`, `t_s`, `distance`, and one column for each
+    /// channel.
     pub(super) fn csv(&self, recorded: &Table) -> Vec<u8> {
         let rows = recorded.t_s().iter().zip(recorded.samples());
         let samples: BTreeMap<u64, &String> = rows

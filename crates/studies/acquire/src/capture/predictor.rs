@@ -35,7 +35,7 @@ pub struct PredictionCounts {
     pub latencies: Latencies,
 }
 
-/// Callback that receives a prediction, its frame and the counts so far.
+/// Callback that receives a prediction, its frame and the current counts.
 type Heard<'a> = &'a (dyn Fn(&Frame, &Prediction, &PredictionCounts) + Sync);
 
 /// Predicts frames on its own thread. It stores only the newest frame, and never blocks a capture.
@@ -87,7 +87,7 @@ impl<'a> LivePredictor<'a> {
         }
     }
 
-    /// Enables a table of all predictions, to be written beside the recording.
+    /// Enables a table of all predictions, to be written next to the recording.
     #[must_use]
     pub fn with_table(self) -> LivePredictor<'a> {
         let table = PredictionTable::new(self.model.channels());
@@ -102,7 +102,7 @@ impl<'a> LivePredictor<'a> {
         self.model
     }
 
-    /// Counts so far.
+    /// Current counts of received, predicted and dropped frames.
     pub fn counts(&self) -> PredictionCounts {
         lock(&self.counts).clone()
     }
@@ -117,7 +117,7 @@ impl<'a> LivePredictor<'a> {
         self.table.as_ref().map(lock)
     }
 
-    /// Prepares for frames with the format of `untouched`. This frame is also the reference frame if the model needs one.
+    /// Prepares for frames with the format of `untouched`. This frame is also the reference frame if the model needs a reference frame.
     pub(super) fn begin(
         &self,
         info: taceva_core::FrameInfo,

@@ -64,7 +64,7 @@ impl Counts {
 /// Streams of frames and readings from the devices.
 pub(super) struct Streams<'a> {
     pub(super) queue: Receiver<Taken>,
-    /// Readings of the transducer, if there is one.
+    /// Readings of the transducer, if there is a transducer.
     pub(super) track: Option<&'a Track>,
     pub(super) counts: &'a Counts,
 }
@@ -96,7 +96,7 @@ impl Streams<'_> {
         self.counts.count_damaged();
     }
 
-    /// Counts of lost frames so far.
+    /// Current counts of lost frames.
     pub(super) fn facts(&self) -> StreamFacts {
         self.counts.facts()
     }

@@ -46,7 +46,7 @@ impl Track {
         }
     }
 
-    /// Adds a reading with the time stamp `at_s`, in s. Ignores a reading that is not later than the last one.
+    /// Adds a reading with the time stamp `at_s`, in s. Ignores a reading that is not later than the last reading.
     pub(super) fn push(&self, at_s: f64, wrench: Wrench) {
         let mut readings = self.readings();
         if readings.back().is_some_and(|(last_s, _)| *last_s >= at_s) {

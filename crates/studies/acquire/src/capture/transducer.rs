@@ -58,7 +58,7 @@ impl Transducer {
         Ok(wrench(sum.map(|sum| sum / f64::from(count))))
     }
 
-    /// Period of the readings, in s. A rate of 50 Hz is assumed if none is stated.
+    /// Period of the readings, in s. A rate of 50 Hz is assumed if the transducer states no rate.
     pub(super) fn period_s(&self) -> f64 {
         const UNKNOWN_S: f64 = 0.02;
         self.facts.rate.map_or(UNKNOWN_S, |rate| 1.0 / rate.0)

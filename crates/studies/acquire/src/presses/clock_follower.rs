@@ -1,8 +1,8 @@
-//! Follows the clock of a camera against the clock of this machine, and takes its drift off the time stamps.
+//! Follows the clock of a camera against the clock of this machine, and removes its drift from the time stamps.
 //!
-//! A frame arrives later than its stamp. Delays only add to this offset, so its least value in each block of frames shows the clock. A line through these
-//! least offsets gives the drift. The median of all pairwise slopes (Theil 1950, Sen 1968), weighted by their times, is not moved by blocks in which every
-//! frame was delayed.
+//! A frame arrives later than its stamp. Delays only add to this offset, so its least value in each block of frames shows the clock. A line through
+//! these least offsets gives the drift. The median of all pairwise slopes (Theil 1950, Sen 1968), weighted by their times, is not affected by blocks
+//! in which every frame was delayed.
 
 use std::collections::BTreeMap;
 
@@ -11,18 +11,18 @@ use taceva_core::Stamp;
 /// Duration of the first blocks, s. It doubles each time the blocks are merged, up to `BLOCK_MAX_S`.
 const BLOCK_S: f64 = 0.25;
 const BLOCK_MAX_S: f64 = 4.0;
-/// Minimum number of frames in a block, and greatest time within which they arrive, s.
+/// Minimum number of frames in a block, and maximum time in which these arrive, s.
 const FRAMES: u32 = 4;
 const FRAMES_WITHIN_S: f64 = 30.0;
-/// Number of blocks that determine a line: least and greatest, and the least for a line that is followed.
+/// Minimum and maximum number of blocks for a line, and minimum number for a corrected drift.
 const BLOCKS_MIN: usize = 6;
 const BLOCKS_MAX: usize = 64;
 const FOLLOWED_MIN: usize = 12;
-/// Greatest drift that is followed. A faster change is no drift of an oscillator.
+/// Greatest corrected drift, ppm. The drift of an oscillator is smaller.
 const PPM_MAX: f64 = 1000.0;
-/// Number of standard uncertainties above which a drift is taken off.
+/// Number of standard uncertainties above which a drift is corrected.
 const SHOWN: f64 = 3.0;
-/// Greatest error of a line that is continued after its last block, s, by as many standard uncertainties of its slope.
+/// Greatest error of a line that is extrapolated after its last block, s, for [`SHOWN`] standard uncertainties of its slope.
 const CONTINUED_S: f64 = 1e-3;
 /// Ratio of the standard deviation of a normal distribution to its median absolute deviation.
 const NORMAL: f64 = 1.4826;
@@ -41,9 +41,9 @@ pub(super) struct ClockFollower {
     /// Number of times that the blocks were merged.
     merged: i32,
     line: Option<Line>,
-    /// Offset of the clock before the drift that is taken off, s; `None` until a drift shows.
+    /// Offset of the clock before the drift correction, s; `None` until a drift is detected.
     anchor_s: Option<f64>,
-    /// Drift taken off the last stamp, s, and that stamp as the camera sent it, s.
+    /// Drift removed from the last stamp, s, and this stamp as the camera sent it, s.
     taken_off_s: f64,
     last_s: Option<f64>,
 }
@@ -125,7 +125,7 @@ impl Line {
 }
 
 impl ClockFollower {
-    /// Follows the clock by the stamp of a frame that arrived at `now_s` at the latest, s. Returns the stamp without the drift since the first frames.
+    /// Updates the line with the stamp of a frame that arrived at `now_s` or earlier, s. Returns the stamp without the drift since the first frames.
     pub(super) fn follow(&mut self, stamp: Stamp, now_s: f64) -> Stamp {
         let at_s = stamp.received_s.unwrap_or(now_s);
         self.see(Offset {
@@ -167,7 +167,7 @@ impl ClockFollower {
         ])
     }
 
-    /// Adds the offset of a frame to its block. The first frame after the end of a block begins the next one, so that no block spans a pause.
+    /// Adds the offset of a frame to its block. The first frame after the end of a block begins the next block, so that no block spans a pause.
     fn see(&mut self, seen: Offset) {
         let lasts_s = (BLOCK_S * 2.0_f64.powi(self.merged)).min(BLOCK_MAX_S);
         if let Some(block) = self.block {

@@ -1,8 +1,8 @@
 //! Guard threads of a run on real devices. They detect limits that are exceeded during a motion.
 //!
-//! One thread owns the force transducer: it shows each reading to the [`Supervisor`] and stores it for the run. Another reads the pose of
-//! the robot, over a connection of its own if the robot has one, and the enabling switch. It also watches for missing readings and
-//! cancellation. Both halt through the supervisor, which alone decides.
+//! One thread owns the force transducer: it shows each reading to the [`Supervisor`] and stores it for the run. Another thread reads the pose of the
+//! robot, over its own connection if the robot has a second connection, and the enabling switch. It also watches for missing readings and
+//! cancellation. Both threads halt through the supervisor, which makes all decisions.
 //!
 //! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
 //! milliseconds. A turn that took too long is printed with its cause, and so are the counts of a session at its end.
@@ -43,7 +43,7 @@ pub(super) struct Guarded<'a> {
     /// Key of the transducer's driver.
     pub(super) driver: DriverKey,
     pub(super) limits: RigLimits,
-    /// Enabling switch, if the rig has one.
+    /// Enabling switch, if the rig has a switch.
     pub(super) switch: Option<&'a dyn EnablingSwitch>,
     pub(super) cancel: &'a Cancel,
     pub(super) progress: &'a dyn Progress,
@@ -154,7 +154,7 @@ impl Watcher<'_> {
         }
     }
 
-    /// Notes a turn that was late during a motion, and a reading that was found stale.
+    /// Records a turn that was late during a motion, and a reading that was found stale.
     fn time(&mut self, turn: &Turn) {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
@@ -174,7 +174,7 @@ impl Watcher<'_> {
         self.punctuality.settle(turn.ended_s);
     }
 
-    /// Handles cancellation. The first ends the motion in progress, but not the retreat after it. The second also ends the retreat.
+    /// Handles cancellation. The first cancellation ends the motion in progress, but not the retreat. The second cancellation also ends the retreat.
     fn obey(&mut self) {
         // Read first, so that a second request between both calls is seen.
         let is_insisted = self.progress.is_insisted();

@@ -19,7 +19,7 @@ pub(crate) struct Late<D: ?Sized> {
     latency_s: f64,
     driver: DriverKey,
     timing: SampleTiming,
-    /// Follower of the clock that stamps the frames of a real sensor. Other devices have no use for it.
+    /// Follower of the clock that stamps the frames of a real sensor. `None` for other devices.
     follower: Option<ClockFollower>,
     device: Box<D>,
 }
@@ -41,7 +41,7 @@ impl<D: ?Sized> Late<D> {
         }
     }
 
-    /// Takes the drift of the clock, as `follower` finds it, off the stamps of frames.
+    /// Removes the clock drift that `follower` determines from the stamps of frames.
     pub(super) fn with_follower(self, follower: Option<ClockFollower>) -> Late<D> {
         Late { follower, ..self }
     }

@@ -105,7 +105,7 @@ impl PlannedScene {
 }
 
 impl PlannedStudy {
-    /// Manual changes on a real rig, with their counts; empty if there are none.
+    /// Manual changes on a real rig, with their counts; empty without manual changes.
     pub fn by_hand(&self, drivers: &Drivers) -> Vec<String> {
         let held = self.held(drivers);
         let [changes, _] = Changes::of(&self.plan, self.is_lit_by_hand(drivers), &held);
@@ -135,7 +135,7 @@ impl PlannedStudy {
         needed.into_iter().flatten().collect()
     }
 
-    /// Automatic changes by changers of the rig file, with their counts and drivers; empty if there are none.
+    /// Automatic changes by changers of the rig file, with their counts and drivers; empty without automatic changes.
     pub fn by_changer(&self, drivers: &Drivers) -> Vec<String> {
         let Some(rig) = self.rig() else {
             return Vec::new();

@@ -28,10 +28,10 @@ pub(super) fn reduction(
     Ok(Some(reduction))
 }
 
-/// Reduces the frames of `samples`. The stored brightness is that of the full frames.
+/// Reduces the frames of `samples`. The stored brightness is the brightness of the full frames.
 ///
 /// # Errors
-/// [`FeatureError::Kind`] for a frame whose size or format differs from that stated by the camera.
+/// [`FeatureError::Kind`] for a frame whose size or format differs from the statement of the camera.
 pub(super) fn reduced(
     samples: &[Sample],
     reduction: &FrameReduction,

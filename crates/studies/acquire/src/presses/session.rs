@@ -1,4 +1,4 @@
-//! Rows of the session table beside a recording of a real rig.
+//! Rows of the session table next to a recording of a real rig.
 
 use std::fs;
 

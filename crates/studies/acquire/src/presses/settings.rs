@@ -26,8 +26,8 @@ impl OpenRig {
         warnings
     }
 
-    /// Shows the operator, if any, the warnings of the devices and the contradictions of certificates. Messages in `shown` are omitted, and the others are
-    /// added to `shown`.
+    /// Shows the operator, if any, the warnings of the devices and the contradictions of certificates. Messages in `shown` are omitted, and other
+    /// messages are added to `shown`.
     pub(super) fn warn(&self, workshop: Workshop<'_>, shown: &mut Vec<String>) {
         let Some(operator) = workshop.operator else {
             return;
@@ -46,12 +46,12 @@ impl OpenRig {
     }
 }
 
-/// Setting that names the driver of the sensor. The drivers of labels stand with their certificates.
+/// Setting that names the driver of the sensor. Drivers of instruments for labels are stored with the certificates.
 pub(crate) fn sensor_driver(key: &str) -> (String, String) {
     ("sensor_driver".to_owned(), key.to_owned())
 }
 
-/// Mounting and latencies of the devices in a rig file and the driver of its sensor, as settings of a recording, and the digest of the file.
+/// Facts of a rig file as settings of a recording: mounting and latencies of devices, driver of the sensor, and digest of the file.
 pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     let mut settings = BTreeMap::from([("rig_file".to_owned(), rig.digest().to_string())]);
     let axes = [
@@ -81,7 +81,7 @@ pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     settings
 }
 
-/// Adds the settings of a device to those of its rig, with names that begin with `kind`, such as `force_serial`.
+/// Adds the settings of a device to the settings of its rig, with names that begin with `kind`, such as `force_serial`.
 pub(crate) fn add_settings(
     all: &mut BTreeMap<String, String>,
     kind: &str,

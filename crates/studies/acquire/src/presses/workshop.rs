@@ -19,12 +19,12 @@ pub struct Surroundings {
     pub upcoming: Option<Box<dyn FnMut(Upcoming)>>,
     /// Name of the gel in the recording.
     pub gel: Option<String>,
-    /// Simulated bench, if the rig is one. Its clock also stamps a sensor of another bench.
+    /// Simulated bench, if the rig is a simulated bench. Its clock also stamps a sensor of another bench.
     pub bench: Option<Arc<dyn SimulatedBench>>,
     /// True if the gel is new in every process, and changes with each press of a process.
     ///
-    /// On such a rig, an interrupted run repeats the recorded presses at a place when it resumes. It compares them with the recording, and does not record them
-    /// twice.
+    /// On such a rig, an interrupted run repeats the recorded presses at a place when it resumes. The run compares these presses with the recording,
+    /// and does not record them twice.
     pub begins_anew: bool,
 }
 

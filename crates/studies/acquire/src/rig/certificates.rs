@@ -36,7 +36,7 @@ impl RigCheck {
     }
 }
 
-/// Problem of the certificate's file in `folder`; `None` if the file agrees or the rig file names none.
+/// Problem of the certificate's file in `folder`; `None` if the file agrees or the rig file names no certificate file.
 fn file_problem(
     folder: &Path,
     instrument: Instrument,

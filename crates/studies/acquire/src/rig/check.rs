@@ -44,7 +44,7 @@ pub struct RigCheck {
     pub robot: Option<Stream>,
     /// Frames of the sensor.
     pub sensor: Option<Stream>,
-    /// Enabling switch, if the rig file names one.
+    /// Enabling switch, if the rig file names a switch.
     pub switch: Option<SwitchCheck>,
     /// Changers and lighting that the rig file names and that opened.
     pub changers: Vec<Stock>,

@@ -16,7 +16,7 @@ pub enum RigProblem {
         /// Description of the failure and its remedy.
         why: String,
     },
-    /// The serial number in the certificate of a device differs from the one that the device reports.
+    /// The serial number in the certificate of a device differs from the serial number that the device reports.
     Certificate {
         /// Name of the device: `force`, `robot` or `sensor`.
         device: &'static str,

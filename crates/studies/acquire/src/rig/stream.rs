@@ -17,8 +17,8 @@ pub struct Stream {
     pub late_ms: f64,
     /// Greatest standard deviation of any component, in the unit of the reading; `None` for a device without numeric readings.
     pub noise: Option<f64>,
-    /// Number of readings lost in transmission, as the driver counts them; `None` if it does not count them. A reading that this host replaced by a newer one
-    /// is not lost.
+    /// Number of readings lost in transmission, as the driver counts them; `None` if it does not count them. A reading that this host replaced by a
+    /// newer reading is not lost.
     pub lost: Option<u64>,
 }
 

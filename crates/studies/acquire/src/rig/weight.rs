@@ -139,7 +139,7 @@ fn resting(
     })
 }
 
-/// Description of a contradiction in the comparison, with its remedy; `None` if there is none.
+/// Description of a contradiction in the comparison, with its remedy; `None` without a contradiction.
 fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
     let Weighing {
         mass_g,

@@ -1,4 +1,4 @@
-//! Values that override those of a scene.
+//! Values that replace values of a scene.
 
 use std::path::PathBuf;
 
@@ -7,12 +7,12 @@ use taceva_protocol::{ModelSpec, Setting};
 
 use crate::error::AcquireError;
 
-/// Values that override those of a scene.
+/// Values that replace values of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Overrides {
     /// Seed of all random draws of the scene.
     pub seed: Option<u64>,
-    /// Rig file whose devices replace those of every study that presses. A relative path refers to the working directory.
+    /// Rig file whose devices replace the devices of every study that makes presses. A relative path refers to the working directory.
     pub rig: Option<PathBuf>,
     /// Model of every study. It replaces the scene's model and that model's settings, and keeps its folds.
     pub model: Option<String>,

@@ -340,7 +340,7 @@ fn is_simulated_here(rig: &RigFile, drivers: &Drivers) -> bool {
     source == Some(DriverSource::Simulated)
 }
 
-/// Opens the enabling switch of `rig`, if it has one.
+/// Opens the enabling switch of `rig`, if the rig has a switch.
 pub(crate) fn open_switch(
     rig: &RigFile,
     drivers: &Drivers,

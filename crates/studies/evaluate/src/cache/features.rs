@@ -133,7 +133,7 @@ fn features_key(dataset: &Dataset, extractor: &Extractor, rows: &[usize]) -> Key
         .finish()
 }
 
-/// Removes the least recently used files of `folder` until the total size of the others is at most `most` bytes.
+/// Removes the least recently used files of `folder` until the total size of the remaining files is at most `most` bytes.
 fn trim(folder: &Path, most: u64) -> io::Result<()> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder)? {

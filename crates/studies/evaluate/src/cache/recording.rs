@@ -1,8 +1,8 @@
 //! Recordings in the folders of runs. The cache stores their paths and no copies.
 //!
-//! A note lists the folders that contain one recording, the latest first. Each line also has the digest of the header, because the folder may have been
-//! overwritten with another recording. Another run links the files of the first folder with an unchanged recording. If there is none, the presses are repeated
-//! from the seed, with the same bytes.
+//! A note lists the folders that contain one recording, the latest first. Each line also has the digest of the header, because the folder may have
+//! been overwritten with another recording. Another run links the files of the first folder with an unchanged recording. Without an unchanged
+//! recording, the presses are repeated from the seed, with the same bytes.
 
 use std::fs;
 use std::io;

@@ -32,7 +32,7 @@ pub struct StudyCache<'a> {
 }
 
 impl StudyCache<'_> {
-    /// Returns the value stored under `key`. If there is none, calls `make` and stores the result.
+    /// Returns the value stored under `key`. Without a stored value, calls `make` and stores the result.
     pub fn value<T: Kept, E>(self, key: &Key, make: impl FnOnce() -> Result<T, E>) -> Result<T, E> {
         let Some(cache) = self.cache else {
             return make();
@@ -47,7 +47,7 @@ impl StudyCache<'_> {
         Ok(value)
     }
 
-    /// Returns the recording at `place`. If there is none, links the one stored under `key`. Otherwise calls `make` and stores its result.
+    /// Returns the recording at `place`, or links the recording stored under `key`. If neither exists, calls `make` and stores its result.
     pub fn recording<E>(
         self,
         key: &Key,

@@ -67,7 +67,7 @@ fn all_of(mut bytes: impl Read, length: usize) -> Option<Vec<u8>> {
 const FIRST_LINE: usize = 72;
 
 impl Cache {
-    /// Returns the result stored under `key`; `None` if there is none or its bytes have changed.
+    /// Returns the result stored under `key`; `None` without a stored result, or if its bytes have changed.
     pub(super) fn take_value<T: Kept>(&self, key: &Key) -> Option<T> {
         let entry = self.entry(key);
         let file = match File::open(&entry) {

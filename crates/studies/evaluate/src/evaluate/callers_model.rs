@@ -1,4 +1,4 @@
-//! Scores predictions of a caller's own model, by the same rules as those of built-in models.
+//! Scores predictions of a caller's own model, by the rules of built-in models.
 
 use std::collections::BTreeMap;
 use std::num::NonZeroUsize;
@@ -136,8 +136,8 @@ impl GivenRows {
     /// Scores of `predictions` for the rows to predict. Predictions of a model fitted now are clipped to the bounds of its labels, as for built-in models. Its
     /// skill is relative to the mean of its labels. The training data of any other model is unknown, and a note states this.
     ///
+    /// # Shapes
     /// `predictions`: `[rows, channels]`, row by row.
-    /// `predictions` are `[rows, channels]`, row after row.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] for a wrong number of values, or a value that is not finite.

@@ -10,12 +10,12 @@ use crate::error::EvaluateError;
 use crate::fit::{FitRequest, Fitted, fit};
 use crate::work::Work;
 
-/// Fits a model to the labels of the task called `name`. The card of the model keeps the task. Without a stated split, clusters are divided into
-/// training, validation and test part.
+/// Fits a model to the labels of the task called `name`. The card of the model stores the task. Without a stated split, clusters are divided into
+/// training, validation and test parts.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster or fits several
-/// models, and for the errors of [`fit`].
+/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, or a split that separates samples of one cluster or fits several
+/// models. Otherwise errors of [`fit`].
 pub fn fit_task(
     dataset: &Dataset,
     name: &str,

@@ -67,7 +67,7 @@ pub(crate) fn by_default(dataset: &Dataset, seed: u64) -> Result<Option<Folds<'_
     default_split(dataset)?.map_or(Ok(None), |spec| of_spec(dataset, seed, spec))
 }
 
-/// Folds of the cross-validation that `request` names; `None` if it names none.
+/// Folds of the cross-validation that `request` names; `None` if it names no cross-validation.
 ///
 /// # Errors
 /// Errors of [`of`].

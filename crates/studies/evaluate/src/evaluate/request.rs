@@ -10,7 +10,7 @@ use crate::rows::DataPart;
 use crate::state_file::StateFile;
 use taceva_results::EvaluationReport;
 
-/// Request of an evaluation.
+/// Request for an evaluation.
 #[derive(Debug)]
 pub struct EvaluateRequest {
     /// The model, already fitted or to be fitted.
@@ -25,7 +25,7 @@ pub struct EvaluateRequest {
     pub is_independent: bool,
 }
 
-/// Request of an evaluation, without its model.
+/// Request for an evaluation, without its model.
 #[derive(Clone, Copy)]
 pub struct Asked<'a> {
     pub(super) metrics: &'a [String],

@@ -20,10 +20,10 @@ use crate::task_state_file::TaskStates;
 use crate::task_view::{in_words, window_of};
 use crate::work::Work;
 
-/// Most folds of the default division.
+/// Maximum number of folds of the default division.
 pub(super) const MOST_FOLDS: usize = 5;
 
-/// Division that keeps each cluster of `task` whole: five folds, or one for each of fewer clusters.
+/// Division that keeps each cluster of `task` whole: five folds, or one fold for each cluster if there are fewer.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for fewer than two clusters.
@@ -52,8 +52,8 @@ pub fn task_division(dataset: &Dataset, task: &Task) -> Result<String, EvaluateE
 /// [`CLASSIFIERS`](crate::CLASSIFIERS); poses and depth maps need a model of numbers.
 ///
 /// # Errors
-/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, a split that separates samples of one cluster,
-/// and for the errors of [`evaluate`].
+/// [`EvaluateError`] for an unknown task, a model that does not predict its kind, or a split that separates samples of one cluster. Otherwise errors
+/// of [`evaluate`].
 pub fn evaluate_task(
     dataset: &Dataset,
     name: &str,
@@ -118,7 +118,7 @@ fn split_of(dataset: &Dataset, task: &Task, stated: Option<&str>) -> Result<Stri
     }
 }
 
-/// Evaluation that predicts the labels of the test part. Its own metric is not read.
+/// Evaluation that predicts the labels of the test part. Its metrics are not used.
 fn request_of(fit: FitRequest, split: String) -> EvaluateRequest {
     EvaluateRequest {
         model: ModelChoice::Fit(FitRequest {
@@ -288,7 +288,7 @@ pub(super) fn check_split(split: &str, task: &Task) -> Result<(), EvaluateError>
     )))
 }
 
-/// Position of a class that a channel holds as a number.
+/// Position of a class from its number in a channel.
 pub(super) fn position(number: f64, task: &Task) -> Result<u32, EvaluateError> {
     let classes = (0_u32..).take(task.names.len());
     let found = classes

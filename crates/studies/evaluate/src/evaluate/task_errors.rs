@@ -10,7 +10,7 @@ pub(super) struct TaskMistake<'a> {
     /// Row of the dataset.
     pub(super) row: usize,
     pub(super) cluster: &'a str,
-    /// Positions of the classes.
+    /// Position of the true class.
     pub(super) truth: u32,
     pub(super) predicted: u32,
 }

@@ -18,7 +18,7 @@ use crate::work::Work;
 /// Rows to score.
 #[derive(Clone, Copy, Debug)]
 pub struct TaskRows<'a> {
-    /// Rows of the dataset, ascending. All others are neither learnt from nor predicted.
+    /// Rows of the dataset, ascending. Other rows are not used for training or prediction.
     pub rows: &'a [usize],
     /// Number of rows of a cluster per second, for the times of onsets.
     pub rate_hz: f64,

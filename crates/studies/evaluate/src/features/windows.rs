@@ -84,7 +84,7 @@ impl Sequences {
     }
 }
 
-/// Column whose clusters windows do not cross.
+/// Name of the column with the clusters; windows do not cross clusters.
 fn required(window: FrameWindow, column: Option<&str>) -> Result<&str, EvaluateError> {
     column.ok_or_else(|| {
         EvaluateError::Request(format!(
@@ -94,7 +94,7 @@ fn required(window: FrameWindow, column: Option<&str>) -> Result<&str, EvaluateE
     })
 }
 
-/// Rows whose inputs `spec` reads for the samples in `rows`: these rows, or those of their windows in the clusters of `column`.
+/// Rows whose inputs `spec` reads for the samples in `rows`: these rows, or the rows of their windows in the clusters of `column`.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for windows without `column`, or for a row without a cluster.

@@ -35,7 +35,7 @@ pub struct FitPlan<'a> {
     pub train: Vec<usize>,
     /// Rows for choosing settings.
     pub validation: Vec<usize>,
-    /// Rows whose frames or signals are read: those of the fit, and with windows those before them.
+    /// Rows whose frames or signals are read: rows of the fit, and earlier rows in their windows.
     pub(crate) read: Vec<usize>,
     /// Group of every row of the dataset. Whole groups are left out to choose settings; `None` to leave out contact points.
     pub(super) groups: Option<Vec<String>>,

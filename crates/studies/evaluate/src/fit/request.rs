@@ -1,4 +1,4 @@
-//! Request of a fit.
+//! Request for a fit.
 
 use taceva_models::{
     ChosenModel, FeatureKinds, FeatureSpec, FeaturesByRecording, ModelEstimator, ModelSettings,
@@ -7,7 +7,7 @@ use taceva_models::{
 
 use crate::error::EvaluateError;
 
-/// Request of a fit.
+/// Request for a fit.
 #[derive(Clone, Debug)]
 pub struct FitRequest {
     /// Model to fit.

@@ -123,7 +123,7 @@ impl FitPlan<'_> {
         })
     }
 
-    /// Number of the group, or of the contact point, of each row; `None` if a row has neither.
+    /// Number of the group, or of the contact point, of each row; `None` if a row has no group and no contact point.
     pub(super) fn groups_of(&self, rows: &[usize]) -> Option<Vec<u32>> {
         let points = self.dataset.table().point_id();
         let name = |row: usize| match &self.groups {

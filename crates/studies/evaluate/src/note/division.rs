@@ -20,7 +20,7 @@ pub enum SampleOrder {
 pub struct Neighbours {
     /// Name of the channel whose neighbours resemble each other most.
     pub channel: String,
-    /// One minus the mean squared rank difference of neighbours over that of random pairs. It is 0 for independent and 1 for equal neighbours.
+    /// One minus the ratio of the mean squared rank difference of neighbours to that of random pairs: 0 for independent, 1 for equal neighbours.
     pub resemblance: f64,
     /// Number of samples after which two samples hardly resemble each other.
     pub lag: usize,

@@ -28,7 +28,8 @@ impl Predicted {
         self.write(&self.unbounded, task, false, self.distance(), out)
     }
 
-    /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model predicts none.
+    /// Writes the standard deviation of each prediction: `sample` and one column for each channel. Returns false if the model predicts no standard
+    /// deviations.
     ///
     /// # Errors
     /// Errors of `out`.
@@ -39,8 +40,8 @@ impl Predicted {
         }
     }
 
-    /// Writes the truth of the same samples. Columns are `sample`, `point_id` or the group in its place, other known fields (`scene`, `repeat`, `phase` and the
-    /// like), and one for each channel.
+    /// Writes the truth of the same samples. Columns are `sample`, `point_id` or the group in its place, other known fields (`scene`, `repeat`,
+    /// `phase` and the like), and one column for each channel.
     ///
     /// # Errors
     /// Errors of `out`.

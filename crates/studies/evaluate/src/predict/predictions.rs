@@ -251,7 +251,7 @@ impl Predicted {
         found
     }
 
-    /// Contact point of each row, if all rows name one.
+    /// Contact point of each row, if all rows name a contact point.
     pub fn points(&self) -> Option<&[String]> {
         self.points.as_deref()
     }

@@ -7,7 +7,7 @@ use taceva_models::Model;
 use crate::error::EvaluateError;
 use crate::rows::{DataPart, Divided, Need, require_samples, usable};
 
-/// Rejects frames of a view other than that of the model, because the predictions would look plausible.
+/// Rejects frames of a view other than the view of the model, because the predictions would look plausible.
 fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let fitted_on = model.card().provenance.view.as_deref();
     match (fitted_on, dataset.view()) {
@@ -27,7 +27,7 @@ pub struct Target {
     pub part: DataPart,
     /// Rows to predict, ascending.
     pub rows: Vec<usize>,
-    /// Division of the dataset, if there is one.
+    /// Division of the dataset, if the dataset is divided.
     pub divided: Option<Divided>,
     /// Number of rows of the part that lack the input of the model.
     pub left_out: usize,

@@ -6,10 +6,10 @@ use taceva_models::{ClassProbabilities, Model, TaskCard};
 
 use crate::error::EvaluateError;
 
-/// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
+/// Suffixes of the columns of a pose: translation in mm, then the quaternion.
 const POSE: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
-/// Task of predictions, with what tables say beside the predicted classes.
+/// Task of predictions, with the cells of tables in addition to predicted classes.
 #[derive(Debug)]
 pub(super) struct TaskCells {
     card: TaskCard,
@@ -108,7 +108,7 @@ impl TaskCells {
         self.card.kind == TaskKind::Pose.name()
     }
 
-    /// Column with the clusters; `None` if the table has it already.
+    /// Column with the clusters; `None` if the table already has this column.
     pub(super) fn cluster_column<'a>(&'a self, head: &[&str]) -> Option<&'a str> {
         let column = self.card.cluster.as_str();
         (!head.contains(&column)).then_some(column)
@@ -119,7 +119,7 @@ impl TaskCells {
         self.clusters[row].clone().unwrap_or_default()
     }
 
-    /// Columns of the probabilities, one for each class; none if the model does not estimate them.
+    /// Columns of the probabilities, one column for each class; empty if the model does not estimate probabilities.
     pub(super) fn score_columns(&self) -> Vec<String> {
         let names = self.card.names.iter();
         let names = names.filter(|_| self.shares.is_some());

@@ -1,4 +1,4 @@
-//! Columns of a table of samples beside its channels, compared with those of the recording.
+//! Compares the columns of a table of samples other than channels with those of the recording.
 
 use taceva_core::{Field, shown};
 use taceva_dataset::Dataset;
@@ -7,7 +7,8 @@ use taceva_results::Samples;
 use super::is_same;
 use crate::rows::BESIDE_CHANNELS;
 
-/// Description of the first difference between the columns beside the channels and those of `rows` of `dataset`. A table may lack some.
+/// Description of the first difference between the columns other than channels and those of `rows` of `dataset`. A table may lack some of these
+/// columns.
 pub(super) fn other_columns(
     dataset: &Dataset,
     rows: &[usize],

@@ -1,4 +1,4 @@
-//! Scores the phases of a run from the table of its samples. Each state holds the sums of the phase that its provenance names.
+//! Scores the phases of a run from the table of its samples. Each state contains the sums of the phase that its provenance names.
 
 use std::num::NonZeroUsize;
 
@@ -12,7 +12,7 @@ use crate::error::EvaluateError;
 use crate::merge::{evaluation_of, report_of};
 use crate::state_file::ReadState;
 
-/// Fields that the table of a run stores too, for every row and without loss.
+/// Further fields that the table of a run stores without loss for every row.
 const OF_RUNS: [Field; 4] = [
     Field::PredictedSpacing,
     Field::Stamp,
@@ -22,10 +22,10 @@ const OF_RUNS: [Field; 4] = [
 
 /// Reason for a metric whose fields the table lacks.
 const LACKING: &str = "the table of samples lacks a field that it reads";
-/// Reason for the metrics of a state that does not name one phase of the table for all of them.
+/// Reason for the metrics of a state that does not name a single phase of the table.
 const NO_PHASE: &str =
     "its state and the table of samples do not name one phase of the protocol; run the scene again";
-/// Reason for the metrics of a state with other sums than its phase.
+/// Reason for the metrics of a state whose sums differ from those of its phase.
 const OTHER_SUMS: &str = "the rows of its phase do not give the sums of the state";
 /// Greatest number of rows that are read for all states together.
 const MOST_READ: usize = 1 << 28;
@@ -79,7 +79,7 @@ fn skip(metric: &Metric, reason: &str) -> Skip {
     }
 }
 
-/// Fault of a table with more rows than a run with so many states has. Each state reads the table.
+/// Fault of a table with too many rows for this number of states. Each state reads the table.
 fn excess(samples: &Samples, states: usize) -> Option<String> {
     let rows = samples.rows();
     (rows.saturating_mul(states) > MOST_READ).then(|| {
@@ -116,7 +116,7 @@ fn phase_of<'a>(state: &'a ReadState, plan: &MetricPlan) -> Option<&'a str> {
     is_only.then_some(first.as_str())
 }
 
-/// True if a run never sums the metrics of `plan` together: they read other rows, or predictions before and after clipping.
+/// True if a run never sums the metrics of `plan` together: they read different rows, or predictions before and after clipping.
 fn is_mixed(plan: &MetricPlan) -> bool {
     let mut kinds = plan.kept().iter().map(|own| {
         [
@@ -129,7 +129,7 @@ fn is_mixed(plan: &MetricPlan) -> bool {
     kinds.any(|kind| Some(kind) != first)
 }
 
-/// Sums of the metrics of `plan` over the rows of the phase of `state`; `None` if they are not those of `state`.
+/// Sums of the metrics of `plan` over the rows of the phase of `state`; `None` if they differ from those of `state`.
 fn sums(
     state: &ReadState,
     plan: &MetricPlan,

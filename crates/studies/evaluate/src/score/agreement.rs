@@ -35,7 +35,7 @@ pub(super) struct Agreement {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// A key. Both tables must have the same text, or both none.
+    /// A key. Both tables must have the same text, or no text.
     Key,
     /// A text. An empty cell agrees with any text.
     Word,

@@ -7,7 +7,7 @@ use taceva_import::CsvTable;
 use super::key_parts::by_length;
 use super::row_key::{KeyPair, key_of};
 
-/// Keys of both tables in the blocks read so far. Blocks may be added in any order.
+/// Keys of both tables in the blocks that were read. Blocks may be added in any order.
 #[derive(Debug)]
 pub(super) struct KeyOrder {
     /// Key columns in the truth and in the predictions.

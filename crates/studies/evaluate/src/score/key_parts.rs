@@ -135,7 +135,7 @@ impl ByKey<'_> {
             .collect()
     }
 
-    /// True if both tables have the same ascending keys in `own`. The row before is included, so that no key repeats.
+    /// True if both tables have the same ascending keys in `own`. The check includes the row before `own`, so that no key repeats.
     fn is_in_order(
         &self,
         own: &Range<u64>,

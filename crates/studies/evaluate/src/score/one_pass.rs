@@ -23,8 +23,8 @@ use crate::accumulate::{BATCH_ROWS, Rows};
 use crate::error::EvaluateError;
 use crate::row_ledger::Taken;
 
-/// Scores the tables of `request` in one pass. The result has the same bytes as that of [`Scoring`](super::Scoring). Returns `None` if a single pass is
-/// impossible: for unequal or unsorted keys, quoted cells, Parquet, possible key columns, angles that may be in radians, and any error.
+/// Scores the tables of `request` in one pass. The result has the same bytes as the result of [`Scoring`](super::Scoring). Returns `None` if a single
+/// pass is impossible: for unequal or unsorted keys, quoted cells, Parquet, possible key columns, angles that may be in radians, and any error.
 /// [`Scoring`](super::Scoring) then reads the tables again and reports the error.
 ///
 /// # Errors

@@ -6,7 +6,7 @@ use taceva_import::CsvTable;
 use crate::error::EvaluateError;
 use crate::note::PairedBy;
 
-/// Column names that identify a row key. The first is the name that this program writes. The empty name is that of an unnamed index.
+/// Column names that identify a row key. This program writes the first name. An unnamed index has the empty name.
 pub(super) const KEY_NAMES: [&str; 5] = ["sample", "id", "sample_id", "index", ""];
 
 /// Choice of the row key that pairs two tables.
@@ -120,7 +120,7 @@ impl RowKeys {
             .flat_map(|pair| [pair.truth.as_str(), pair.prediction.as_str()])
     }
 
-    /// Key columns that must agree in every pair of rows. These are the keys that did not pair the rows; there are none if the caller chose the pairing.
+    /// Key columns that must agree in every pair of rows. These are the keys that did not pair the rows; empty if the caller chose the pairing.
     pub(super) fn others(&self, by: Option<&KeyPair>) -> impl Iterator<Item = &KeyPair> {
         let pairs = self.pairs.iter().filter(|_| !self.is_chosen);
         pairs.filter(move |pair| Some(*pair) != by)

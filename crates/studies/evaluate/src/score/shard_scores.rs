@@ -90,7 +90,7 @@ impl ScoreTables {
         })
     }
 
-    /// True if the tables of `request` are read in parts, because one is Parquet or exceeds the text limit.
+    /// True if the tables of `request` are read in parts, because a table is Parquet or exceeds the text limit.
     pub fn are_in_parts(request: &ScoreRequest) -> bool {
         let is_long = |path: &Path| {
             let facts = fs::metadata(path);

@@ -29,7 +29,7 @@ use crate::task_state_file::TaskStates;
 pub use rule::TaskRule;
 pub use spec::TaskSpec;
 
-/// Column with the clusters if the caller names none.
+/// Default column with the clusters.
 const CLUSTER: &str = "point_id";
 
 /// Request to score the tasks of two tables.
@@ -70,7 +70,7 @@ struct RowPair {
 /// class in columns `NAME.p.CLASS`. A pose has seven columns `NAME.x`, `.y`, `.z` (mm, or the unit of the
 /// task in the predictions) and `.qx`, `.qy`, `.qz`, `.qw`, a place the first three.
 ///
-/// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each of its samples, in their order.
+/// For depth maps, the truth is a dataset with the task, and the predictions are an array with one map for each sample, in the same order.
 ///
 /// ```
 /// use taceva_evaluate::{ScoreRequest, Shard, TaskRequest, task_states};
@@ -137,7 +137,7 @@ pub fn task_states(request: &TaskRequest) -> Result<TaskStates, EvaluateError> {
     })
 }
 
-/// Refuses no task, a task that is named twice, and a rule of an unknown task.
+/// Refuses a request without a task, a task that is named twice, and a rule of an unknown task.
 fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
     let names = || request.tasks.iter().map(|task| task.name.as_str());
     if request.tasks.is_empty() {

@@ -11,7 +11,7 @@ use crate::text::{SceneError, SceneProblem};
 pub struct Signals {
     /// Noise of the reported pose: one standard deviation per axis, in mm.
     pub pose_noise_mm: f64,
-    /// Noise of the force at rest: one standard deviation, in N; 0 if the transducer states none.
+    /// Noise of the force at rest: one standard deviation, in N; 0 if the transducer states no noise.
     pub force_noise_n: f64,
     /// Greatest age of a reading that counts as current, in s.
     pub stale_s: f64,
@@ -75,7 +75,7 @@ impl Signals {
         AIR_NOISES * self.force_noise_n
     }
 
-    /// Greatest change of a component of the zero during a press, in N, with this threshold of contact.
+    /// Greatest change of a component of the zero during a press, in N, for this contact threshold.
     pub(crate) fn zero_step_n(&self, threshold_n: f64) -> f64 {
         self.zero_step_max_n
             .unwrap_or(ZERO_STEPS * threshold_n.max(self.air_n()))
@@ -128,7 +128,7 @@ impl Signals {
     }
 }
 
-/// Rejects a rig with two clocks: that of a simulated bench and that of the machine.
+/// Rejects a rig with two clocks: the clock of a simulated bench and the clock of the machine.
 ///
 /// A real sensor may join a bench. Its frames are then stamped on arrival, and the recording counts as simulated.
 fn one_clock(scene: &Scene, study: &Study, rig: &RigInfo) -> Result<(), SceneError> {
@@ -190,7 +190,7 @@ fn stops_in_time(
     Err(study.device_text(scene).error(at, problem))
 }
 
-/// Pose noise that the robot states. The default is the repeatability for a real arm, and zero for a simulated one.
+/// Pose noise that the robot states. The default is the repeatability for a real arm, and zero for a simulated robot.
 fn pose_noise_mm(robot: &Descriptor) -> f64 {
     let Some(facts) = robot.robot() else {
         return 0.0;

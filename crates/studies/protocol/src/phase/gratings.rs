@@ -7,7 +7,7 @@ use crate::phase_kind::PhaseKind;
 use crate::press::{Motion, Press};
 use crate::scene::spacings;
 
-/// Half a turn, in thousandths of a degree. Lines and dots look the same after it.
+/// Half a turn, in thousandths of a degree. Lines and dots look the same after half a turn.
 const HALF_TURN: i64 = 180_000;
 
 /// Presses ordered by board, because an operator changes boards by hand.

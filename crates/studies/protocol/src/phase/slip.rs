@@ -39,7 +39,8 @@ const SLACK: f64 = 1e-9;
 /// Greatest number of steps of a stroke.
 const STEPS_MOST: i64 = 10_000;
 
-/// First direction, from number `first` on, along which a stroke of `length` nanometres from `place` stays on the footprint. No direction if there is none.
+/// First direction, starting with number `first`, along which a stroke of `length` nanometres from `place` stays on the footprint; `[0, 0]` without
+/// such a direction.
 fn inwards(inputs: &PhaseInputs<'_>, place: [Nanometre; 2], length: i64, first: i64) -> [i64; 2] {
     let first = usize::try_from(first).unwrap_or_default();
     let mut directions = DIRECTIONS.into_iter().cycle().skip(first).take(4);

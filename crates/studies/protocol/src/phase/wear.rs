@@ -1,4 +1,4 @@
-//! Cycles of load that wear the gel before the measured presses of a stage.
+//! Load cycles that wear the gel before the measured presses of a stage.
 
 use taceva_core::Nanometre;
 

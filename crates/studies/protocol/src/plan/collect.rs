@@ -9,7 +9,7 @@ use crate::phase_kind::PhaseKind;
 use crate::press::Press;
 use crate::reason::{PlanReason, PlanSkip, Subject};
 
-/// Requirements of a metric: those in the catalogue, and the phase that fulfils them.
+/// Requirements of a metric in the catalogue, and the phase that fulfils them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct MetricNeeds {
     pub(crate) id: String,
@@ -47,7 +47,7 @@ impl MetricNeeds {
     }
 }
 
-/// Phase for a metric: the one that varies the fields that the metric reads.
+/// Phase for a metric: the phase that varies the fields that the metric reads.
 fn phase_of(id: &str, fields: FieldSet) -> PhaseKind {
     let reads = |field| fields.contains(field);
     match id {
@@ -106,7 +106,7 @@ pub struct Fit {
     pub folds: Option<u32>,
 }
 
-/// A plan in progress. It is complete at first, and becomes smaller with each pass.
+/// A plan in progress. The plan is complete at first, and becomes smaller with each pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Collected {
     pub(crate) metrics: Vec<PlannedMetric>,

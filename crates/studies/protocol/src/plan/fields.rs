@@ -7,8 +7,8 @@ use super::study_facts::StudyFacts;
 use crate::phase_kind::PhaseKind;
 use crate::reason::{PlanReason, Subject};
 
-/// Removes fields that no planned metric or model reads, and frames of presses whose phases read none. Loading and unloading keep their
-/// frames if the scene asks for their predictions.
+/// Removes fields that no planned metric or model reads, and frames of presses whose phases read no frames. Loading and unloading keep their frames
+/// if the scene requests their predictions.
 pub(super) fn pass(mut collected: Collected, facts: &StudyFacts<'_>) -> Collected {
     let of_metrics = collected.metrics.iter().map(|metric| metric.fields);
     let read = of_metrics.fold(FieldSet::EMPTY, |all, fields| all | fields);

@@ -39,7 +39,7 @@ fn channel_cause(channel: &str, facts: &StudyFacts<'_>) -> Option<Cause> {
     }
 }
 
-/// Reason why `field` has no source; `None` if the field has one.
+/// Reason why `field` has no source; `None` if the field has a source.
 fn field_reason(field: Field, collected: &Collected, facts: &StudyFacts<'_>) -> Option<PlanReason> {
     let cause = match &facts.field_source {
         FieldSource::Rig { sensor, robot, .. } => match field {

@@ -305,7 +305,7 @@ impl<'a> Gather<'a> {
     }
 }
 
-/// Light scenes to use, that of calibration first.
+/// Light scenes to use, the calibration scene first.
 pub(crate) fn lights(
     scene: &Scene,
     study: &Study,

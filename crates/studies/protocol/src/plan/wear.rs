@@ -1,4 +1,4 @@
-//! Cycles of load of a stage, put before its measured presses after all passes. The passes remove nothing of them.
+//! Load cycles of a stage, put before its measured presses after all passes. No pass removes cycles.
 
 use std::fmt;
 
@@ -13,7 +13,7 @@ use crate::text::SceneProblem;
 
 /// Wear of the gel before the measured presses of a plan.
 ///
-/// Plans hold it; others only read it.
+/// Plans contain this value; callers only read it.
 ///
 /// ```
 /// use taceva_protocol::Plan;
@@ -35,15 +35,15 @@ pub struct PlannedWear {
     /// Sideways travel of a cycle, in mm; `None` for compression.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub travel_mm: Option<f64>,
-    /// Cycles of the plan.
+    /// Number of cycles of the plan.
     pub cycles: u32,
-    /// Presses on the gel before the measured presses, if every planned press is made.
+    /// Number of presses on the gel before the measured presses, if every planned press is made.
     pub presses_since_gel: u32,
     /// Time of the cycles, in minutes. The cost of the plan includes it.
     pub minutes: f64,
 }
 
-/// The cycles, their time, and the presses before the measured ones.
+/// The cycles, their time, and the presses before the measured presses.
 impl fmt::Display for PlannedWear {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let cycles = counted(self.cycles, "cycle");
@@ -93,7 +93,7 @@ pub(super) fn put_before(
     }))
 }
 
-/// Presses on the gel before the measured presses of `stage`: those before the run, the cycles, and the measured ones of earlier stages.
+/// Number of presses on the gel before the measured presses of `stage`: presses before the run, cycles, and measured presses of earlier stages.
 fn since_gel(before: u32, stage: &WearStage, measured: &[PlannedPress]) -> u32 {
     let touches = |press: &&PlannedPress| !matches!(press.press.motion, Motion::Rest { .. });
     let touching = measured.iter().filter(touches).count();
@@ -105,7 +105,7 @@ fn since_gel(before: u32, stage: &WearStage, measured: &[PlannedPress]) -> u32 {
         .saturating_add(of_stages)
 }
 
-/// A cycle in the plan: it belongs to no phase, and gives no frame.
+/// Planned press for a load cycle, without phases and frames.
 fn unseen(press: Press) -> PlannedPress {
     PlannedPress {
         id: press.id(),

@@ -32,7 +32,7 @@ pub struct Latency {
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize)]
 pub struct RigLatencies {
-    /// Latency of the robot; `None` leaves it unchanged.
+    /// Latency of the robot; `None` leaves this latency unchanged.
     pub robot_ms: Option<f64>,
     /// Latency of the transducer.
     pub force_ms: f64,

@@ -12,17 +12,17 @@ use crate::text::{SceneError, Setting};
 /// A sensor of a rig.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RigSensor {
-    /// Selector of its driver.
+    /// Selector of the driver.
     pub driver: Setting<String>,
     /// Delay between a frame and its stamp, in ms; `None` uses the latency that the driver states.
     pub latency_ms: Option<Setting<f64>>,
-    /// Standard uncertainty of this delay, in ms, measured by taps.
+    /// Standard uncertainty of `latency_ms`, in ms, measured by taps.
     pub latency_u_ms: Option<Setting<f64>>,
     /// True if ambient light cannot reach the camera. A scene must not state the opposite.
     pub opaque: Option<Setting<bool>>,
     /// True if the gel has markers. A scene must not state the opposite.
     pub markers: Option<Setting<bool>>,
-    /// Outline of the sensing surface, seen from above. A scene may state a smaller one.
+    /// Outline of the sensing surface, seen from above. A scene may state a smaller outline.
     pub footprint: Option<Setting<FootprintSpec>>,
     /// Calibration certificate.
     pub certificate: Option<Certificate>,

@@ -43,7 +43,7 @@ pub struct Taught {
     pub origin_mm: [f64; 3],
     /// `axes` of the robot in the rig file.
     pub axes: SignedAxes,
-    /// Distance between the end of a jog and its axis, in mm. It is that of the worse jog.
+    /// Distance between the end of a jog and its axis, in mm; the greater distance of both jogs.
     pub residual_mm: f64,
 }
 

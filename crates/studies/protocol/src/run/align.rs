@@ -7,7 +7,7 @@ use taceva_core::{Degree, Millimetre, Newton, NewtonMillimetre, Point, Pose, Rot
 pub(crate) struct Look {
     pub(crate) wrench: Wrench,
     pub(crate) wrench_s: f64,
-    /// Sequence number of the reading, if the transducer numbers them.
+    /// Sequence number of the reading, if the transducer numbers its readings.
     pub(crate) number: Option<u64>,
     pub(crate) pose: Pose,
     pub(crate) pose_s: f64,

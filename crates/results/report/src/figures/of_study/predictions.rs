@@ -57,7 +57,7 @@ const PANELS: [Plane; 4] = [
 
 /// Predictions of a sensor in a panel.
 struct Cloud {
-    /// Position of its study.
+    /// Index of the study, from 0.
     study: usize,
     dots: Vec<Dot>,
 }
@@ -65,7 +65,7 @@ struct Cloud {
 /// One prediction.
 struct Dot {
     at: [f64; 2],
-    /// Truth minus prediction of the vertical axis; 0 if the truth is unknown.
+    /// Truth minus prediction on the vertical axis; 0 if the truth is unknown.
     error: f64,
     /// Contact point and depth step of the press, as text.
     press: String,

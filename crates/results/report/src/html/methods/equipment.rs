@@ -4,7 +4,7 @@ use crate::devices::devices;
 use crate::names::{listed, names};
 use crate::results::Study;
 
-/// Sentences on the devices of measured recordings. Studies with the same devices share one.
+/// Sentences on the devices of measured recordings. Studies with the same devices share a sentence.
 pub(super) fn equipment(studies: &[Study]) -> String {
     let mut shared: Vec<(String, Vec<String>)> = Vec::new();
     for (study, name) in studies.iter().zip(names(studies)) {

@@ -25,7 +25,7 @@ const SILENCE: Duration = Duration::from_secs(1);
 /// Last reading of the transducer.
 #[derive(Default)]
 struct Latest {
-    /// Number of readings so far.
+    /// Number of received readings.
     count: u64,
     reading: Option<(Wrench, Stamp, Option<u64>)>,
     error: Option<DriverError>,
@@ -66,7 +66,7 @@ pub(super) struct Mailbox {
     driver: DriverKey,
     axes: Axes,
     has_tare: bool,
-    /// Number of readings when `read` was last called.
+    /// Number of received readings when `read` was last called.
     taken: u64,
     sequence: Option<u64>,
 }

@@ -7,14 +7,14 @@ const MOST_LINES: u32 = 10;
 /// Wait before a stale reading is attributed to the device, s. Until then, a late turn of the guard may still explain it.
 const SETTLED_S: f64 = 0.2;
 
-/// Numbers of misses of a session, by cause.
+/// Numbers of misses (late turns and stale readings) of a session, by cause.
 #[derive(Debug, Default)]
 pub(super) struct Misses {
     kernel: u64,
     program: u64,
     device: u64,
     unknown: u64,
-    /// Number of misses so far. Only the first `MOST_LINES` get a line of their own.
+    /// Number of misses. The log has a line for each of the first `MOST_LINES`.
     lines: u32,
     /// End of the last late turn, s.
     last_late_s: Option<f64>,
@@ -57,7 +57,7 @@ impl Misses {
         self.count(late.cause, words)
     }
 
-    /// Notes that a reading was found stale.
+    /// Records a stale reading.
     pub(super) fn stale(&mut self, age_s: f64, found_s: f64) {
         let is_explained = self
             .last_late_s

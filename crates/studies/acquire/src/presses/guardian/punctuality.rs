@@ -1,5 +1,5 @@
-//! Shows late turns and stale readings of a session with their causes, and their counts at its end. Guard threads only store lines: a terminal or pipe may
-//! hold up whoever writes to it.
+//! Shows late turns and stale readings of a session with their causes, and their counts at its end. Guard threads only store lines: a terminal or
+//! pipe may block the writing thread.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -37,7 +37,7 @@ impl<'a> Punctuality<'a> {
         self.noted.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a turn of the calling thread, which guards `signal`.
+    /// Records a turn of the calling thread, which guards `signal`.
     pub(super) fn turn(&self, signal: &str, turn: &Turn) {
         if let Some(late) = turn.late() {
             let policy = policy();
@@ -47,12 +47,12 @@ impl<'a> Punctuality<'a> {
         }
     }
 
-    /// Takes a reading that was found stale.
+    /// Records a stale reading.
     pub(super) fn stale(&self, age_s: f64, found_s: f64) {
         self.lock().misses.stale(age_s, found_s);
     }
 
-    /// Takes the time, after which the cause of a stale reading may be known.
+    /// Updates the time, after which the cause of a stale reading may be known.
     pub(super) fn settle(&self, now_s: f64) {
         let mut noted = self.lock();
         let line = noted.misses.settle(now_s);

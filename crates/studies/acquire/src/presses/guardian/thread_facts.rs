@@ -1,9 +1,9 @@
-//! Facts that Linux states of the calling thread: its time without a processor, and its scheduling policy.
+//! Facts that Linux reports about the calling thread: its waiting time for a processor, and its scheduling policy.
 
 use std::fs::File;
 use std::io::{Read, Seek};
 
-/// Time that a thread waits for a processor.
+/// Statistics file of a thread, with its waiting time for a processor.
 pub(super) struct ProcessorQueue(Option<File>);
 
 impl ProcessorQueue {
@@ -12,7 +12,7 @@ impl ProcessorQueue {
         ProcessorQueue(File::open("/proc/thread-self/schedstat").ok())
     }
 
-    /// Time since the start of the thread, s; `None` if the system does not state it.
+    /// Waiting time for a processor since the start of the thread, s; `None` if the system does not state it.
     pub(super) fn waited_s(&self) -> Option<f64> {
         let mut file = self.0.as_ref()?;
         let mut bytes = [0; 128];
@@ -22,7 +22,7 @@ impl ProcessorQueue {
     }
 }
 
-/// Second number of `schedstat`, which is in ns.
+/// Waiting time: the second number of `schedstat`, which is in ns.
 fn waited_s(schedstat: &str) -> Option<f64> {
     let waited_ns: u64 = schedstat.split_whitespace().nth(1)?.parse().ok()?;
     Some(waited_ns as f64 / 1e9)
@@ -36,7 +36,7 @@ pub(super) fn policy() -> &'static str {
 
 /// Policy in `stat`. The name of the thread, in brackets, may have blanks.
 fn policy_of(stat: &str) -> &'static str {
-    /// Number of the field, and of the first one behind the name.
+    /// Number of the field, and number of the first field after the name.
     const FIELD: usize = 41;
     const FIRST: usize = 3;
     let behind = stat.rsplit_once(')').map_or("", |(_, behind)| behind);

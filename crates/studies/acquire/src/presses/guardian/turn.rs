@@ -6,21 +6,21 @@ use taceva_drivers::MonotonicClock;
 
 use super::thread_facts::ProcessorQueue;
 
-/// Longest turn that is in time, s: the age from which a reading is stale.
+/// Maximum duration of a punctual turn, s: the age from which a reading is stale.
 const LONGEST_S: f64 = 0.05;
-/// Longest rest and wait of a turn by intention, s.
+/// Maximum intended rest and wait of a turn, s.
 const INTENDED_S: f64 = 0.025;
 
 /// Times of a turn on the monotonic clock, s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Turn {
     pub(super) began_s: f64,
-    /// End of the rest that the thread asked for.
+    /// Requested end of the rest before the turn, s.
     pub(super) due_s: f64,
-    /// End of the rest that the thread got.
+    /// Actual end of the rest before the turn, s.
     pub(super) awake_s: f64,
     pub(super) ended_s: f64,
-    /// Time for which the thread could run and had no processor; `None` if the kernel does not state it.
+    /// Time, s, for which the thread was ready to run but had no processor; `None` if the kernel does not state it.
     pub(super) queued_s: Option<f64>,
 }
 
@@ -31,7 +31,7 @@ pub(super) enum Cause {
     Kernel,
     /// The work of the thread took too long.
     Program,
-    /// The guard was in time.
+    /// The guard was punctual, so the device caused the stale reading.
     Device,
     /// The kernel does not state how long the thread waited for a processor.
     Unknown,
@@ -43,7 +43,7 @@ pub(super) struct Late {
     pub(super) cause: Cause,
     /// Duration of the turn, s.
     pub(super) took_s: f64,
-    /// Time for which the kernel delayed it, s, as far as known.
+    /// Known delay of the turn by the kernel, s.
     pub(super) kernel_s: f64,
 }
 
@@ -69,10 +69,10 @@ impl Turn {
     }
 }
 
-/// Timer of the turns of the thread that made it.
+/// Timer of the turns of the thread that created it.
 pub(super) struct TurnTimer {
     queue: ProcessorQueue,
-    /// Time in the queue until the end of the last turn, s.
+    /// Total waiting time for a processor until the end of the last turn, s.
     queued_s: Option<f64>,
     began_s: f64,
     due_s: f64,

@@ -24,9 +24,9 @@ pub(super) struct ClassRow<'a> {
     pub(super) truth: u32,
     /// Position of the predicted class, after the rule.
     pub(super) predicted: u32,
-    /// Position of the predicted class, after the threshold alone.
+    /// Position of the predicted class, after the threshold, before the debounce.
     pub(super) before_debounce: u32,
-    /// Scores of the classes; empty if the predictions have none.
+    /// Scores of the classes; empty if the predictions have no scores.
     pub(super) scores: Vec<f64>,
 }
 
@@ -149,7 +149,7 @@ fn rows<'a>(
     Ok(labelled)
 }
 
-/// Refusal of predictions without classes and without scores.
+/// Error for predictions without classes and without scores.
 fn without_predictions(tables: &TaskTables, task: &TaskSpec) -> EvaluateError {
     let table = &tables.prediction;
     EvaluateError::Tables {
@@ -201,7 +201,7 @@ fn apply(
     Ok(())
 }
 
-/// Refuses a threshold that no probability can cross. Log-odds have scores beyond 0 to 1, and take any threshold.
+/// Refuses a threshold outside 0 to 1 for scores within 0 to 1. Other scores, such as log-odds, accept any threshold.
 fn check_threshold(threshold: f64, rows: &[ClassRow<'_>], positive: u32) -> Result<(), String> {
     let scores = rows.iter();
     let scores = scores.filter_map(|row| ScoreColumns::of_class(&row.scores, positive));

@@ -1,4 +1,4 @@
-//! Depth maps of a dataset beside those of an array, as states of a task.
+//! Compares true depth maps of a dataset with predicted depth maps of an array. The results are states of a task.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -83,7 +83,7 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
     Ok(states)
 }
 
-/// Content of both sides.
+/// True depth maps of a dataset, and predicted depth maps of a file.
 struct Scored<'a> {
     dataset: &'a Dataset,
     task: &'a Task,

@@ -15,7 +15,7 @@ use crate::error::EvaluateError;
 /// Column with the time of a sample, s.
 const TIME: &str = "t_s";
 
-/// Replaces the predicted classes of each cluster, in the order of rows, by those after `least` positive ones in a row.
+/// Applies the debounce of `rule` to the predicted classes of each cluster, in the order of rows.
 pub(super) fn debounce(rows: &mut [ClassRow<'_>], positive: u32, negative: u32, rule: EventRule) {
     for numbers in by_cluster(rows).into_values() {
         let scores: Vec<f64> = numbers
@@ -90,7 +90,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// Refusal of the sequence of `cluster`.
+/// Error for the sequence of `cluster`.
 fn of_sequence(table: &CsvTable, cluster: &str, error: &EventError) -> EvaluateError {
     let advice = match error {
         EventError::TimeGoesBack { .. } => {

@@ -15,7 +15,7 @@ const MOST_CLASSES: usize = 1000;
 /// Names of the classes, in their order.
 pub(super) struct ClassNames {
     names: Vec<String>,
-    /// Positions of the names. A whole number written with decimals is this number.
+    /// Positions of the names. A whole number written with decimals equals this number.
     positions: BTreeMap<String, u32>,
     are_stated: bool,
 }
@@ -30,7 +30,7 @@ impl ClassNames {
         }
     }
 
-    /// The stated names, or those of both tables in the order of letters or of numbers. Names of columns of scores count as well.
+    /// Stated names, or the names in both tables and their score columns, sorted as text or as numbers.
     ///
     /// # Errors
     /// [`EvaluateError`] for more classes than a table may introduce, fewer than two, or a cell `nan`.

@@ -11,7 +11,7 @@ use super::{Clusters, TaskSpec, TaskTables, empty, is_not_finite};
 use crate::error::EvaluateError;
 use crate::pose_definition::pose_definition;
 
-/// Ends of the names of the columns of a pose: translation in mm, then the quaternion.
+/// Suffixes of the columns of a pose: translation in mm, then the quaternion.
 const PARTS: [&str; 7] = ["x", "y", "z", "qx", "qy", "qz", "qw"];
 
 /// Columns of poses, or of places, which are poses without rotation.

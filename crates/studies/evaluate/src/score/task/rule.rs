@@ -11,9 +11,9 @@ use std::fmt;
 /// ```
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TaskRule {
-    /// Scores of the positive class above this number predict it; `None` takes the class with the greatest score.
+    /// Threshold above which a score predicts the positive class; `None` predicts the class with the greatest score.
     pub threshold: Option<f64>,
-    /// Number of positive predictions in a row of one cluster after which the prediction is positive; `None` for the first.
+    /// Number of consecutive positive rows of a cluster from which the prediction is positive; `None` for 1.
     pub debounce: Option<u32>,
 }
 

@@ -8,7 +8,7 @@ use super::{TaskSpec, TaskTables, is_not_finite, listed};
 use crate::error::EvaluateError;
 use crate::score::row_key::key_of;
 
-/// Beginning of the names of the columns with scores of `task`.
+/// Prefix of the score columns of `task`.
 pub(super) fn prefix(task: &TaskSpec) -> String {
     format!("{}.p.", task.name)
 }
@@ -21,11 +21,11 @@ pub(super) struct ScoreColumns<'a> {
 }
 
 impl<'a> ScoreColumns<'a> {
-    /// Columns of the scores of `task`; `None` if the predictions have none.
+    /// Columns of the scores of `task`; `None` if the predictions have no such columns.
     ///
     /// # Errors
-    /// [`EvaluateError`] for a column of an unknown class, or if some classes have a column and others have none. Of two classes, the positive
-    /// one suffices.
+    /// [`EvaluateError`] for a column of an unknown class, or if only some classes have a column. If there are two classes, a column of the positive
+    /// class suffices.
     pub(super) fn of(
         tables: &'a TaskTables,
         task: &TaskSpec,
@@ -101,7 +101,7 @@ impl<'a> ScoreColumns<'a> {
             .filter(|score| !score.is_nan())
     }
 
-    /// Class with the greatest score, the first of equal ones.
+    /// Class with the greatest score, the first of classes with equal scores.
     ///
     /// # Errors
     /// [`EvaluateError::Request`] if only the positive class has scores, which predict no class without a threshold.
@@ -124,14 +124,14 @@ impl<'a> ScoreColumns<'a> {
     }
 }
 
-/// Classes without a column of scores, although others have one.
+/// Classes without a column of scores, although other classes have a column.
 struct Unmatched<'a> {
     missing: Vec<&'a str>,
     stated: Vec<&'a str>,
 }
 
 impl Unmatched<'_> {
-    /// Refusal of the label without a column. Names the column of a class that no row has, because either may be misspelt.
+    /// Error for a label without a score column. Also names a score column without a label, because either name may be misspelt.
     fn refusal(&self, tables: &TaskTables, task: &TaskSpec) -> EvaluateError {
         let column = |class: &str| format!("{}{class}", prefix(task));
         let first = self.missing[0];

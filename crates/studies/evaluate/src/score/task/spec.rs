@@ -28,9 +28,9 @@ pub struct TaskSpec {
     pub kind: TaskKind,
     /// Class that F1, precision and recall describe; `None` if no class is positive.
     pub positive: Option<String>,
-    /// Classes in their order; empty to take those of both tables.
+    /// Classes in their order; empty to use the names in both tables.
     pub names: Vec<String>,
-    /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose by its errors alone.
+    /// Thresholds between the classes of a pose, `t` along x and y and `r` of the yaw; `None` scores a pose only by its errors.
     pub thresholds: Option<PoseThresholds>,
     /// Unit of predicted depths, places, or translations of poses; `None` for mm.
     pub unit: Option<String>,

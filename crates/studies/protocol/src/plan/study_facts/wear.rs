@@ -8,7 +8,8 @@ use crate::scene::WearLoad;
 use crate::text::{SceneError, SceneProblem};
 
 impl Gather<'_> {
-    /// Rejects a force of `[protocol.wear]` beyond `limits`, a travel that leaves `footprint`, and a travel whose shear force is not among the `axes`.
+    /// Rejects a force of `[protocol.wear]` beyond `limits`, a travel that leaves `footprint`, and a travel whose shear force `axes` does not
+    /// contain.
     pub(super) fn wear(
         &self,
         limits: &RigLimits,

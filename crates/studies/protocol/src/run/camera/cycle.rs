@@ -24,8 +24,8 @@ struct Old {
 }
 
 impl Cycle {
-    /// Number of returns to older frames since the last new one, with that of `frame`, captured at `moment`. A return counts if tip and force
-    /// changed since the older frame.
+    /// Number of returns to older frames since the last new frame, including a return by `frame`, captured at `moment`. A return counts if tip and
+    /// force changed since the older frame.
     pub(super) fn returns(&mut self, frame: &Frame, moment: Moment) -> u32 {
         let mut hasher = DefaultHasher::new();
         frame.bytes().hash(&mut hasher);
