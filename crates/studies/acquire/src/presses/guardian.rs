@@ -5,8 +5,11 @@
 //! cancellation. Both halt through the supervisor, which alone decides.
 //!
 //! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
-//! milliseconds. A turn that took too long is printed with its cause, and so are the counts of a session at its end.
+//! milliseconds. A turn or a halt that took too long is printed with its cause, and so are the counts of a session at its end.
 
+mod causes;
+mod halt_counts;
+mod halts;
 mod mailbox;
 mod misses;
 mod punctuality;
@@ -26,6 +29,7 @@ use taceva_protocol::{
 };
 
 use crate::viewer::Viewer;
+use halts::{HaltCalls, HaltFollower, TimedHalt};
 use mailbox::{Listeners, Mailbox};
 use punctuality::Punctuality;
 use turn::{Turn, TurnTimer};
@@ -35,6 +39,9 @@ use turn::{Turn, TurnTimer};
 const LOOK: Duration = Duration::from_millis(5);
 /// Deadline for each pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
+
+/// Noise of a resting pose, in standard deviations.
+const POSE_NOISES: f64 = 3.0;
 
 /// Guarded devices, and the cancellation of their run.
 pub(super) struct Guarded<'a> {
@@ -67,7 +74,10 @@ impl Guarded<'_> {
             progress,
             viewer,
         } = self;
-        let mut supervisor = Supervisor::new(limits, robot.halt_handle());
+        let halts = Arc::new(HaltCalls::default());
+        let slack_mm = POSE_NOISES * limits.signals.pose_noise_mm;
+        let halt = TimedHalt::new(robot.halt_handle(), Arc::clone(&halts));
+        let mut supervisor = Supervisor::new(limits, Arc::new(halt));
         if switch.is_some() {
             // State before the first reading of the switch.
             supervisor.enabling(Enabling::Released);
@@ -80,6 +90,10 @@ impl Guarded<'_> {
             punctuality: &punctuality,
             was_under_way: false,
             was_stale: false,
+            was_tripped: false,
+            halts,
+            follower: HaltFollower::default(),
+            slack_mm,
             watch: robot.watch_handle(),
             last: None,
             switch,
@@ -128,10 +142,16 @@ impl Drop for Over<'_> {
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     punctuality: &'a Punctuality<'a>,
-    /// True if the last turn ended during a motion.
+    /// True if the last turn ended during a motion, or this one saw one.
     was_under_way: bool,
     /// True if the last turn found a halt for a stale reading.
     was_stale: bool,
+    /// True if the last turn found the robot halted for a reading.
+    was_tripped: bool,
+    halts: Arc<HaltCalls>,
+    follower: HaltFollower,
+    /// Noise of a pose at rest, mm.
+    slack_mm: f64,
     watch: Option<Arc<dyn RobotWatch>>,
     /// Last pose received.
     last: Option<(Pose, Stamp)>,
@@ -152,13 +172,18 @@ impl Watcher<'_> {
             self.look();
             self.time(&timer.end());
         }
+        // The session may end before the end of a halt is known.
+        if let Some(halted) = self.follower.release() {
+            self.punctuality.halted(&halted);
+        }
     }
 
-    /// Notes a turn that was late during a motion, and a reading that was found stale.
+    /// Notes a turn that was late during a motion, a reading that was found stale, and a halt.
     fn time(&mut self, turn: &Turn) {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
-        let stale_s = match supervisor.tripped() {
+        let tripped = supervisor.tripped();
+        let stale_s = match tripped {
             Some(Trip::StaleForce { age_s } | Trip::StalePose { age_s }) => Some(age_s),
             _ => None,
         };
@@ -172,6 +197,28 @@ impl Watcher<'_> {
             self.punctuality.stale(age_s, turn.ended_s);
         }
         self.punctuality.settle(turn.ended_s);
+        let is_released = std::mem::replace(&mut self.was_tripped, tripped.is_some());
+        self.follow_halt(
+            is_under_way || was_under_way,
+            is_released && tripped.is_none(),
+            turn.ended_s,
+        );
+    }
+
+    /// Notes a halt of a motion when its end is known. After a cancellation the retreat may begin at any moment, so no pose shows the rest.
+    fn follow_halt(&mut self, is_under_way: bool, is_released: bool, now_s: f64) {
+        let ended = match is_released {
+            true => self.follower.release(),
+            false => None,
+        };
+        let pose = self.last.filter(|_| !self.was_cancelled);
+        let call = self.halts.take();
+        let seen = self
+            .follower
+            .turn(call, is_under_way, pose, self.slack_mm, now_s);
+        for halted in ended.iter().chain(&seen) {
+            self.punctuality.halted(halted);
+        }
     }
 
     /// Handles cancellation. The first ends the motion in progress, but not the retreat after it. The second also ends the retreat.
@@ -185,7 +232,9 @@ impl Watcher<'_> {
             self.cancel.cancel();
         }
         if is_first || is_insisted {
-            self.supervisor.lock().halt();
+            let mut supervisor = self.supervisor.lock();
+            self.was_under_way |= supervisor.is_under_way();
+            supervisor.halt();
         }
     }
 
@@ -222,6 +271,7 @@ impl Watcher<'_> {
         if !supervisor.is_under_way() {
             return;
         }
+        self.was_under_way = true;
         let now_s = MonotonicClock.now_s();
         // A repeated pose keeps its stamp, so its age grows. The run detects a trip by its own motion.
         let seen = self

@@ -1,6 +1,7 @@
 //! Late turns and stale readings of a session, by cause.
 
-use super::turn::{Cause, Late, Turn};
+use super::causes::{Cause, CauseCounts};
+use super::turn::{Late, Turn};
 
 /// Maximum number of lines about single misses. A busy machine may have hundreds of misses.
 const MOST_LINES: u32 = 10;
@@ -10,10 +11,7 @@ const SETTLED_S: f64 = 0.2;
 /// Numbers of misses of a session, by cause.
 #[derive(Debug, Default)]
 pub(super) struct Misses {
-    kernel: u64,
-    program: u64,
-    device: u64,
-    unknown: u64,
+    counts: CauseCounts,
     /// Number of misses so far. Only the first `MOST_LINES` get a line of their own.
     lines: u32,
     /// End of the last late turn, s.
@@ -81,28 +79,15 @@ impl Misses {
 
     /// Counts of the session in one line; `None` without a miss.
     pub(super) fn summary(mut self) -> Option<String> {
-        self.device += u64::from(self.stale.is_some());
-        let Misses {
-            kernel,
-            program,
-            device,
-            unknown,
-            ..
-        } = self;
-        (kernel + program + device + unknown > 0).then(|| {
-            format!(
-                "late in this session: {kernel} by the kernel, {program} by TacEva or a driver, {device} by a device or its link, {unknown} of unknown cause"
-            )
-        })
+        if self.stale.is_some() {
+            self.counts.add(Cause::Device);
+        }
+        let counts = self.counts;
+        (!counts.is_empty()).then(|| format!("late in this session: {counts}"))
     }
 
     fn count(&mut self, cause: Cause, words: String) -> Option<String> {
-        *match cause {
-            Cause::Kernel => &mut self.kernel,
-            Cause::Program => &mut self.program,
-            Cause::Device => &mut self.device,
-            Cause::Unknown => &mut self.unknown,
-        } += 1;
+        self.counts.add(cause);
         self.lines += 1;
         (self.lines <= MOST_LINES).then_some(words)
     }

@@ -1,5 +1,5 @@
-//! Shows late turns and stale readings of a session with their causes, and their counts at its end. Guard threads only store lines: a terminal or pipe may
-//! hold up whoever writes to it.
+//! Shows late turns, stale readings and late halts of a session with their causes, and their counts at its end. Guard threads only store
+//! lines: a terminal or pipe may hold up whoever writes to it.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -7,6 +7,8 @@ use std::time::Duration;
 
 use taceva_core::Progress;
 
+use super::halt_counts::HaltCounts;
+use super::halts::Halted;
 use super::misses::Misses;
 use super::thread_facts::policy;
 use super::turn::Turn;
@@ -14,7 +16,7 @@ use super::turn::Turn;
 /// Interval at which stored lines are shown.
 const SHOW: Duration = Duration::from_millis(20);
 
-/// Counts late turns and stale readings, and shows them.
+/// Counts late turns, stale readings and halts, and shows what was late.
 pub(super) struct Punctuality<'a> {
     noted: Mutex<Noted>,
     progress: &'a dyn Progress,
@@ -23,6 +25,7 @@ pub(super) struct Punctuality<'a> {
 #[derive(Default)]
 struct Noted {
     misses: Misses,
+    halts: HaltCounts,
     /// Lines that are not shown yet.
     lines: Vec<String>,
 }
@@ -52,6 +55,14 @@ impl<'a> Punctuality<'a> {
         self.lock().misses.stale(age_s, found_s);
     }
 
+    /// Takes a halt of a motion.
+    pub(super) fn halted(&self, halted: &Halted) {
+        let policy = policy();
+        let mut noted = self.lock();
+        let line = noted.halts.add(halted, policy);
+        noted.lines.extend(line);
+    }
+
     /// Takes the time, after which the cause of a stale reading may be known.
     pub(super) fn settle(&self, now_s: f64) {
         let mut noted = self.lock();
@@ -72,8 +83,9 @@ impl<'a> Punctuality<'a> {
         self.show();
         let noted = self.noted.into_inner();
         let noted = noted.unwrap_or_else(PoisonError::into_inner);
-        let counts = noted.misses.summary();
-        counts.iter().for_each(|line| self.progress.remark(line));
+        let counts = [noted.misses.summary(), noted.halts.summary()];
+        let counts = counts.iter().flatten();
+        counts.for_each(|line| self.progress.remark(line));
     }
 
     fn show(&self) {
