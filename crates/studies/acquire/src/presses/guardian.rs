@@ -59,11 +59,12 @@ pub(super) struct Guarded<'a> {
 }
 
 impl Guarded<'_> {
-    /// Calls `conduct`, which moves the robot, while guard threads watch. The threads end when `conduct` returns.
+    /// Calls `conduct`, which moves the robot, while guard threads watch. The threads end when `conduct` returns. Returns its result, and a warning if
+    /// halts were late.
     pub(super) fn conduct<T>(
         self,
         conduct: impl FnOnce(&mut dyn Robot, &mut dyn ForceTransducer, SharedSupervisor) -> T,
-    ) -> T {
+    ) -> (T, Option<String>) {
         let Guarded {
             robot,
             force,
@@ -118,8 +119,7 @@ impl Guarded<'_> {
             let mut mailbox = mailbox;
             conduct(robot, &mut mailbox, supervisor.clone())
         });
-        punctuality.end();
-        conducted
+        (conducted, punctuality.end())
     }
 }
 

@@ -49,6 +49,12 @@ impl HaltCounts {
             )
         })
     }
+
+    /// Warning for the recording and its report; `None` if no halt was late.
+    pub(super) fn warning(&self) -> Option<String> {
+        let summary = self.summary().filter(|_| !self.late.is_empty())?;
+        Some(format!("the robot was halted late: {summary}"))
+    }
 }
 
 fn words(halted: &Halted, cause: Cause, policy: &str) -> String {
@@ -100,11 +106,12 @@ mod tests {
     #[test]
     fn a_late_halt_names_driver_wait_and_remedy_and_the_session_ends_with_counts() {
         let mut counts = HaltCounts::default();
-        assert_eq!(counts.summary(), None);
+        assert_eq!((counts.summary(), counts.warning()), (None, None));
         assert_eq!(
             counts.add(&halted(3.0, 0.0, Some(14.0)), "SCHED_FIFO"),
             None
         );
+        assert_eq!(counts.warning(), None);
         let line = counts.add(&halted(41.0, 1.0, None), "SCHED_FIFO");
         let line = line.expect("late");
         for words in ["took 41 ms", "waited for its answer", "check network"] {
@@ -119,6 +126,8 @@ mod tests {
         assert!(line.expect("late").contains("rested after 81 ms"));
         let expected = "halts in this session: 4, driver calls within 41.0 ms, at rest within 81.0 ms; late: 1 by the kernel, 0 by TacEva or a driver, 2 by a device or its link, 0 of unknown cause";
         assert_eq!(counts.summary().as_deref(), Some(expected));
+        let warning = counts.warning().expect("three were late");
+        assert_eq!(warning, format!("the robot was halted late: {expected}"));
     }
 
     #[test]

@@ -78,14 +78,15 @@ impl<'a> Punctuality<'a> {
         }
     }
 
-    /// Shows the remaining lines, and the counts of the session.
-    pub(super) fn end(self) {
+    /// Shows the remaining lines, and the counts of the session. Returns a warning if halts were late.
+    pub(super) fn end(self) -> Option<String> {
         self.show();
         let noted = self.noted.into_inner();
         let noted = noted.unwrap_or_else(PoisonError::into_inner);
         let counts = [noted.misses.summary(), noted.halts.summary()];
         let counts = counts.iter().flatten();
         counts.for_each(|line| self.progress.remark(line));
+        noted.halts.warning()
     }
 
     fn show(&self) {
@@ -138,7 +139,7 @@ mod tests {
         punctuality.settle(20.1);
         punctuality.settle(20.5);
         assert_eq!(shown(), 1, "a guard thread shows nothing");
-        punctuality.end();
+        assert_eq!(punctuality.end(), None, "no halt was late");
         let remarks = remarks.0.into_inner().expect("whole");
         let [late, stale, counts] = &remarks[..] else {
             panic!("{remarks:?}");
@@ -154,7 +155,7 @@ mod tests {
         let punctuality = Punctuality::new(&remarks);
         punctuality.turn("force", &turn(0.04));
         punctuality.settle(20.0);
-        punctuality.end();
+        assert_eq!(punctuality.end(), None);
         assert!(remarks.0.into_inner().expect("whole").is_empty());
     }
 }

@@ -149,13 +149,14 @@ impl Progress for Cancelling<'_> {
 
 #[test]
 fn a_halt_that_the_robot_answers_late_is_printed_and_counted_as_late_by_the_robot_or_its_link() {
-    let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let (world, temporary) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let folder = temporary.path().join("run");
     let cancelling = Cancelling {
         world: &world,
         is_cancelled: AtomicBool::new(false),
         remarks: Mutex::default(),
     };
-    stopped(record(&world, &folder.path().join("run"), &cancelling));
+    stopped(record(&world, &folder, &cancelling));
     let remarks = cancelling.remarks.into_inner().expect("whole");
     let begins = |begin: &'static str| remarks.iter().filter(move |line| line.starts_with(begin));
     // A kernel without these statistics leaves the cause unknown.
@@ -168,6 +169,11 @@ fn a_halt_that_the_robot_answers_late_is_printed_and_counted_as_late_by_the_robo
     let counts: Vec<&String> = begins("halts in this session: ").collect();
     assert_eq!(counts.len(), 1, "{remarks:?}");
     assert!(counts[0].contains(count), "{remarks:?}");
+    // The recording that goes on keeps it as a warning, which the report shows.
+    let dataset = looked_on(&world, &folder, |_| Wishes::default()).expect("it goes on");
+    let warnings = &dataset.header().warnings;
+    let expected = format!("the robot was halted late: {}", counts[0]);
+    assert!(warnings.contains(&expected), "{warnings:?}");
 }
 
 #[test]
