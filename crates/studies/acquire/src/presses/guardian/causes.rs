@@ -53,3 +53,13 @@ impl fmt::Display for CauseCounts {
         )
     }
 }
+
+/// Remedy against a kernel that delays a thread with the scheduling policy `policy`.
+pub(super) fn remedy(policy: &str) -> &'static str {
+    match policy {
+        "SCHED_FIFO" | "SCHED_RR" | "SCHED_DEADLINE" => {
+            "stop other programs; the priority of this one is raised already"
+        }
+        _ => "stop other programs, or run with `chrt -f 10 taceva run …`",
+    }
+}

@@ -1,6 +1,6 @@
 //! Halts of a session: how many, how long they took, and the causes of late ones.
 
-use super::causes::{Cause, CauseCounts};
+use super::causes::{Cause, CauseCounts, remedy};
 use super::halts::Halted;
 
 /// Maximum number of lines about single halts.
@@ -64,7 +64,8 @@ fn words(halted: &Halted, cause: Cause, policy: &str) -> String {
     let [queued_ms, ran_ms] = [spent.queued_s, spent.ran_s].map(|seconds| seconds * 1e3);
     match (cause, halted.rest_s) {
         (Cause::Kernel, _) => format!(
-            "{head}; its thread ({policy}) was without a processor for {queued_ms:.0} ms: stop other programs, or run with `chrt -f 10 taceva run …`"
+            "{head}; its thread ({policy}) was without a processor for {queued_ms:.0} ms: {}",
+            remedy(policy)
         ),
         (Cause::Program, _) => format!(
             "{head}, {ran_ms:.0} ms of them work of the driver: report this line with the driver of the robot"
@@ -77,7 +78,8 @@ fn words(halted: &Halted, cause: Cause, policy: &str) -> String {
             "{head}, which waited for its answer: the robot or its link was late; check network and load of its controller"
         ),
         (Cause::Unknown, _) => format!(
-            "{head}; this kernel does not state how long its thread ({policy}) was without a processor: stop other programs, or run with `chrt -f 10 taceva run …`"
+            "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
+            remedy(policy)
         ),
     }
 }
@@ -128,6 +130,15 @@ mod tests {
         assert_eq!(counts.summary().as_deref(), Some(expected));
         let warning = counts.warning().expect("three were late");
         assert_eq!(warning, format!("the robot was halted late: {expected}"));
+    }
+
+    #[test]
+    fn a_program_of_raised_priority_is_not_advised_to_raise_it() {
+        let mut counts = HaltCounts::default();
+        let line = counts.add(&halted(41.0, 38.0, None), "SCHED_FIFO");
+        let line = line.expect("late");
+        assert!(!line.contains("chrt"), "{line}");
+        assert!(line.contains("stop other programs"), "{line}");
     }
 
     #[test]

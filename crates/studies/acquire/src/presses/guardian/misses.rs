@@ -1,6 +1,6 @@
 //! Late turns and stale readings of a session, by cause.
 
-use super::causes::{Cause, CauseCounts};
+use super::causes::{Cause, CauseCounts, remedy};
 use super::turn::{Late, Turn};
 
 /// Maximum number of lines about single misses. A busy machine may have hundreds of misses.
@@ -43,13 +43,15 @@ impl Misses {
         let head = format!("late: the guard of the {signal} took {took_ms:.0} ms for a reading");
         let words = match late.cause {
             Cause::Kernel => format!(
-                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms: stop other programs, or run with `chrt -f 10 taceva run …`"
+                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms: {}",
+                remedy(policy)
             ),
             Cause::Program | Cause::Device => format!(
                 "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms only, so the work of TacEva or of a driver took the rest: report this line with the drivers of the rig"
             ),
             Cause::Unknown => format!(
-                "{head}; this kernel does not state how long its thread ({policy}) was without a processor: stop other programs, or run with `chrt -f 10 taceva run …`"
+                "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
+                remedy(policy)
             ),
         };
         self.count(late.cause, words)
@@ -124,6 +126,15 @@ mod tests {
         for words in ["for 3 ms only", "drivers of the rig"] {
             assert!(program.contains(words), "{program}");
         }
+        // The advice is not to do what was done already.
+        let turn = turn(12.0, 84.0, 71.0);
+        let raised =
+            Misses::default().turn("force", "SCHED_FIFO", &turn, &turn.late().expect("late"));
+        let raised = raised.expect("a line");
+        assert!(
+            !raised.contains("chrt") && raised.contains("stop other programs"),
+            "{raised}"
+        );
         let summary = misses.summary().expect("two");
         let expected = "late in this session: 1 by the kernel, 1 by TacEva or a driver, 0 by a device or its link, 0 of unknown cause";
         assert_eq!(summary, expected);
