@@ -2,7 +2,8 @@
 # ur-rtde 1.6.5: the dashboard client raises an exception for a serial number with letters, on a connection that answered as it should.
 #
 # `getSerialNumber()` accepts digits alone. A dashboard answers `get serial number` with a text, and simulators or other controllers that
-# offer a dashboard may have letters in it. The client then raises instead of returning the text.
+# offer a dashboard may have letters in it. The client then raises instead of returning the text. `RTDEControlInterface` asks for the number
+# too, so it cannot be made.
 # Seen: `20235500007: 20235500007` and `URSIM-0007: RuntimeError: getSerialNumber() function did not return a number. …`.
 set -euo pipefail
 folder=$(mktemp -d)
