@@ -29,7 +29,7 @@ use taceva_protocol::{
 };
 
 use crate::viewer::Viewer;
-use halts::{HaltCalls, HaltFollower, TimedHalt};
+use halts::{HaltCall, HaltCalls, HaltFollower, Held, TimedHalt};
 use mailbox::{Listeners, Mailbox};
 use punctuality::Punctuality;
 use turn::{Turn, TurnTimer};
@@ -40,8 +40,8 @@ const LOOK: Duration = Duration::from_millis(5);
 /// Deadline for each pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
 
-/// Noise of a resting pose, in standard deviations.
-const POSE_NOISES: f64 = 3.0;
+/// Greatest distance of two poses at rest, in standard deviations of an axis.
+const POSE_NOISES: f64 = 5.0;
 
 /// Guarded devices, and the cancellation of their run.
 pub(super) struct Guarded<'a> {
@@ -91,10 +91,8 @@ impl Guarded<'_> {
             punctuality: &punctuality,
             was_under_way: false,
             was_stale: false,
-            was_tripped: false,
             halts,
-            follower: HaltFollower::default(),
-            slack_mm,
+            follower: HaltFollower::new(slack_mm),
             watch: robot.watch_handle(),
             last: None,
             switch,
@@ -117,6 +115,7 @@ impl Guarded<'_> {
             let _over = Over::new(&is_over);
             // Dropped here, so that the reader thread ends even if `conduct` panics.
             let mut mailbox = mailbox;
+            halts::prepare_this_thread();
             conduct(robot, &mut mailbox, supervisor.clone())
         });
         (conducted, punctuality.end())
@@ -146,12 +145,8 @@ struct Watcher<'a> {
     was_under_way: bool,
     /// True if the last turn found a halt for a stale reading.
     was_stale: bool,
-    /// True if the last turn found the robot halted for a reading.
-    was_tripped: bool,
     halts: Arc<HaltCalls>,
     follower: HaltFollower,
-    /// Noise of a pose at rest, mm.
-    slack_mm: f64,
     watch: Option<Arc<dyn RobotWatch>>,
     /// Last pose received.
     last: Option<(Pose, Stamp)>,
@@ -164,6 +159,7 @@ struct Watcher<'a> {
 
 impl Watcher<'_> {
     fn look_on(mut self, is_over: &AtomicBool) {
+        halts::prepare_this_thread();
         let mut timer = TurnTimer::of_this_thread();
         while !is_over.load(Ordering::Acquire) {
             timer.begin(LOOK);
@@ -173,9 +169,8 @@ impl Watcher<'_> {
             self.time(&timer.end());
         }
         // The session may end before the end of a halt is known.
-        if let Some(halted) = self.follower.release() {
-            self.punctuality.halted(&halted);
-        }
+        let call = self.halts.take();
+        self.follow_halt(call, self.was_under_way, Held::No, MonotonicClock.now_s());
     }
 
     /// Notes a turn that was late during a motion, a reading that was found stale, and a halt.
@@ -183,6 +178,9 @@ impl Watcher<'_> {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
         let tripped = supervisor.tripped();
+        let is_held = tripped.is_some() || supervisor.fault().is_some();
+        // The lock is held during each halt, so that the call and what holds the robot belong together.
+        let call = self.halts.take();
         let stale_s = match tripped {
             Some(Trip::StaleForce { age_s } | Trip::StalePose { age_s }) => Some(age_s),
             _ => None,
@@ -197,27 +195,19 @@ impl Watcher<'_> {
             self.punctuality.stale(age_s, turn.ended_s);
         }
         self.punctuality.settle(turn.ended_s);
-        let is_released = std::mem::replace(&mut self.was_tripped, tripped.is_some());
-        self.follow_halt(
-            is_under_way || was_under_way,
-            is_released && tripped.is_none(),
-            turn.ended_s,
-        );
+        let held = match self.last {
+            _ if !is_held => Held::No,
+            None => Held::Unseen,
+            Some((pose, stamp)) => Held::At(pose, stamp),
+        };
+        self.follow_halt(call, is_under_way || was_under_way, held, turn.ended_s);
     }
 
-    /// Notes a halt of a motion when its end is known. After a cancellation the retreat may begin at any moment, so no pose shows the rest.
-    fn follow_halt(&mut self, is_under_way: bool, is_released: bool, now_s: f64) {
-        let ended = match is_released {
-            true => self.follower.release(),
-            false => None,
-        };
-        let pose = self.last.filter(|_| !self.was_cancelled);
-        let call = self.halts.take();
-        let seen = self
-            .follower
-            .turn(call, is_under_way, pose, self.slack_mm, now_s);
-        for halted in ended.iter().chain(&seen) {
-            self.punctuality.halted(halted);
+    /// Notes a halt of a motion when its end is known.
+    fn follow_halt(&mut self, call: Option<HaltCall>, is_under_way: bool, held: Held, now_s: f64) {
+        let halted = self.follower.turn(call, is_under_way, held, now_s);
+        if let Some(halted) = halted {
+            self.punctuality.halted(&halted);
         }
     }
 

@@ -62,22 +62,32 @@ fn words(halted: &Halted, cause: Cause, policy: &str) -> String {
     let head = format!("late: the stop of the robot took {call_ms:.0} ms in its driver");
     let spent = halted.call.spent.unwrap_or_default();
     let [queued_ms, ran_ms] = [spent.queued_s, spent.ran_s].map(|seconds| seconds * 1e3);
-    match (cause, halted.rest_s) {
-        (Cause::Kernel, _) => format!(
+    match cause {
+        Cause::Kernel => format!(
             "{head}; its thread ({policy}) was without a processor for {queued_ms:.0} ms: {}",
             remedy(policy)
         ),
-        (Cause::Program, _) => format!(
+        Cause::Program => format!(
             "{head}, {ran_ms:.0} ms of them work of the driver: report this line with the driver of the robot"
         ),
-        (Cause::Device, Some(rest_s)) => format!(
-            "{head}, and the tip rested after {:.0} ms: the robot or its link was late; check network and load of its controller",
-            rest_s * 1e3
-        ),
-        (Cause::Device, None) => format!(
-            "{head}, which waited for its answer: the robot or its link was late; check network and load of its controller"
-        ),
-        (Cause::Unknown, _) => format!(
+        Cause::Device => {
+            let delay = match (halted.moved_on(), halted.rest_s) {
+                (false, _) => "which waited for its answer".to_owned(),
+                (true, Some(rest_s)) => {
+                    format!("and the tip rested after {:.0} ms", rest_s * 1e3)
+                }
+                (true, None) => {
+                    format!(
+                        "and the tip still moved after {:.0} ms",
+                        halted.moved_s * 1e3
+                    )
+                }
+            };
+            format!(
+                "{head}, {delay}: the robot or its link was late; check network and load of its controller"
+            )
+        }
+        Cause::Unknown => format!(
             "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
             remedy(policy)
         ),
@@ -99,9 +109,11 @@ mod tests {
                 queued_s: queued_ms / 1e3,
             }),
         };
+        // Reports come every 10 ms.
         Halted {
             call,
             rest_s: rest_ms.map(|rest_ms| rest_ms / 1e3),
+            moved_s: rest_ms.map_or(0.0, |rest_ms| (rest_ms - 10.0) / 1e3),
         }
     }
 

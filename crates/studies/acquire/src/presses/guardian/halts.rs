@@ -1,5 +1,6 @@
 //! Halts of a robot in motion: the duration of the driver's call, and the time until the tip rests.
 
+use std::cell::OnceCell;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use taceva_core::{DriverError, Halt, Pose, Stamp};
@@ -18,8 +19,16 @@ const FOLLOWED_S: f64 = 0.2;
 const RESTS_MM: f64 = 1e-3;
 
 thread_local! {
-    /// Times of the thread that halts. The file stays open, because a halt must not wait for a folder.
-    static TIMES: ProcessorQueue = ProcessorQueue::of_this_thread();
+    /// Times of the thread that halts, once it has prepared. The file is open before a halt, because a halt must not wait for a folder.
+    static TIMES: OnceCell<ProcessorQueue> = const { OnceCell::new() };
+}
+
+/// Opens the times of the calling thread, so that its halts can state a cause.
+pub(super) fn prepare_this_thread() {
+    // A thread that ends has no times.
+    let _ = TIMES.try_with(|times| {
+        times.get_or_init(ProcessorQueue::of_this_thread);
+    });
 }
 
 /// Call of a driver's halt.
@@ -37,9 +46,11 @@ pub(super) struct Halted {
     pub(super) call: HaltCall,
     /// Time from the decision to the first report of a tip at rest, s; `None` if no report showed it.
     pub(super) rest_s: Option<f64>,
+    /// Time from the decision to the last report after which the tip still moved, s; 0 if no report showed it.
+    pub(super) moved_s: f64,
 }
 
-/// First call of a halt that the watcher has not taken yet.
+/// First call of a halt that the watcher has not taken yet. The supervisor is locked during each call.
 #[derive(Debug, Default)]
 pub(super) struct HaltCalls(Mutex<Option<HaltCall>>);
 
@@ -49,14 +60,30 @@ pub(super) struct TimedHalt {
     calls: Arc<HaltCalls>,
 }
 
+/// State of a robot for its follower.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Held {
+    /// It may move.
+    No,
+    /// It is held by a halt, and no pose is known.
+    Unseen,
+    /// It is held by a halt. This is its newest pose.
+    At(Pose, Stamp),
+}
+
 /// Halt whose end is awaited.
 #[derive(Debug, Default)]
 pub(super) struct HaltFollower {
+    /// Noise of a pose at rest, mm.
+    slack_mm: f64,
     call: Option<HaltCall>,
     /// Last pose after the decision, and its time in s.
     seen: Option<(Pose, f64)>,
-    /// True from the first halt of a motion until its end. Each later reading halts again.
+    moved_s: f64,
+    /// True from the first halt until the robot may move again, or its motion ends. Each later reading halts again.
     is_repeated: bool,
+    /// True if the robot was held in the last turn.
+    was_held: bool,
 }
 
 impl HaltCalls {
@@ -94,8 +121,8 @@ impl Halt for TimedHalt {
 }
 
 fn times_of_this_thread() -> Option<ThreadTimes> {
-    // A thread that ends has no times.
-    TIMES.try_with(ProcessorQueue::times).ok().flatten()
+    let times = TIMES.try_with(|times| times.get()?.times());
+    times.ok().flatten()
 }
 
 impl HaltCall {
@@ -118,49 +145,72 @@ impl HaltCall {
 impl Halted {
     /// Cause of the delay of a late halt. A tip that moves on after a call in time is the robot's.
     pub(super) fn late(&self) -> Option<Cause> {
-        let moved_on = self.rest_s.is_some_and(|rest_s| rest_s > REST_S);
-        self.call.late().or(moved_on.then_some(Cause::Device))
+        let moved_on = self.moved_on().then_some(Cause::Device);
+        self.call.late().or(moved_on)
+    }
+
+    /// True if a report shows that the tip moved too long. A first report of rest says less, because it may have been read late.
+    pub(super) fn moved_on(&self) -> bool {
+        self.moved_s > REST_S
     }
 }
 
 impl HaltFollower {
-    /// Takes the facts of one turn: a halt since the last turn, whether a motion is in progress, and the newest pose. `slack_mm` is its noise.
-    /// Returns a halt whose end is known, or is no longer awaited.
+    /// Follower of a robot whose poses have the noise `slack_mm` at rest.
+    pub(super) fn new(slack_mm: f64) -> HaltFollower {
+        HaltFollower {
+            slack_mm,
+            ..HaltFollower::default()
+        }
+    }
+
+    /// Takes the facts of one turn: a halt since the last turn, whether a motion is in progress, and whether a halt holds the robot. Nothing shows the
+    /// rest of a robot that may move again. Returns a halt whose end is known, or is no longer awaited.
     pub(super) fn turn(
         &mut self,
         call: Option<HaltCall>,
         is_under_way: bool,
-        pose: Option<(Pose, Stamp)>,
-        slack_mm: f64,
+        held: Held,
         now_s: f64,
     ) -> Option<Halted> {
         if let Some(call) = call.filter(|_| is_under_way && !self.is_repeated) {
-            (self.call, self.seen) = (Some(call), None);
+            (self.call, self.seen, self.moved_s) = (Some(call), None, 0.0);
         }
-        self.is_repeated = is_under_way && (self.is_repeated || call.is_some());
+        let is_held = !matches!(held, Held::No);
+        let is_same_halt = is_held || (is_under_way && !self.was_held);
+        self.is_repeated = is_same_halt && (self.is_repeated || call.is_some());
+        self.was_held = is_held;
         let call = self.call?;
-        let after = pose.filter(|(_, stamp)| stamp.valid_s > call.decided_s);
-        let mut rest_s = None;
-        if let Some((pose, stamp)) = after {
-            match self.seen {
-                Some((_, seen_s)) if stamp.valid_s <= seen_s => {}
-                Some((seen, seen_s)) if distance_mm(&seen, &pose) <= slack_mm.max(RESTS_MM) => {
-                    rest_s = Some(seen_s - call.decided_s);
-                }
-                _ => self.seen = Some((pose, stamp.valid_s)),
+        let rest_s = match held {
+            Held::At(pose, stamp) if stamp.valid_s > call.decided_s => {
+                self.rest_s(&pose, stamp.valid_s, call.decided_s)
             }
-        }
-        let is_over = rest_s.is_some() || now_s - call.decided_s > FOLLOWED_S;
+            _ => None,
+        };
+        let is_over = rest_s.is_some() || !is_held || now_s - call.decided_s > FOLLOWED_S;
         is_over.then(|| {
             self.call = None;
-            Halted { call, rest_s }
+            Halted {
+                call,
+                rest_s,
+                moved_s: self.moved_s,
+            }
         })
     }
 
-    /// Ends the wait for rest, because the halt was ended and the robot may move again.
-    pub(super) fn release(&mut self) -> Option<Halted> {
-        let call = self.call.take()?;
-        Some(Halted { call, rest_s: None })
+    /// Time from the decision to the last report but this one, if both are at one place.
+    fn rest_s(&mut self, pose: &Pose, valid_s: f64, decided_s: f64) -> Option<f64> {
+        if let Some((seen, seen_s)) = self.seen {
+            if valid_s <= seen_s {
+                return None;
+            }
+            if distance_mm(&seen, pose) <= self.slack_mm.max(RESTS_MM) {
+                return Some(seen_s - decided_s);
+            }
+            self.moved_s = seen_s - decided_s;
+        }
+        self.seen = Some((*pose, valid_s));
+        None
     }
 }
 

@@ -160,7 +160,7 @@ impl State {
     pub(crate) fn is_amid_motion(&self, now_s: f64, since_s: f64) -> bool {
         const LEFT_S: f64 = 0.005;
         let [begin_s, end_s] = self.span_s;
-        now_s > begin_s + since_s && now_s + LEFT_S < end_s
+        !self.is_halted && now_s > begin_s + since_s && now_s + LEFT_S < end_s
     }
 
     fn stand(&mut self) {
