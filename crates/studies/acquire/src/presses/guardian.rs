@@ -238,7 +238,9 @@ impl Watcher<'_> {
             Ok(false) => Enabling::Released,
             Err(_) => Enabling::Lost,
         };
-        self.supervisor.lock().enabling(enabling);
+        let mut supervisor = self.supervisor.lock();
+        self.was_under_way |= supervisor.is_under_way();
+        supervisor.enabling(enabling);
     }
 
     fn look(&mut self) {
@@ -252,7 +254,9 @@ impl Watcher<'_> {
                 }
                 Err(error) => {
                     if let Some(fault) = error.fault() {
-                        self.supervisor.lock().fail(fault);
+                        let mut supervisor = self.supervisor.lock();
+                        self.was_under_way |= supervisor.is_under_way();
+                        supervisor.fail(fault);
                     }
                 }
             }
