@@ -5,7 +5,7 @@ pub mod faults;
 mod late_counts;
 
 pub use compared::{Compared, compare};
-pub use late_counts::LateCounts;
+pub use late_counts::{HaltTimes, LateCounts};
 
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};

@@ -47,6 +47,18 @@ fn faults_of_the_robots_reports_stop_the_arm_in_time_and_no_press_is_lost_or_dou
 }
 
 #[test]
+fn halts_that_the_emulated_arm_answers_late_are_attributed_to_the_robot_or_its_link() {
+    let Some(_alone) = alone(HOW) else {
+        return;
+    };
+    // Messages of the link wait for 150 ms: so do answers to the halts after 50 ms without a pose.
+    let case = CASES.iter().find(|case| case.name == "robot late");
+    let halts = play(case.expect("it is a case"), FEW, SEED).halts;
+    assert!(halts.late.device > 0, "{halts:?}");
+    assert!(halts.call_ms > 20.0, "{halts:?}");
+}
+
+#[test]
 fn faults_of_the_camera_cost_time_and_no_press() {
     played(|case| case.name.starts_with("camera"));
 }

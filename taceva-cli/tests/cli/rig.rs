@@ -163,3 +163,16 @@ fn a_wrong_argument_in_a_rig_file_is_refused_with_its_line_before_a_device_is_op
     bench.refused("rig check lab.toml", 3, "lab.toml, line 5: ");
     bench.refused("rig check lab.toml", 3, "`hots`");
 }
+
+#[test]
+fn a_run_in_the_air_refuses_a_folder_and_whatever_concerns_one() {
+    let bench = Bench::new();
+    for (words, other) in [
+        ("run scene.toml --air --out x", "--out <FOLDER>"),
+        ("run scene.toml --air --resume", "--resume"),
+        ("run scene.toml --air --force", "--force"),
+    ] {
+        let expected = format!("the argument '--air' cannot be used with '{other}'");
+        bench.refused(words, 2, &expected);
+    }
+}

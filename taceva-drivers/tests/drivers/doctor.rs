@@ -212,3 +212,33 @@ fn this_machine_can_be_examined() {
     assert_eq!(found[0].code, "drivers");
     assert!(!codes(&found).contains(&"user-unknown"), "{found:?}");
 }
+
+#[cfg(unix)]
+#[test]
+fn a_port_that_another_program_has_open_names_its_process() {
+    let root = machine(&[
+        ("proc/self/status", STRANGER),
+        // Beyond the numbers of processes.
+        ("proc/4200001/comm", "octoprint\n"),
+        ("proc/4200002/comm", "editor\n"),
+    ]);
+    let root = root.path();
+    for (name, target) in [
+        ("dev/ttyUSB0", "/dev/null"),
+        ("proc/4200001/fd/3", "/dev/null"),
+        ("proc/4200002/fd/3", "/dev/zero"),
+    ] {
+        let path = root.join(name);
+        fs::create_dir_all(path.parent().expect("in a folder")).expect("made");
+        std::os::unix::fs::symlink(target, path).expect("linked");
+    }
+    let found = findings(root);
+    let port = found
+        .iter()
+        .find(|finding| finding.subject == "/dev/ttyUSB0");
+    let detail = &port.expect("it is there").detail;
+    assert!(
+        detail.ends_with("; open in process 4200001 (octoprint)"),
+        "{detail}"
+    );
+}

@@ -6,7 +6,7 @@ use std::time::Duration;
 use taceva_dataset::Dataset;
 use taceva_wire::{ArmFault, BenchOptions, Device, Fault, FaultKind, ServeOptions};
 
-use super::{LateCounts, OnTheWire, RUN, UnderWay, scene_of};
+use super::{HaltTimes, LateCounts, OnTheWire, RUN, UnderWay, scene_of};
 use crate::random::Random;
 
 /// A fault.
@@ -116,6 +116,10 @@ pub struct Played {
     pub ended: usize,
     /// Late turns of the guard and stale readings, as the studies counted them.
     pub late: LateCounts,
+    /// Halts of motions, as the studies counted them.
+    pub halts: HaltTimes,
+    /// Greatest load average of a minute, at the start and end of each study; `None` if the system does not state it.
+    pub load: Option<f64>,
     /// Forbidden outcomes.
     pub broken: Vec<String>,
 }
@@ -130,6 +134,33 @@ impl Played {
     pub fn median_ms(&self) -> f64 {
         let middle = self.stopped_ms.len() / 2;
         self.stopped_ms.get(middle).copied().unwrap_or_default()
+    }
+
+    /// 99.9 % quantile of the times to a stop, ms: the greatest of fewer than 1000. 0 if there is none.
+    pub fn most_but_one_in_1000_ms(&self) -> f64 {
+        let over = self.stopped_ms.len() / 1000;
+        let quantile = self.stopped_ms.iter().rev().nth(over);
+        quantile.copied().unwrap_or_default()
+    }
+
+    /// Notes the present load average.
+    fn look_at_load(&mut self) {
+        let text = std::fs::read_to_string("/proc/loadavg").unwrap_or_default();
+        let minute = text.split(' ').next();
+        let load: Option<f64> = minute.and_then(|minute| minute.parse().ok());
+        self.load = self.load.into_iter().chain(load).reduce(f64::max);
+    }
+
+    /// Checks that at most one halt in 1000 was late. A fault of the robot's link delays the answer to its halt.
+    fn check_halts(&mut self, case: &Case) {
+        let late = self.halts.late.total();
+        let is_robots = matches!(case.wrong, Wrong::Link(Device::Robot, ..));
+        if !is_robots && late > self.halts.halts / 1000 {
+            self.broken.push(format!(
+                "{}: {late} of {} halts late, driver calls within {:.1} ms, at rest within {:.1} ms",
+                case.name, self.halts.halts, self.halts.call_ms, self.halts.rest_ms
+            ));
+        }
     }
 }
 
@@ -167,6 +198,7 @@ pub fn play(case: &Case, times: usize, seed: u64) -> Played {
         result.play_study(case, times, &on, &mut random);
     }
     result.stopped_ms.sort_by(f64::total_cmp);
+    result.check_halts(case);
     result
 }
 
@@ -176,6 +208,7 @@ impl Played {
         let mut ends = 0;
         loop {
             let begun = sessions(on);
+            self.look_at_load();
             let mut study = UnderWay::begin(on.study());
             let mut is_left = false;
             while study.ended().is_none() {
@@ -199,6 +232,8 @@ impl Played {
             }
             let (is_well, said) = study.end();
             self.late.add(&said);
+            self.halts.add(&said);
+            self.look_at_load();
             if !self.broken.is_empty() {
                 // They state whether the kernel, the program or a device was late.
                 self.broken

@@ -203,6 +203,7 @@ fn answer(line: &[u8], bench: &WallBench, arm: Option<&dyn Arm>) -> Result<Value
                 "moving": truth.is_moving,
                 "way_mm": truth.way_mm,
                 "moved_s": truth.moved.as_secs_f64(),
+                "depth_mm": truth.depth_mm,
                 "deepest_mm": truth.deepest_mm,
                 "passed_s": seconds(truth.passed),
                 "stopped_s": seconds(truth.stopped),

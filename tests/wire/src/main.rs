@@ -45,6 +45,15 @@ struct Arguments {
     /// Firmware version that the controller reports.
     #[arg(long, default_value = "2.7.0", value_parser = firmware)]
     firmware: Firmware,
+    /// Tool frame of the Net F/T box: displacement along x, y, z in mm and rotation about them in degrees, separated by semicolons.
+    #[arg(long, default_value = "0;0;0;0;0;0", value_parser = tool)]
+    tool: Tool,
+    /// Number of the Net F/T box's low pass: 0 for none, up to 8 for 5 Hz.
+    #[arg(long, default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=8))]
+    filter: u8,
+    /// Drift of the Net F/T box's zero, N a minute.
+    #[arg(long, default_value_t = 0.0)]
+    drift: f64,
     /// File to write the rig file to.
     #[arg(long)]
     write: Option<PathBuf>,
@@ -52,6 +61,18 @@ struct Arguments {
 
 #[derive(Clone, Copy, Debug)]
 struct Firmware([u32; 3]);
+
+/// Tool frame of a box.
+#[derive(Clone, Copy, Debug)]
+struct Tool([f64; 6]);
+
+fn tool(text: &str) -> Result<Tool, String> {
+    let numbers: Result<Vec<f64>, _> = text.split(';').map(str::parse).collect();
+    let six: Option<[f64; 6]> = numbers.ok().and_then(|numbers| numbers.try_into().ok());
+    let tool = six.filter(|six| six.iter().all(|number| number.is_finite()));
+    tool.map(Tool)
+        .ok_or_else(|| "expected six numbers such as 0;0;0;90;0;0".to_owned())
+}
 
 fn model(key: &str) -> Result<Model, String> {
     let known = || Model::ALL.map(Model::key).join(", ");
@@ -88,7 +109,12 @@ fn serve(arguments: &Arguments) -> Result<(), WireError> {
         },
         robot: arguments.robot,
         force: arguments.force,
-        netft: netft::Setup::PLAIN,
+        netft: netft::Setup {
+            tool: arguments.tool.0,
+            filter: arguments.filter,
+            drift_n_min: arguments.drift,
+            ..netft::Setup::PLAIN
+        },
         host: arguments.host,
         uses_usual_ports: arguments.usual_ports,
         firmware: arguments.firmware.0,

@@ -11,6 +11,7 @@ mod exchange;
 mod inputs;
 mod joints;
 mod outputs;
+mod path;
 mod program;
 mod register_script;
 

@@ -201,6 +201,32 @@ fn a_drift_that_differs_in_each_session_is_a_setting_of_the_last_and_refuses_non
 }
 
 #[test]
+fn a_recording_is_resumed_with_the_leds_that_it_began_with_and_with_no_others() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("set");
+    let lit = |leds: Option<&str>| {
+        let mut spec = spec("D-K-1");
+        let leds = leds.map(|leds| ("led".to_owned(), leds.to_owned()));
+        spec.facts.settings = BTreeMap::from_iter(leds);
+        spec
+    };
+    let mut recorder = Recorder::create(&path, &lit(Some("15,0,15"))).expect("created");
+    recorder.append(&sample("1", 0.5)).expect("recorded");
+    drop(recorder);
+    for (leds, found) in [
+        (Some("15,15,15"), "`15,15,15`"),
+        (None, "not stated by the device"),
+    ] {
+        let refused = Recorder::open(&path, &lit(leds)).err().expect("other LEDs");
+        let refused = refused.to_string();
+        let expected = format!("the setting `led` is {found}, expected `15,0,15`");
+        assert!(refused.contains(&expected), "{refused}");
+    }
+    let resumed = Recorder::open(&path, &lit(Some("15,0,15"))).expect("the same LEDs");
+    assert!(resumed.has("1"));
+}
+
+#[test]
 fn joined_recordings_keep_the_first_and_the_last_of_their_days() {
     let folder = tempfile::tempdir().expect("a folder");
     let on = |name: &str, begun: Option<u64>, force: f64| {

@@ -5,7 +5,7 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use taceva_core::{Pose, Speed};
 
 use super::inputs::{Inputs, Recipe};
-use super::program::Program;
+use super::program::{Program, REGISTER};
 use super::register_script::{Command, RegisterScript};
 use crate::base::Base;
 use crate::bench::WallBench;
@@ -70,10 +70,6 @@ impl Controller {
         [x / 1e3, y / 1e3, z / 1e3, rx, ry, rz]
     }
 
-    pub(super) fn stop_number(&self) -> i32 {
-        self.inside().stop_number
-    }
-
     pub(super) fn slider(&self) -> f64 {
         self.inside().slider
     }
@@ -103,16 +99,25 @@ impl Controller {
         self.inside().script.is_some() || self.bench.is_moving()
     }
 
-    /// Contents of the first three integer output registers, which the script of a public client writes; 0 without a script.
-    pub(super) fn script_outputs(&self) -> [i32; 3] {
+    /// Content of an integer output register, which a script writes: that of a public client, or a numbered stop.
+    pub(super) fn output_register(&self, number: usize) -> i32 {
         let mut inside = self.inside();
-        let Some(script) = &mut inside.script else {
-            return [0; 3];
-        };
         if !self.bench.is_moving() {
-            script.rest();
+            self.go_on(&mut inside);
         }
-        script.outputs()
+        let of_script = inside.script.as_ref();
+        match of_script.and_then(|script| script.output(number)) {
+            Some(content) => content,
+            None if number == usize::from(REGISTER) => inside.stop_number,
+            None => 0,
+        }
+    }
+
+    /// Begins the next motion of a path, or notes that the arm rests.
+    fn go_on(&self, inside: &mut Inside) {
+        if let Some(next) = inside.script.as_mut().and_then(RegisterScript::rest) {
+            self.move_line(inside, next.pose, next.speed_m_s);
+        }
     }
 
     /// Writes the values of a client's message to the registers, and executes the command in them.
@@ -121,7 +126,8 @@ impl Controller {
         if !recipe.write(values, &mut inside.inputs) {
             return;
         }
-        let command = Command::read(&inside.inputs);
+        let first = inside.script.as_ref().map_or(0, RegisterScript::first);
+        let command = Command::read(&inside.inputs, first);
         let is_moving = self.bench.is_moving();
         let taken = match &mut inside.script {
             Some(script) => script.take(command, is_moving),
@@ -132,6 +138,11 @@ impl Controller {
             Some(Command::Move {
                 pose, speed_m_s, ..
             }) => self.move_line(&mut inside, pose, speed_m_s),
+            Some(Command::Path { .. }) => {
+                self.bench.stand();
+                self.go_on(&mut inside);
+            }
+            Some(Command::Servo { pose, within_s }) => self.servo(&mut inside, pose, within_s),
             Some(Command::Cruise { velocity_m_s }) => {
                 self.cruise(&inside, velocity_m_s, ENDLESS_S);
             }
@@ -162,6 +173,14 @@ impl Controller {
         self.bench.set_out(Base::pose(place, yaw_rad), speed);
     }
 
+    /// Moves the tip straight to a pose within a time, from which the next target may lead it away.
+    fn servo(&self, inside: &mut Inside, pose: [f64; 6], within_s: f64) {
+        let at = self.bench.pose().position;
+        let here_mm = Base::to_base([at.x.0, at.y.0, at.z.0]);
+        let [x, y, z] = [0, 1, 2].map(|axis| pose[axis] - here_mm[axis] / 1e3);
+        self.move_line(inside, pose, x.hypot(y).hypot(z) / within_s);
+    }
+
     /// Moves at a velocity until it expires.
     fn cruise(&self, inside: &Inside, velocity_m_s: [f64; 3], lasts_s: f64) {
         self.bench.stand();
@@ -189,16 +208,18 @@ impl Controller {
         }
         self.bench.stand();
         inside.script = None;
-        match *program {
-            Program::MoveLine { pose, speed_m_s } => self.move_line(&mut inside, pose, speed_m_s),
-            Program::Cruise {
+        match program {
+            &Program::MoveLine { pose, speed_m_s } => self.move_line(&mut inside, pose, speed_m_s),
+            &Program::Cruise {
                 velocity_m_s,
                 lasts_s,
             } => self.cruise(&inside, velocity_m_s, lasts_s),
             Program::Stop { number } => {
                 inside.stop_number = number.unwrap_or(inside.stop_number);
             }
-            Program::Registers => inside.script = Some(RegisterScript::begun()),
+            Program::Registers(setup) => {
+                inside.script = Some(RegisterScript::begun(setup.clone()));
+            }
             Program::Other => {}
         }
     }

@@ -7,7 +7,6 @@ use std::time::Duration;
 use super::controller::Controller;
 use super::inputs::Recipe;
 use super::outputs::{NOT_FOUND, type_of};
-use super::program::REGISTER;
 use crate::fault::{ArmFault, Device, FaultKind};
 use crate::link::Link;
 use crate::server::{End, read};
@@ -163,7 +162,6 @@ impl Wanted {
         const EMERGENCY_STOPPED: u32 = 1 << 7 | 1 << 6;
         const POWER_ON: u32 = 1;
         const PROGRAM_RUNNING: u32 = 2;
-        let [state, result, progress] = controller.script_outputs().map(i32::cast_unsigned);
         let is_running = controller.is_running();
         let mut says = vec![1];
         for name in &self.names {
@@ -182,13 +180,13 @@ impl Wanted {
                     _ if is_running => POWER_ON | PROGRAM_RUNNING,
                     _ => POWER_ON,
                 },
-                "output_int_register_0" => state,
-                "output_int_register_1" => result,
-                "output_int_register_2" => progress,
-                name if name == format!("output_int_register_{REGISTER}") => {
-                    controller.stop_number().cast_unsigned()
+                name => {
+                    let number = name.strip_prefix("output_int_register_");
+                    let number = number.and_then(|number| number.parse().ok());
+                    number.map_or(0, |number| {
+                        controller.output_register(number).cast_unsigned()
+                    })
                 }
-                _ => 0,
             };
             match (name.as_str(), type_of(name, self.version)) {
                 ("timestamp", _) => {

@@ -43,6 +43,12 @@ pub(super) fn pose(angles: [f64; 6]) -> [f64; 6] {
     [x, y, z, rx, ry, rz]
 }
 
+/// Speed of the tip at a pose while the base turns at a speed in rad/s. Emulated motions of the joints move the tip straight at this speed.
+pub(super) fn tip_speed_m_s(pose: [f64; 6], speed_rad_s: f64) -> f64 {
+    let [x, y, z, ..] = pose;
+    speed_rad_s * x.hypot(y).hypot(z)
+}
+
 impl Link {
     fn turned(&self, angle: f64) -> Placement {
         let (sin, cos) = angle.sin_cos();

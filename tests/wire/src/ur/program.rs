@@ -1,9 +1,10 @@
 //! Supported part of the vendor's script language.
 
-use super::register_script::FIRST_LINE;
+use super::path::numbers;
+use super::register_script::{FIRST_LINE, Setup};
 
 /// A program.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) enum Program {
     /// Moves in a straight line to x, y, z in m and a rotation vector in rad.
     MoveLine { pose: [f64; 6], speed_m_s: f64 },
@@ -15,7 +16,7 @@ pub(super) enum Program {
     /// Brakes, and reports its number if it has one.
     Stop { number: Option<i32> },
     /// The script of a public client that takes commands from registers.
-    Registers,
+    Registers(Setup),
     /// Any other program: replaces the running one and does nothing.
     Other,
 }
@@ -32,7 +33,7 @@ impl Program {
 
     fn read(program: &str) -> Program {
         if program.trim_start().starts_with(FIRST_LINE) {
-            return Program::Registers;
+            return Program::Registers(Setup::of(program));
         }
         if program.contains("speedl(") {
             return Program::cruise(program).unwrap_or(Program::Other);
@@ -86,14 +87,6 @@ fn number_of(program: &str) -> Option<i32> {
 /// Only integer register that programs may write and clients may read.
 pub(super) const REGISTER: u8 = 24;
 
-/// Numbers separated by commas; `None` if one is invalid.
-fn numbers(text: &str) -> Option<Vec<f64>> {
-    let number = |number: &str| number.trim().parse().ok();
-    let numbers = text.split(',').map(number);
-    let finite = numbers.map(|number| number.filter(|number: &f64| number.is_finite()));
-    finite.collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -125,7 +118,8 @@ mod tests {
         };
         assert_eq!(cruise, expected);
         let script = "def rtde_control():\n  global a = 0\n  thread b():\n    speedl(target, a=acceleration)\n  end\nend\n";
-        assert_eq!(Program::take(script).expect("one").0, Program::Registers);
+        let (script, _) = Program::take(script).expect("one");
+        assert!(matches!(script, Program::Registers(_)), "{script:?}");
         let turning = "def e():\n  speedl([0, 0, 0, 0, 0, 1], a=0.5, t=0.2)\nend\n";
         assert_eq!(Program::take(turning).expect("one").0, Program::Other);
     }

@@ -1,14 +1,30 @@
 //! Script of a public client (`RTDEControlInterface` of `ur-rtde`), which takes commands from input registers and answers in output registers.
 //!
 //! A controller runs the script. The emulator recognises it by its first line, and serves its registers without running it. It supports
-//! motions of tip and joints, a velocity without rotation, their stops, and questions about rest and tool. Any other command ends the script,
-//! as an error in it would.
+//! motions of tip and joints, paths of them, targets that are followed, a velocity without rotation, their stops, and questions about rest
+//! and tool. Any other command ends the script, as an error in it would. Registers are the lower or the upper half, as the script states.
 
 use super::inputs::Inputs;
 use super::joints;
+use super::path::{self, Waypoint};
 
 /// First line of the script.
 pub(super) const FIRST_LINE: &str = "def rtde_control():\n";
+
+/// Line before the number of the first integer register, in a script that replaces it there.
+const FIRST_REGISTER: &str = "# int register offset\n";
+/// First register of the upper half.
+const UPPER: usize = 24;
+/// Least and greatest time within which a followed target is reached, s.
+const LOOKAHEAD_S: [f64; 2] = [0.03, 0.2];
+
+/// Facts that the client writes into its script.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Setup {
+    /// First register of each type that the script uses.
+    first: usize,
+    path: Vec<Waypoint>,
+}
 
 /// Command in the input registers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +38,10 @@ pub(super) enum Command {
         /// True if the script does not wait for the end of the motion.
         is_asynchronous: bool,
     },
+    /// Moves along the path of the script.
+    Path { is_asynchronous: bool },
+    /// Follows a target in m and rad, which the next command replaces.
+    Servo { pose: [f64; 6], within_s: f64 },
     /// Moves at a velocity until the next command.
     Cruise { velocity_m_s: [f64; 3] },
     /// Brakes.
@@ -35,8 +55,11 @@ pub(super) enum Command {
 }
 
 /// State of the running script.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct RegisterScript {
+    setup: Setup,
+    /// Number of the next motion of the path in progress, if any.
+    next: Option<usize>,
     state: State,
     /// Stage of the present command.
     stage: Stage,
@@ -67,26 +90,51 @@ enum Stage {
 struct Progress {
     reports: i32,
     motions: i32,
+    /// Motions of the path that are done.
+    steps: i32,
     is_moving: bool,
 }
 
+impl Setup {
+    /// Facts in the text of a script.
+    pub(super) fn of(script: &str) -> Setup {
+        let after = script.split_once(FIRST_REGISTER).map(|(_, after)| after);
+        let upper = after.is_some_and(|after| after.starts_with(&UPPER.to_string()));
+        Setup {
+            first: if upper { UPPER } else { 0 },
+            path: path::of(script),
+        }
+    }
+}
+
 impl Command {
-    /// Command in the registers.
-    pub(super) fn read(inputs: &Inputs) -> Command {
-        let [a, b, c, d, e, f, speed, ..] = inputs.doubles;
+    /// Command in the registers from `first` on.
+    pub(super) fn read(inputs: &Inputs, first: usize) -> Command {
+        let registers = (inputs.doubles.get(first..), inputs.integers.get(first..));
+        let (
+            Some(&[a, b, c, d, e, f, speed, _, _, lookahead_s, ..]),
+            Some(&[command, is_asynchronous, ..]),
+        ) = registers
+        else {
+            return Command::End;
+        };
         let six = [a, b, c, d, e, f];
-        let [command, is_asynchronous, ..] = inputs.integers;
         let line = |pose: [f64; 6], speed_m_s: f64| Command::Move {
             pose,
             speed_m_s,
             is_asynchronous: is_asynchronous == 1,
         };
-        // The tip moves straight, as fast as a turn of the base at the speed of the joints would move it.
-        let turn = |pose: [f64; 6]| {
-            let [x, y, z, ..] = pose;
-            line(pose, speed * x.hypot(y).hypot(z))
+        let turn = |pose: [f64; 6]| line(pose, joints::tip_speed_m_s(pose, speed));
+        let [least_s, most_s] = LOOKAHEAD_S;
+        let servo = |pose: [f64; 6]| Command::Servo {
+            pose,
+            within_s: lookahead_s.clamp(least_s, most_s),
         };
-        if !six.iter().all(|number| number.is_finite()) {
+        if !six
+            .iter()
+            .chain([&lookahead_s])
+            .all(|number| number.is_finite())
+        {
             return Command::End;
         }
         match (command, six) {
@@ -98,8 +146,13 @@ impl Command {
             (10, [x, y, z, 0.0, 0.0, 0.0]) => Command::Cruise {
                 velocity_m_s: [x, y, z],
             },
-            (15 | 33 | 34, _) => Command::Stop,
+            (11, angles) => servo(joints::pose(angles)),
+            (15 | 16 | 33 | 34, _) => Command::Stop,
+            (24, pose) => servo(pose),
             (40, _) => Command::ToolOffset,
+            (45, _) => Command::Path {
+                is_asynchronous: is_asynchronous == 1,
+            },
             (47, _) => Command::IsSteady,
             _ => Command::End,
         }
@@ -108,15 +161,22 @@ impl Command {
 
 impl RegisterScript {
     /// State of a script that has begun.
-    pub(super) fn begun() -> RegisterScript {
+    pub(super) fn begun(setup: Setup) -> RegisterScript {
         let mut progress = Progress::default();
         progress.report(false);
         RegisterScript {
+            setup,
+            next: None,
             state: State::Ready,
             stage: Stage::Free,
             result: 0,
             progress,
         }
+    }
+
+    /// First register of each type that the script uses.
+    pub(super) fn first(&self) -> usize {
+        self.setup.first
     }
 
     /// Takes the content of the registers. Returns it if it is to be executed now.
@@ -128,8 +188,8 @@ impl RegisterScript {
                 return None;
             }
             // Repeated while it is in the register.
-            (_, Command::Cruise { .. }) => {
-                self.state = State::Ready;
+            (_, Command::Cruise { .. } | Command::Servo { .. }) => {
+                (self.state, self.next) = (State::Ready, None);
                 return Some(command);
             }
             (Stage::Done, _) => return None,
@@ -139,43 +199,76 @@ impl RegisterScript {
         match command {
             Command::Move {
                 is_asynchronous, ..
-            } => {
+            }
+            | Command::Path { is_asynchronous } => {
                 self.progress.end();
+                self.next = matches!(command, Command::Path { .. }).then_some(0);
                 if is_asynchronous {
                     self.progress.begin();
                 } else {
                     (self.stage, self.state) = (Stage::Moving, State::Ready);
                 }
             }
-            Command::Stop => self.progress.end(),
+            Command::Stop => {
+                self.next = None;
+                self.progress.end();
+            }
             Command::IsSteady => self.result = i32::from(!is_moving),
-            Command::None | Command::Cruise { .. } | Command::ToolOffset | Command::End => {}
+            Command::None
+            | Command::Cruise { .. }
+            | Command::Servo { .. }
+            | Command::ToolOffset
+            | Command::End => {}
         }
         Some(command)
     }
 
-    /// Notes that the arm rests.
-    pub(super) fn rest(&mut self) {
+    /// Notes that the arm rests. Returns the next motion of the path in progress.
+    pub(super) fn rest(&mut self) -> Option<Waypoint> {
+        if let Some(step) = self.next {
+            let waypoint = self.setup.path.get(step).copied();
+            self.next = waypoint.map(|_| step + 1);
+            if waypoint.is_some() {
+                // Reports of a path that the script waits for are not emulated.
+                if self.stage != Stage::Moving {
+                    self.progress.advance(step);
+                }
+                return waypoint;
+            }
+        }
         if self.stage == Stage::Moving {
             (self.stage, self.state) = (Stage::Done, State::Done);
         }
         self.progress.end();
+        None
     }
 
-    /// Contents of the first three integer output registers.
-    pub(super) fn outputs(&self) -> [i32; 3] {
-        [self.state as i32, self.result, self.progress.register()]
+    /// Content of an integer output register; `None` if the script does not write it.
+    pub(super) fn output(&self, number: usize) -> Option<i32> {
+        let outputs = [self.state as i32, self.result, self.progress.register()];
+        let at = number.checked_sub(self.setup.first)?;
+        outputs.get(at).copied()
     }
 }
 
 impl Progress {
     fn begin(&mut self) {
-        self.motions = (self.motions + 1) % 128;
+        (self.motions, self.steps) = ((self.motions + 1) % 128, 0);
+        self.report(true);
+    }
+
+    /// Reports a motion of a path. The script reports the first one as a new motion.
+    fn advance(&mut self, step: usize) {
+        if step == 0 {
+            return self.begin();
+        }
+        self.steps = i32::try_from(step).unwrap_or(i32::MAX).min(0x7fff);
         self.report(true);
     }
 
     fn end(&mut self) {
         if self.is_moving {
+            self.steps = 0;
             self.report(false);
         }
     }
@@ -188,67 +281,9 @@ impl Progress {
     /// Content of the register: numbers of the report and of the motion, and a bit while it moves.
     fn register(self) -> i32 {
         let moves = i32::from(self.is_moving);
-        self.motions * 0x0100_0000 + self.reports * 0x0001_0000 + moves * 0x8000
+        self.motions * 0x0100_0000 + self.reports * 0x0001_0000 + moves * 0x8000 + self.steps
     }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn inputs(command: i32, is_asynchronous: i32, numbers: &[f64]) -> Inputs {
-        let mut inputs = Inputs::default();
-        [inputs.integers[0], inputs.integers[1]] = [command, is_asynchronous];
-        inputs.doubles[..numbers.len()].copy_from_slice(numbers);
-        inputs
-    }
-
-    #[test]
-    fn a_motion_is_executed_once_and_done_when_the_arm_rests() {
-        let mut script = RegisterScript::begun();
-        let to = inputs(3, 0, &[0.3, 0.0, 0.26, 3.1, 0.0, 0.0, 0.05]);
-        let command = Command::read(&to);
-        assert_eq!(script.take(command, false), Some(command));
-        assert_eq!(script.take(command, true), None, "it moves");
-        assert_eq!(script.outputs()[0], 1);
-        script.rest();
-        assert_eq!(script.outputs()[0], 2);
-        assert_eq!(script.take(command, false), None, "it is done");
-        assert_eq!(script.take(Command::None, false), None);
-        assert_eq!(script.outputs()[0], 1);
-        assert_eq!(script.take(command, false), Some(command), "it is new");
-    }
-
-    #[test]
-    fn a_motion_that_is_not_waited_for_is_reported_until_it_ends() {
-        let mut script = RegisterScript::begun();
-        assert_eq!(script.outputs()[2], 0x0001_0000);
-        let to = inputs(3, 1, &[0.3, 0.0, 0.26, 3.1, 0.0, 0.0, 0.05]);
-        assert!(script.take(Command::read(&to), false).is_some());
-        assert_eq!(script.outputs(), [2, 0, 0x0102_8000]);
-        script.take(Command::None, true);
-        let question = Command::read(&inputs(47, 1, &[]));
-        assert!(script.take(question, true).is_some());
-        assert_eq!(script.outputs()[1], 0, "it moves");
-        script.take(Command::None, true);
-        assert_eq!(script.take(Command::Stop, true), Some(Command::Stop));
-        assert_eq!(script.outputs()[2], 0x0103_0000);
-        script.take(Command::None, false);
-        assert!(script.take(question, false).is_some());
-        assert_eq!(script.outputs()[1], 1, "it rests");
-    }
-
-    #[test]
-    fn a_command_without_an_emulation_or_without_numbers_ends_the_script() {
-        let turning = inputs(10, 0, &[0.0, 0.0, 0.0, 0.1]);
-        let endless = inputs(3, 0, &[f64::NAN]);
-        for inputs in [inputs(6, 0, &[]), inputs(255, 0, &[]), turning, endless] {
-            assert_eq!(Command::read(&inputs), Command::End);
-        }
-        let down = inputs(10, 0, &[0.0, 0.0, -0.005]);
-        let expected = Command::Cruise {
-            velocity_m_s: [0.0, 0.0, -0.005],
-        };
-        assert_eq!(Command::read(&down), expected);
-    }
-}
+mod tests;

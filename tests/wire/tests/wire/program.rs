@@ -113,6 +113,32 @@ fn its_rig_file_opens_every_device_its_control_port_breaks_them_and_it_ends_with
 }
 
 #[test]
+fn a_box_has_the_frame_filter_and_drift_of_the_command_line() {
+    let bent = [
+        "--force",
+        "netft",
+        "--tool",
+        "0;0;0;90;0;0",
+        "--filter",
+        "8",
+        "--drift",
+        "0.02",
+    ];
+    let program = Running::start(&bent);
+    let drivers = Drivers::builtin().expect("drivers");
+    let selector = program.selector("force");
+    let refused = open(&drivers.forces, &selector, &mut Rig::new());
+    assert!(refused.is_err(), "its frame is turned");
+    let accepted: Selector = format!("{selector};frame=tool")
+        .parse()
+        .expect("a selector");
+    let force = open(&drivers.forces, &accepted, &mut Rig::new()).expect("a box");
+    let settings = force.settings();
+    assert_eq!(settings["frame"], "tool 0;0;0;90;0;0 (mm, degrees)");
+    assert_eq!(settings["filter"], "8");
+}
+
+#[test]
 fn every_robot_that_it_names_moves_by_the_driver_of_its_rig_file() {
     let drivers = Drivers::builtin().expect("drivers");
     for robot in RobotKind::value_variants() {

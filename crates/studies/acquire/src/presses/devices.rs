@@ -16,6 +16,7 @@ use taceva_protocol::{
 use super::changers::{OfSpecimens, OpenChanger};
 use super::device::Opened;
 use super::guardian::Guarded;
+use super::latency::written_latencies_ms;
 use super::registration::{Registered, Turned};
 use super::viewed_sensor::Seen;
 use super::workshop::{Surroundings, Workshop};
@@ -39,6 +40,8 @@ pub(super) struct OpenRig {
     pub(super) rig_file: Option<Arc<RigFile>>,
     /// Enabling switch.
     pub(super) switch: Option<Arc<dyn EnablingSwitch>>,
+    /// Warning about late halts of the last session.
+    pub(super) late_halts: Option<String>,
 }
 
 /// A session at a rig: its workshop, its cancellation, and state from earlier units.
@@ -168,6 +171,7 @@ impl OpenRig {
             force,
             lighting: lighting.map(|lighting| lighting.device),
             surroundings,
+            late_halts: None,
         })
     }
 
@@ -198,7 +202,7 @@ impl OpenRig {
             progress: workshop.progress,
             viewer: workshop.viewer.map(|viewer| &**viewer),
         };
-        guarded.conduct(|robot, force, supervisor| {
+        let (raised, _) = guarded.conduct(|robot, force, supervisor| {
             let controls = Controls {
                 clock,
                 cancel,
@@ -212,7 +216,8 @@ impl OpenRig {
             raise(
                 plan, robot, force, controls, supervisor, robot_name, patience_s,
             )
-        })
+        });
+        raised
     }
 
     /// Makes the presses of `spec`. A guard is used if the rig is real.
@@ -242,6 +247,7 @@ impl OpenRig {
             is_real,
             rig_file,
             switch,
+            late_halts,
         } = self;
         let session = rig_file.as_deref().map(|rig| SessionSpec {
             rig,
@@ -288,29 +294,24 @@ impl OpenRig {
         };
         match spec.plan.limits.clone().filter(|_| *is_real) {
             None => act(&mut **robot, &mut **force, None),
-            Some(limits) => Guarded {
-                robot: &mut **robot,
-                force: &mut **force,
-                driver: force_driver.clone(),
-                limits,
-                switch: switch.as_deref(),
-                cancel,
-                progress: workshop.progress,
-                viewer: workshop.viewer.map(|viewer| &**viewer),
+            Some(limits) => {
+                let guarded = Guarded {
+                    robot: &mut **robot,
+                    force: &mut **force,
+                    driver: force_driver.clone(),
+                    limits,
+                    switch: switch.as_deref(),
+                    cancel,
+                    progress: workshop.progress,
+                    viewer: workshop.viewer.map(|viewer| &**viewer),
+                };
+                let (done, late) =
+                    guarded.conduct(|robot, force, guard| act(robot, force, Some(guard)));
+                *late_halts = late;
+                done
             }
-            .conduct(|robot, force, guard| act(robot, force, Some(guard))),
         }
     }
-}
-
-/// Latencies of robot, transducer and sensor in a rig file, in ms.
-pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
-    let written = [
-        rig.robot.as_ref().and_then(|robot| robot.latency_ms),
-        rig.force.as_ref().and_then(|force| force.latency_ms),
-        rig.sensor.as_ref().and_then(|sensor| sensor.latency_ms),
-    ];
-    written.map(|latency| latency.map(|latency| latency.value))
 }
 
 /// Name of the robot of `rig` that the operator must enable; `None` if the robot is emulated or already enabled.

@@ -10,7 +10,8 @@ use taceva_drivers::{Drivers, OpenError};
 use taceva_protocol::{RigFile, SceneProblem, Setting};
 
 use super::device::Opened;
-use super::devices::{FIRST_POSE, Opener, written_latencies_ms};
+use super::devices::{FIRST_POSE, Opener};
+use super::latency::written_latencies_ms;
 use super::registration::{Registered, Turned};
 use crate::error::AcquireError;
 use crate::scene::{Refused, RigSpec, check_changers};

@@ -5,8 +5,11 @@
 //! cancellation. Both threads halt through the supervisor, which makes all decisions.
 //!
 //! The threads have the priority of the process. On a busy machine, a thread may wait for a tenth of a second. `chrt -f 10 taceva run …` reduces this wait to
-//! milliseconds. A turn that took too long is printed with its cause, and so are the counts of a session at its end.
+//! milliseconds. A turn or a halt that took too long is printed with its cause, and so are the counts of a session at its end.
 
+mod causes;
+mod halt_counts;
+mod halts;
 mod mailbox;
 mod misses;
 mod punctuality;
@@ -26,6 +29,7 @@ use taceva_protocol::{
 };
 
 use crate::viewer::Viewer;
+use halts::{HaltCall, HaltCalls, HaltFollower, Held, TimedHalt};
 use mailbox::{Listeners, Mailbox};
 use punctuality::Punctuality;
 use turn::{Turn, TurnTimer};
@@ -35,6 +39,9 @@ use turn::{Turn, TurnTimer};
 const LOOK: Duration = Duration::from_millis(5);
 /// Deadline for each pose.
 const LOOK_DEADLINE: Deadline = Deadline::after(Duration::from_millis(20));
+
+/// Greatest distance of two poses at rest, in standard deviations of an axis.
+const POSE_NOISES: f64 = 5.0;
 
 /// Guarded devices, and the cancellation of their run.
 pub(super) struct Guarded<'a> {
@@ -52,11 +59,12 @@ pub(super) struct Guarded<'a> {
 }
 
 impl Guarded<'_> {
-    /// Calls `conduct`, which moves the robot, while guard threads watch. The threads end when `conduct` returns.
+    /// Calls `conduct`, which moves the robot, while guard threads watch. The threads end when `conduct` returns. Returns its result, and a warning if
+    /// halts were late.
     pub(super) fn conduct<T>(
         self,
         conduct: impl FnOnce(&mut dyn Robot, &mut dyn ForceTransducer, SharedSupervisor) -> T,
-    ) -> T {
+    ) -> (T, Option<String>) {
         let Guarded {
             robot,
             force,
@@ -67,7 +75,10 @@ impl Guarded<'_> {
             progress,
             viewer,
         } = self;
-        let mut supervisor = Supervisor::new(limits, robot.halt_handle());
+        let halts = Arc::new(HaltCalls::default());
+        let slack_mm = POSE_NOISES * limits.signals.pose_noise_mm;
+        let halt = TimedHalt::new(robot.halt_handle(), Arc::clone(&halts));
+        let mut supervisor = Supervisor::new(limits, Arc::new(halt));
         if switch.is_some() {
             // State before the first reading of the switch.
             supervisor.enabling(Enabling::Released);
@@ -80,6 +91,8 @@ impl Guarded<'_> {
             punctuality: &punctuality,
             was_under_way: false,
             was_stale: false,
+            halts,
+            follower: HaltFollower::new(slack_mm),
             watch: robot.watch_handle(),
             last: None,
             switch,
@@ -102,10 +115,10 @@ impl Guarded<'_> {
             let _over = Over::new(&is_over);
             // Dropped here, so that the reader thread ends even if `conduct` panics.
             let mut mailbox = mailbox;
+            halts::prepare_this_thread();
             conduct(robot, &mut mailbox, supervisor.clone())
         });
-        punctuality.end();
-        conducted
+        (conducted, punctuality.end())
     }
 }
 
@@ -128,10 +141,12 @@ impl Drop for Over<'_> {
 struct Watcher<'a> {
     supervisor: &'a SharedSupervisor,
     punctuality: &'a Punctuality<'a>,
-    /// True if the last turn ended during a motion.
+    /// True if the last turn ended during a motion, or this one saw one.
     was_under_way: bool,
     /// True if the last turn found a halt for a stale reading.
     was_stale: bool,
+    halts: Arc<HaltCalls>,
+    follower: HaltFollower,
     watch: Option<Arc<dyn RobotWatch>>,
     /// Last pose received.
     last: Option<(Pose, Stamp)>,
@@ -144,6 +159,7 @@ struct Watcher<'a> {
 
 impl Watcher<'_> {
     fn look_on(mut self, is_over: &AtomicBool) {
+        halts::prepare_this_thread();
         let mut timer = TurnTimer::of_this_thread();
         while !is_over.load(Ordering::Acquire) {
             timer.begin(LOOK);
@@ -152,13 +168,20 @@ impl Watcher<'_> {
             self.look();
             self.time(&timer.end());
         }
+        // The session may end before the end of a halt is known.
+        let call = self.halts.take();
+        self.follow_halt(call, self.was_under_way, Held::No, MonotonicClock.now_s());
     }
 
-    /// Records a turn that was late during a motion, and a reading that was found stale.
+    /// Records a turn that was late during a motion, a reading that was found stale, and a halt.
     fn time(&mut self, turn: &Turn) {
         let supervisor = self.supervisor.lock();
         let [is_under_way, was_under_way] = [supervisor.is_under_way(), self.was_under_way];
-        let stale_s = match supervisor.tripped() {
+        let tripped = supervisor.tripped();
+        let is_held = tripped.is_some() || supervisor.fault().is_some();
+        // The lock is held during each halt, so that the call and what holds the robot belong together.
+        let call = self.halts.take();
+        let stale_s = match tripped {
             Some(Trip::StaleForce { age_s } | Trip::StalePose { age_s }) => Some(age_s),
             _ => None,
         };
@@ -172,6 +195,20 @@ impl Watcher<'_> {
             self.punctuality.stale(age_s, turn.ended_s);
         }
         self.punctuality.settle(turn.ended_s);
+        let held = match self.last {
+            _ if !is_held => Held::No,
+            None => Held::Unseen,
+            Some((pose, stamp)) => Held::At(pose, stamp),
+        };
+        self.follow_halt(call, is_under_way || was_under_way, held, turn.ended_s);
+    }
+
+    /// Notes a halt of a motion when its end is known.
+    fn follow_halt(&mut self, call: Option<HaltCall>, is_under_way: bool, held: Held, now_s: f64) {
+        let halted = self.follower.turn(call, is_under_way, held, now_s);
+        if let Some(halted) = halted {
+            self.punctuality.halted(&halted);
+        }
     }
 
     /// Handles cancellation. The first cancellation ends the motion in progress, but not the retreat. The second cancellation also ends the retreat.
@@ -185,7 +222,9 @@ impl Watcher<'_> {
             self.cancel.cancel();
         }
         if is_first || is_insisted {
-            self.supervisor.lock().halt();
+            let mut supervisor = self.supervisor.lock();
+            self.was_under_way |= supervisor.is_under_way();
+            supervisor.halt();
         }
     }
 
@@ -199,7 +238,9 @@ impl Watcher<'_> {
             Ok(false) => Enabling::Released,
             Err(_) => Enabling::Lost,
         };
-        self.supervisor.lock().enabling(enabling);
+        let mut supervisor = self.supervisor.lock();
+        self.was_under_way |= supervisor.is_under_way();
+        supervisor.enabling(enabling);
     }
 
     fn look(&mut self) {
@@ -213,7 +254,9 @@ impl Watcher<'_> {
                 }
                 Err(error) => {
                     if let Some(fault) = error.fault() {
-                        self.supervisor.lock().fail(fault);
+                        let mut supervisor = self.supervisor.lock();
+                        self.was_under_way |= supervisor.is_under_way();
+                        supervisor.fail(fault);
                     }
                 }
             }
@@ -222,6 +265,7 @@ impl Watcher<'_> {
         if !supervisor.is_under_way() {
             return;
         }
+        self.was_under_way = true;
         let now_s = MonotonicClock.now_s();
         // A repeated pose keeps its stamp, so its age grows. The run detects a trip by its own motion.
         let seen = self

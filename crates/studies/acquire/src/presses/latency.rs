@@ -10,9 +10,20 @@ use taceva_core::{
     Wrench,
 };
 use taceva_drivers::MonotonicClock;
+use taceva_protocol::RigFile;
 
 use super::clock_follower::ClockFollower;
 use super::delegation::{delegate_force, delegate_robot, delegate_sensor};
+
+/// Latencies of robot, transducer and sensor in a rig file, in ms.
+pub(crate) fn written_latencies_ms(rig: &RigFile) -> [Option<f64>; 3] {
+    let written = [
+        rig.robot.as_ref().and_then(|robot| robot.latency_ms),
+        rig.force.as_ref().and_then(|force| force.latency_ms),
+        rig.sensor.as_ref().and_then(|sensor| sensor.latency_ms),
+    ];
+    written.map(|latency| latency.map(|latency| latency.value))
+}
 
 /// A device whose time stamps are later than the observation by a known latency. The timing of its samples is checked.
 pub(crate) struct Late<D: ?Sized> {

@@ -5,7 +5,8 @@ use std::sync::PoisonError;
 
 use taceva_protocol::RigFile;
 
-use super::devices::{OpenRig, key_of, written_latencies_ms};
+use super::devices::{OpenRig, key_of};
+use super::latency::written_latencies_ms;
 use super::workshop::Workshop;
 use crate::instruments;
 
@@ -19,10 +20,11 @@ impl OpenRig {
         settings
     }
 
-    /// Warnings of the devices about their readings, which the recording keeps.
+    /// Warnings of the devices about their readings, and about late halts, which the recording keeps.
     pub(super) fn warnings(&self) -> Vec<String> {
         let mut warnings = self.force.warnings();
         warnings.extend(self.robot.warnings());
+        warnings.extend(self.late_halts.clone());
         warnings
     }
 

@@ -124,7 +124,7 @@ impl OpenRig {
             let frames = scope.spawn(|| hear_frames(&mut **sensor, &ears, &is_over));
             let tapped = {
                 let _over = Over::new(&is_over);
-                guarded.conduct(|robot, force, supervisor| {
+                let (tapped, _) = guarded.conduct(|robot, force, supervisor| {
                     let controls = Controls {
                         clock,
                         cancel,
@@ -147,7 +147,8 @@ impl OpenRig {
                         session,
                         &mut listener,
                     )
-                })
+                });
+                tapped
             };
             let ended = [poses.join(), frames.join()];
             let ended = ended.map(|ended| ended.expect("a thread that listens does not panic"));

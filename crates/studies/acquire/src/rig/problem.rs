@@ -74,7 +74,7 @@ impl fmt::Display for RigProblem {
             ),
             RigProblem::Gaps { gap_ms, allowed_ms } => write!(
                 f,
-                "force readings arrive up to {gap_ms:.0} ms apart (limit {allowed_ms:.0} ms): stop other traffic on this network and other programs, or run with `chrt -f 10`"
+                "force readings arrive up to {gap_ms:.0} ms apart (limit {allowed_ms:.0} ms): stop other traffic on this network and other programs, or run with `chrt -f 10` if you do not yet"
             ),
             RigProblem::Noise {
                 device,

@@ -146,12 +146,12 @@ impl fmt::Display for Trip {
             }
             Trip::StaleForce { age_s } => write!(
                 f,
-                "the last force reading is {:.0} ms old; on a busy machine, run with `chrt -f 10 taceva run …` and stop other programs; a device with its own clock appears late on any machine",
+                "the last force reading is {:.0} ms old; on a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet; a device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::StalePose { age_s } => write!(
                 f,
-                "the last pose reading is {:.0} ms old; on a busy machine, run with `chrt -f 10 taceva run …` and stop other programs; a device with its own clock appears late on any machine",
+                "the last pose reading is {:.0} ms old; on a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet; a device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
             Trip::Released => f.write_str("the enabling switch is not held"),
@@ -178,7 +178,7 @@ mod tests {
         ] {
             let said = trip.to_string();
             let expected = format!(
-                "the last {signal} reading is 84 ms old; on a busy machine, run with `chrt -f 10 "
+                "the last {signal} reading is 84 ms old; on a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet"
             );
             assert!(said.starts_with(&expected), "{said}");
         }

@@ -9,13 +9,15 @@ use taceva_wire::{Arm, BenchOptions, WallBench, WireError};
 
 use super::{address, python};
 
-/// Output of `script` with an arm of `version` whose speed slider is at `slider`; `None` without `module`, or if its ports are in use.
+/// Output of `script` with an arm of `version` whose speed slider is at `slider`; `registers` is its last argument. `None` without `module`, or
+/// if its ports are in use.
 fn said(
     module: &str,
     script: &str,
     last: u8,
     version: [u32; 2],
     slider: f64,
+    registers: &str,
 ) -> Option<Vec<String>> {
     let python = python::with(module)?;
     let bench = WallBench::start(&BenchOptions::quiet(7)).expect("a bench");
@@ -32,13 +34,17 @@ fn said(
     let arm: Arc<dyn Arm> = arm;
     let control = Control::start(&bench, Some(arm), host, 0).expect("a port");
     let port = control.address().port().to_string();
-    Some(python::run(&python, script, &[host.to_string(), port]))
+    Some(python::run(
+        &python,
+        script,
+        &[host.to_string(), port, registers.to_owned()],
+    ))
 }
 
 /// Checks the readings of the client from an arm of `version`.
 fn read(last: u8, version: [u32; 2], polyscope: &str) {
     let script = include_str!("ur.py");
-    let Some(said) = said("rtde_receive", script, last, version, 0.5) else {
+    let Some(said) = said("rtde_receive", script, last, version, 0.5, "lower") else {
         return;
     };
     let dashboard = format!("{polyscope} Robotmode: RUNNING False");
@@ -53,10 +59,10 @@ fn read(last: u8, version: [u32; 2], polyscope: &str) {
     assert_eq!(said, expected);
 }
 
-/// Checks the motions that the client asks for by its script on an arm of `version`.
-fn control(last: u8, version: [u32; 2]) {
+/// Checks the motions that the client asks for by its script on an arm of `version`, in the `lower` or `upper` registers.
+fn control(last: u8, version: [u32; 2], registers: &str) {
     let script = include_str!("ur_control.py");
-    let Some(said) = said("rtde_control", script, last, version, 1.0) else {
+    let Some(said) = said("rtde_control", script, last, version, 1.0, registers) else {
         return;
     };
     let expected = [
@@ -74,6 +80,12 @@ fn control(last: u8, version: [u32; 2]) {
         "True",
         "False True True",
         "True True",
+        // Followed targets.
+        "True 0.301 0.0 0.267 3.1416 0.0 0.0",
+        // A path, then one that is stopped.
+        "True 0.3 0.002 0.268 3.1416 0.0 0.0",
+        "True True",
+        "False True",
         // A collision, and after its end.
         "True",
         "False False True",
@@ -96,10 +108,15 @@ fn the_public_client_sees_an_older_arm_and_its_dashboard() {
 
 #[test]
 fn the_public_client_moves_and_stops_an_e_series_arm_by_its_script_on_the_controller() {
-    control(21, [5, 11]);
+    control(21, [5, 11], "lower");
 }
 
 #[test]
 fn the_public_client_moves_and_stops_an_older_arm_by_its_script_on_the_controller() {
-    control(22, [3, 15]);
+    control(22, [3, 15], "lower");
+}
+
+#[test]
+fn the_public_client_moves_and_stops_an_arm_by_the_upper_registers() {
+    control(23, [5, 11], "upper");
 }

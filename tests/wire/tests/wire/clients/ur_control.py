@@ -6,13 +6,16 @@ import sys
 import time
 
 from dashboard_client import DashboardClient
-from rtde_control import RTDEControlInterface
+from rtde_control import Path, PathEntry, RTDEControlInterface
 from rtde_receive import RTDEReceiveInterface
 
 host, control_port = sys.argv[1], int(sys.argv[2])
 control = socket.create_connection((host, control_port)).makefile("rw")
 
-arm = RTDEControlInterface(host)
+# The upper half of the registers leaves the lower one to other clients.
+flags = RTDEControlInterface.FLAGS_DEFAULT
+flags |= RTDEControlInterface.FLAG_UPPER_RANGE_REGISTERS if "upper" in sys.argv else 0
+arm = RTDEControlInterface(host, -1.0, flags)
 seen = RTDEReceiveInterface(host, 125.0)
 print("\n=", arm.isConnected(), arm.isProgramRunning(), arm.getRobotStatus(), flush=True)
 
@@ -49,6 +52,29 @@ time.sleep(0.5)
 print("=", arm.isSteady(), arm.speedStop(2.0), arm.isSteady(), flush=True)
 lowered = place()
 print("=", stopped[2] - lowered[2] > 0.0008, lowered == place(), flush=True)
+
+# Targets that the arm follows: each replaces the one before.
+for _ in range(60):
+    arm.servoL([0.301, 0.0, 0.267, *down], 0.0, 0.0, 0.008, 0.1, 300.0)
+    time.sleep(0.008)
+time.sleep(0.3)
+print("=", arm.servoStop(10.0), *place(), flush=True)
+
+
+def path(speed):
+    """Two motions, of which the second ends at the place before the first."""
+    path = Path()
+    path.addEntry(PathEntry(PathEntry.MoveL, PathEntry.PositionTcpPose, [0.301, 0.0, 0.266, *down, speed, 0.5, 0.0]))
+    path.addEntry(PathEntry(PathEntry.MoveP, PathEntry.PositionTcpPose, [0.3, 0.002, 0.268, *down, speed, 0.5, 0.0]))
+    return path
+
+
+# A path that the client waits for, and one that nobody waits for and that is stopped.
+print("=", arm.movePath(path(0.05), False), *place(), flush=True)
+print("=", arm.movePath(path(0.0005), True), moves(), flush=True)
+time.sleep(0.3)
+arm.stopL(3.0)
+print("=", moves(), 0.266 < place()[2] < 0.268, flush=True)
 
 # A collision ends the script. A person unlocks the arm, and the client sends the script again.
 print("=", arm.moveL([0.3, 0.0, 0.2713, *down], 0.0005, 0.5, True), flush=True)

@@ -11,6 +11,7 @@ use taceva_core::{
 use taceva_drivers::MonotonicClock;
 use taceva_protocol::{Event, Observation, SharedSupervisor};
 
+use super::halts;
 use super::punctuality::Punctuality;
 use super::turn::TurnTimer;
 use crate::viewer::Viewer;
@@ -192,6 +193,7 @@ impl Reader {
     /// Reads `force` from start to stop, passes every reading to `listeners`, and executes tasks between readings. Ends when the mailbox is dropped.
     pub(super) fn serve(mut self, force: &mut dyn ForceTransducer, listeners: Listeners<'_>) {
         let mut is_started = false;
+        halts::prepare_this_thread();
         let mut timer = TurnTimer::of_this_thread();
         loop {
             let request = match is_started {

@@ -1,6 +1,7 @@
 //! Late turns and stale readings of a session, by cause.
 
-use super::turn::{Cause, Late, Turn};
+use super::causes::{Cause, CauseCounts, remedy};
+use super::turn::{Late, Turn};
 
 /// Maximum number of lines about single misses. A busy machine may have hundreds of misses.
 const MOST_LINES: u32 = 10;
@@ -10,10 +11,7 @@ const SETTLED_S: f64 = 0.2;
 /// Numbers of misses (late turns and stale readings) of a session, by cause.
 #[derive(Debug, Default)]
 pub(super) struct Misses {
-    kernel: u64,
-    program: u64,
-    device: u64,
-    unknown: u64,
+    counts: CauseCounts,
     /// Number of misses. The log has a line for each of the first `MOST_LINES`.
     lines: u32,
     /// End of the last late turn, s.
@@ -45,13 +43,15 @@ impl Misses {
         let head = format!("late: the guard of the {signal} took {took_ms:.0} ms for a reading");
         let words = match late.cause {
             Cause::Kernel => format!(
-                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms: stop other programs, or run with `chrt -f 10 taceva run …`"
+                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms: {}",
+                remedy(policy)
             ),
             Cause::Program | Cause::Device => format!(
                 "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms only, so the work of TacEva or of a driver took the rest: report this line with the drivers of the rig"
             ),
             Cause::Unknown => format!(
-                "{head}; this kernel does not state how long its thread ({policy}) was without a processor: stop other programs, or run with `chrt -f 10 taceva run …`"
+                "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
+                remedy(policy)
             ),
         };
         self.count(late.cause, words)
@@ -81,28 +81,15 @@ impl Misses {
 
     /// Counts of the session in one line; `None` without a miss.
     pub(super) fn summary(mut self) -> Option<String> {
-        self.device += u64::from(self.stale.is_some());
-        let Misses {
-            kernel,
-            program,
-            device,
-            unknown,
-            ..
-        } = self;
-        (kernel + program + device + unknown > 0).then(|| {
-            format!(
-                "late in this session: {kernel} by the kernel, {program} by TacEva or a driver, {device} by a device or its link, {unknown} of unknown cause"
-            )
-        })
+        if self.stale.is_some() {
+            self.counts.add(Cause::Device);
+        }
+        let counts = self.counts;
+        (!counts.is_empty()).then(|| format!("late in this session: {counts}"))
     }
 
     fn count(&mut self, cause: Cause, words: String) -> Option<String> {
-        *match cause {
-            Cause::Kernel => &mut self.kernel,
-            Cause::Program => &mut self.program,
-            Cause::Device => &mut self.device,
-            Cause::Unknown => &mut self.unknown,
-        } += 1;
+        self.counts.add(cause);
         self.lines += 1;
         (self.lines <= MOST_LINES).then_some(words)
     }
@@ -139,6 +126,15 @@ mod tests {
         for words in ["for 3 ms only", "drivers of the rig"] {
             assert!(program.contains(words), "{program}");
         }
+        // The advice is not to do what was done already.
+        let turn = turn(12.0, 84.0, 71.0);
+        let raised =
+            Misses::default().turn("force", "SCHED_FIFO", &turn, &turn.late().expect("late"));
+        let raised = raised.expect("a line");
+        assert!(
+            !raised.contains("chrt") && raised.contains("stop other programs"),
+            "{raised}"
+        );
         let summary = misses.summary().expect("two");
         let expected = "late in this session: 1 by the kernel, 1 by TacEva or a driver, 0 by a device or its link, 0 of unknown cause";
         assert_eq!(summary, expected);

@@ -1,5 +1,5 @@
-//! Shows late turns and stale readings of a session with their causes, and their counts at its end. Guard threads only store lines: a terminal or
-//! pipe may block the writing thread.
+//! Shows late turns, stale readings and late halts of a session with their causes, and their counts at its end. Guard threads only store
+//! lines: a terminal or pipe may block the writing thread.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -7,6 +7,8 @@ use std::time::Duration;
 
 use taceva_core::Progress;
 
+use super::halt_counts::HaltCounts;
+use super::halts::Halted;
 use super::misses::Misses;
 use super::thread_facts::policy;
 use super::turn::Turn;
@@ -14,7 +16,7 @@ use super::turn::Turn;
 /// Interval at which stored lines are shown.
 const SHOW: Duration = Duration::from_millis(20);
 
-/// Counts late turns and stale readings, and shows them.
+/// Counts late turns, stale readings and halts, and shows what was late.
 pub(super) struct Punctuality<'a> {
     noted: Mutex<Noted>,
     progress: &'a dyn Progress,
@@ -23,6 +25,7 @@ pub(super) struct Punctuality<'a> {
 #[derive(Default)]
 struct Noted {
     misses: Misses,
+    halts: HaltCounts,
     /// Lines that are not shown yet.
     lines: Vec<String>,
 }
@@ -52,6 +55,14 @@ impl<'a> Punctuality<'a> {
         self.lock().misses.stale(age_s, found_s);
     }
 
+    /// Adds a halt of a motion.
+    pub(super) fn halted(&self, halted: &Halted) {
+        let policy = policy();
+        let mut noted = self.lock();
+        let line = noted.halts.add(halted, policy);
+        noted.lines.extend(line);
+    }
+
     /// Updates the time, after which the cause of a stale reading may be known.
     pub(super) fn settle(&self, now_s: f64) {
         let mut noted = self.lock();
@@ -67,13 +78,15 @@ impl<'a> Punctuality<'a> {
         }
     }
 
-    /// Shows the remaining lines, and the counts of the session.
-    pub(super) fn end(self) {
+    /// Shows the remaining lines, and the counts of the session. Returns a warning if halts were late.
+    pub(super) fn end(self) -> Option<String> {
         self.show();
         let noted = self.noted.into_inner();
         let noted = noted.unwrap_or_else(PoisonError::into_inner);
-        let counts = noted.misses.summary();
-        counts.iter().for_each(|line| self.progress.remark(line));
+        let counts = [noted.misses.summary(), noted.halts.summary()];
+        let counts = counts.iter().flatten();
+        counts.for_each(|line| self.progress.remark(line));
+        noted.halts.warning()
     }
 
     fn show(&self) {
@@ -126,7 +139,7 @@ mod tests {
         punctuality.settle(20.1);
         punctuality.settle(20.5);
         assert_eq!(shown(), 1, "a guard thread shows nothing");
-        punctuality.end();
+        assert_eq!(punctuality.end(), None, "no halt was late");
         let remarks = remarks.0.into_inner().expect("whole");
         let [late, stale, counts] = &remarks[..] else {
             panic!("{remarks:?}");
@@ -142,7 +155,7 @@ mod tests {
         let punctuality = Punctuality::new(&remarks);
         punctuality.turn("force", &turn(0.04));
         punctuality.settle(20.0);
-        punctuality.end();
+        assert_eq!(punctuality.end(), None);
         assert!(remarks.0.into_inner().expect("whole").is_empty());
     }
 }

@@ -14,18 +14,49 @@ impl ProcessorQueue {
 
     /// Waiting time for a processor since the start of the thread, s; `None` if the system does not state it.
     pub(super) fn waited_s(&self) -> Option<f64> {
+        Some(self.times()?.queued_s)
+    }
+
+    /// Times since the start of the thread; `None` if the system does not state them.
+    pub(super) fn times(&self) -> Option<ThreadTimes> {
         let mut file = self.0.as_ref()?;
         let mut bytes = [0; 128];
         file.rewind().ok()?;
         let count = file.read(&mut bytes).ok()?;
-        waited_s(std::str::from_utf8(&bytes[..count]).ok()?)
+        ThreadTimes::of(std::str::from_utf8(&bytes[..count]).ok()?)
     }
 }
 
-/// Waiting time: the second number of `schedstat`, which is in ns.
-fn waited_s(schedstat: &str) -> Option<f64> {
-    let waited_ns: u64 = schedstat.split_whitespace().nth(1)?.parse().ok()?;
-    Some(waited_ns as f64 / 1e9)
+/// Times of a thread, s.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ThreadTimes {
+    /// Time on a processor.
+    pub(super) ran_s: f64,
+    /// Time for which the thread could run and had no processor.
+    pub(super) queued_s: f64,
+}
+
+impl ThreadTimes {
+    /// First two numbers of `schedstat`, which are in ns.
+    fn of(schedstat: &str) -> Option<ThreadTimes> {
+        let mut numbers = schedstat.split_whitespace();
+        let mut next_s = || {
+            let ns: u64 = numbers.next()?.parse().ok()?;
+            Some(ns as f64 / 1e9)
+        };
+        Some(ThreadTimes {
+            ran_s: next_s()?,
+            queued_s: next_s()?,
+        })
+    }
+
+    /// Times from `before` until now.
+    pub(super) fn since(&self, before: &ThreadTimes) -> ThreadTimes {
+        ThreadTimes {
+            ran_s: self.ran_s - before.ran_s,
+            queued_s: self.queued_s - before.queued_s,
+        }
+    }
 }
 
 /// Scheduling policy of the calling thread, such as `SCHED_FIFO`.
@@ -56,13 +87,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn waiting_is_the_second_number_and_absent_without_one() {
-        assert_eq!(
-            waited_s("812345 250000000 17\n").map(f64::to_bits),
-            Some(0.25_f64.to_bits())
-        );
+    fn running_and_waiting_are_the_first_two_numbers_and_absent_without_both() {
+        let expected = ThreadTimes {
+            ran_s: 0.5,
+            queued_s: 0.25,
+        };
+        let times = ThreadTimes::of("500000000 250000000 17\n");
+        assert_eq!(times, Some(expected));
         for text in ["", "812345", "812345 none 17"] {
-            assert_eq!(waited_s(text), None, "{text}");
+            assert_eq!(ThreadTimes::of(text), None, "{text}");
         }
     }
 

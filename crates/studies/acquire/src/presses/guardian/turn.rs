@@ -4,6 +4,7 @@ use std::time::Duration;
 
 use taceva_drivers::MonotonicClock;
 
+use super::causes::Cause;
 use super::thread_facts::ProcessorQueue;
 
 /// Maximum duration of a punctual turn, s: the age from which a reading is stale.
@@ -22,19 +23,6 @@ pub(super) struct Turn {
     pub(super) ended_s: f64,
     /// Time, s, for which the thread was ready to run but had no processor; `None` if the kernel does not state it.
     pub(super) queued_s: Option<f64>,
-}
-
-/// Cause of a late turn or reading.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cause {
-    /// The kernel woke the thread late, or kept it from a processor.
-    Kernel,
-    /// The work of the thread took too long.
-    Program,
-    /// The guard was punctual, so the device caused the stale reading.
-    Device,
-    /// The kernel does not state how long the thread waited for a processor.
-    Unknown,
 }
 
 /// A turn that took too long.

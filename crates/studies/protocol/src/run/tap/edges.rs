@@ -95,7 +95,7 @@ pub enum TapError {
     },
     /// Taps contradict each other.
     #[error(
-        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10`, and check the rig for vibration"
+        "the latency of the {device} varies by {spread_ms:.1} ms between taps, expected at most half a frame, {allowed_ms:.1} ms: stop other traffic and other programs, run with `chrt -f 10` if you do not yet, and check the rig for vibration"
     )]
     Spread {
         /// Name of the device: `force` or `sensor`.

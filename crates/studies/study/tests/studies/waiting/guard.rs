@@ -1,7 +1,9 @@
 //! Tests of the guard threads during motions, and of their reactions.
 
 use std::path::Path;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
 
 use taceva_acquire::AcquireError;
 use taceva_core::{Fault, Progress};
@@ -116,6 +118,62 @@ fn a_wish_to_stop_ends_a_motion_and_the_tip_leaves_the_gel_and_what_was_recorded
     assert!(depth_mm(&world) < -0.29);
     let dataset = looked_on(&world, &folder, |_| Wishes::default());
     assert_whole(&dataset.expect("it goes on"));
+}
+
+/// Progress that cancels the run amid a motion, whose halt is then answered late, and keeps the remarks.
+struct Cancelling<'a> {
+    world: &'a World,
+    is_cancelled: AtomicBool,
+    remarks: Mutex<Vec<String>>,
+}
+
+/// Delay of the answer to a halt, and least time from the begin of its motion: two turns of the guard.
+const ANSWER_DELAY: Duration = Duration::from_millis(300);
+const BEGUN_S: f64 = 0.012;
+
+impl Progress for Cancelling<'_> {
+    fn is_cancelled(&self) -> bool {
+        let mut state = self.world.state();
+        let now_s = taceva_drivers::MonotonicClock.now_s();
+        if !self.is_cancelled.load(Ordering::SeqCst) && state.is_amid_motion(now_s, BEGUN_S) {
+            state.answer_delay = ANSWER_DELAY;
+            self.is_cancelled.store(true, Ordering::SeqCst);
+        }
+        self.is_cancelled.load(Ordering::SeqCst)
+    }
+
+    fn remark(&self, words: &str) {
+        self.remarks.lock().expect("whole").push(words.to_owned());
+    }
+}
+
+#[test]
+fn a_halt_that_the_robot_answers_late_is_printed_and_counted_as_late_by_the_robot_or_its_link() {
+    let (world, temporary) = (World::new(), tempfile::tempdir().expect("a folder"));
+    let folder = temporary.path().join("run");
+    let cancelling = Cancelling {
+        world: &world,
+        is_cancelled: AtomicBool::new(false),
+        remarks: Mutex::default(),
+    };
+    stopped(record(&world, &folder, &cancelling));
+    let remarks = cancelling.remarks.into_inner().expect("whole");
+    let begins = |begin: &'static str| remarks.iter().filter(move |line| line.starts_with(begin));
+    // A kernel without these statistics leaves the cause unknown.
+    let (words, count) = match Path::new("/proc/thread-self/schedstat").exists() {
+        true => ("which waited for its answer: the robot", "1 by a device"),
+        false => ("this kernel does not state", "1 of unknown cause"),
+    };
+    let late = begins("late: the stop of the robot took ").filter(|line| line.contains(words));
+    assert_eq!(late.count(), 1, "{remarks:?}");
+    let counts: Vec<&String> = begins("halts in this session: ").collect();
+    assert_eq!(counts.len(), 1, "{remarks:?}");
+    assert!(counts[0].contains(count), "{remarks:?}");
+    // The recording that goes on keeps it as a warning, which the report shows.
+    let dataset = looked_on(&world, &folder, |_| Wishes::default()).expect("it goes on");
+    let warnings = &dataset.header().warnings;
+    let expected = format!("the robot was halted late: {}", counts[0]);
+    assert!(warnings.contains(&expected), "{warnings:?}");
 }
 
 #[test]

@@ -28,6 +28,8 @@ pub(crate) struct State {
     /// Number and times of the halts of the robot.
     pub(crate) halts: usize,
     halted_s: Vec<f64>,
+    /// Delay of the answer to the next halt.
+    pub(crate) answer_delay: Duration,
     /// Greatest x without an obstacle, in mm. Beyond it, an obstacle in the air presses with 1 N.
     pub(crate) obstacle_x_mm: f64,
     /// Time of the first contact with the obstacle, in s.
@@ -76,6 +78,7 @@ impl World {
             deepest_mm: 0.0,
             halts: 0,
             halted_s: Vec::new(),
+            answer_delay: Duration::ZERO,
             obstacle_x_mm: f64::INFINITY,
             struck_s: None,
             is_stopped: false,
@@ -133,6 +136,9 @@ impl World {
         state.is_halted = true;
         state.halts += 1;
         state.halted_s.push(MonotonicClock.now_s());
+        let delay = std::mem::take(&mut state.answer_delay);
+        drop(state);
+        std::thread::sleep(delay);
     }
 
     /// Presses the emergency stop.
@@ -148,6 +154,13 @@ impl State {
     pub(crate) fn first_halt_after(&self, time_s: f64) -> f64 {
         let mut later = self.halted_s.iter().filter(|halted_s| **halted_s >= time_s);
         *later.next().expect("it was halted")
+    }
+
+    /// True from `since_s` after the start of a motion until shortly before its end.
+    pub(crate) fn is_amid_motion(&self, now_s: f64, since_s: f64) -> bool {
+        const LEFT_S: f64 = 0.005;
+        let [begin_s, end_s] = self.span_s;
+        !self.is_halted && now_s > begin_s + since_s && now_s + LEFT_S < end_s
     }
 
     fn stand(&mut self) {

@@ -1,0 +1,224 @@
+//! Halts of a robot in motion: the duration of the driver's call, and the time until the tip rests.
+
+use std::cell::OnceCell;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use taceva_core::{DriverError, Halt, Pose, Stamp};
+use taceva_drivers::MonotonicClock;
+
+use super::causes::Cause;
+use super::thread_facts::{ProcessorQueue, ThreadTimes};
+
+/// Longest call that is in time, s.
+const CALL_S: f64 = 0.02;
+/// Longest time from the decision to rest that is in time, s. Every driver promises it.
+const REST_S: f64 = 0.05;
+/// Time after the decision during which poses are read, s.
+const FOLLOWED_S: f64 = 0.2;
+/// Distance between two reports that counts as rest, mm, if poses have less noise.
+const RESTS_MM: f64 = 1e-3;
+
+thread_local! {
+    /// Times of the thread that halts, once it has prepared. The file is open before a halt, because a halt must not wait for a folder.
+    static TIMES: OnceCell<ProcessorQueue> = const { OnceCell::new() };
+}
+
+/// Opens the times of the calling thread, so that its halts can state a cause.
+pub(super) fn prepare_this_thread() {
+    // A thread that ends has no times.
+    let _ = TIMES.try_with(|times| {
+        times.get_or_init(ProcessorQueue::of_this_thread);
+    });
+}
+
+/// Call of a driver's halt.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct HaltCall {
+    pub(super) decided_s: f64,
+    pub(super) returned_s: f64,
+    /// Times of the thread during the call; `None` if the kernel does not state them.
+    pub(super) spent: Option<ThreadTimes>,
+}
+
+/// Halt of a motion, and what is known of its end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Halted {
+    pub(super) call: HaltCall,
+    /// Time from the decision to the first report of a tip at rest, s; `None` if no report showed it.
+    pub(super) rest_s: Option<f64>,
+    /// Time from the decision to the last report after which the tip still moved, s; 0 if no report showed it.
+    pub(super) moved_s: f64,
+}
+
+/// First call of a halt that the watcher has not taken yet. The supervisor is locked during each call.
+#[derive(Debug, Default)]
+pub(super) struct HaltCalls(Mutex<Option<HaltCall>>);
+
+/// Halt of a robot that notes its calls.
+pub(super) struct TimedHalt {
+    robot: Arc<dyn Halt>,
+    calls: Arc<HaltCalls>,
+}
+
+/// State of a robot for its follower.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Held {
+    /// It may move.
+    No,
+    /// It is held by a halt, and no pose is known.
+    Unseen,
+    /// It is held by a halt. This is its newest pose.
+    At(Pose, Stamp),
+}
+
+/// Halt whose end is awaited.
+#[derive(Debug, Default)]
+pub(super) struct HaltFollower {
+    /// Noise of a pose at rest, mm.
+    slack_mm: f64,
+    call: Option<HaltCall>,
+    /// Last pose after the decision, and its time in s.
+    seen: Option<(Pose, f64)>,
+    moved_s: f64,
+    /// True from the first halt until the robot may move again, or its motion ends. Each later reading halts again.
+    is_repeated: bool,
+    /// True if the robot was held in the last turn.
+    was_held: bool,
+}
+
+impl HaltCalls {
+    fn lock(&self) -> MutexGuard<'_, Option<HaltCall>> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub(super) fn take(&self) -> Option<HaltCall> {
+        self.lock().take()
+    }
+}
+
+impl TimedHalt {
+    pub(super) fn new(robot: Arc<dyn Halt>, calls: Arc<HaltCalls>) -> TimedHalt {
+        TimedHalt { robot, calls }
+    }
+}
+
+impl Halt for TimedHalt {
+    fn halt(&self) -> Result<(), DriverError> {
+        let decided_s = MonotonicClock.now_s();
+        let before = times_of_this_thread();
+        let halted = self.robot.halt();
+        let after = times_of_this_thread();
+        let call = HaltCall {
+            decided_s,
+            returned_s: MonotonicClock.now_s(),
+            spent: after
+                .zip(before)
+                .map(|(after, before)| after.since(&before)),
+        };
+        self.calls.lock().get_or_insert(call);
+        halted
+    }
+}
+
+fn times_of_this_thread() -> Option<ThreadTimes> {
+    let times = TIMES.try_with(|times| times.get()?.times());
+    times.ok().flatten()
+}
+
+impl HaltCall {
+    pub(super) fn took_s(&self) -> f64 {
+        self.returned_s - self.decided_s
+    }
+
+    /// Cause of a call that took too long.
+    fn late(&self) -> Option<Cause> {
+        let took_s = self.took_s();
+        (took_s > CALL_S).then(|| match self.spent {
+            Some(spent) if spent.queued_s >= took_s / 2.0 => Cause::Kernel,
+            Some(spent) if spent.ran_s >= took_s / 2.0 => Cause::Program,
+            Some(_) => Cause::Device,
+            None => Cause::Unknown,
+        })
+    }
+}
+
+impl Halted {
+    /// Cause of the delay of a late halt. A tip that moves on after a call in time is the robot's.
+    pub(super) fn late(&self) -> Option<Cause> {
+        let moved_on = self.moved_on().then_some(Cause::Device);
+        self.call.late().or(moved_on)
+    }
+
+    /// True if a report shows that the tip moved too long. A first report of rest says less, because it may have been read late.
+    pub(super) fn moved_on(&self) -> bool {
+        self.moved_s > REST_S
+    }
+}
+
+impl HaltFollower {
+    /// Follower of a robot whose poses have the noise `slack_mm` at rest.
+    pub(super) fn new(slack_mm: f64) -> HaltFollower {
+        HaltFollower {
+            slack_mm,
+            ..HaltFollower::default()
+        }
+    }
+
+    /// Takes the facts of one turn: a halt since the last turn, whether a motion is in progress, and whether a halt holds the robot. Nothing shows the
+    /// rest of a robot that may move again. Returns a halt whose end is known, or is no longer awaited.
+    pub(super) fn turn(
+        &mut self,
+        call: Option<HaltCall>,
+        is_under_way: bool,
+        held: Held,
+        now_s: f64,
+    ) -> Option<Halted> {
+        if let Some(call) = call.filter(|_| is_under_way && !self.is_repeated) {
+            (self.call, self.seen, self.moved_s) = (Some(call), None, 0.0);
+        }
+        let is_held = !matches!(held, Held::No);
+        let is_same_halt = is_held || (is_under_way && !self.was_held);
+        self.is_repeated = is_same_halt && (self.is_repeated || call.is_some());
+        self.was_held = is_held;
+        let call = self.call?;
+        let rest_s = match held {
+            Held::At(pose, stamp) if stamp.valid_s > call.decided_s => {
+                self.rest_s(&pose, stamp.valid_s, call.decided_s)
+            }
+            _ => None,
+        };
+        let is_over = rest_s.is_some() || !is_held || now_s - call.decided_s > FOLLOWED_S;
+        is_over.then(|| {
+            self.call = None;
+            Halted {
+                call,
+                rest_s,
+                moved_s: self.moved_s,
+            }
+        })
+    }
+
+    /// Time from the decision to the last report but this one, if both are at one place.
+    fn rest_s(&mut self, pose: &Pose, valid_s: f64, decided_s: f64) -> Option<f64> {
+        if let Some((seen, seen_s)) = self.seen {
+            if valid_s <= seen_s {
+                return None;
+            }
+            if distance_mm(&seen, pose) <= self.slack_mm.max(RESTS_MM) {
+                return Some(seen_s - decided_s);
+            }
+            self.moved_s = seen_s - decided_s;
+        }
+        self.seen = Some((*pose, valid_s));
+        None
+    }
+}
+
+fn distance_mm(one: &Pose, other: &Pose) -> f64 {
+    let [one, other] = [one, other].map(|pose| pose.position);
+    let flat_mm = (one.x.0 - other.x.0).hypot(one.y.0 - other.y.0);
+    flat_mm.hypot(one.z.0 - other.z.0)
+}
+
+#[cfg(test)]
+mod tests;
