@@ -102,7 +102,7 @@ impl Scene {
         check::checked(Text::new(source_name, text)?, NamedBy::Rig)
     }
 
-    /// Replaces the devices of every study that presses with those of `rig`.
+    /// In every study that presses, replaces the devices by the devices of `rig`.
     ///
     /// # Errors
     /// [`SceneError`] of the rig file, if the file has no sensor.

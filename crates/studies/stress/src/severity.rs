@@ -18,11 +18,11 @@ pub const NEVER: u8 = 6;
 const LEAST: f64 = 1e-7;
 /// Accepted excess of a solved stimulus, as a ratio.
 const ACCURACY: f64 = 1.02;
-/// Bisections of a search.
+/// Number of bisections of a search.
 const STEPS: usize = 28;
 /// Number of lines over which the stimulus is averaged, for a fault that is drawn for each picture.
 const LINES: u32 = 512;
-/// Maximum number of pictures over which that stimulus is averaged.
+/// Maximum number of pictures over which the stimulus of such a fault is averaged.
 const DRAWN: u32 = 32;
 
 /// Quantity that sets severity.
@@ -173,7 +173,7 @@ pub(crate) struct Reference<'a> {
 }
 
 impl Reference<'_> {
-    /// Change of the untouched picture by the fault, as a share of that by contact.
+    /// Change of the untouched picture by the fault, as a share of the change by contact.
     fn stimulus(&self, fault: &'static Fault, parameter: f64) -> f64 {
         if Stress::new(fault, parameter, self.seed).repeats() {
             return parameter * self.scale.successive / self.contact;

@@ -6,7 +6,7 @@ use taceva_core::{Frame, single};
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
-/// Seeds of the draws of `fault`: of `count` for a fault with drawn places, otherwise of one. The first is `seed`.
+/// Seeds of the draws of `fault`: `count` seeds for a fault with drawn places, otherwise one seed. The first is `seed`.
 pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
     let others = match fault.scope {
         Scope::Drawn => 1..count,

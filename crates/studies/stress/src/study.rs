@@ -39,8 +39,8 @@ pub fn stress(
     measure(dataset, model, setup, request, OtherFaults::default(), work)
 }
 
-/// Same as [`stress`] for the samples of `target`, which the caller knows that the model has not seen. Its part replaces that of `request`.
-/// The faults in `others` come after those of `request`; without a name in `request.faults`, they are the only ones.
+/// Same as [`stress`] for the samples of `target`, which the model must not have seen. These samples replace the part of `request`. The faults in
+/// `others` come after those of `request`; without a name in `request.faults`, they are the only ones.
 ///
 /// # Errors
 /// Errors of [`stress`].

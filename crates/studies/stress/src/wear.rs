@@ -173,7 +173,7 @@ impl Measured {
         })
     }
 
-    /// Limits of the scores, with the folder of the recording.
+    /// Notes on limitations of the scores, each with the folder of the recording.
     fn notes(&self, dataset: &Dataset) -> Vec<String> {
         let notes = of_scores(&self.scored, self.samples).into_iter().flatten();
         let notes = notes.map(|note| format!("{}: {note}", shown(dataset.path())));

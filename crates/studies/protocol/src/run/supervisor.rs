@@ -28,7 +28,7 @@ use repeats::Repeats;
 
 /// Distance from target or path at which the tip counts as diverged, in mm.
 const DIVERGED_MM: f64 = 0.5;
-/// The same in standard deviations of the reported pose, if that is greater.
+/// Distance at which the tip counts as diverged, in standard deviations of the reported pose. The greater distance applies.
 const DIVERGED_NOISES: f64 = 5.0;
 /// Greatest rate of force of a gel pressed at 5 mm/s or slower, in N/s.
 const RATE_MAX_N_S: f64 = 200.0;

@@ -80,7 +80,7 @@ pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
     aside_mm <= ASIDE_PART * (end.z.0 - start.z.0)
 }
 
-/// A pose between two, with the rotation of the second.
+/// Pose at the fraction `part` of the way between two poses, with the rotation of the second.
 pub(super) fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
     let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
     let (start, end) = (&from.position, &to.position);

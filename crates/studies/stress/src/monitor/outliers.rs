@@ -6,11 +6,11 @@ use taceva_core::Frame;
 
 use super::limit::{LEARNT, RUNS, WINDOW};
 
-/// Least number of the newest pictures beyond the limit that shows a change.
+/// Least number of newest pictures beyond the limit that counts as a change.
 const BEYOND: usize = 3;
 
-/// Mean absolute change of the line that changes most from `before` to `frame`, less that of all lines, a share of full scale. A change that lasts
-/// appears once only.
+/// Mean absolute change of the line that changes most from `before` to `frame`, minus the mean over all lines, as a share of full scale. A lasting
+/// change appears only once.
 pub(super) fn line_change(before: &Frame, frame: &Frame) -> f64 {
     let info = frame.info();
     let length = info.width as usize * info.format.samples();
@@ -28,12 +28,12 @@ pub(super) fn line_change(before: &Frame, frame: &Frame) -> f64 {
     (farthest as f64 - mean) / (length as f64 * f64::from(info.format.full_scale()))
 }
 
-/// A number of each untouched picture, with a limit that only strange pictures exceed.
+/// One measured value of each untouched picture, with a limit that only outliers exceed.
 #[derive(Clone, Debug)]
 pub(super) struct Outliers {
     /// Least excess over the median that counts as beyond.
     least: f64,
-    /// Pictures that set the limit.
+    /// Number of pictures that set the limit.
     wanted: usize,
     learnt: Vec<f64>,
     /// Median and limit, set by the last of the `wanted` pictures.
@@ -52,7 +52,7 @@ impl Outliers {
         }
     }
 
-    /// Sets the number of pictures that set the limit. No picture was taken yet.
+    /// Sets the number of pictures that set the limit. Call it before the first picture.
     pub(super) fn want(&mut self, pictures: usize) {
         self.wanted = pictures;
     }
@@ -62,7 +62,7 @@ impl Outliers {
         self.limit.map(|[median, limit]| limit - median)
     }
 
-    /// Takes the number of the next picture. Returns the usual excess of the pictures beyond the limit, if [`BEYOND`] of the newest pictures are.
+    /// Takes the value of the next picture. If at least [`BEYOND`] of the newest pictures are beyond the limit, returns their median excess.
     pub(super) fn push(&mut self, number: f64) -> Option<f64> {
         let Some([median, limit]) = self.limit else {
             self.learnt.push(number);
@@ -81,7 +81,7 @@ impl Outliers {
         (beyond.len() >= BEYOND).then(|| beyond[beyond.len() / 2] - median)
     }
 
-    /// [`RUNS`] times the excess of the greatest number over the median.
+    /// [`RUNS`] times the excess of the greatest value over the median.
     fn limit_of_learnt(&self) -> Option<[f64; 2]> {
         let mut sorted = self.learnt.clone();
         sorted.sort_unstable_by(f64::total_cmp);

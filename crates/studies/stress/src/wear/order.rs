@@ -149,7 +149,7 @@ fn check_presses(recordings: &[Dataset], gel: &[Placed]) -> Result<(), EvaluateE
     ))
 }
 
-/// Gives the recordings of a gel their places, and sorts them.
+/// Sets the place of each recording of a gel, and sorts by place.
 fn place(recordings: &[Dataset], gel: &mut [Placed], by: WearBy) -> Result<(), EvaluateError> {
     let first = gel.iter().filter_map(|of| of.day).min();
     let day = |day: Date| day.days_since_1970() as f64;

@@ -29,7 +29,7 @@ pub struct WearReport {
     pub units: ByChannel<&'static str>,
     /// Gels of the unit, by name.
     pub gels: Vec<GelWear>,
-    /// Limits of what the numbers contain, as sentences.
+    /// Limitations of the numbers, as sentences.
     pub notes: Vec<String>,
 }
 

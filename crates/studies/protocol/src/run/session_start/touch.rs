@@ -26,11 +26,11 @@ const RISE: f64 = 3.0;
 const FORCE_PART: f64 = 0.5;
 /// Greatest depth of the touch, as a part of the depth limit.
 const DEPTH_PART: f64 = 0.5;
-/// Depth for the comparison with other sessions, in mm, and its greatest part of the limits of depth and force.
-/// A shallower touch varies with the height of the contact. Taps use a greater part.
+/// Depth for the comparison with other sessions, in mm, and its greatest fraction of the depth limit and of the force limit. A shallower touch varies
+/// with the height of the contact. Taps use a greater fraction.
 const REFERENCE_MM: f64 = 0.3;
 const REFERENCE_PART: f64 = 0.3;
-/// Greatest slope of a force over its depth, relative to their ratio: of a ball, by Hertz.
+/// Greatest ratio of the force slope to force divided by depth: 1.5 for a ball (Hertz).
 const SLOPE: f64 = 1.5;
 /// Sideways push to each side, in mm.
 const PUSH_MM: f64 = 0.2;
@@ -129,8 +129,8 @@ impl Run<'_> {
         }
     }
 
-    /// Continues the press to the depth at which sessions are compared. It is that of an earlier session, or otherwise [`REFERENCE_MM`]. Stops earlier at a
-    /// part of the force limit.
+    /// Continues the press to the depth at which sessions are compared. The depth is `earlier_mm`, or [`REFERENCE_MM`] in a first session. Stops
+    /// earlier at a part of the force limit.
     fn press_deeper(&mut self, height_mm: f64, earlier_mm: Option<f64>) -> Step<Force> {
         let part = match earlier_mm {
             Some(_) => FORCE_PART,
