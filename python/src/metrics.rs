@@ -26,7 +26,7 @@ pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     known.map(|channel| channel.unit().symbol())
 }
 
-/// Order of `channels`, given with their units, in sums and recordings: the six first, then others by name.
+/// Order of `channels`, given with their units, in sums and recordings: the six contact channels first, then others by name.
 #[pyfunction]
 pub(crate) fn channel_order(channels: Vec<(String, String)>) -> PyResult<Vec<usize>> {
     let ordered = channels_of(&channels)?;
@@ -144,8 +144,8 @@ impl Sums {
         })
     }
 
-    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`, and then adds no row. With `apart`, some rows may be added, and
-    /// the caller discards the sums.
+    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`, and then adds no row. With `apart`, such a failed call may add
+    /// some rows, and the caller discards the sums.
     #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,

@@ -126,7 +126,7 @@ pub(crate) struct SweepShow {
 pub(crate) struct SweepCollect {
     #[command(flatten)]
     pub(crate) of: SweepFolderArgs,
-    /// The list of tasks [default: that of the last call]
+    /// The list of tasks [default: the list of the last call]
     #[arg(long, value_name = "TASKS.json")]
     pub(crate) tasks: Option<PathBuf>,
 }

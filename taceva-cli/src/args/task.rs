@@ -6,7 +6,7 @@ use taceva_tasks::PublicProgram;
 
 use super::SettingArgs;
 
-/// Options that concern channels, which tasks do not have.
+/// Options for channels. Tasks have no channels.
 const OF_CHANNELS: [&str; 11] = [
     "units",
     "periods",
@@ -24,10 +24,10 @@ const OF_CHANNELS: [&str; 11] = [
 /// Tasks to score in the place of channels.
 #[derive(Debug, Args)]
 pub(crate) struct TaskArgs {
-    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be repeated. The
-    /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
-    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; the truth of NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions
-    /// are an array of maps (.npy, .npz, .h5). Refused beside it, as options of channels: --units, --periods, --allow-invalid, --shard,
+    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be
+    /// repeated. The column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and
+    /// takes thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; the truth of NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are
+    /// an array of maps (.npy, .npz, .h5). Not allowed with it, because these options concern channels: --units, --periods, --allow-invalid, --shard,
     /// --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
@@ -40,8 +40,8 @@ pub(crate) struct TaskArgs {
     /// Predict the positive class from the Nth positive frame in a row on, as NAME=N; may be repeated
     #[arg(id = "debounce", long, value_name = "NAME=N", requires = "task")]
     pub(crate) debounces: Vec<String>,
-    /// Print the numbers of a public program too, each beside the right one with the reason for the difference: sparsh, touch-and-go, normalflow or
-    /// objectfolder
+    /// Also print the numbers of a public program, each beside the correct number and the reason for the difference: sparsh, touch-and-go, normalflow
+    /// or objectfolder
     #[arg(id = "as", long = "as", value_name = "PROGRAM", requires = "task")]
     pub(crate) program: Option<PublicProgram>,
 }
@@ -58,7 +58,7 @@ pub(crate) struct WindowArgs {
 }
 
 impl WindowArgs {
-    /// `settings` with those of the window.
+    /// `settings`, with the settings of the window added.
     pub(crate) fn on(&self, settings: &SettingArgs) -> SettingArgs {
         let window = self.window.map(|frames| format!("window={frames}"));
         let stride = self.stride.map(|frames| format!("stride={frames}"));

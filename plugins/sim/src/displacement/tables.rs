@@ -14,7 +14,7 @@ const ROWS: usize = 18;
 const SMALLEST_RADIUS_MM: f64 = 0.1;
 /// Step between nodes with a computed integral. A cubic interpolates between them.
 const STRIDE: usize = 4;
-/// Shared tables that are kept, of 0.4 MB each: more than twice as many as the gels of this crate need.
+/// Number of shared tables that are kept, 0.4 MB each: more than twice as many as the gels of this crate need.
 const SHARED: usize = 10;
 
 /// Radial functions of a bonded incompressible layer at one depth below its surface.

@@ -137,7 +137,7 @@ fn tested(study: &PlannedStudy) -> Vec<&PlannedPress> {
 
 /// Faults of a scene.
 struct Wanted {
-    /// Faults of pictures; without a name if only gels are tested.
+    /// Request for faults of pictures; it names no fault if only gels are tested.
     request: StressRequest,
     gels: Vec<GelFault>,
 }
@@ -365,7 +365,7 @@ fn press_worn(
     })
 }
 
-/// Writes the errors of study `number`, and returns them as others read them.
+/// Writes the errors of study `number`, and returns them in the form that reports read.
 fn write(
     found: &StressReport,
     folder: &RunFolder,

@@ -30,7 +30,7 @@ pub struct GelsightSpec {
     pub markers: Option<MarkerGrid>,
     /// Width and height of the field.
     pub field_mm: [f64; 2],
-    /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less of all directions (free).
+    /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less diffuse light (free).
     pub wear: Option<GelWear>,
 }
 
