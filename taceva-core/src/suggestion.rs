@@ -25,7 +25,7 @@ pub fn nearest<'a>(wrong: &str, candidates: impl IntoIterator<Item = &'a str>) -
         .map(|(_, _, candidate)| candidate)
 }
 
-/// "Did you mean" with the nearest of `accepted`, or the list of all of them.
+/// "Did you mean" with the nearest of `accepted`, or the list of all accepted words.
 ///
 /// ```
 /// use taceva_core::suggestion;

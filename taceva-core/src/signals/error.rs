@@ -13,7 +13,7 @@ use super::SignalInfo;
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SignalError {
-    /// A grid without numbers, or with more than [`LEN_MAX`](SignalInfo::LEN_MAX) of them.
+    /// A grid without numbers, or with more than [`LEN_MAX`](SignalInfo::LEN_MAX) numbers.
     Grid {
         /// The grid.
         info: SignalInfo,

@@ -2,17 +2,17 @@
 
 use std::time::Duration;
 
-/// Number of pictures after which the place of the clock on this machine's clock is fixed. A drift remains in the stamps.
+/// Number of pictures after which the offset between both clocks is fixed. A drift remains in the stamps.
 const PICTURES: u32 = 32;
-/// Greatest change between two pictures of the time from the stamp to the arrival, s. A greater one is a step of the server's clock, or its restart.
+/// Greatest change of the delay from stamp to arrival between two pictures, s. A greater change is a step of the server's clock, or its restart.
 const STEP_S: f64 = 10.0;
 
-/// Place of a server's clock on the monotonic clock of this machine.
+/// Offset of a server's clock from the monotonic clock of this machine.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct CameraClock {
     /// Least time from a server's stamp to the arrival, s; `None` before the first picture. Delays only add to it.
     behind_s: Option<f64>,
-    /// The same time of the last placed picture.
+    /// Time from the stamp to the arrival of the last picture, s.
     newest_s: Option<f64>,
     pictures: u32,
     /// Last returned time, s.

@@ -27,9 +27,10 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 /// - Zero is the mean of 0.25 s, subtracted by the driver. With `zero=box` the box zeroes itself, which takes seconds.
 /// - `force_max_n` from the certificate makes a clipped force an error. Without it, clipping goes undetected.
 ///
-/// # Verification Two published frames, whose values and checksums are tested, and an emulated box on which the driver passes its suite. There
-/// is no public client. **Not verified without the device**: the answers to queries and to a stop, zero in the box, and frames with CRC32. The
-/// unit of torque (N·m unless `torque=N mm`) is not verified either. The CRC's polynomial and byte order come from a single public driver.
+/// # Verification
+/// The values and checksums of two published frames are tested. The driver passes its suite on an emulated box. There is no public client.
+/// **Not verified without the device**: the answers to queries and to a stop, zero in the box, and frames with CRC32. The unit of torque (N·m
+/// unless `torque=N mm`) is not verified either. The CRC's polynomial and byte order come from a single public driver.
 ///
 /// ```
 /// use taceva_core::Factory;
