@@ -95,7 +95,7 @@ pub(crate) fn metric_titles() -> Vec<(String, String)> {
     metrics.chain(groups).collect()
 }
 
-/// Found plugins, and a sentence for each unused one.
+/// Found plugins, and a sentence for each unused plugin.
 #[pyfunction]
 pub(crate) fn found_plugins(py: Python<'_>) -> PyResult<(Vec<FoundPlugin>, Vec<String>)> {
     let host = host(py)?;

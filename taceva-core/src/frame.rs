@@ -162,7 +162,7 @@ fn check_len(info: FrameInfo, found: usize) -> Result<(), FrameError> {
     }
 }
 
-/// A buffer whose length differs from that of its frame.
+/// A buffer whose length differs from the length of its frame.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};

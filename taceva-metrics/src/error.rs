@@ -42,7 +42,7 @@ pub enum MetricError {
         /// Columns found.
         found: usize,
     },
-    /// A missing value in a column that needs one in every row.
+    /// A missing value in a column that needs a value in every row.
     Absent {
         /// Index of the row, from 0.
         row: usize,

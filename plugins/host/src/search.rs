@@ -37,7 +37,7 @@ pub struct Plugin {
     pub place: Place,
     /// Code of the plugin.
     pub code: Code,
-    /// For a Python module: the interpreter of its environment, or the first known one. `None` for a library.
+    /// For a Python module: the interpreter of its environment, or the first known interpreter. `None` for a library.
     pub interpreter: Option<Interpreter>,
     /// Interpreters that were named but rejected, with the reasons.
     rejected_interpreters: Vec<String>,

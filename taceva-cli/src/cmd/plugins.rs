@@ -22,7 +22,7 @@ fn compiled() -> Models {
 }
 
 impl Context {
-    /// All drivers: built-in ones, and those of plugins, including plugins beside the scene at `scene`.
+    /// All drivers: built-in drivers and drivers of plugins, including plugins beside the scene at `scene`.
     pub(crate) fn drivers(&self, scene: Option<&Path>) -> anyhow::Result<Drivers> {
         let host = self.plugins(scene)?;
         Ok(Drivers::builtin()?.with_plugins(&host)?)

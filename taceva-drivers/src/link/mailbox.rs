@@ -110,7 +110,7 @@ impl<T: Clone> Mailbox<T> {
         (inside.ended, inside.newest) = (None, None);
     }
 
-    /// Newest item; `None` before the first one and after the end.
+    /// Newest item; `None` before the first item and after the end.
     #[cfg(any(feature = "netft", feature = "sri", feature = "ur", feature = "xarm"))]
     pub(crate) fn newest(&self) -> Option<Seen<T>> {
         let inside = self.inside();

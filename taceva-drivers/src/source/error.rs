@@ -46,7 +46,7 @@ pub enum SourceError {
         /// The fault and the expected value.
         problem: String,
     },
-    /// The frame differs in size or format from the first one.
+    /// The frame differs in size or format from the first frame.
     #[error(
         "{}: a frame of {found}, expected {expected} like the first one",
         shown(path)

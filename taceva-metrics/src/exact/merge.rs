@@ -30,7 +30,7 @@ impl<T: Merge, const N: usize> Merge for [T; N] {
     }
 }
 
-/// Map from entries. The last entry of a name replaces earlier ones.
+/// Map from entries. The last entry of a name replaces earlier entries.
 ///
 /// Unlike `collect`, the function has no separate sorting code for each type of iterator, which took a tenth of the compile time.
 pub(crate) fn keyed<T>(entries: impl IntoIterator<Item = (String, T)>) -> BTreeMap<String, T> {

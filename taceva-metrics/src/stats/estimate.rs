@@ -255,7 +255,7 @@ impl Estimate {
     }
 }
 
-/// Converts a computed interval to a stated one.
+/// Converts a computed interval to a stated interval.
 fn stated(interval: &Interval) -> Option<StatedInterval> {
     let (ends, freedom) = (interval.ends()?, interval.freedom()?);
     let stated = StatedInterval::new(ends, freedom, interval.clusters()?).on(interval.scale()?);

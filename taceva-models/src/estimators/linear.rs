@@ -65,8 +65,9 @@ const CHUNK: usize = 64;
 impl LinearRegressor {
     /// Builds a regressor from weights and biases.
     ///
-    /// `weights`: `[channels, features]`. `bias`: `[channels]`.
+    /// # Shapes
     /// `weights`: `[channels, features]`; `bias`: `[channels]`.
+    ///
     /// # Units
     /// Units of the channels.
     /// # Errors

@@ -1,4 +1,4 @@
-//! Windows of frames: a sample reads its own frame and earlier ones.
+//! Windows of frames: a sample reads its own frame and earlier frames.
 
 use serde::{Deserialize, Serialize};
 
@@ -43,7 +43,7 @@ impl FrameWindow {
     /// Greatest distance between two frames.
     pub const STRIDE_MAX: u32 = 1000;
 
-    /// Window of `frames` frames, each `stride` frames after the one before; `None` for a single frame and for numbers out of range.
+    /// Window of `frames` frames, each `stride` frames after the previous frame; `None` for a single frame and for numbers out of range.
     pub fn new(frames: u32, stride: u32) -> Option<FrameWindow> {
         let window = FrameWindow { frames, stride };
         window.is_valid().then_some(window)
@@ -74,14 +74,14 @@ impl FrameWindow {
         self.stride
     }
 
-    /// Places in a sequence of the frames of the sample at `place`, the newest first. The first frame stands for those before it.
+    /// Positions in the sequence of the frames of the sample at `place`, newest first. The first frame replaces missing earlier frames.
     pub fn places(self, place: usize) -> impl Iterator<Item = usize> {
         let back = move |frame: u32| frame as usize * self.stride as usize;
         (0..self.frames).map(move |frame| place.saturating_sub(back(frame)))
     }
 
-    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change to each frame from the one
-    /// before follows.
+    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change of each frame from the
+    /// previous frame follows.
     ///
     /// # Shapes
     /// `frames`: the features of each frame, the newest first, each `[cells, depth]`.

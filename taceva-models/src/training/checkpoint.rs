@@ -16,7 +16,7 @@ pub(crate) use identity::Identity;
 
 /// Location and interval of the checkpoints of a training run.
 ///
-/// Checkpoints do not affect the result. A resumed training gives the same bits as an uninterrupted one.
+/// Checkpoints do not affect the result. A resumed training gives the same bits as an uninterrupted training.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Checkpoints {
     /// Path of the checkpoint file. Checkpoints are written as `.<name>.partial` in the same folder, synchronised to disk and renamed.

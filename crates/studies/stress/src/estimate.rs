@@ -65,7 +65,7 @@ impl fmt::Display for Undefined {
     }
 }
 
-/// A number with its 95 % interval, or the reason for an absent one.
+/// A number with its 95 % interval, or the reason for a missing interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The number.

@@ -1,4 +1,4 @@
-//! Monitor of a sensor in use: untouched pictures are compared with earlier ones, and pictures of contact with the training pictures.
+//! Monitor of a sensor in use: untouched pictures are compared with earlier untouched pictures, and pictures of contact with the training pictures.
 
 mod baseline;
 mod change;
@@ -77,7 +77,7 @@ pub struct Monitor {
     detail: Limited,
     lines: Outliers,
     before: Option<Frame>,
-    /// True if a picture repeated the one before while the limits were set. Repeats are then no change.
+    /// True if a picture repeated the previous picture while the limits were set. Repeats are then no change.
     has_repeats: bool,
     repeats: Newest,
     training: Option<Training>,

@@ -91,7 +91,7 @@ pub struct CellScore {
     pub skill: Estimate,
     /// Error divided by the error without the fault.
     pub degradation: Estimate,
-    /// The error, or that of the constant prediction if it is less.
+    /// The error, or the error of the constant prediction if that is less.
     pub capped: Option<f64>,
     /// Least and greatest degradation of a single draw; `None` for one draw.
     pub spread: Option<[f64; 2]>,

@@ -13,7 +13,7 @@ use super::rig::SimulatedRig;
 use crate::parameters::Model;
 
 const KEY: DriverKey = DriverKey::fixed("sim/force-transducer");
-/// Reading rate, Hz. Each reading averages over the time since the last one.
+/// Reading rate, Hz. Each reading averages over the time since the last reading.
 const RATE_HZ: f64 = 200.0;
 const READING: Duration = Duration::from_millis(5);
 /// Readings averaged for the tare.

@@ -47,7 +47,7 @@ impl Watch {
         Arc::clone(&self.reports)
     }
 
-    /// Newest report; `None` before the first one and after the end.
+    /// Newest report; `None` before the first report and after the end.
     pub(super) fn newest(&self) -> Option<Seen<ArmReport>> {
         self.reports.newest()
     }

@@ -35,7 +35,7 @@ fn candidates<'a>(
 }
 
 impl Auto {
-    /// Fits each classifier to `training` and takes the one with the smallest share of wrong samples of `held`, averaged over its labels.
+    /// Fits each classifier to `training` and takes the classifier with the smallest share of wrong samples of `held`, averaged over its labels.
     /// Takes the simplest of several with equal shares.
     ///
     /// # Errors

@@ -14,7 +14,7 @@ pub(super) struct Growth {
     pub(super) depth: usize,
     /// Minimum number of samples in a leaf.
     pub(super) leaf: usize,
-    /// Number of features considered for a split. They are drawn anew for each split.
+    /// Number of features considered for a split. They are drawn for each split.
     pub(super) features: usize,
 }
 
@@ -62,8 +62,8 @@ pub(super) struct Samples<'a> {
 impl Samples<'_> {
     /// Grows a tree on the samples `rows`, which may contain duplicates.
     ///
-    /// Each split explains the greatest part of the variance, summed over all outputs. Of equal splits, the one with the first feature and the lowest bin is
-    /// chosen. One thread sums each feature, in the order of `rows`.
+    /// Each split explains the greatest part of the variance, summed over all outputs. Of equal splits, the split with the first feature and the
+    /// lowest bin is chosen. One thread sums each feature, in the order of `rows`.
     pub(super) fn grow(&self, mut rows: Vec<u32>, random: &mut SplitMix64) -> Tree {
         let mut tree = Tree::default();
         let mut order: Vec<usize> = (0..self.binned.features()).collect();

@@ -11,7 +11,7 @@ const ALIKE: f32 = 0.15;
 const ACROSS_MIN: f64 = 4.0;
 /// Smallest spacing of markers, in pixels.
 const SPACING_MIN_PX: f64 = 5.0;
-/// Ratio of each tried spacing to the previous one.
+/// Ratio of each tried spacing to the previous spacing.
 const FINER: f64 = 0.8;
 /// Number of neighbours that determine the local spacing of a marker.
 const NEIGHBOURS: usize = 6;

@@ -9,7 +9,7 @@ use crate::content_id::ContentId;
 
 /// Record of finished presses that remains after the process ends.
 pub trait PressLog {
-    /// True if `press` was appended, in this run or an earlier one.
+    /// True if `press` was appended, in this run or an earlier run.
     fn is_finished(&self, press: ContentId) -> bool;
 
     /// Appends a complete press, and returns when it is safely stored. After an interruption, the log contains all of the press or nothing.

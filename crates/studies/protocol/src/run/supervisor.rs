@@ -226,7 +226,7 @@ impl Supervisor {
         self.tripped
     }
 
-    /// True if the last force differs from the one before the last motion. The signal is then not frozen.
+    /// True if the last force differs from the force before the last motion. The signal is then not frozen.
     pub fn is_fresh(&self) -> bool {
         self.repeats.count() == 0
     }

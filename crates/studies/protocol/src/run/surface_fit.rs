@@ -213,7 +213,7 @@ impl<'a> Centred<'a> {
         }
     }
 
-    /// Weight of a residual relative to that of the least one.
+    /// Weight of a residual relative to the weight of the least residual.
     fn part_of(&self, least: f64, residual: f64) -> f64 {
         let mut base = (least / residual).sqrt();
         let mut exponent = self.readings.len().saturating_sub(PARAMETERS);

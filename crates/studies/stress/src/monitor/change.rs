@@ -18,7 +18,7 @@ pub enum Change {
     Detail,
     /// Lines of some untouched pictures are displaced or lost: a cable, a connector.
     Lines,
-    /// Untouched pictures repeat the one before.
+    /// Untouched pictures repeat the previous picture.
     Repeats,
     /// Pictures of contact are unlike the training pictures.
     Contact,

@@ -1,4 +1,4 @@
-//! Brightness of untouched pictures, as a mean over the newest ones, because a single picture flickers.
+//! Brightness of untouched pictures, as a mean over the newest pictures, because a single picture flickers.
 //!
 //! Real flicker is not independent: lamps beat with the exposure. Means of successive pictures, taken while the limit is set, measure this flicker.
 
@@ -15,7 +15,7 @@ const LEAST: f64 = 0.1;
 /// Greatest change that one picture contributes, in multiples of the limit. A few outliers are then no change.
 const MOST: f64 = 5.0;
 
-/// Brightness of each untouched picture, with the mean and the spread of the first ones.
+/// Brightness of each untouched picture, with the mean and the spread of the first values.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
     /// Number of pictures that set the limit, at least [`WINDOW`].

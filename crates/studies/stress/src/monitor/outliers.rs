@@ -1,4 +1,4 @@
-//! Lines that change between successive pictures, and single changes far beyond all earlier ones.
+//! Lines that change between successive pictures, and single changes far beyond all earlier changes.
 
 use std::collections::VecDeque;
 

@@ -63,7 +63,7 @@ pub struct RecordingWear {
     pub left_out: usize,
     /// Untouched picture: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
-    /// Change of the untouched picture from that of the first recording, divided by the mean change by contact in the first.
+    /// Change of the untouched picture from the untouched picture of the first recording, divided by the mean change by contact in the first.
     pub stimulus: Option<f64>,
     /// Mean absolute errors.
     pub mae: ByChannel<Estimate>,
@@ -73,7 +73,7 @@ pub struct RecordingWear {
     pub provenance: Provenance,
 }
 
-/// Difference of the error of a recording from that of the first.
+/// Difference of the error of a recording from the error of the first recording.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct WearDifference {
     /// The difference, in the unit of the channel.
@@ -97,7 +97,7 @@ pub struct ChannelWear {
     pub slope: Estimate,
     /// Place at which the limit of the channel is met; `None` without a limit.
     pub limit: Option<LimitMet>,
-    /// Folder of the first recording whose error is shown to differ from that of the first.
+    /// Folder of the first recording whose error is shown to differ from the error of the first recording.
     pub first_different: Option<String>,
 }
 

@@ -151,7 +151,7 @@ impl Camera {
         Ok(value.value)
     }
 
-    /// Sets a control and returns the resulting value, which may differ from the requested one.
+    /// Sets a control and returns the resulting value, which may differ from the requested value.
     ///
     /// # Errors
     /// [`V4l2Error`] if the control does not exist or rejects the value, or the camera is gone.

@@ -35,7 +35,7 @@ pub(super) struct Freeze {
     is_noiseless: bool,
 }
 
-/// Frame that differs from the one before it.
+/// Frame that differs from the previous frame.
 struct Distinct {
     frame: Frame,
     moment: Moment,
@@ -55,7 +55,7 @@ impl Freeze {
         }
     }
 
-    /// True if `frame`, captured at `moment`, equals the previous frame or repeats a sequence of older ones, although the force changed.
+    /// True if `frame`, captured at `moment`, equals the previous frame or repeats a sequence of older frames, although the force changed.
     ///
     /// A blank frame, as from a camera in the dark, never counts as repeated.
     pub(super) fn is_frozen(&mut self, frame: &Frame, moment: Moment) -> bool {

@@ -83,7 +83,7 @@ fn whole(along: [Option<Along>; 3]) -> Option<[Along; 3]> {
     }
 }
 
-/// Cross product of two signed axes; `None` for parallel ones.
+/// Cross product of two signed axes; `None` for parallel axes.
 fn cross(one: Along, other: Along) -> Option<Along> {
     let sign = one.sign * other.sign;
     let (step, sign) = match (3 + other.axis - one.axis) % 3 {

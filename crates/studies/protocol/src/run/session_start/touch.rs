@@ -238,8 +238,8 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step below the
-    /// threshold and the first one above. `None` at the end of the search.
+    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step
+    /// below the threshold and the first step above. `None` at the end of the search.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<Surface>> {
         self.watch(MotionStage::Search);
         let start_mm = self.target.position.z.0;
@@ -319,7 +319,7 @@ impl Tip<'_> {
     }
 }
 
-/// Standard uncertainty of a height between two steps, in mm, from the noise of a reading and the rise of the force over the step, in N.
+/// Standard uncertainty of a height between two steps, in mm. It follows from the noise of a reading and the rise of the force over the step, in N.
 fn between_steps_mm(step_mm: f64, noise_n: f64, rise_n: f64) -> f64 {
     // The line between two steps deviates from the curve of a gel by up to an eighth of a step.
     let of_line_mm = step_mm / 8.0 / 3.0_f64.sqrt();
