@@ -62,7 +62,7 @@ fn log() -> PluginLog {
     })
 }
 
-/// Names of all models and presets, each with a one-line description; those of plugins last.
+/// Names of all models and presets, each with a one-line description; models of plugins last.
 #[pyfunction]
 pub(crate) fn model_names(py: Python<'_>) -> PyResult<Vec<(String, String)>> {
     let compiled = dataset::models();

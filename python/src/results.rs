@@ -220,7 +220,7 @@ pub(crate) fn comparison(
     }
 }
 
-/// Note on studies without samples; `None` if all have some.
+/// Note on studies without samples; `None` if all studies have samples.
 fn without_samples(names: &[String], studies: &[Study]) -> Option<String> {
     let absent = names.iter().zip(studies);
     let absent = absent.filter(|(_, study)| study.samples.is_none());

@@ -34,7 +34,7 @@ impl Context {
         Ok(compiled().with(host.models()))
     }
 
-    /// All drivers and models, including those of plugins beside the scene at `scene`.
+    /// All drivers and models, including drivers and models of plugins beside the scene at `scene`.
     pub(crate) fn equipment(&self, scene: &Path) -> anyhow::Result<(Drivers, Models)> {
         let host = self.plugins(Some(scene))?;
         let drivers = Drivers::builtin()?.with_plugins(&host)?;

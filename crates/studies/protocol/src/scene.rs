@@ -87,9 +87,9 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with the line:
     ///
-    /// - invalid TOML, or an unknown key or name, with the most similar known one;
+    /// - invalid TOML, or an unknown key or name, with the most similar known name;
     /// - a count or number out of range, or two contradictory statements;
-    /// - a limit of a study above that of its scene.
+    /// - a limit of a study above the limit of its scene.
     pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
         check::checked(Text::new(source_name, text)?, NamedBy::Scene)
     }

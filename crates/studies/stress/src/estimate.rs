@@ -1,4 +1,4 @@
-//! Numbers with intervals, and the reasons for absent ones.
+//! Numbers with intervals, and the reasons for absent numbers and intervals.
 
 use std::fmt;
 

@@ -81,7 +81,7 @@ pub struct Monitor {
     has_repeats: bool,
     repeats: Newest,
     training: Option<Training>,
-    /// Number of untouched pictures of the calibration; `None` if the monitor was not to learn from them.
+    /// Number of untouched pictures of the calibration; `None` if the monitor does not learn from them.
     calibration: Option<usize>,
     untouched: u64,
     /// Number of untouched pictures that were compared with the limits.

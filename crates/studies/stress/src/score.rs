@@ -45,7 +45,7 @@ pub(crate) struct Scored {
 }
 
 impl<'a> Scorer<'a> {
-    /// Scorer of `rows` by the channels of `model` that are not angles: the difference of two angles is not their error.
+    /// Scorer of `rows` by the channels of `model` except angles, whose errors are not plain differences.
     pub(crate) fn new(
         dataset: &'a Dataset,
         model: &Model,

@@ -11,7 +11,7 @@ use crate::stress::{Stress, draw_seeds};
 
 /// Change of the untouched picture at severities 1 to 5, as a share of the change by contact.
 pub const TARGETS: [f64; 5] = [0.03, 0.1, 0.3, 1.0, 3.0];
-/// Placeholder above all severities, for a fault that ends the skill at none of them.
+/// Placeholder above all severities, for a fault that ends the skill at no severity.
 pub const NEVER: u8 = 6;
 
 /// Least parameter of a search, as a share of the greatest.

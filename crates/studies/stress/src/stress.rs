@@ -64,7 +64,7 @@ impl Stress {
         matches!(self.fault.effect, Effect::Before)
     }
 
-    /// The picture `frame` of `sample` with the fault. `before` is the picture before it, if there is one.
+    /// The picture `frame` of `sample` with the fault. `before` is the previous picture, if any.
     pub fn apply(&self, frame: &Frame, sample: &str, before: Option<&Frame>) -> Frame {
         if self.parameter <= 0.0 || frame.bytes().is_empty() {
             return frame.clone();

@@ -16,7 +16,7 @@ use crate::scale::{Scale, difference};
 use crate::score::{Scored, Scorer, degradation};
 use crate::setup::compares;
 
-/// A fault of a gel, with a recording of the same presses for each severity. A simulated bench makes it; others only read it.
+/// A fault of a gel, with a recording of the same presses for each severity. A simulated bench makes it; callers only read it.
 #[derive(Debug)]
 pub struct WornFault {
     /// Name of the fault, such as `gel_softening`.
@@ -31,14 +31,14 @@ pub struct WornFault {
     pub skipped: Vec<SkippedFault>,
 }
 
-/// The same presses on a gel with a fault of one severity. A simulated bench makes it; others only read it.
+/// The same presses on a gel with a fault of one severity. A simulated bench makes it; callers only read it.
 #[derive(Debug)]
 pub struct WornGel {
     /// The severity, from 1 to 5.
     pub severity: u8,
     /// Parameter of the fault.
     pub parameter: f64,
-    /// The recording; its samples have the names of those on the new gel.
+    /// The recording; its samples have the names of the samples on the new gel.
     pub dataset: Dataset,
 }
 

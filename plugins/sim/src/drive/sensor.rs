@@ -43,7 +43,7 @@ impl SensorFactory {
         })
     }
 
-    /// Parameters of the model, or of the table that the argument `table` names. Without noise for `quiet`.
+    /// Parameters of the model, or of the table that the argument `table` names. Without noise if `quiet` is set.
     fn parameters(&self, args: &Args) -> Result<Parameters, String> {
         let table = args.get("table").and_then(ArgValue::as_text);
         let table = table.unwrap_or(self.model.table());

@@ -100,6 +100,6 @@ impl Marks {
     }
 }
 
-/// Numbers of the places of a tear and of dust, beyond those of scratches.
+/// Numbers of the places of a tear and of dust, above the numbers of scratches.
 const FIRST_TEAR: u64 = 1_000;
 const FIRST_SPECK: u64 = 2_000;

@@ -1,4 +1,4 @@
-//! Finds the errors with faults of results: files of `taceva stress`, and those of a run with `[stress]`.
+//! Finds the errors with faults of results: files of `taceva stress`, and files of a run with `[stress]`.
 
 use std::fs;
 use std::path::{Path, PathBuf};

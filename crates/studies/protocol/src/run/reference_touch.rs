@@ -33,7 +33,7 @@ pub struct ReferenceTouch {
     pub force_n: f64,
     /// Standard uncertainty of the height, in mm.
     pub height_u_mm: f64,
-    /// Standard uncertainty of the force, in N, including that of the depth.
+    /// Standard uncertainty of the force, in N, including the uncertainty of the depth.
     pub force_u_n: f64,
 }
 

@@ -231,7 +231,7 @@ impl Supervisor {
         self.repeats.count() == 0
     }
 
-    /// Checks an observation. A bad one halts the robot before this returns.
+    /// Checks an observation. A bad observation halts the robot before the call returns.
     ///
     /// # Errors
     /// The [`Trip`], which is stored until the next [`release`](Supervisor::release).

@@ -2,7 +2,7 @@
 
 use taceva_core::{Frame, FrameInfo, single};
 
-/// Cells across the width of a picture.
+/// Number of cells across the width of a picture.
 const ACROSS: usize = 16;
 
 /// Mean of untouched pictures, divided into cells.

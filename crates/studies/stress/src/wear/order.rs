@@ -50,7 +50,7 @@ pub(crate) struct Placed {
 /// Recordings of one unit, by gel and place.
 pub(crate) struct Order {
     pub(crate) by: WearBy,
-    /// Recordings of each gel, the first ones first.
+    /// Recordings of each gel in the order of their places, by the name of the gel.
     pub(crate) gels: Vec<Vec<Placed>>,
 }
 
@@ -91,7 +91,7 @@ fn refused<T>(words: String) -> Result<T, EvaluateError> {
     Err(EvaluateError::Request(words))
 }
 
-/// Refuses fewer than two recordings, a recording given twice or with an earlier state of itself, and recordings of several units.
+/// Refuses fewer than two recordings, a recording given twice or together with its earlier state, and recordings of several units.
 fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
     let expected = "expected two or more recordings of one unit, made at different times";
     let [first, others @ ..] = recordings else {

@@ -49,7 +49,7 @@ pub struct GelWear {
 pub struct RecordingWear {
     /// Folder of the recording.
     pub recording: String,
-    /// Origin of the samples, as of [`Subject::source`].
+    /// Origin of the samples, as in [`Subject::source`].
     pub source: String,
     /// Presses on the gel before the recording, if they are stated.
     pub presses_since_gel: Option<u32>,

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// Best and median of several times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Shortest time, the one least affected by disturbances.
+    /// Shortest time, least affected by disturbances.
     pub best: f64,
     /// Median time.
     pub median: f64,

@@ -23,7 +23,7 @@ pub(super) struct Lamp {
     pub(super) colour: [f32; 3],
 }
 
-/// Pixels shaded together.
+/// Number of pixels shaded together.
 pub(super) const CHUNK: usize = 32;
 
 /// Slopes of the coating under a run of pixels of one row, as the camera sees it.

@@ -12,7 +12,7 @@ const NOISY_FRAMES: u32 = 4;
 /// Number of repeats of one frame after which a camera with fewer changes counts as frozen. An earlier similar change of the force must have changed
 /// the frame.
 const STUCK_REPEATS: u32 = 3;
-/// Fraction of the greatest force change so far. A larger force change must change the frame. Forces of presses to one depth vary.
+/// Fraction of the greatest earlier force change. A larger force change must change the frame. Forces of presses to one depth vary.
 const SHOWN_PART: f64 = 0.75;
 /// Numbers of repeated older frames after which a noisy camera, and any other camera, counts as frozen.
 const NOISY_RETURNS: u32 = 3;

@@ -163,7 +163,7 @@ impl Run<'_> {
         limits.map_or(0.0, |limits| limits.depth_max.0)
     }
 
-    /// Force of a push to +x and of one to +y, each as half the difference from its opposite; `None` if not measurable.
+    /// Forces of a push to +x and of a push to +y, each as half the difference from its opposite; `None` if not measurable.
     fn push_aside(&mut self) -> Step<[Option<[f64; 3]>; 2]> {
         let measured = self.tip.force.axes();
         let measures_shear = measured.contains(Axis::Fx) && measured.contains(Axis::Fy);
