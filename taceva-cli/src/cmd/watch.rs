@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// Says what the untouched pictures of the calibration can show, if they are fewer than usual.
+/// Prints the changes that untouched pictures of the calibration can show, if these pictures are fewer than usual.
 fn say_what_is_known(monitor: &Monitor, path: &Path, context: &Context) {
     let pictures = monitor.calibration_pictures().unwrap_or_default();
     if pictures >= Monitor::PICTURES {

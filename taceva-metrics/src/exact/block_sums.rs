@@ -61,7 +61,7 @@ impl BlockSums {
         }
     }
 
-    /// Replaces counts and sums by saved ones with the same streams.
+    /// Replaces counts and sums by saved counts and sums with the same streams.
     pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
         (self.counts, self.settled, self.pending) = (counts, sums, None);
     }

@@ -36,7 +36,7 @@ pub(crate) struct LimitFormula {
     pub(crate) finish: fn(&Errors<'_>, Unit) -> Numbers,
     /// Factor of the standard deviation in the numbers, which is kept for other choices of clusters.
     pub(crate) factor: fn(&NormalSample) -> Option<f64>,
-    /// Replacement of jackknife intervals by more accurate ones.
+    /// Replacement of jackknife intervals by more accurate intervals.
     pub(crate) settle: fn(&mut Intervals, &Whole<'_>),
 }
 

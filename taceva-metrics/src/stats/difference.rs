@@ -57,8 +57,8 @@ pub(super) enum Inverse {
     Student { freedom: f64 },
 }
 
-/// Differences at which another pattern of signs gives a sum as large as the observed one, sorted from below and from above. Patterns with
-/// such a sum at every difference are infinite.
+/// Differences at which another pattern of signs gives a sum as large as the observed sum, sorted from below and from above. Patterns with such a sum
+/// at every difference are infinite.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,

@@ -25,7 +25,7 @@ pub struct TrainingSpread {
 }
 
 impl TrainingSpread {
-    /// Standard error of the score of one training; `None` for fewer than two `values`, or if one is not finite.
+    /// Standard error of the score of one training; `None` for fewer than two `values`, or if a value is not finite.
     ///
     /// ```
     /// assert_eq!(taceva_metrics::TrainingSpread::of_one(&[0.5]), None);

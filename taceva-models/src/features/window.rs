@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// Frames that one sample reads: its own, and earlier ones of the same sequence. No later frame is read.
+/// Frames that one sample reads: its own frame, and earlier frames of the same sequence. No later frame is read.
 ///
 /// ```
 /// use taceva_models::FrameWindow;

@@ -30,7 +30,7 @@ pub struct RobotFacts {
     pub stop_ms: Option<f64>,
     /// Delay from the measurement to the stamp of a pose, ms. A run subtracts this delay from the stamps; 0 needs no correction.
     pub latency_ms: Option<f64>,
-    /// True if the robot can stop by itself at a force.
+    /// True if the robot can stop by itself at a force limit.
     pub guarded_motion: bool,
     /// True if the robot reports poses in its own base frame. The poses must be mapped to the sensor's frame before a move over a gel.
     pub base_frame: bool,

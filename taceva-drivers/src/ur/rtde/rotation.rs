@@ -2,7 +2,7 @@
 
 use taceva_core::{Pose, SiPose};
 
-/// Converts six numbers of the controller to a pose; `None` if one is not finite.
+/// Converts six numbers of the controller to a pose; `None` if a number is not finite.
 pub(super) fn pose_of([x, y, z, rx, ry, rz]: [f64; 6]) -> Option<Pose> {
     let angle = (rx * rx + ry * ry + rz * rz).sqrt();
     // Limit of sin(angle / 2) / angle for a vanishing angle.

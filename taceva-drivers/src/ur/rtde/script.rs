@@ -30,7 +30,7 @@ pub(super) fn cruise(
     )
 }
 
-/// Program that replaces the running one and brakes.
+/// Program that replaces the running program and brakes.
 pub(super) fn stop(deceleration_m_s2: f64) -> String {
     format!("def taceva_stop():\n  stopl({deceleration_m_s2:.6})\nend\n")
 }

@@ -55,7 +55,7 @@ fn write_aligned(f: &mut fmt::Formatter<'_>, lines: &[Vec<String>]) -> fmt::Resu
     Ok(())
 }
 
-/// Number of samples, with the number of invalid ones.
+/// Number of samples, with the number of invalid samples.
 pub(super) fn counted(n: u64, n_invalid: u64) -> String {
     match n_invalid {
         0 => n.to_string(),

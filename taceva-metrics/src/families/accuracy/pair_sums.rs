@@ -82,7 +82,7 @@ impl PairSums {
         }
     }
 
-    /// Replaces counts and sums by saved ones with the same specification.
+    /// Replaces counts and sums by saved counts and sums with the same specification.
     pub(crate) fn set(&mut self, counts: Counts, sums: Sums) {
         self.kept.set(counts, sums);
     }

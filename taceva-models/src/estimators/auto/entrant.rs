@@ -29,7 +29,7 @@ impl Entrant {
         mean(&self.losses[..folds].concat())
     }
 
-    /// Mean difference between the losses of this model and those of `other` on the first `folds` folds.
+    /// Mean difference between the losses of this model and the losses of `other` on the first `folds` folds.
     pub(super) fn excess_over(&self, other: &Entrant, folds: usize) -> Excess {
         Excess::of(
             &self.losses[..folds].concat(),

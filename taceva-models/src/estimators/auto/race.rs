@@ -30,7 +30,7 @@ pub(super) struct Race<'a> {
     pub(super) progress: &'a dyn Progress,
     pub(super) spent_s: f64,
     pub(super) entrants: Vec<Entrant>,
-    /// Shortened training of the network, and its complete training if the shortened one was not decisive.
+    /// Shortened training of the network, and its complete training if the shortened training was not decisive.
     pub(super) network: Vec<Entrant>,
     pub(super) untried: Vec<Untried>,
 }

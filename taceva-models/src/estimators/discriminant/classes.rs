@@ -65,7 +65,7 @@ impl Discriminant {
         Ok(Discriminant { whitening, centres })
     }
 
-    /// Plane (w, b) of each class with samples. The predicted class is the one with the greatest wᵀx + b.
+    /// Plane (w, b) of each class with samples. The predicted class is the class with the greatest wᵀx + b.
     pub(super) fn planes(&self) -> Vec<(Vec<f64>, f64)> {
         let turned = self.whitening.transpose().to_owned();
         let plane = |centre: &Vec<f64>| {

@@ -24,7 +24,7 @@ pub struct NetworkRegressor {
     channels: Channels,
     card: NetworkCard,
     network: Network,
-    /// Idle predictors for reuse. Each prediction takes one, or builds one if none is idle.
+    /// Idle predictors for reuse. Each prediction takes an idle predictor, or builds a new predictor.
     spare: Mutex<Vec<Predictor>>,
 }
 
@@ -135,7 +135,7 @@ pub(super) const fn picture(shape: FeatureShape) -> Picture {
     }
 }
 
-/// All tensors of a file except those of the training distance. All must be of type f32.
+/// All tensors of a file except the tensors of the training distance. All must be of type f32.
 pub(super) fn named_tensors(tensors: &Tensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
     let all = tensors.0.tensors().into_iter();
     let own = all.filter(|(name, _)| !DISTANCE.contains(&name.as_str()));
