@@ -240,8 +240,8 @@ impl Sums {
         *self.evaluator() = Evaluator::new(&self.plan);
     }
 
-    /// Scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order. `name` names
-    /// the scored sensor or model, and `notes` are further notes.
+    /// Scores of all added rows, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order.
+    /// `name` names the scored sensor or model, and `notes` are further notes.
     fn compute(
         &self,
         py: Python<'_>,

@@ -1,4 +1,4 @@
-//! Plugins of this program, and all drivers and models including those of plugins.
+//! Plugins of this program, and all drivers and models including drivers and models of plugins.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -219,7 +219,7 @@ pub struct Axes(u8);
 impl Axes {
     /// No component.
     pub const NONE: Axes = Axes(0);
-    /// The normal force alone.
+    /// Only the normal force.
     pub const NORMAL: Axes = Axes::NONE.with(Axis::Fz);
     /// The three forces.
     pub const FORCE: Axes = Axes::NORMAL.with(Axis::Fx).with(Axis::Fy);

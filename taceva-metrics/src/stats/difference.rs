@@ -34,7 +34,7 @@ pub struct Difference {
     pub interval: [f64; 2],
     /// Confidence of the interval: 0.95 for a single difference, greater in a family.
     pub confidence: f64,
-    /// Two-sided p value of this test alone: the probability of at least this difference between equal scores.
+    /// Two-sided p value of this single test: the probability of at least this difference between equal scores.
     pub p: f64,
     /// p value adjusted for the family by [`holm`](crate::holm).
     pub adjusted_p: f64,

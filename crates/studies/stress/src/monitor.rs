@@ -68,7 +68,7 @@ const OUTSIDE: usize = 20;
 pub struct Monitor {
     reference: Frame,
     contact: f64,
-    /// Sum of each pixel value over the pictures of the baseline so far.
+    /// Sum of each pixel value over the first untouched pictures, for the baseline.
     sums: Vec<u32>,
     settled: u32,
     baseline: Option<Baseline>,
@@ -258,7 +258,7 @@ impl Monitor {
         self.calibration.is_none_or(is_enough) && self.compared >= WINDOW as u64
     }
 
-    /// Changes found so far.
+    /// All changes found.
     pub fn found(&self) -> &BTreeSet<Change> {
         &self.found
     }

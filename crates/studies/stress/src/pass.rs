@@ -107,7 +107,7 @@ pub(crate) struct Predictor<'a> {
 }
 
 impl Predictor<'_> {
-    /// Unclamped predictions of one picture, always made alone, so that other pictures have no influence.
+    /// Unclamped predictions of one picture, computed without other pictures, so that these have no influence.
     pub(crate) fn of(
         &self,
         frame: &Frame,

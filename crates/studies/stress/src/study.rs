@@ -40,7 +40,7 @@ pub fn stress(
 }
 
 /// Same as [`stress`] for the samples of `target`, which the model must not have seen. These samples replace the part of `request`. The faults in
-/// `others` come after those of `request`; without a name in `request.faults`, only these faults are tested.
+/// `others` come after the faults of `request`; without a name in `request.faults`, only these faults are tested.
 ///
 /// # Errors
 /// Errors of [`stress`].

@@ -23,7 +23,7 @@ use crate::text::shown;
 
 submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 
-/// Opens local cameras (Linux), such as those in DIGIT and GelSight Mini: `camera/v4l2:device=/dev/video0;preset=digit`.
+/// Opens local cameras (Linux), such as the cameras in DIGIT and GelSight Mini: `camera/v4l2:device=/dev/video0;preset=digit`.
 ///
 /// # The physical contract
 /// - Opening sets size, pixel format and rate. A camera that does not support them is rejected, with the list of supported formats. For JPEG, opening

@@ -5,7 +5,7 @@ use super::excess::{Excess, mean};
 use crate::training::card::AutoTrial;
 use crate::training::fit::ModelEstimator;
 
-/// A model and its results so far.
+/// A model and its results.
 pub(super) struct Entrant {
     pub(super) candidate: Candidate,
     pub(super) estimator: Box<dyn ModelEstimator>,

@@ -20,7 +20,7 @@ pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
     x.hypot(y).hypot(z)
 }
 
-/// Distance of a tip from the straight line between two others, ends included, in mm.
+/// Distance of a tip from the straight line between two other tip positions, ends included, in mm.
 pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     let coordinates = |pose: &Pose| {
         let Point { x, y, z } = pose.position;

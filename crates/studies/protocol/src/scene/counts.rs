@@ -1,4 +1,4 @@
-//! Counts of a protocol; the defaults are those of the paper.
+//! Counts of a protocol; the defaults are the counts of the paper.
 
 use std::collections::BTreeMap;
 

@@ -16,7 +16,7 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Share of bad lines that are displaced; all pixels of the others have one level.
+/// Share of bad lines that are displaced; all pixels of the other bad lines have one level.
 const DISPLACED: f32 = 0.7;
 /// Greatest displacement, in pixels.
 const MOST: u64 = 8;

@@ -67,7 +67,7 @@ pub struct RecordingWear {
     pub stimulus: Option<f64>,
     /// Mean absolute errors.
     pub mae: ByChannel<Estimate>,
-    /// Differences of the errors from those of the first recording; empty for the first.
+    /// Differences of the errors from the errors of the first recording; empty for the first recording.
     pub differences: ByChannel<WearDifference>,
     /// Origin of the numbers.
     pub provenance: Provenance,
