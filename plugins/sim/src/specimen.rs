@@ -85,7 +85,7 @@ impl Grating {
         self.kind
     }
 
-    /// Width of a ridge, and of the gap beside it.
+    /// Width of a ridge, and of the gap next to it.
     pub fn spacing(&self) -> Nanometre {
         self.spacing
     }

@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Settings of checkpoints, which are written beside the model file.
+/// Settings of checkpoints, which are written next to the model file.
 fn checkpoints(args: &Fit) -> Checkpoints {
     let mut path = args.out.clone().into_os_string();
     path.push(".checkpoint");

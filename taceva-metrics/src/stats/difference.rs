@@ -10,8 +10,8 @@ use super::student::{beyond, upper};
 
 /// Difference A − B of two scores, with test and interval.
 ///
-/// Verdict, p value and interval follow from one decision. [`decide`] decides a family of differences together. Before that call, each
-/// difference is a family of its own.
+/// Verdict, p value and interval follow from one decision. [`decide`] decides a family of differences together. Before that call, each difference is
+/// a separate family.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -160,7 +160,7 @@ pub(super) struct Tested {
 }
 
 impl Tested {
-    /// Difference as a family of its own.
+    /// Difference as a separate family.
     pub(super) fn with(self, inverse: Inverse) -> Difference {
         let Tested { p, .. } = self;
         let step = Step {

@@ -320,8 +320,8 @@ pub(super) fn plugin_faults(
     faults.collect()
 }
 
-/// Presses the test part of study `number` again on gels with `fault`, into folders beside the errors of the study. A severity that the gel cannot have is
-/// skipped.
+/// Presses the test part of study `number` again on gels with `fault`, into folders next to the errors of the study. A severity that the gel cannot
+/// have is skipped.
 fn press_worn(
     run: &TestedRun<'_>,
     number: usize,

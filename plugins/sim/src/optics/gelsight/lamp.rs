@@ -3,7 +3,7 @@
 use crate::number::narrow;
 use crate::random::Stream;
 
-/// A bar of light beside the gel.
+/// A bar of light next to the gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LampSpec {
     /// Centre of the bar: x, y, and its height over the gel, on the side of the camera.
