@@ -70,7 +70,7 @@ fn timed(calls: u32, call: impl Fn() -> Result<(), Box<dyn Error>>) -> Result<()
     Ok(())
 }
 
-/// Processor time in ms of all threads of this process, including ended ones, in ticks of 10 ms.
+/// Processor time in ms of all threads of this process, including ended threads, in ticks of 10 ms.
 fn processor_ms() -> Result<f64, Box<dyn Error>> {
     let text = std::fs::read_to_string("/proc/self/stat")?;
     // After the program name, which may contain blanks, user and system time are the 12th and 13th fields.

@@ -294,7 +294,7 @@ pub(crate) fn jobs_of(jobs: usize) -> NonZeroUsize {
     NonZeroUsize::new(jobs).unwrap_or_else(all)
 }
 
-/// All models: built-in ones and those of libraries.
+/// All models: built-in models and models of libraries.
 pub(crate) fn models() -> Models {
     Models::builtin().with_libraries(taceva_models::library_models())
 }

@@ -62,7 +62,7 @@ fn log() -> PluginLog {
     })
 }
 
-/// Names of all models and presets, each with a one-line description; those of plugins last.
+/// Names of all models and presets, each with a one-line description; models of plugins last.
 #[pyfunction]
 pub(crate) fn model_names(py: Python<'_>) -> PyResult<Vec<(String, String)>> {
     let compiled = dataset::models();
@@ -95,7 +95,7 @@ pub(crate) fn metric_titles() -> Vec<(String, String)> {
     metrics.chain(groups).collect()
 }
 
-/// Found plugins, and a sentence for each unused one.
+/// Found plugins, and a sentence for each unused plugin.
 #[pyfunction]
 pub(crate) fn found_plugins(py: Python<'_>) -> PyResult<(Vec<FoundPlugin>, Vec<String>)> {
     let host = host(py)?;

@@ -1,4 +1,4 @@
-//! Module `taceva._taceva`: functions of the crates for the Python package, without logic of its own.
+//! Module `taceva._taceva`: functions of the crates for the Python package, without its own logic.
 //!
 //! Input arrays arrive through the buffer protocol as native float32 or float64; the Python side has converted them. Output arrays are buffers that
 //! numpy wraps without a copy. The interpreter lock is released during sums, decoding and fits.

@@ -14,10 +14,10 @@ use taceva_results::{EvaluationReport, Score};
 use crate::arrays::{Points, Table};
 use crate::errors::value_error;
 
-/// Rows in a block. Their columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller blocks cost more.
+/// Number of rows in a block. Their columns stay in the L1 and L2 caches. Each block looks up the names of points, so smaller blocks cost more.
 const BLOCK_ROWS: usize = 4096;
 
-/// Unit of one of the six channels; `None` for any other.
+/// Unit of one of the six channels; `None` for any other channel.
 #[pyfunction]
 pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     let known = Channel::SIX
@@ -26,7 +26,7 @@ pub(crate) fn unit_of(channel: &str) -> Option<&'static str> {
     known.map(|channel| channel.unit().symbol())
 }
 
-/// Order of `channels`, given with their units, in sums and recordings: the six first, then others by name.
+/// Order of `channels`, given with their units, in sums and recordings: the six contact channels first, then other channels by name.
 #[pyfunction]
 pub(crate) fn channel_order(channels: Vec<(String, String)>) -> PyResult<Vec<usize>> {
     let ordered = channels_of(&channels)?;
@@ -144,8 +144,8 @@ impl Sums {
         })
     }
 
-    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`, and then adds no row. With `apart`, some rows may be added, and
-    /// the caller discards the sums.
+    /// Adds rows. Returns false if a number is not finite, unless `allows_invalid`, and then adds no row. With `apart`, such a failed call may add
+    /// some rows, and the caller discards the sums.
     #[expect(clippy::too_many_arguments, reason = "what one row carries")]
     fn update(
         &self,
@@ -214,7 +214,7 @@ impl Sums {
         Ok(true)
     }
 
-    /// Merges the sums of another object into these.
+    /// Merges the sums of another object into these sums.
     fn merge(&self, py: Python<'_>, other: &Sums) -> PyResult<()> {
         let states = other.states()?;
         py.detach(|| self.evaluator().merge_states(&states))
@@ -240,8 +240,8 @@ impl Sums {
         *self.evaluator() = Evaluator::new(&self.plan);
     }
 
-    /// Scores so far, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order. `name` names
-    /// the scored sensor or model, and `notes` are further notes.
+    /// Scores of all added rows, as the text of a results file. `paired_by` names the keys that paired rows of named columns; `""` means by order.
+    /// `name` names the scored sensor or model, and `notes` are further notes.
     fn compute(
         &self,
         py: Python<'_>,
@@ -304,7 +304,7 @@ pub(crate) fn channels_of(channels: &[(String, String)]) -> PyResult<Channels> {
     Channels::new(channels.collect::<PyResult<Vec<_>>>()?).map_err(value_error)
 }
 
-/// Channel `name` in `unit`; the six have a fixed unit.
+/// Channel `name` in `unit`; the six contact channels have a fixed unit.
 fn channel(name: &str, unit: &str) -> PyResult<Channel> {
     let unit = Unit::from_symbol(unit).ok_or_else(|| {
         let known: Vec<&str> = Unit::ALL.iter().map(|unit| unit.symbol()).collect();

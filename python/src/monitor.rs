@@ -93,7 +93,7 @@ impl PictureMonitor {
         self.locked().smallest()
     }
 
-    /// Names of the changes found so far.
+    /// Names of all changes found.
     fn found(&self) -> Vec<&'static str> {
         let monitor = self.locked();
         monitor.found().iter().map(|change| change.name()).collect()

@@ -118,7 +118,7 @@ pub(crate) fn score_table(texts: Vec<String>, form: &str) -> PyResult<String> {
     }
 }
 
-/// Sentence on channels with scores only in `scores`, because `shown` has those of their planes; `None` if there are none.
+/// Sentence on channels of `scores` that `shown` replaces by their planes; `None` if there are none.
 fn left_out(scores: &ScoreTable, shown: &ScoreTable) -> Option<String> {
     let mut channels: Vec<&str> = Vec::new();
     for row in scores.rows.iter().filter(|row| row.is_headline) {
@@ -220,7 +220,7 @@ pub(crate) fn comparison(
     }
 }
 
-/// Note on studies without samples; `None` if all have some.
+/// Note on studies without samples; `None` if all studies have samples.
 fn without_samples(names: &[String], studies: &[Study]) -> Option<String> {
     let absent = names.iter().zip(studies);
     let absent = absent.filter(|(_, study)| study.samples.is_none());

@@ -32,7 +32,7 @@ pub(crate) struct TaskDocuments {
 /// A task as the Python side states it.
 #[derive(Deserialize)]
 struct AskedTask {
-    /// The task as the command takes it; `None` for the fields below.
+    /// Task in the notation of the command line; `None` if the fields below state it.
     spec: Option<String>,
     #[serde(default)]
     name: String,
@@ -118,7 +118,7 @@ pub(crate) fn task_scores(
     documents(&states)
 }
 
-/// Common scores of the files of states at `paths`.
+/// Merged scores of the state files at `paths`.
 #[pyfunction]
 pub(crate) fn merge_tasks(py: Python<'_>, paths: Vec<PathBuf>) -> PyResult<TaskDocuments> {
     let merged = py.detach(|| merge_task_states(&paths));

@@ -4,8 +4,8 @@
 //! cargo run --example draw_taxels -- examples/taxels
 //! ```
 //!
-//! No sensor was pressed: taxels follow closed forms of the labels, with noise of a fixed seed. Only the number, arrangement and unit of the taxels are those
-//! of real sensors.
+//! No sensor was pressed: taxels follow closed forms of the labels, with noise of a fixed seed. Only the number, arrangement and unit of the taxels
+//! are as in real sensors.
 
 use std::fmt::Write as _;
 use std::path::Path;

@@ -124,7 +124,7 @@ impl Cli {
 /// Options of every command.
 #[derive(Debug, Args)]
 pub(crate) struct Everywhere {
-    /// Worker threads; the result does not depend on it [default: all cores]
+    /// Worker threads; results do not depend on their number [default: all cores]
     #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub(crate) jobs: Option<u16>,
     /// Print results and errors only

@@ -45,9 +45,9 @@ use invocation::Invocation;
 pub use bundle_verification::{BundleVerification, verify_bundle};
 pub use metrology::{Metrology, metrology};
 
-/// Serves another `taceva` and exits, if this process was started as its child process; otherwise returns. A `main` that does not begin with it
-/// has no child processes. Plugins in libraries are then rejected unless an interpreter was named for them ([`taceva_host::run_within`]). AV1
-/// clips are decoded by an ffmpeg, if there is one.
+/// Serves another `taceva` and exits, if this process was started as its child process; otherwise returns. A `main` that does not begin with this
+/// function has no child processes. Plugins in libraries are then rejected unless an interpreter was named for them ([`taceva_host::run_within`]).
+/// AV1 clips are decoded by an ffmpeg, if there is one.
 ///
 /// ```
 /// taceva_cli::main_if_child();

@@ -1,4 +1,4 @@
-//! Measured quantities: the six channels of a contact, and named extra ones.
+//! Measured quantities: the six channels of a contact, and named extra channels.
 
 mod name;
 
@@ -168,7 +168,7 @@ impl Channel {
 
 display!(Channel, name);
 
-/// Channels of a stream, each once, in canonical order: `Px Py Pz Fx Fy Fz`, then extra ones by name.
+/// Channels of a stream, each once, in canonical order: `Px Py Pz Fx Fy Fz`, then extra channels by name.
 ///
 /// ```
 /// use taceva_core::{Channel, Channels};

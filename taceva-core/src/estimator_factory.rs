@@ -144,7 +144,7 @@ pub struct FitRequest<'a> {
 }
 
 impl<'a> FitRequest<'a> {
-    /// A fit on `training` alone.
+    /// A fit on `training` without validation samples.
     pub fn new(
         settings: &'a Args,
         training: &'a TrainingSet<'a>,

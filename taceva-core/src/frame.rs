@@ -134,7 +134,7 @@ impl<'a> FrameMut<'a> {
     /// Writable frame in the buffer `bytes`.
     ///
     /// # Errors
-    /// [`FrameError`] if the length of `bytes` differs from that of the frame.
+    /// [`FrameError`] if the length of `bytes` differs from the length of the frame.
     pub fn new(info: FrameInfo, bytes: &'a mut [u8]) -> Result<FrameMut<'a>, FrameError> {
         check_len(info, bytes.len())?;
         Ok(FrameMut { info, bytes })
@@ -162,7 +162,7 @@ fn check_len(info: FrameInfo, found: usize) -> Result<(), FrameError> {
     }
 }
 
-/// A buffer whose length differs from that of its frame.
+/// A buffer whose length differs from the length of its frame.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};

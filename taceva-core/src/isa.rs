@@ -102,7 +102,7 @@ impl Isa {
     /// Instruction set named by the environment variable `TACEVA_ISA`; `None` if the variable is not set.
     ///
     /// # Errors
-    /// [`IsaError`] if the variable names an unknown instruction set, or one that this machine lacks.
+    /// [`IsaError`] if the variable names an unknown instruction set, or an instruction set that this machine lacks.
     pub fn requested() -> Result<Option<Isa>, IsaError> {
         let Some(name) = std::env::var_os(VARIABLE) else {
             return Ok(None);

@@ -154,7 +154,7 @@ pub fn not_finite(channels: &Channels, predictions: &[f64]) -> Option<String> {
     ))
 }
 
-/// A fitted model that can be saved as bytes in a format of its own.
+/// A fitted model that can be saved as bytes in its own format.
 ///
 /// ```
 /// # use taceva_core::{Channel, Channels, FeatureShape, Features, Regressor};

@@ -21,7 +21,7 @@ pub struct Needs {
 }
 
 impl Needs {
-    /// Requires `fields` alone, with any channels and any number of samples.
+    /// Requires only `fields`, with any channels and any number of samples.
     pub const fn new(fields: FieldSet) -> Needs {
         Needs {
             fields,

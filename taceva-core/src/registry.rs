@@ -51,7 +51,7 @@ impl<D: Device + ?Sized> Registry<D> {
     /// Adds a driver.
     ///
     /// # Errors
-    /// [`RegistryError`] if the key is taken, or the driver describes a device of another kind. The registry is then unchanged.
+    /// [`RegistryError`] if another driver has the key, or the driver describes a device of another kind. The registry is then unchanged.
     pub fn add(&mut self, factory: Box<dyn Factory<D>>) -> Result<(), RegistryError> {
         let descriptor = factory.descriptor();
         if descriptor.kind() != D::KIND {

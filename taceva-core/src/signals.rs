@@ -35,7 +35,7 @@ pub struct SignalInfo {
 }
 
 impl SignalInfo {
-    /// Maximum count of numbers per sample.
+    /// Greatest count of numbers per sample.
     pub const LEN_MAX: u32 = 16_384;
 
     /// A grid of `rows` × `columns` taxels, each with `channels` numbers in `unit`.

@@ -10,7 +10,7 @@ use taceva_core::{
 
 /// Sensor that is not simulated, with time stamps on the clock of a simulated bench.
 ///
-/// Between two frames, at least as much time passes on the bench as on the sensor's clock. More passes if other devices keep the bench busy. The
+/// Between two frames, at least as much time passes on the bench as on the sensor's clock. More time passes if other devices keep the bench busy. The
 /// bench does not simulate the sensor, so its frames show presses only if the real sensor is pressed.
 pub struct OnBench {
     sensor: Box<dyn Sensor>,

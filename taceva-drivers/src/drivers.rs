@@ -47,7 +47,7 @@ impl Drivers {
     /// Adds the drivers of the plugins of `host`, which run in the process that the user's settings choose. Opens no library.
     ///
     /// # Errors
-    /// [`RegistryError`] if a plugin's key is already taken.
+    /// [`RegistryError`] if another driver already has the key of a plugin.
     #[cfg(feature = "plugin")]
     pub fn with_plugins(
         mut self,

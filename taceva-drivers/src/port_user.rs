@@ -1,4 +1,4 @@
-//! Other programs that have a device open. Without a lock, they would take its answers away unnoticed.
+//! Other programs that have a device open. Without a lock, these programs would take its answers away unnoticed.
 
 use std::fs::{self, DirEntry, Metadata};
 use std::os::unix::fs::{FileTypeExt, MetadataExt};
@@ -6,8 +6,8 @@ use std::path::Path;
 
 use crate::text::shown;
 
-/// Other processes that have the device `port` open, such as `1234 (octoprint)`. Only root sees processes of other users. `processes` is
-/// `/proc`; without it the list is empty.
+/// Other processes that have the device `port` open, such as `1234 (octoprint)`. Only root sees processes of other users. `processes` is `/proc`;
+/// without it the list is empty.
 pub(crate) fn other_users(processes: &Path, port: &Path) -> Vec<String> {
     let Ok(port) = fs::metadata(port) else {
         return Vec::new();

@@ -13,7 +13,7 @@ pub use folder::{FolderSource, Timing};
 
 use taceva_core::{FrameInfo, FrameMut};
 
-/// Source of the frames of a recording: a folder in this crate, a dataset in others.
+/// Source of the frames of a recording: a folder in this crate, a dataset in other crates.
 pub trait FrameSource: Send {
     /// Size and format of every frame.
     fn info(&self) -> FrameInfo;

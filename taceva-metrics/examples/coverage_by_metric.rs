@@ -261,7 +261,7 @@ impl Study {
         }
     }
 
-    /// Adds light presses, each at a place of its own.
+    /// Adds light presses, each at its own place.
     fn light(&mut self, sink: &mut Evaluator) {
         for place in 0..LIGHT {
             let force_n = self.between(0.02, 0.2);

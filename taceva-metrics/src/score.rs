@@ -90,7 +90,7 @@ impl Score {
     }
 }
 
-/// Another value of the same metric and channel, with a name of its own.
+/// Another value of the same metric and channel, with its own name.
 ///
 /// ```
 /// use taceva_metrics::{Channel, Evaluator};

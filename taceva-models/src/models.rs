@@ -84,7 +84,7 @@ impl Models {
         })
     }
 
-    /// Resolves `name`, which is a model or a [`Preset`], and its settings. Settings in `given` override those of the preset.
+    /// Resolves `name`, which is a model or a [`Preset`], and its settings. Settings in `given` override the settings of the preset.
     ///
     /// ```
     /// use taceva_models::{Models, ModelSettings};
@@ -173,7 +173,7 @@ impl ChosenModel {
         own.unwrap_or_default()
     }
 
-    /// Default finer features: those of networks for an automatic choice; `None` for any other model.
+    /// Default finer features: the features of networks for an automatic choice; `None` for any other model.
     pub fn closer_features(&self) -> Option<FeatureSpec> {
         match self {
             ChosenModel::Auto(_) => Auto::CLOSER,

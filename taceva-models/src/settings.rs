@@ -91,7 +91,7 @@ impl ModelSettings {
         self.values.iter()
     }
 
-    /// Splits the settings into settings with a key of `known`, and the others.
+    /// Splits the settings into settings with a key of `known`, and the other settings.
     pub fn partition(self, known: &[SettingInfo]) -> (ModelSettings, ModelSettings) {
         let is_known = |key: &String| known.iter().any(|info| info.key == key);
         let (inside, outside) = self.values.into_iter().partition(|(key, _)| is_known(key));

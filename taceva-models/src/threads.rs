@@ -6,8 +6,9 @@ use std::thread;
 
 /// Prepares the thread pool of models: at most one thread per core, limited by the system.
 ///
-/// Returns the number of `wanted` threads that the system can start in addition to the calling thread. Containers may allow few or none. With fewer threads
-/// than cores, models share these threads. Without any, the calling thread computes alone. If this function is not called, a model panics in that case.
+/// Returns the number of `wanted` threads that the system can start in addition to the calling thread. Containers may allow few or none. With fewer
+/// threads than cores, models share these threads. Without threads, the calling thread computes alone. If this function is not called, a model panics
+/// in that case.
 ///
 /// ```
 /// use std::num::NonZeroUsize;

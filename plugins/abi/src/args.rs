@@ -4,8 +4,6 @@ use crate::text::Text;
 
 /// `taceva_arg`: one argument. The host writes a number both as text and as a number; a driver may read either.
 ///
-/// A number is given both as text and as a number. A driver may read either.
-///
 /// ```
 /// use taceva_abi::{Arg, Text};
 /// let seed = Arg { key: Text::from("seed"), text: Text::from("7"), whole: 7, number: 0.0, kind: Arg::WHOLE, reserved: 0 };

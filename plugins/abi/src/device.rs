@@ -26,10 +26,8 @@ pub struct Stamp {
     pub received_ns: u64,
 }
 
-/// `taceva_rig`: opaque handle of the devices that are opened together. Only the plugin reads its contents. A host keeps the pointer that `open_rig` wrote and
-/// passes the pointer back.
-///
-/// Only the plugin knows its contents. A host keeps the pointer that `open_rig` wrote and passes it back.
+/// `taceva_rig`: opaque handle of the devices that are opened together. Only the plugin reads its contents. A host keeps the pointer that `open_rig`
+/// wrote and passes the pointer back.
 ///
 /// ```
 /// use taceva_abi::Rig;

@@ -41,8 +41,6 @@ pub struct Host {
 
 /// Level of a log line, passed as a number. The host treats an unlisted number as [`Level::Debug`].
 ///
-/// Passed as a number. An unlisted number counts as [`Level::Debug`].
-///
 /// ```
 /// use taceva_abi::Level;
 /// assert!(Level::Error < Level::Debug);

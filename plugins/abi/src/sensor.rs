@@ -6,9 +6,8 @@ use crate::device::{DeviceCalls, Stamp};
 use crate::error::Error;
 use crate::status::Status;
 
-/// Storage format of one pixel. A number rather than an enum, so that a later version of the interface can add a format. An older host rejects a new format.
-///
-/// A number rather than an enum, so a later interface can add a format. An older host rejects it.
+/// Storage format of one pixel. A number rather than an enum, so that a later version of the interface can add a format. An older host rejects a new
+/// format.
 ///
 /// ```
 /// use taceva_abi::PixelFormat;

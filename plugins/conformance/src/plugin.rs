@@ -139,8 +139,8 @@ pub fn checks() -> Vec<Check> {
     .concat()
 }
 
-/// Promises of a kind, and those of its table. A promise of the table replaces a device promise of the same name, which would test the host instead of the
-/// plugin.
+/// Promises of a kind, and promises of its table. A promise of the table replaces a device promise of the same name, which would test the host
+/// instead of the plugin.
 fn of_kind<D: ?Sized>(
     kind: DriverKind,
     promises: &'static [Promise<D>],
@@ -157,7 +157,7 @@ fn of_kind<D: ?Sized>(
     of_devices.chain(table.iter().copied()).collect()
 }
 
-/// Serves as the child of a host and exits, if this process was started as one. Such a child also runs checks.
+/// Serves as the child of a host and exits, if this process was started as a child. Such a child also runs checks.
 ///
 /// A program that checks plugins calls this function instead of [`taceva_host::main_if_child`].
 pub fn main_if_child() {

@@ -108,7 +108,7 @@ impl PluginConfig {
 
     /// Source of the trust that lets `plugin` run in this process; `None` if it is not trusted.
     ///
-    /// Trust in the settings does not apply to plugins beside a scene: the author of a scene can put any plugin there, under any id.
+    /// Trust in the settings does not apply to plugins next to a scene: the author of a scene can put any plugin there, under any id.
     pub fn trust(&self, plugin: &Plugin) -> Option<Trust> {
         let id = plugin.id();
         let settings = self.trust_in_process.contains(id) && plugin.place != Place::Project;

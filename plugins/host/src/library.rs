@@ -71,7 +71,7 @@ unsafe impl Sync for Library {}
 impl Library {
     /// Loads `image`, compares it with `manifest` and initialises it. `log` receives the plugin's log lines.
     ///
-    /// Constructors of the library run before any check. Load only trusted libraries here, and others in a confined child.
+    /// Constructors of the library run before any check. Load only trusted libraries here, and other libraries in a confined child.
     ///
     /// # Errors
     /// [`LoadError`] if the file cannot be loaded, is not a plugin, is of another version, or contradicts the manifest.

@@ -102,9 +102,9 @@ pub struct Manifest {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct AbiVersion {
-    /// Major version. Plugin and host must have the same.
+    /// Major version. Plugin and host must have the same major version.
     pub major: u32,
-    /// Minor version. Plugin and host may differ.
+    /// Minor version. Plugin and host may have different minor versions.
     pub minor: u32,
 }
 

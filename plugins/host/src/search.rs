@@ -37,7 +37,7 @@ pub struct Plugin {
     pub place: Place,
     /// Code of the plugin.
     pub code: Code,
-    /// For a Python module: the interpreter of its environment, or the first known one. `None` for a library.
+    /// For a Python module: the interpreter of its environment, or the first known interpreter. `None` for a library.
     pub interpreter: Option<Interpreter>,
     /// Interpreters that were named but rejected, with the reasons.
     rejected_interpreters: Vec<String>,
@@ -94,14 +94,14 @@ pub struct Plugins {
 }
 
 impl Plugins {
-    /// Searches `path`. Plugins with the same id are all rejected, unless `prefer` lists the folder of one or the command line names exactly one
-    /// ([`Place::Given`]).
+    /// Searches `path`. Plugins with the same id are all rejected, unless `prefer` lists the folder of one plugin or the command line names exactly
+    /// one plugin ([`Place::Given`]).
     pub fn search(path: SearchPath, prefer: &[PathBuf]) -> Plugins {
         Plugins::search_with(path, prefer, &[])
     }
 
-    /// As [`search`](Plugins::search), and also searches the environments of `interpreters`. The first one that answers runs Python plugins from
-    /// other places.
+    /// As [`search`](Plugins::search), and also searches the environments of `interpreters`. The first interpreter that answers runs Python plugins
+    /// from other places.
     pub fn search_with(path: SearchPath, prefer: &[PathBuf], interpreters: &[PathBuf]) -> Plugins {
         let mut searching = Searching::default();
         for interpreter in interpreters {

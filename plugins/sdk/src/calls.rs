@@ -31,7 +31,7 @@ pub(crate) trait Kind: 'static {
     /// Drivers of this kind.
     fn drivers(loaded: &Loaded) -> &Drivers<Self>;
 
-    /// Stores the open device and creates its handle. `facts` are those of its driver.
+    /// Stores the open device and creates its handle. `facts` are the facts of its driver.
     fn handle(device: Box<Self>, facts: &Facts) -> Handle<Self::Opened>;
 }
 

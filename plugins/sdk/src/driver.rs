@@ -44,7 +44,7 @@ pub enum Driver {
     Made(Made),
 }
 
-/// Factory of a driver or an estimator that is created at run time, such as one described in another language.
+/// Factory of a driver or an estimator that is created at run time, such as a driver described in another language.
 ///
 /// ```
 /// # use taceva_core::{Args, Axes, Descriptor, DescriptorSpec, DriverError, DriverKey, DriverSource, Factory, Facts, ForceFacts};

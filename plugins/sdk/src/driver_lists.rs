@@ -46,7 +46,7 @@ pub(crate) fn loaded() -> Result<&'static Loaded, Failure> {
         .ok_or_else(|| Failure::argument("the plugin is not initialised"))
 }
 
-/// Stores `drivers` until the process ends. Ignores `drivers` if another thread has already stored equal ones.
+/// Stores `drivers` until the process ends. Ignores `drivers` if another thread has already stored equal drivers.
 pub(crate) fn keep(drivers: Loaded) {
     LOADED.get_or_init(|| drivers);
 }

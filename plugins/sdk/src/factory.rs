@@ -71,7 +71,7 @@ unsafe extern "C" fn describe<D: Kind + ?Sized>(
     unsafe { guard(error, work) }
 }
 
-/// True if the host requests a description before it has arguments: `given` is NULL, or lacks all although one is required.
+/// True if the host requests a description before it has arguments: `given` is NULL, or is empty although an argument is required.
 ///
 /// # Safety
 /// As for [`args`].

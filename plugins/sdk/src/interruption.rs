@@ -126,7 +126,7 @@ impl Interrupt for Interruption {
     }
 }
 
-/// Latch of a halted robot. Provides the `halt_handle` of a robot without a halt of its own.
+/// Latch of a halted robot. Provides the `halt_handle` of a robot without its own halt.
 ///
 /// A motion in steps that waits on this latch ends within one step. A robot that moves without further commands must also be stopped.
 ///

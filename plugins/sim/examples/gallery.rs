@@ -16,7 +16,7 @@ use taceva_sim::contact::{Indentation, Solid};
 use taceva_sim::optics::{AmbientLight, Board, Camera, OpticsSpec, Stimulus, View};
 use taceva_sim::{Grating, GratingPose, Model, Parameters};
 
-/// Black pixels between frames.
+/// Number of black pixels between frames.
 const GAP: u32 = 4;
 
 fn main() -> Result<(), Box<dyn Error>> {

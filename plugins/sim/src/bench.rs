@@ -236,5 +236,5 @@ impl Bench {
     }
 }
 
-/// Bisection steps for a depth; the final interval is far below a nanometre.
+/// Number of bisection steps for a depth; the final interval is far below a nanometre.
 const BISECTIONS: u32 = 30;

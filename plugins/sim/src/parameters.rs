@@ -87,7 +87,7 @@ impl Parameters {
     ///
     /// # Errors
     /// [`ParameterError`] with the line, the value found and the value expected. Causes: invalid TOML, an unknown or missing section or key, a value
-    /// out of range, another unit than the declared one, or contradictory values.
+    /// out of range, another unit than the declared unit, or contradictory values.
     pub fn parse(text: &str) -> Result<Parameters, ParameterError> {
         let mut document = Document::parse(text)?;
         let name = document.name()?;

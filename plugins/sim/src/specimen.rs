@@ -8,7 +8,7 @@ use thiserror::Error;
 /// A rigid ball.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Indenter {
-    /// Radius 2 mm: calibration.
+    /// Ball of radius 2 mm, for calibration.
     #[default]
     Ball2,
     /// Ball of radius 4 mm.
@@ -85,7 +85,7 @@ impl Grating {
         self.kind
     }
 
-    /// Width of a ridge, and of the gap beside it.
+    /// Width of a ridge, and of the gap next to it.
     pub fn spacing(&self) -> Nanometre {
         self.spacing
     }

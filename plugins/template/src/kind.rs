@@ -74,7 +74,7 @@ impl Kind {
         format!("{} {noun}", if is_vowel { "An" } else { "A" })
     }
 
-    /// First step of its author, in words before a colon.
+    /// First step for the author of a new plugin, in words before a colon.
     pub(crate) const fn introduction(self) -> &'static str {
         match self {
             Kind::Estimator => "Replace its fit and its predictions by your own",
@@ -82,7 +82,7 @@ impl Kind {
         }
     }
 
-    /// Arguments of `taceva` that list or use it, with the name left to be filled in.
+    /// Arguments of `taceva` that list or use the plugin, with the name left to be filled in.
     pub(crate) const fn usage(self) -> &'static str {
         match self {
             Kind::Estimator => "evaluate RECORDING --model org.example.@name@/@name@",

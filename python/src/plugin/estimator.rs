@@ -163,7 +163,7 @@ impl Fitted {
         Ok(table.row_by_row(py))
     }
 
-    /// `error` about predictions with the line where the author defines `predict`, which has returned.
+    /// Adds to `error` about predictions the line that defines `predict`, because that call has already returned.
     fn at_predict(&self, py: Python<'_>, error: PyErr) -> PyErr {
         let line = || -> PyResult<String> {
             let code = self

@@ -1,4 +1,4 @@
-//! A Python lighting.
+//! A Python lighting device.
 
 use pyo3::prelude::*;
 use taceva_core::{Deadline, Descriptor, DriverError, ErrorKind, Facts, Lighting};

@@ -12,7 +12,7 @@ use super::drivers::PythonDriver;
 use super::estimator::PythonEstimator;
 use crate::errors::value_error;
 
-/// Plugin of this process; there is only one.
+/// Plugin of this process; a process has only one plugin.
 static OFFERED: OnceLock<Offered> = OnceLock::new();
 
 /// A plugin in a Python module: its identity and its device classes.

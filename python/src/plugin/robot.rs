@@ -168,7 +168,7 @@ impl GuardedMotion for PythonRobot {
     }
 }
 
-/// Parses the result of `move_guarded`: a time after arrival, or a pose and a time after a stop at the force.
+/// Parses the result of `move_guarded`: a time after arrival, or a pose and a time after a stop at the force limit.
 fn stop(said: &Bound<'_, PyAny>) -> PyResult<GuardedStop> {
     if let Ok((place, time)) = said.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()
         && place.extract::<f64>().is_err()

@@ -22,11 +22,11 @@ const OF_CHANNELS: [&str; 9] = [
 /// Tasks to score in the place of channels.
 #[derive(Debug, Args)]
 pub(crate) struct TaskArgs {
-    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be repeated. The
-    /// column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and takes
-    /// thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; NAME=place:unit=m reads predictions in m; the truth of NAME=depth[:unit=UNIT][:gate=MM]
-    /// is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused with it, as options of channels: --units, --periods,
-    /// --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
+    /// Score a task in the place of channels, as NAME=KIND[:positive=CLASS][:names=A|B]: class, event, outcome, pose, place or depth; may be
+    /// repeated. The column NAME holds classes; `NAME.p.CLASS` of the predictions holds scores; a pose has NAME.x .y .z (mm) .qx .qy .qz .qw, and
+    /// takes thresholds of bins as NAME=pose:t=MM|MM:r=DEG|DEG; NAME=place:unit=m reads predictions in m; the truth of
+    /// NAME=depth[:unit=UNIT][:gate=MM] is a dataset, and the predictions are an array of maps (.npy, .npz, .h5). Refused with it, as options of
+    /// channels: --units, --periods, --metrics, --independent, --sensor, --figures, --samples-out, --table, --explain
     #[arg(id = "task", long, value_name = "NAME=KIND", conflicts_with_all = OF_CHANNELS)]
     pub(crate) tasks: Vec<TaskSpec>,
     /// Column with the name of the trajectory, clip or object: intervals are over these names [default: point_id]
@@ -38,8 +38,8 @@ pub(crate) struct TaskArgs {
     /// Predict the positive class from the Nth positive frame in a row on, as NAME=N; may be repeated
     #[arg(id = "debounce", long, value_name = "NAME=N", requires = "task")]
     pub(crate) debounces: Vec<String>,
-    /// Also print numbers of a public program, each beside the correct number with the reason for the difference: sparsh, touch-and-go, normalflow or
-    /// objectfolder
+    /// Also print the numbers of a public program, each beside the correct number and the reason for the difference: sparsh, touch-and-go, normalflow
+    /// or objectfolder
     #[arg(id = "as", long = "as", value_name = "PROGRAM", requires = "task")]
     pub(crate) program: Option<PublicProgram>,
 }
@@ -56,7 +56,7 @@ pub(crate) struct WindowArgs {
 }
 
 impl WindowArgs {
-    /// `settings` with those of the window.
+    /// `settings`, with the settings of the window added.
     pub(crate) fn on(&self, settings: &SettingArgs) -> SettingArgs {
         let window = self.window.map(|frames| format!("window={frames}"));
         let stride = self.stride.map(|frames| format!("stride={frames}"));

@@ -34,7 +34,7 @@ pub(crate) struct Watch {
     /// The recording of the calibration: its reference picture and its change by contact [default: the watched recording]
     #[arg(long, value_name = "DATASET", required_unless_present = "recording")]
     pub(crate) calibration: Option<PathBuf>,
-    /// Set the limits from the first pictures that are watched, not from the calibration: for use after a new untouched picture
+    /// Set the limits from the first pictures that are watched, not from the calibration. Use it after a new untouched picture
     #[arg(long, requires = "calibration")]
     pub(crate) fresh: bool,
     /// Number of pictures of the sensor [default: until Ctrl-C]

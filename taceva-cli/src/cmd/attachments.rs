@@ -1,4 +1,4 @@
-//! Files beside the scores of an evaluation.
+//! Additional files of an evaluation.
 
 use std::path::Path;
 
@@ -10,7 +10,7 @@ use crate::args::ScoringArgs;
 use crate::output;
 use crate::report::page::Page;
 
-/// Files beside the scores that the arguments request.
+/// Additional files that the arguments request.
 pub(super) struct Attachments<'a> {
     page: Option<&'a Path>,
     figures: Option<&'a Path>,

@@ -68,7 +68,7 @@ fn made(args: &BundleMake, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Verification that `args` ask for.
+/// Verification that `args` request.
 ///
 /// # Errors
 /// [`BundleError`] if the bundle cannot be read.

@@ -26,7 +26,7 @@ fn folder_of(named: Option<PathBuf>) -> anyhow::Result<PathBuf> {
     })
 }
 
-/// The cache to use; `None` with `--no-cache`, or if the user has no folder for one.
+/// The cache to use; `None` with `--no-cache`, or if the user has no cache folder.
 pub(super) fn of(args: &CacheArgs) -> Option<Cache> {
     if args.no_cache {
         return None;

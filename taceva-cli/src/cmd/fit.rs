@@ -57,7 +57,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     Ok(exit::DONE)
 }
 
-/// Settings of checkpoints, which are written beside the model file.
+/// Settings of checkpoints, which are written next to the model file.
 fn checkpoints(args: &Fit) -> Checkpoints {
     let mut path = args.out.clone().into_os_string();
     path.push(".checkpoint");
@@ -174,7 +174,7 @@ fn groups_of(split: &str) -> FoldGroups {
     }
 }
 
-/// Kind of groups that the fit left out as a whole to choose settings: that of its cross-validation or split, otherwise contact points.
+/// Kind of groups that the fit left out as a whole to choose settings: the kind of its cross-validation or split, otherwise contact points.
 fn left_out(fitted: &Fitted) -> FoldGroups {
     let validation = fitted.model.card().provenance.validation.as_ref();
     let by = match (validation, &fitted.divided.groups) {

@@ -7,7 +7,7 @@ use taceva_import::CsvTable;
 
 use super::results;
 
-/// Origins of the samples, from the column `source` or from the result beside the table.
+/// Origins of the samples, from the column `source` or from the result next to the table.
 pub(super) fn of(table: &CsvTable) -> anyhow::Result<Vec<String>> {
     match stated_origins(table)? {
         Some(origins) => Ok(origins.into_iter().collect()),
@@ -15,7 +15,7 @@ pub(super) fn of(table: &CsvTable) -> anyhow::Result<Vec<String>> {
     }
 }
 
-/// Origin of the samples of the table at `path`, from the result beside it.
+/// Origin of the samples of the table at `path`, from the result next to it.
 pub(super) fn beside(path: &Path) -> anyhow::Result<String> {
     let source = results::source_of(path)?;
     Ok(source.unwrap_or_else(|| UNKNOWN_ORIGIN.to_owned()))

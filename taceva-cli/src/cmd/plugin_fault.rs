@@ -1,4 +1,4 @@
-//! Fault of pictures that the estimator of a plugin makes: it predicts the numbers of a picture with the fault from those of the picture.
+//! Fault of pictures that the estimator of a plugin makes: it predicts the pixel values of the faulty picture from the values of the original.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, mpsc};
@@ -104,7 +104,7 @@ impl PictureFault for PluginFault {
     }
 }
 
-/// Numbers of the picture with the fault. A sample of the estimator is a pixel, row by row from the top, and each of its numbers is a channel.
+/// Pixel values of the picture with the fault. A sample of the estimator is a pixel, row by row from the top, and each of its values is a channel.
 fn predicted(
     estimator: &dyn EstimatorFactory,
     request: &str,
@@ -130,7 +130,7 @@ fn predicted(
     Ok(into)
 }
 
-/// A number of a picture: rounded half to even, from 0 to `scale`.
+/// Pixel value: rounded half to even and clamped to 0 to `scale`.
 fn rounded(number: f64, scale: u16) -> u16 {
     let number = number.round_ties_even().clamp(0.0, f64::from(scale));
     #[expect(

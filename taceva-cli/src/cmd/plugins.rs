@@ -1,4 +1,4 @@
-//! Plugins of this program, and all drivers and models including those of plugins.
+//! Plugins of this program, and all drivers and models including drivers and models of plugins.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -22,7 +22,7 @@ fn compiled() -> Models {
 }
 
 impl Context {
-    /// All drivers: built-in ones, and those of plugins, including plugins beside the scene at `scene`.
+    /// All drivers: built-in drivers and drivers of plugins, including plugins next to the scene at `scene`.
     pub(crate) fn drivers(&self, scene: Option<&Path>) -> anyhow::Result<Drivers> {
         let host = self.plugins(scene)?;
         Ok(Drivers::builtin()?.with_plugins(&host)?)
@@ -34,7 +34,7 @@ impl Context {
         Ok(compiled().with(host.models()))
     }
 
-    /// All drivers and models, including those of plugins beside the scene at `scene`.
+    /// All drivers and models, including drivers and models of plugins next to the scene at `scene`.
     pub(crate) fn equipment(&self, scene: &Path) -> anyhow::Result<(Drivers, Models)> {
         let host = self.plugins(Some(scene))?;
         let drivers = Drivers::builtin()?.with_plugins(&host)?;

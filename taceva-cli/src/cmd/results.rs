@@ -27,7 +27,7 @@ pub(super) const RESULTS: &str = "results.json";
 /// Header of a dataset.
 const HEADER: &str = "dataset.toml";
 
-/// Results with the samples behind them.
+/// Results with the samples from which they were computed.
 #[derive(Default)]
 pub(super) struct Found {
     /// The studies, each with its samples if they were found.
@@ -156,7 +156,7 @@ fn find(path: &Path, sensors: Option<&[Sensor]>) -> anyhow::Result<Found> {
     samples::beside(&file, studies)
 }
 
-/// Evaluation reports with the samples behind them.
+/// Evaluation reports with the samples from which they were computed.
 pub(super) struct Reports {
     pub(super) reports: Vec<EvaluationReport>,
     /// Remark for each report whose samples were not found.

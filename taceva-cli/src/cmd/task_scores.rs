@@ -21,7 +21,7 @@ pub(super) fn write(
     write_report(states.report(), states, to, state_out)
 }
 
-/// Same as [`write()`], with the numbers of the public program `program` beside the scores.
+/// Same as [`write()`], with the numbers of the public program `program` next to the scores.
 pub(super) fn write_as_published(
     program: PublicProgram,
     states: &TaskStates,

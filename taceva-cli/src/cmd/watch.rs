@@ -18,7 +18,7 @@ use crate::{exit, output};
 /// Force below which the gel is untouched, and above which it is touched, N. Pictures between them are not watched.
 const UNTOUCHED_N: f64 = 0.05;
 const TOUCHED_N: f64 = 0.1;
-/// Untouched pictures after a contact that are not watched: pictures arrive later than forces, and the gel recovers.
+/// Number of untouched pictures after a contact that are not watched: pictures arrive later than forces, and the gel recovers.
 const RECOVERY: u32 = 10;
 
 pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &Watch, context: &Context) -> anyhow::Result<u8> {
     })
 }
 
-/// Says what the untouched pictures of the calibration can show, if they are fewer than usual.
+/// Prints the changes that untouched pictures of the calibration can show, if these pictures are fewer than usual.
 fn say_what_is_known(monitor: &Monitor, path: &Path, context: &Context) {
     let pictures = monitor.calibration_pictures().unwrap_or_default();
     if pictures >= Monitor::PICTURES {
@@ -153,7 +153,7 @@ fn summarise(monitor: &Monitor, context: &Context) {
     }
 }
 
-/// Sentence on pictures without a change that are too few to exclude one.
+/// Sentence on pictures without a change that are too few to exclude a change.
 fn undecided(monitor: &Monitor) -> String {
     let least = Monitor::LEAST_PICTURES;
     let few = "not enough untouched pictures to decide";

@@ -57,7 +57,7 @@ fn content(header: &Header) -> String {
     }
 }
 
-/// Task with its classes and the column that tells its clusters.
+/// Task with its classes and the column that states its clusters.
 fn task(task: &Task) -> String {
     let classes = match task.names.is_empty() {
         true => String::new(),

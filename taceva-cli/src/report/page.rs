@@ -134,7 +134,7 @@ impl Page {
         Ok(())
     }
 
-    /// Writes the tables and figures of the TacEva study with its printed numbers beside the computed numbers, into a folder in `folder`.
+    /// Writes the tables and figures of the TacEva study with its printed numbers next to the computed numbers, into a folder in `folder`.
     pub(crate) fn write_like_taceva(
         &self,
         folder: &Path,

@@ -84,7 +84,7 @@ fn levels(levels: &[LevelCheck]) -> Table {
     table
 }
 
-/// Claims, with one column for each level that was asked for.
+/// Claims, with one column for each level that was requested.
 fn claims(found: &Verification) -> Table {
     let levels: Vec<Level> = found.levels.iter().map(|level| level.level).collect();
     let first = ["study", "claim", "printed", "recomputed"].map(Column::new);

@@ -43,7 +43,7 @@ pub enum ArgError {
         /// Help text of the argument.
         help: String,
     },
-    /// A value that the key does not take.
+    /// A value that the key does not accept.
     Value {
         /// Key of the argument.
         key: String,

@@ -84,7 +84,7 @@ impl ArgSpec {
         self
     }
 
-    /// The same argument as an optional one.
+    /// The same argument as an optional argument.
     #[must_use]
     pub fn optional(mut self) -> ArgSpec {
         self.presence = Presence::Optional;
@@ -105,7 +105,7 @@ impl ArgSpec {
         self
     }
 
-    /// The same argument, marked as one that can change the facts of the device.
+    /// The same argument, marked as an argument that can change the facts of the device.
     #[must_use]
     pub fn changes_facts(mut self) -> ArgSpec {
         self.changes_facts = true;

@@ -76,12 +76,12 @@ impl BatchBuilder {
         batch.rows += 1;
     }
 
-    /// Number of samples collected so far.
+    /// Number of collected samples.
     pub fn rows(&self) -> usize {
         self.batch.rows
     }
 
-    /// The samples collected so far, as a batch. The builder keeps these samples.
+    /// The collected samples as a batch. The builder keeps these samples.
     ///
     /// ```
     /// use taceva_core::{BatchBuilder, Channel, Channels, FieldSet, Sample};
@@ -94,7 +94,7 @@ impl BatchBuilder {
         &self.batch
     }
 
-    /// Returns the samples collected so far and empties the builder.
+    /// Returns the collected samples and empties the builder.
     pub fn take(&mut self) -> Batch {
         let fresh = empty(self.batch.channels.clone(), self.fields);
         std::mem::replace(&mut self.batch, fresh)

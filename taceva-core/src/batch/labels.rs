@@ -24,7 +24,7 @@ struct Known {
     lookup: HashMap<String, u32>,
 }
 
-/// Most table slots per row for the lookup of whole numbers; sparser numbers use a hash map.
+/// Greatest number of table slots per row for the lookup of whole numbers; sparser numbers use a hash map.
 const PLACES_A_ROW: usize = 4;
 
 impl Labels {

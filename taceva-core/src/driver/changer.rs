@@ -47,14 +47,14 @@ pub trait Changer: Send {
     /// Names of the changer's items, each once.
     fn holds(&self) -> &[String];
 
-    /// Moves the item `name` into place, waits until the changer is at rest, and returns the name of the item in place. The returned name is
-    /// the one that the changer's sensors report, or else `name`. For an item already in place, the changer need not move.
+    /// Moves the item `name` into place, waits until the changer is at rest, and returns the name of the item in place. The sensors of the changer
+    /// report the returned name; without sensors, it is `name`. For an item already in place, the changer need not move.
     ///
     /// After an error the item in place is unknown, and the changer is at rest or stops by itself.
     ///
     /// # Errors
-    /// [`DriverError`] of kind `InvalidArgument` for a name that is not in [`holds`](Changer::holds), `Timeout` if the item is not in place
-    /// in time, `Interrupted`, or the kind of the failure.
+    /// [`DriverError`] of kind `InvalidArgument` for a name that is not in [`holds`](Changer::holds), `Timeout` if the item is not in place in time,
+    /// `Interrupted`, or the kind of the failure.
     fn bring(&mut self, name: &str, deadline: Deadline) -> Result<String, DriverError>;
 
     /// Handle that interrupts a pending call and stops the changer, from any thread; `None` if calls of this changer never block.

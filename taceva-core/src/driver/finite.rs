@@ -44,7 +44,7 @@ fn check(named: &[(&'static str, f64)]) -> Result<(), NotFinite> {
     }
 }
 
-/// A NaN or infinite number in place of a finite one.
+/// A NaN or infinite number in place of a finite number.
 ///
 /// ```
 /// use taceva_core::{Newton, Wrench, check_wrench};

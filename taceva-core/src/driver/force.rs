@@ -76,8 +76,8 @@ pub trait ForceTransducer: Send {
         None
     }
 
-    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. A reading
-    /// replaced by a newer one before the caller read it is not lost.
+    /// Number of readings lost between device and host since the transducer was opened; `None` if the driver does not count them. A reading that a
+    /// newer reading replaced before the caller read it is not lost.
     fn lost(&self) -> Option<u64> {
         None
     }
@@ -219,7 +219,7 @@ pub struct Axes(u8);
 impl Axes {
     /// No component.
     pub const NONE: Axes = Axes(0);
-    /// The normal force alone.
+    /// Only the normal force.
     pub const NORMAL: Axes = Axes::NONE.with(Axis::Fz);
     /// The three forces.
     pub const FORCE: Axes = Axes::NORMAL.with(Axis::Fx).with(Axis::Fy);

@@ -69,7 +69,7 @@ pub struct Guard {
 }
 
 impl Guard {
-    /// The guard that ends a motion at `force` alone.
+    /// The guard that ends a motion only at `force`.
     pub const fn at(force: Newton) -> Guard {
         Guard { force }
     }

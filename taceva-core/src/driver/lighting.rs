@@ -36,7 +36,7 @@ use super::{Deadline, DriverError};
 /// # Ok::<(), DriverError>(())
 /// ```
 pub trait Lighting: Send {
-    /// Names of the scenes, in the order of a sweep. The first scene is that of the calibration.
+    /// Names of the scenes, in the order of a sweep. The first scene is the calibration scene.
     fn scenes(&self) -> &[String];
 
     /// Sets the scene called `scene` and returns once the light is steady.

@@ -116,7 +116,7 @@ pub trait Robot: Send {
         BTreeMap::new()
     }
 
-    /// Warnings for the operator about a working robot: a speed below the requested one, unknown limits. Each states a remedy.
+    /// Warnings for the operator about a working robot: a speed below the requested speed, unknown limits. Each states a remedy.
     fn warnings(&self) -> Vec<String> {
         Vec::new()
     }

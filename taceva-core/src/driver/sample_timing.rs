@@ -33,7 +33,7 @@ const JUMP_S: f64 = 60.0;
 /// ```
 #[derive(Clone, Debug)]
 pub struct SampleTiming {
-    /// False for a device whose clock is not that of its host.
+    /// False for a device whose clock is not the clock of its host.
     is_checked: bool,
     rate: Option<Hertz>,
     /// Duration of the calls since the last sample.
@@ -64,7 +64,7 @@ impl SampleTiming {
         }
     }
 
-    /// Timing without checks, for a simulated device or a recording, whose clock is not that of the host.
+    /// Timing without checks, for a simulated device or a recording, whose clock is not the clock of the host.
     pub fn unchecked() -> SampleTiming {
         SampleTiming {
             is_checked: false,
@@ -111,7 +111,7 @@ impl SampleTiming {
         })
     }
 
-    /// Checks a stamp against the newest one on the clock of the host, and against the last one.
+    /// Checks a stamp against the newest stamp on the clock of the host, and against the last stamp.
     fn check_stamp(&mut self, now: Instant, stamp_s: f64) -> Result<(), TimingError> {
         let begun = self.last.map_or(now, |last| last.begun);
         let ahead_s = stamp_s - now.saturating_duration_since(begun).as_secs_f64();

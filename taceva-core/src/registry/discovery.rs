@@ -25,7 +25,7 @@ pub struct Found {
 }
 
 impl Found {
-    /// Device that `driver` can open now, without arguments that select it among others.
+    /// Device that `driver` can open now, without arguments that select it among other devices.
     pub fn new(driver: DriverKey, title: impl Into<String>) -> Found {
         Found {
             driver,

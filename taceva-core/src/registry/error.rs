@@ -38,7 +38,7 @@ pub enum RegistryError {
         /// Title of the driver that was rejected.
         second: String,
     },
-    /// A driver whose kind differs from that of the registry.
+    /// A driver whose kind differs from the kind of the registry.
     Kind {
         /// Name of the driver.
         key: DriverKey,

@@ -56,7 +56,7 @@ pub trait Factory<D: ?Sized>: Send + Sync {
     /// [`DriverError`] of kind `NotFound`, `PermissionDenied`, `Busy`, `InvalidArgument`, `Protocol`, `Timeout` or `Unsupported`.
     fn open(&self, args: &Args, rig: &mut Rig) -> Result<Box<D>, DriverError>;
 
-    /// Devices that are connected now. The search opens no device. A driver that cannot search returns none.
+    /// Devices that are connected now. The search opens no device. A driver that cannot search returns an empty list.
     ///
     /// # Errors
     /// [`DriverError`] if the search fails.

@@ -17,7 +17,7 @@ pub(super) const COEFFICIENT: &str = "a number from -1 to 1, or \"unknown\"";
 
 /// Accepted coverage factors. 12.7 belongs to one degree of freedom at 95 %, so a much greater factor lacks its decimal point.
 const COVERAGE_FACTORS: RangeInclusive<f64> = 1.0..=20.0;
-/// Least accepted probability, that of the least factor. A smaller number is the level of a test, such as 0.05.
+/// Least accepted probability: the probability of the least factor. A smaller probability is the level of a test, such as 0.05.
 const LEAST_PROBABILITY: f64 = 0.68;
 
 /// Calibration certificate of an instrument, by channel.
@@ -126,7 +126,7 @@ impl Certificate {
         self.issued <= day && self.valid_until.is_none_or(|until| day <= until)
     }
 
-    /// Checks the certificate of `instrument` for contradictions.
+    /// Checks the certificate for contradictions, as a certificate of `instrument`.
     ///
     /// # Errors
     /// [`CertificateError`] with the key, the value found and the values expected.

@@ -117,7 +117,7 @@ impl<T: Clone> Mailbox<T> {
         inside.newest.clone().filter(|_| inside.ended.is_none())
     }
 
-    /// Number of items received so far.
+    /// Total number of received items.
     #[cfg(any(
         feature = "camera",
         feature = "gcode",

@@ -4,7 +4,7 @@
 pub(super) trait RunningSum: Copy + Default {
     /// Adds a number.
     fn add(&mut self, value: f64);
-    /// The sum so far.
+    /// Sum of the added numbers.
     fn total(self) -> f64;
 }
 

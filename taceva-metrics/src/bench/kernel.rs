@@ -15,7 +15,7 @@ use crate::pair::Paired;
 
 /// An algorithm for MAE, R² and sMAPE of two columns.
 ///
-/// All kernels but [`Exact`](Kernel::Exact) round at every step, like common libraries.
+/// All kernels except [`Exact`](Kernel::Exact) round at every step, like common libraries.
 ///
 /// ```
 /// use taceva_metrics::bench::Kernel;

@@ -41,8 +41,8 @@ pub fn one_sided_factor(n: f64, freedom: f64, share: f64, confidence: f64) -> Op
 
 /// Factor k of a two-sided interval: mean ± k s contains `share` of a normal distribution, with `confidence`.
 ///
-/// The factor is exact: the integral runs over the error of the mean, and Howe's approximation is only the first guess. The arguments are
-/// those of [`one_sided_factor`].
+/// The factor is exact: the integral runs over the error of the mean, and Howe's approximation is only the first guess. The arguments are the
+/// arguments of [`one_sided_factor`].
 ///
 /// ```
 /// use taceva_metrics::distributions::tolerance::two_sided_factor;

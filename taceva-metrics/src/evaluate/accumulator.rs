@@ -119,7 +119,7 @@ impl Accumulator {
         Ok(())
     }
 
-    /// State of all samples so far.
+    /// State of all added samples.
     pub(crate) fn state(&self) -> State {
         let Shape {
             schema,

@@ -190,7 +190,7 @@ impl Evaluator {
         Ok(())
     }
 
-    /// Mergeable states of all samples so far.
+    /// Mergeable states of all added samples.
     ///
     /// # Errors
     /// The errors of [`update`](Evaluator::update), for samples still buffered.
@@ -202,7 +202,7 @@ impl Evaluator {
             .collect())
     }
 
-    /// Scores of all samples so far. Further samples may follow.
+    /// Scores of all added samples. Further samples may follow.
     ///
     /// # Errors
     /// The errors of [`update`](Evaluator::update), for samples still buffered.

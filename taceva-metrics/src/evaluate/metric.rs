@@ -34,7 +34,7 @@ pub struct Metric {
     pub theme: Theme,
     /// Direction of good values.
     pub better: Better,
-    /// Variants with a direction of their own.
+    /// Variants with their own direction.
     pub variants: &'static [(&'static str, Better)],
     /// The unit of its values.
     pub unit: ScoreUnit,

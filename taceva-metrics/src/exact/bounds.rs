@@ -66,7 +66,7 @@ impl<V: Vector> RangeInLanes<V> {
 
 /// Bounds on y − ŷ and y that keep the sums of the requested streams exact.
 ///
-/// Within these bounds ŷ is at most the sum of two such magnitudes and needs no bounds of its own.
+/// Within these bounds ŷ is at most the sum of two such magnitudes and needs no separate bounds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Bounds {
     pub(super) residual: Range,

@@ -20,7 +20,7 @@ pub(super) struct OfColumn<'a> {
 struct ColumnVisit<V> {
     one: V,
     greatest: V,
-    /// Predecessor of the least nonzero magnitude so far.
+    /// Predecessor of the least nonzero magnitude of the visited values.
     least: V,
     sum: GridSum<V>,
 }

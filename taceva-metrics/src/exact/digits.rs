@@ -65,7 +65,7 @@ pub(super) fn add_to(digits: &mut [i64], parts: &[i64]) {
     }
 }
 
-/// Brings every digit but the highest into −2³¹..2³¹. With balanced digits a small negative sum needs few digits.
+/// Brings every digit except the highest into −2³¹..2³¹. With balanced digits a small negative sum needs few digits.
 pub(super) fn carry(digits: &mut [i64]) {
     let Some((highest, others)) = digits.split_last_mut() else {
         return;

@@ -117,7 +117,7 @@ impl Dyadic {
         )
     }
 
-    /// The same value with its last place at `exponent`, which must not exceed the present one.
+    /// The same value with its last place at `exponent`, which must not exceed the present exponent.
     fn magnitude_at(&self, exponent: i32) -> Natural {
         let places = usize::try_from(self.exponent - exponent).expect("the lower exponent of two");
         self.magnitude.shifted_up(places)

@@ -43,7 +43,7 @@ pub(crate) trait Vector: Copy {
     /// True if each lane is at most the same lane of `bound`; false if a number is NaN.
     fn all_at_most(self, bound: Self) -> bool;
 
-    /// `value` in the lanes with `self` of at least `bound`, zero in the others.
+    /// `value` in the lanes with `self` of at least `bound`, zero in the other lanes.
     fn keep_at_least(self, bound: Self, value: Self) -> Self;
     /// Number of lanes with `self` of at least `bound`.
     fn count_at_least(self, bound: Self) -> u32;

@@ -98,7 +98,7 @@ impl<V: Merge + Clone + Default> Cells<V> {
         }
     }
 
-    /// True if every row so far had a contact point.
+    /// True if every added row had a contact point.
     pub(crate) fn are_named(&self) -> bool {
         self.named
     }

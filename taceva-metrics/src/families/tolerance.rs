@@ -116,7 +116,7 @@ fn class(error: i64, tolerances: &[i64; 8]) -> usize {
 pub(crate) struct ErrorCounts {
     n: u64,
     n_invalid: u64,
-    /// Number of errors in each class: above the previous tolerance, up to this one.
+    /// Number of errors in each class: above the previous tolerance, up to this tolerance.
     classes: [u64; TOLERANCES.len()],
     /// Counts of the channel's constant; `None` if the constant is unknown, or if samples have models with different constants.
     of_constant: Option<OfConstant>,

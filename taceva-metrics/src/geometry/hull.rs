@@ -7,8 +7,8 @@ use crate::pair::is_valid;
 
 /// Corners of the convex hull of points in the plane.
 ///
-/// The corners run anticlockwise from the leftmost corner, the lowest of several leftmost corners. No corner is on the line between two others,
-/// so equal sets of points have equal hulls. A hull is flat if all points are on one line: it then has at most two corners.
+/// The corners run anticlockwise from the leftmost corner, and from the lowest of several leftmost corners. No corner is on the line between two
+/// others, so equal sets of points have equal hulls. A hull is flat if all points are on one line: it then has at most two corners.
 ///
 /// # Laws
 /// Merging is associative, commutative and idempotent; the empty hull changes nothing.

@@ -15,7 +15,7 @@ pub enum Flag {
     OneBin,
     /// The stimulus was too small: the light changed by less than 5 % in a scene, or labels differ less between presses than predictions of one press.
     LowStimulus,
-    /// The error of a scene is smaller than that of the reference scene. The score penalises this change like a larger error.
+    /// The error of a scene is smaller than the error of the reference scene. The score penalises this change like a larger error.
     ImprovedError,
     /// The truths of some channels are collinear, so their effects on a prediction cannot be separated.
     CollinearTruths,

@@ -4,7 +4,7 @@ use crate::score::bootstrap_ends::BootstrapEnds;
 use crate::score::scale::Scale;
 use crate::score::value::UndefinedReason;
 
-/// Kind of clusters behind an interval.
+/// Kind of clusters of an interval.
 ///
 /// ```
 /// use taceva_metrics::{Channel, ClusteredBy, Evaluator, Interval};
@@ -122,7 +122,7 @@ pub enum Interval {
         high: f64,
         /// Half-width divided by t, in the unit of the score.
         standard_error: f64,
-        /// Degrees of freedom: number of clusters minus one, or those of the standard deviation of errors.
+        /// Degrees of freedom: number of clusters minus one, or the degrees of freedom of the standard deviation of errors.
         freedom: f64,
         /// Number of clusters with samples.
         clusters: usize,

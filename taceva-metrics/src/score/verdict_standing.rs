@@ -80,7 +80,7 @@ impl Standing {
         }
     }
 
-    /// Words for readers, printed beside a value; `None` for a score that counts.
+    /// Words for readers, printed next to a value; `None` for a score that counts.
     ///
     /// ```
     /// use taceva_metrics::Standing;

@@ -6,7 +6,7 @@ use super::row_groups::{Grouped, HASHED_CLUSTERS, bucket};
 use crate::exact::merge::Merge;
 use taceva_core::random::fnv_1a;
 
-/// Greatest number of contact points that form clusters of their own.
+/// Greatest number of contact points that form separate clusters.
 pub const NAMED_CLUSTERS: usize = 64;
 /// Name of the only cluster of an undivided summary.
 const WHOLE: &str = "all";

@@ -324,7 +324,7 @@ impl Noise {
 }
 
 impl Excess {
-    /// Mean of several excesses, such as those of distance and depth. Without a true excess, its interval starts above 0 in at most 5 % of
+    /// Mean of several excesses, such as the excesses of distance and depth. Without a true excess, its interval starts above 0 in at most 5 % of
     /// cases.
     pub(crate) fn mean_of(all: &[Excess]) -> Option<Excess> {
         let first = all.first()?;

@@ -10,8 +10,8 @@ use super::student::{beyond, upper};
 
 /// Difference A − B of two scores, with test and interval.
 ///
-/// Verdict, p value and interval follow from one decision. [`decide`] decides a family of differences together. Before that call, each
-/// difference is a family of its own.
+/// Verdict, p value and interval follow from one decision. [`decide`] decides a family of differences together. Before that call, each difference is
+/// a separate family.
 ///
 /// ```
 /// use taceva_metrics::{Estimate, Sides, by_intervals};
@@ -34,7 +34,7 @@ pub struct Difference {
     pub interval: [f64; 2],
     /// Confidence of the interval: 0.95 for a single difference, greater in a family.
     pub confidence: f64,
-    /// Two-sided p value of this test alone: the probability of at least this difference between equal scores.
+    /// Two-sided p value of this single test: the probability of at least this difference between equal scores.
     pub p: f64,
     /// p value adjusted for the family by [`holm`](crate::holm).
     pub adjusted_p: f64,
@@ -57,8 +57,8 @@ pub(super) enum Inverse {
     Student { freedom: f64 },
 }
 
-/// Differences at which another pattern of signs gives a sum as large as the observed sum, sorted from below and from above. Patterns with
-/// such a sum at every difference are infinite.
+/// Differences at which another pattern of signs gives a sum as large as the observed sum, sorted from below and from above. Patterns with such a sum
+/// at every difference are infinite.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Flips {
     pub(super) from_below: Vec<f64>,
@@ -160,7 +160,7 @@ pub(super) struct Tested {
 }
 
 impl Tested {
-    /// Difference as a family of its own.
+    /// Difference as a separate family.
     pub(super) fn with(self, inverse: Inverse) -> Difference {
         let Tested { p, .. } = self;
         let step = Step {

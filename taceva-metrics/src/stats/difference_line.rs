@@ -5,8 +5,7 @@ use crate::distributions::student_t;
 use crate::exact::merge::Merge;
 use crate::exact::{Dyadic, ExactSum, Moments};
 
-/// Exact sums for a line through the differences d of pairs over their means m, apart from the sums of d alone. Sums of parts merge in any
-/// order.
+/// Exact sums for a line through the differences d of pairs over their means m, except the sums of d. Sums of parts merge in any order.
 ///
 /// ```
 /// use taceva_metrics::{DifferenceLine, Moments};

@@ -28,7 +28,7 @@ pub struct LeftOut {
 }
 
 impl LeftOut {
-    /// Score `value` of all clusters but one, which has `count` samples.
+    /// Score `value` of all clusters except a cluster that has `count` samples.
     #[must_use]
     pub fn new(count: u64, value: Result<f64, UndefinedReason>) -> LeftOut {
         LeftOut { count, value }

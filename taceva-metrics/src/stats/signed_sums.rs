@@ -53,7 +53,7 @@ impl SignedSums {
     }
 }
 
-/// Brings every digit but the highest into 0..2³² and returns the highest, which has the sign of the number.
+/// Brings every digit except the highest into 0..2³² and returns the highest, which has the sign of the number.
 fn carry(digits: &mut [i64]) -> i64 {
     let Some((highest, others)) = digits.split_last_mut() else {
         return 0;

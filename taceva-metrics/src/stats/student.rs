@@ -142,8 +142,7 @@ pub(super) fn gamma_ratio(z: f64) -> f64 {
     raised * w.sqrt() * polynomial
 }
 
-/// base^exponent for a base in 0..=1 and an exponent from 0 on: squares for the whole bits of the exponent, square roots for
-/// the others.
+/// base^exponent for a base in 0..=1 and an exponent from 0 on: squares for the whole bits of the exponent, square roots for the other bits.
 pub(super) fn power(base: f64, exponent: f64) -> f64 {
     let mut whole = exponent.floor();
     let mut rest = exponent - whole;

@@ -31,20 +31,20 @@ use crate::training::problem::Problem;
 
 /// Tries models, the cheapest first, and chooses one.
 ///
-/// The training part is divided into five folds of whole groups, or of runs of neighbouring samples. A trial learns from three folds, chooses settings on the
-/// fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains a quarter of its epochs, and all epochs
-/// if the comparison is still open. If the network is clearly ahead, it is chosen, and costlier models are not tried.
+/// The training part is divided into five folds of whole groups, or of runs of neighbouring samples. A trial learns from three folds, chooses
+/// settings on the fourth and computes its error on the fifth. All models are tried on the first fold. The small network first trains a quarter of
+/// its epochs, and all epochs if the comparison is still open. If the network is clearly ahead, it is chosen, and costlier models are not tried.
 ///
 /// Otherwise the other models continue to the next fold. A model drops out if the best model is ahead by three standard errors of the difference,
 /// computed by group. It also drops out if another model is as good with a tenth of the work. Of the remaining models, the model with the least error
 /// is chosen. The baseline is chosen unless this model is better by more than two standard errors. The network replaces this choice if it is better
-/// on the first fold by more than two standard errors and by a twentieth of the squared error.
+/// on the first fold, by more than two standard errors and a twentieth of the squared error.
 ///
-/// With `head=classes`, classifiers are fitted to the training part, and the best classifier on the validation part is chosen.
+/// With `head=classes`, classifiers are fitted to the training part, and the classifier that predicts the validation part best is chosen.
 ///
-/// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and its final fit do not exceed the
-/// remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore leads to the same choice on every machine,
-/// under any load and with any number of threads. Baseline and ridge are always tried.
+/// The budget counts work, not time: seconds of a core with 10⁹ multiplications per second. A model is tried if its trial and its final fit do not
+/// exceed the remaining budget. Work depends on the numbers of samples, features and channels. The same recording therefore leads to the same choice
+/// on every machine, under any load and with any number of threads. Baseline and ridge are always tried.
 #[derive(Clone, Debug)]
 pub struct Auto {
     budget_s: f64,
@@ -54,7 +54,7 @@ pub struct Auto {
     libraries: Vec<&'static LibraryModel>,
     /// Signals that serve as features; `None` for pictures.
     of_signals: Option<SignalInfo>,
-    /// Checkpoints for the training of a network, if one is chosen.
+    /// Checkpoints for the training of a network, if a network is chosen.
     checkpoints: Option<Checkpoints>,
 }
 

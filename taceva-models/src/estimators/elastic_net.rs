@@ -75,7 +75,7 @@ impl ElasticNet {
         })
     }
 
-    /// Candidate strengths, ascending. Of strengths with equal errors, the last and strongest one is chosen.
+    /// Candidate strengths, ascending. Of strengths with equal errors, the last and strongest strength is chosen.
     fn strengths(&self) -> Vec<f64> {
         let grid = || {
             (0..=24)

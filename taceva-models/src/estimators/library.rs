@@ -117,7 +117,7 @@ pub(crate) trait LibraryLearner: Send + Sync {
 }
 
 impl LibraryModel {
-    /// Card entry of the library, for models fitted by it.
+    /// Card entry of the library, for models fitted by the library.
     pub(crate) fn card(&self) -> LibraryCard {
         let (library, _) = self.info.name.split_once('/').unwrap_or_default();
         LibraryCard {

@@ -67,6 +67,7 @@ impl LinearRegressor {
     ///
     /// # Shapes
     /// `weights`: `[channels, features]`; `bias`: `[channels]`.
+    ///
     /// # Units
     /// Units of the channels.
     /// # Errors

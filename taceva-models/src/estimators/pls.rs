@@ -84,7 +84,7 @@ impl Pls {
         })
     }
 
-    /// Errors for each number of directions, descending to 0. Of numbers with equal errors, the last and simplest one is chosen.
+    /// Errors for each number of directions, descending to 0. Of numbers with equal errors, the last and smallest number is chosen.
     fn choose(
         &self,
         problem: &Problem<'_>,

@@ -20,10 +20,10 @@ use crate::training::problem::{Problem, Validation, centred, joined, stacked};
 
 /// Ridge regression: minimises Σ (y − b − wᵀx)² + λ‖w‖² for each channel. The intercept b is not penalised.
 ///
-/// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore has the same meaning for bright and dark pictures, and for many and
-/// few. Each channel has one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation part. Without a validation part,
-/// groups of the training part are left out in turn, or single samples. Leave-out errors are exact, computed by blocks of the hat matrix without a refit. A
-/// strength of 0 is least squares, refined to the last digits; it needs more samples than features.
+/// λ is the strength × the mean eigenvalue of the centred Gram matrix. A strength therefore has the same meaning for bright and dark pictures, and
+/// for many and few pictures. Each channel has one of the 41 strengths 10⁻⁶, 10⁻⁵·⁷⁵ … 10⁴: the strength of least squared error on the validation
+/// part. Without a validation part, groups of the training part are left out in turn, or single samples. Leave-out errors are exact, computed by
+/// blocks of the hat matrix without a refit. A strength of 0 is least squares, refined to the last digits; it needs more samples than features.
 ///
 /// # Reference
 /// A. E. Hoerl, R. W. Kennard, Technometrics 12 (1970) 55; D. M. Allen, Technometrics 16 (1974) 125 (leaving out).

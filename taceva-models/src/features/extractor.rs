@@ -53,12 +53,12 @@ enum Of {
 }
 
 impl Extractor {
-    /// Builds an extractor of `spec` for frames or signals of `info`. Differences, markers and gradients need the contact-free frame or
-    /// signals as `reference`.
+    /// Builds an extractor of `spec` for frames or signals of `info`. Differences, markers and gradients need the contact-free frame or signals as
+    /// `reference`.
     ///
     /// # Errors
-    /// [`FeatureError`] if the frame is smaller than the features, gray although colour is requested, or has too many rows. Also if a needed reference is
-    /// missing, of another kind, or lacks requested markers. Also if the grid of the signals differs from that of `spec`.
+    /// [`FeatureError`] if the frame is smaller than the features, gray although colour is requested, or has too many rows. Also if a needed
+    /// reference is missing, of another kind, or lacks requested markers. Also if the grid of the signals differs from the grid of `spec`.
     pub fn new(
         spec: FeatureSpec,
         info: impl Into<InputInfo>,

@@ -58,7 +58,7 @@ impl FeatureKind {
         matches!(self, FeatureKind::Markers | FeatureKind::Gradients)
     }
 
-    /// Default number of columns and rows for features whose first kind is this one.
+    /// Default number of columns and rows for features whose first kind is this kind.
     pub(super) const fn side(self) -> u32 {
         match self {
             FeatureKind::Pixels | FeatureKind::Gradients | FeatureKind::Signals => 32,

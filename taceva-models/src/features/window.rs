@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::settings::{ModelSettings, SettingError, SettingInfo, number};
 
-/// Frames that one sample reads: its own, and earlier frames of the same sequence. No later frame is read.
+/// Frames that one sample reads: its own frame, and earlier frames of the same sequence. No later frame is read.
 ///
 /// ```
 /// use taceva_models::FrameWindow;
@@ -74,14 +74,14 @@ impl FrameWindow {
         self.stride
     }
 
-    /// Places in a sequence of the frames of the sample at `place`, the newest first. The first frame of the sequence replaces missing frames.
+    /// Positions in the sequence of the frames of the sample at `place`, newest first. The first frame replaces missing earlier frames.
     pub fn places(self, place: usize) -> impl Iterator<Item = usize> {
         let back = move |frame: u32| frame as usize * self.stride as usize;
         (0..self.frames).map(move |frame| place.saturating_sub(back(frame)))
     }
 
-    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change to each frame from the frame
-    /// before follows.
+    /// Appends the features of a window to `into`. Each cell has its values in every frame, the newest first. The change of each frame from the
+    /// previous frame follows.
     ///
     /// # Shapes
     /// `frames`: the features of each frame, the newest first, each `[cells, depth]`.

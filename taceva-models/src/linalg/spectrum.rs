@@ -47,7 +47,7 @@ pub(crate) struct Spectrum<'d, 'a> {
     side: Side,
     /// Eigenvalues Σ², ascending, at least 0.
     eigenvalues: Vec<f64>,
-    /// Eigenvectors: U for the Gram matrix of samples, V for that of features.
+    /// Eigenvectors: U for the Gram matrix of samples, V for the Gram matrix of features.
     vectors: Mat<f64>,
 }
 

@@ -34,7 +34,7 @@ impl LearntChannels {
     /// Learnt channels for the predicted channels `asked`. Each of `angles` is learnt as sine and cosine.
     ///
     /// # Errors
-    /// [`ChannelError`] if the name of a sine or cosine channel is too long or already taken.
+    /// [`ChannelError`] if the name of a sine or cosine channel is too long or used by another channel.
     pub(crate) fn new(
         asked: &Channels,
         angles: &[AngleCard],

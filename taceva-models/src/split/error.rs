@@ -128,7 +128,7 @@ pub enum SplitError {
         /// Suggested values.
         suggestion: Suggestion,
     },
-    /// The split needs several recordings, but there is one.
+    /// The split needs several recordings, but there is only one recording.
     #[error("split {split}: there is one recording; name two or more")]
     NoRecordings {
         /// Name of the split.

@@ -35,7 +35,7 @@ pub enum SplitKind {
     ByRecording(BTreeMap<String, Part>),
     /// Random, by block of time, with a gap between blocks of different parts.
     ByBlock,
-    /// Cross-validation over several recordings: a model fitted to all others tests each recording.
+    /// Cross-validation over several recordings: a model fitted to all other recordings tests each recording.
     LeaveOneRecordingOut,
     /// Cross-validation: a model fitted to other groups tests each group.
     Folds(FoldSpec),

@@ -73,7 +73,7 @@ pub trait ModelEstimator: Estimator {
         progress: &dyn Progress,
     ) -> Result<ModelFit, ModelError>;
 
-    /// Estimator that replaces this one for signals of `info`; `None` for estimators that are not specific to pictures.
+    /// Estimator that replaces this estimator for signals of `info`; `None` for estimators that are not specific to pictures.
     ///
     /// # Errors
     /// [`FeatureError::NarrowGrid`] if the grid is too small.

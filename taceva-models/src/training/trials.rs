@@ -15,7 +15,7 @@ pub(crate) const FOLDS: usize = 10;
 /// All samples for a choice of settings, and the rounds of the choice.
 #[derive(Debug)]
 pub(crate) struct Trials<'a> {
-    /// Features of the training part, followed by those of the validation part.
+    /// Features of the training part, followed by the features of the validation part.
     pub(crate) features: Cow<'a, Features>,
     /// Labels of both parts, scaled and centred by the training part.
     pub(crate) labels: Mat<f64>,

@@ -89,9 +89,9 @@ impl Scene {
     /// # Errors
     /// [`SceneError`] with the line:
     ///
-    /// - invalid TOML, or an unknown key or name, with the most similar known one;
+    /// - invalid TOML, or an unknown key or name, with the most similar known name;
     /// - a count or number out of range, or two contradictory statements;
-    /// - a limit of a study above that of its scene.
+    /// - a limit of a study above the limit of its scene.
     pub fn parse(source_name: &str, text: &str) -> Result<Scene, SceneError> {
         check::checked(Text::new(source_name, text)?, NamedBy::Scene)
     }
@@ -104,7 +104,7 @@ impl Scene {
         check::checked(Text::new(source_name, text)?, NamedBy::Rig)
     }
 
-    /// Replaces the devices of every study that presses with those of `rig`.
+    /// In every study that presses, replaces the devices by the devices of `rig`.
     ///
     /// # Errors
     /// [`SceneError`] of the rig file, if the file has no sensor.

@@ -1,12 +1,12 @@
-//! Numbers of a picture, which a fault changes.
+//! Pixel values of a picture, which a fault changes.
 
 use taceva_core::random::Draws;
 use taceva_core::{Frame, FrameInfo, whole_size};
 
-/// Numbers of a picture: row by row, the colours of a pixel side by side.
+/// Pixel values of a picture: row by row, the colours of a pixel side by side.
 pub(crate) struct Canvas {
     info: FrameInfo,
-    /// Numbers in steps of the camera, also outside its range.
+    /// Values in steps of the camera, also outside its range.
     ///
     /// # Shapes
     /// `[height, width, colours]`.
@@ -14,7 +14,7 @@ pub(crate) struct Canvas {
 }
 
 impl Canvas {
-    /// The numbers of `frame`.
+    /// Pixel values of `frame`.
     pub(crate) fn of(frame: &Frame) -> Canvas {
         Canvas {
             info: frame.info(),
@@ -22,7 +22,7 @@ impl Canvas {
         }
     }
 
-    /// The picture: each number rounded half to even, and clamped to the range of the camera.
+    /// The picture: each value rounded half to even, and clamped to the range of the camera.
     pub(crate) fn into_frame(self) -> Frame {
         let full = self.full();
         let width = self.info.format.bytes_per_sample();
@@ -34,39 +34,39 @@ impl Canvas {
         Frame::new(self.info, bytes).expect("as many numbers as before")
     }
 
-    /// Pixels of a row.
+    /// Number of pixels in a row.
     pub(crate) fn width(&self) -> usize {
         self.info.width as usize
     }
 
-    /// Rows.
+    /// Number of rows.
     pub(crate) fn height(&self) -> usize {
         self.info.height as usize
     }
 
-    /// Numbers of a pixel.
+    /// Number of colours of a pixel.
     pub(crate) fn colours(&self) -> usize {
         self.info.format.samples()
     }
 
-    /// Greatest number that the camera can give.
+    /// Greatest value that the camera can give.
     pub(crate) fn full(&self) -> f32 {
         f32::from(self.info.format.full_scale())
     }
 
-    /// Numbers of all pixels, one slice for each pixel.
+    /// Values of all pixels, one slice for each pixel.
     pub(crate) fn pixels(&mut self) -> impl Iterator<Item = &mut [f32]> {
         let colours = self.colours();
         self.values.chunks_exact_mut(colours)
     }
 
-    /// Rows of numbers.
+    /// Rows of pixel values.
     pub(crate) fn rows(&mut self) -> impl Iterator<Item = &mut [f32]> {
         let length = self.width() * self.colours();
         self.values.chunks_exact_mut(length)
     }
 
-    /// Numbers of the pixel in column `x` of row `y`.
+    /// Values of the pixel in column `x` of row `y`.
     pub(crate) fn pixel(&mut self, x: usize, y: usize) -> &mut [f32] {
         let colours = self.colours();
         let first = (y * self.width() + x) * colours;
@@ -78,7 +78,7 @@ impl Canvas {
 pub(crate) struct Realisation {
     /// Parameter of the fault, above 0.
     pub(crate) parameter: f32,
-    /// Random numbers: of the sample for faults of each picture, of the unit for others.
+    /// Random numbers: drawn for each sample if the scope is [`Scope::Each`](crate::fault::Scope::Each), otherwise for the unit.
     pub(crate) draws: Draws,
 }
 
@@ -88,7 +88,7 @@ impl Realisation {
         unit(self.draws, counter)
     }
 
-    /// Places of defects that are drawn one after another, each with its strength. Only the last is weaker than 1.
+    /// Defects in the order of their draws, each with its strength. Only the last is weaker than 1.
     pub(crate) fn defects(&self) -> impl Iterator<Item = Defect> + '_ {
         let strength = move |number: u16| (self.parameter - f32::from(number)).min(1.0);
         (0..u16::MAX)

@@ -1,4 +1,4 @@
-//! Numbers with intervals, and the reasons for absent ones.
+//! Numbers with intervals, and the reasons for absent numbers and intervals.
 
 use std::fmt;
 
@@ -19,7 +19,7 @@ pub enum Undefined {
     ConstantTruth,
     /// The fault does not add to the error, so no part of it can be removed.
     NoExcess,
-    /// The model reads no untouched picture, or none from after the fault is usable.
+    /// The model reads no untouched picture, or no untouched picture with the fault is usable.
     NoFreshReference,
     /// The samples name no contact points or groups.
     NoClusters,
@@ -39,7 +39,7 @@ pub enum Undefined {
     NotGrowing,
     /// The growth of the error is not shown.
     GrowthNotShown,
-    /// The error of the last recording is above the limit, and no place is known at which it met the limit.
+    /// The error of the last recording is above the limit, and the presses or day at which it reached the limit are unknown.
     AboveLimit,
 }
 
@@ -65,7 +65,7 @@ impl fmt::Display for Undefined {
     }
 }
 
-/// A number with its 95 % interval, or the reason for an absent one.
+/// A number with its 95 % interval, or the reason for a missing interval.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Estimate {
     /// The number.
@@ -77,7 +77,7 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// A number, with its interval or the reason for none.
+    /// A number, with its interval or the reason why the interval is absent.
     pub(crate) fn new(value: f64, interval: Result<[f64; 2], Undefined>) -> Estimate {
         Estimate {
             value: Some(value),
@@ -95,7 +95,7 @@ impl Estimate {
         }
     }
 
-    /// No number.
+    /// Absent number, with the reason.
     pub(crate) fn undefined(reason: Undefined) -> Estimate {
         Estimate {
             value: None,

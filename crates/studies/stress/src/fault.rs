@@ -36,7 +36,7 @@ pub struct Fault {
 /// Change that a fault makes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Effect {
-    /// Changes the numbers of the picture.
+    /// Changes the pixel values of the picture.
     Numbers(fn(&mut Canvas, &Realisation)),
     /// Replaces the picture by the previous one.
     Before,

@@ -22,7 +22,7 @@ use crate::fault::Fault;
 pub const LIST: &str = "gel-12";
 /// Another name of the list of all faults.
 const ALL: &str = "all";
-/// Faults of a gel, which no picture can show: force and picture change together.
+/// Faults of a gel. Changed pictures alone cannot simulate them, because force and picture change together.
 pub const GEL_FAULTS: [&str; 10] = [
     "gel_softening",
     "gel_hardening",

@@ -8,7 +8,7 @@ use crate::severity::NEVER;
 
 /// Stimulus below which a fault hardly changes the pictures.
 pub(crate) const LOW: f64 = 0.05;
-/// Check of untouched pictures.
+/// Code of the check of untouched pictures.
 pub(crate) const CHANGED_REST: &str = "TAC034";
 /// Degradation from which an error counts as doubled.
 const DOUBLE: f64 = 2.0;
@@ -24,7 +24,8 @@ pub(crate) fn breaks_at(severities: &[SeverityReport], channel: &str) -> Option<
     (!severities.is_empty()).then_some(NEVER)
 }
 
-/// Share of the excess error, in logarithms over all severities, that a new untouched picture removes. `mean` is the mean degradation without one.
+/// Share of the excess error, in logarithms over all severities, that a new untouched picture removes. `mean` is the mean degradation without a new
+/// picture.
 pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Estimate) -> Estimate {
     let Some(value) = mean.value else {
         return *mean;

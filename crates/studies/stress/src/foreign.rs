@@ -40,7 +40,7 @@ pub trait PictureFault: Sync {
     /// Key of the fault. Scores of faults with different keys are not compared.
     fn key(&self) -> &str;
 
-    /// The picture `frame` of `sample` with the fault of `severity`, from 1 to 5: of the same size and format.
+    /// Returns the picture `frame` of `sample` with the fault at `severity`, from 1 to 5, in the same size and format.
     ///
     /// # Errors
     /// The reason, if the plugin fails.
@@ -52,11 +52,11 @@ struct Cell {
     severity: u8,
     /// True if the check of untouched pictures finds the fault.
     is_noticed: bool,
-    /// Features beside the untouched picture with the fault; `None` if there is none, or the model reads none.
+    /// Feature extractor with the faulty untouched picture; `None` without an untouched picture, or if the model reads none.
     fresh: Option<Extractor>,
 }
 
-/// Numbers of one severity.
+/// Predictions and picture changes of one severity.
 #[derive(Clone, Default)]
 struct Numbers {
     stale: Vec<f64>,

@@ -1,4 +1,4 @@
-//! Monitor of a sensor in use: untouched pictures are compared with earlier ones, and pictures of contact with the training pictures.
+//! Monitor of a sensor in use: untouched pictures are compared with earlier untouched pictures, and pictures of contact with the training pictures.
 
 mod baseline;
 mod change;
@@ -23,7 +23,7 @@ use self::limit::{LEARNT, Limited, WINDOW};
 use self::lines::line_change;
 use crate::scale::Scale;
 
-/// Pictures whose mean is the baseline.
+/// Number of pictures whose mean is the baseline.
 const SETTLED: u32 = 50;
 /// Least stimulus that counts as a change of pattern.
 const PATTERN: f64 = 0.1;
@@ -33,16 +33,16 @@ const DETAIL: f64 = 0.05;
 const LINES: f64 = 0.5;
 /// Stimulus of the baseline above which it differs from the reference. Flicker of a single reference picture is below it.
 const REFERENCE: f64 = 1.0;
-/// Repeated pictures among the newest that show a change.
+/// Number of repeats among the newest pictures that counts as a change.
 const REPEATS: usize = 3;
-/// Pictures of contact among the newest outside the training pictures that show a change.
+/// Number of contact pictures unlike the training pictures, among the newest, that counts as a change.
 const OUTSIDE: usize = 20;
 
 /// Monitor of a sensor in use.
 ///
 /// The mean of the first 50 untouched pictures is the baseline, and the next 200 set the limits. From then on a change is found if more than half of
-/// the newest 30 untouched pictures are beyond a limit, if their mean brightness is, or if a line of three of them is far from the same line of the picture before. Each kind of change is reported once: after its remedy, begin
-/// with a new monitor.
+/// the newest 30 untouched pictures, or their mean brightness, exceed a limit. A change is also found if a line of three of them differs strongly
+/// from this line in the previous picture. Each kind of change is reported once. After its remedy, create a new monitor.
 ///
 /// ```
 /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -68,7 +68,7 @@ const OUTSIDE: usize = 20;
 pub struct Monitor {
     reference: Frame,
     contact: f64,
-    /// Sum of each number over the pictures of the baseline so far.
+    /// Sum of each pixel value over the first untouched pictures, for the baseline.
     sums: Vec<u32>,
     settled: u32,
     baseline: Option<Baseline>,
@@ -77,14 +77,14 @@ pub struct Monitor {
     detail: Limited,
     lines: Limited,
     before: Option<Frame>,
-    /// True if a picture repeated the one before while the limits were set. Repeats are then no change.
+    /// True if a picture repeated the previous picture while the limits were set. Repeats are then no change.
     has_repeats: bool,
     repeats: Newest,
     training: Option<Training>,
-    /// Untouched pictures of the calibration, if the monitor was to learn from them.
+    /// Number of untouched pictures of the calibration; `None` if the monitor does not learn from them.
     calibration: Option<usize>,
     untouched: u64,
-    /// Untouched pictures that were compared with the limits.
+    /// Number of untouched pictures that were compared with the limits.
     compared: u64,
     touched: u64,
     found: BTreeSet<Change>,
@@ -183,8 +183,8 @@ impl Monitor {
         }
     }
 
-    /// Compares pictures of contact with the training pictures of `model`, too. `dataset` is the recording of the calibration.
-    /// A model without training pictures has no effect.
+    /// Also compares pictures of contact with the training pictures of `model`. `dataset` is the recording of the calibration. A model without
+    /// training pictures has no effect.
     ///
     /// # Errors
     /// [`EvaluateError::Unsuited`] if the model does not suit the pictures.
@@ -222,8 +222,9 @@ impl Monitor {
 
     /// Expected number of false alarms in `pictures` untouched pictures, an upper bound for limits that 200 pictures set. Fewer pictures raise it.
     ///
-    /// The bound supposes untouched pictures without drift, whose order has no effect. The part of the brightness supposes normal flicker.
-    /// The parts of pattern and detail hold for every distribution. Single lines have no part: no alarm is expected if their noise has no outliers. Flicker whose successive pictures are alike raises more alarms (docs/faults.md).
+    /// The bound assumes that untouched pictures do not drift and are exchangeable. Its brightness term assumes normally distributed flicker. Its
+    /// pattern and detail terms hold for every distribution. It has no term for single lines: no alarm is expected if their noise has no outliers.
+    /// Flicker that is similar in successive pictures causes more alarms (docs/faults.md).
     ///
     /// ```
     /// assert!(taceva_stress::Monitor::false_alarms(300_000) < 0.001);
@@ -242,8 +243,8 @@ impl Monitor {
         self.calibration
     }
 
-    /// True if the pictures so far can show that nothing has changed: the calibration, if the monitor was to learn from it, has enough untouched pictures, and
-    /// at least 30 were compared with the limits.
+    /// True if the pictures can show that nothing has changed: at least 30 untouched pictures were compared with the limits. If the monitor was to
+    /// learn from the calibration, the calibration must have enough untouched pictures.
     ///
     /// ```
     /// use taceva_core::{Frame, FrameInfo, PixelFormat};
@@ -257,7 +258,7 @@ impl Monitor {
         self.calibration.is_none_or(is_enough) && self.compared >= WINDOW as u64
     }
 
-    /// Changes found so far.
+    /// All changes found.
     pub fn found(&self) -> &BTreeSet<Change> {
         &self.found
     }
@@ -369,7 +370,7 @@ fn framed(dataset: &Dataset) -> Vec<usize> {
     usable(dataset, &dataset.all_rows(), need)
 }
 
-/// Share of the newest pictures.
+/// `count` as a share of the newest pictures.
 fn share(count: usize) -> f64 {
     count as f64 / WINDOW as f64
 }

@@ -7,7 +7,7 @@ use crate::fault::{Fault, Scope};
 use crate::score::Scored;
 use crate::setup::StressRequest;
 
-/// Limits of the numbers of `faults`, as requested. `clean` has the scores of `samples` predicted samples without a fault.
+/// Notes on the limitations of the scores of `faults`. `clean` has the scores of `samples` predicted samples without a fault.
 pub(crate) fn notes(
     faults: &[&'static Fault],
     request: &StressRequest,
@@ -32,7 +32,7 @@ pub(crate) fn notes(
         .collect()
 }
 
-/// Limits of scores of `samples` predicted samples: absent intervals, and absent labels.
+/// Notes on scores of `samples` predicted samples: absent intervals and absent labels.
 pub(crate) fn of_scores(scored: &Scored, samples: usize) -> [Option<String>; 2] {
     let intervals = match scored.clusters() {
         Some(count) if count < LEAST_CLUSTERS => Some(format!(

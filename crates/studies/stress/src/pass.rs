@@ -21,12 +21,12 @@ pub(crate) struct Cell {
 /// One draw of a fault.
 pub(crate) struct CellDraw {
     pub(crate) stress: Stress,
-    /// Features beside an untouched picture from after the fault; `None` if the model or the fault has none.
+    /// Feature extractor with an untouched picture from after the fault; `None` if the model or the fault has no such picture.
     fresh: Option<Extractor>,
 }
 
 impl Cell {
-    /// The fault with an untouched picture from before it, and from after it where `untouched` is given.
+    /// Creates the cell of a fault. If `untouched` is given, also creates the extractors for a new untouched picture.
     pub(crate) fn new(
         fault: usize,
         level: Level,
@@ -91,11 +91,11 @@ impl CellPredictions {
     }
 }
 
-/// Predicted row: its picture, and the numbers of each cell.
+/// Predicted row: its picture, and the predictions of each cell.
 struct Row {
     frame: Frame,
     clean: Vec<f64>,
-    /// Numbers of each cell; those of a fault that repeats pictures are filled in order.
+    /// Predictions of each cell; for a fault that repeats pictures, filled in row order.
     cells: Vec<CellPredictions>,
 }
 
@@ -112,7 +112,7 @@ pub(crate) struct Predictor<'a> {
 }
 
 impl Predictor<'_> {
-    /// Unclamped predictions of one picture, always made alone, so that other pictures cannot change a bit.
+    /// Unclamped predictions of one picture, computed without other pictures, so that these have no influence.
     pub(crate) fn of(
         &self,
         frame: &Frame,

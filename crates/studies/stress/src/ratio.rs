@@ -1,4 +1,4 @@
-//! Ratios of mean errors with a fault to those without, and their intervals.
+//! Ratios of mean errors with a fault to mean errors without the fault, and their intervals.
 
 use std::collections::BTreeMap;
 
@@ -72,10 +72,10 @@ impl Errors {
     }
 }
 
-/// Mean over some cells of the ratios of their errors to those without a fault.
+/// Mean over some cells of the ratios of their errors to the errors without a fault.
 ///
 /// To first order its logarithm changes by Σ r_c (δ_c − δ_0) / Σ r_c. Here r_c is the ratio of cell c, and δ the relative change of a mean error. A
-/// cluster is left out of every cell and of the clean errors at once, because the same samples have all of them.
+/// cluster is left out of every cell and of the clean errors at once, because all errors are of the same samples.
 ///
 /// # Reference
 /// Busing, Meijer and van der Leeden, Delete-m jackknife for unequal m, Statistics and Computing 9 (1999).
@@ -112,7 +112,7 @@ pub(crate) struct Share<'a> {
     pub(crate) share: f64,
 }
 
-/// Part of a cell in the value of a mean.
+/// Contribution of a cell to the value of a mean.
 struct Term<'a> {
     part: f64,
     errors: &'a Errors,

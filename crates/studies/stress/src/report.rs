@@ -91,13 +91,13 @@ pub struct CellScore {
     pub skill: Estimate,
     /// Error divided by the error without the fault.
     pub degradation: Estimate,
-    /// The error, or that of the constant prediction if it is less.
+    /// The error, or the error of the constant prediction if that is less.
     pub capped: Option<f64>,
     /// Least and greatest degradation of a single draw; `None` for one draw.
     pub spread: Option<[f64; 2]>,
 }
 
-/// Numbers of one fault.
+/// Results of one fault.
 #[derive(Clone, Debug, Serialize)]
 pub struct FaultReport {
     /// Name of the fault.
@@ -121,7 +121,7 @@ pub struct FaultReport {
     pub breaks_at: ByChannel<Option<u8>>,
 }
 
-/// Numbers of one fault at one severity.
+/// Results of one fault at one severity.
 #[derive(Clone, Debug, Serialize)]
 pub struct SeverityReport {
     /// The severity.
@@ -136,7 +136,7 @@ pub struct SeverityReport {
     pub check: Vec<&'static str>,
     /// Scores with an untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,
-    /// Scores with an untouched picture from after the fault; `None` without.
+    /// Scores with an untouched picture from after the fault; `None` without such a picture.
     pub fresh: Option<ByChannel<CellScore>>,
 }
 

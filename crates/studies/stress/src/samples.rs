@@ -87,7 +87,7 @@ impl Unseen {
     }
 }
 
-/// Refuses recordings without pictures of one sensor, and models that read none.
+/// Refuses recordings without pictures of one sensor, and models that read no pictures.
 fn require_pictures(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
     if !dataset.recordings().is_empty() {

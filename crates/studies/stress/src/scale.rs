@@ -12,7 +12,7 @@ const PRESSED: f64 = 0.5;
 /// Untouched picture, and the change of pictures by contact.
 ///
 /// # Units
-/// A change is a mean over all numbers of a picture, as a share of full scale.
+/// A change is a mean over all pixel values of a picture, as a share of full scale.
 pub(crate) struct Scale {
     /// The untouched picture; without a reference, the picture with the least load.
     pub(crate) untouched: Option<Frame>,
@@ -91,7 +91,7 @@ impl Scale {
     }
 }
 
-/// Mean absolute difference of two pictures, a share of full scale; 0 for pictures of different kinds.
+/// Mean absolute difference of two pictures, a share of full scale; 0 for pictures of different size or format.
 pub(crate) fn difference(one: &Frame, other: &Frame) -> f64 {
     if one.info() != other.info() || one.bytes().is_empty() {
         return 0.0;
@@ -166,7 +166,7 @@ impl Loads {
         }
     }
 
-    /// Loads of contact, evenly spaced; at most [`PICTURES`].
+    /// At most [`PICTURES`] rows in contact, at evenly spaced positions.
     fn picked(&self) -> Vec<&Load> {
         let least = self.untouched_to.unwrap_or(-1.0);
         let contact: Vec<&Load> = self.rows.iter().filter(|load| load.load > least).collect();

@@ -35,7 +35,7 @@ pub(crate) struct Scorer<'a> {
 
 /// Scores of some predictions.
 pub(crate) struct Scored {
-    /// Mean absolute errors, as a comparison reads them.
+    /// Mean absolute errors, in the form that comparisons read.
     pub(crate) scores: ByChannel<Score>,
     pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
@@ -45,7 +45,7 @@ pub(crate) struct Scored {
 }
 
 impl<'a> Scorer<'a> {
-    /// Scorer of `rows` by the channels of `model` that are not angles: the difference of two angles is not their error.
+    /// Scorer of `rows` by the channels of `model` except angles, whose errors are not plain differences.
     pub(crate) fn new(
         dataset: &'a Dataset,
         model: &Model,
@@ -282,7 +282,7 @@ impl<'a> Scorer<'a> {
 }
 
 impl Scored {
-    /// Scores with a fault, beside those of `clean`.
+    /// Scores with a fault, compared with the scores `clean`.
     pub(crate) fn beside(
         &self,
         baseline: &Scored,
@@ -308,7 +308,7 @@ impl Scored {
         self.mae.keys()
     }
 
-    /// Number of clusters of the channel with most; `None` if a row has no cluster.
+    /// Greatest number of clusters of a channel; `None` if a row has no cluster.
     pub(crate) fn clusters(&self) -> Option<usize> {
         self.errors.values().filter_map(Errors::clusters).max()
     }

@@ -11,18 +11,18 @@ use crate::stress::{Stress, draw_seeds};
 
 /// Change of the untouched picture at severities 1 to 5, as a share of the change by contact.
 pub const TARGETS: [f64; 5] = [0.03, 0.1, 0.3, 1.0, 3.0];
-/// Placeholder above all severities, for a fault that ends the skill at none of them.
+/// Placeholder above all severities, for a fault that ends the skill at no severity.
 pub const NEVER: u8 = 6;
 
 /// Least parameter of a search, as a share of the greatest.
 const LEAST: f64 = 1e-7;
 /// Accepted excess of a solved stimulus, as a ratio.
 const ACCURACY: f64 = 1.02;
-/// Bisections of a search.
+/// Number of bisections of a search.
 const STEPS: usize = 28;
 /// Number of lines over which the stimulus is averaged, for a fault that is drawn for each picture.
 const LINES: u32 = 512;
-/// Maximum number of pictures over which that stimulus is averaged.
+/// Maximum number of pictures over which the stimulus of such a fault is averaged.
 const DRAWN: u32 = 32;
 
 /// Quantity that sets severity.
@@ -173,7 +173,7 @@ pub(crate) struct Reference<'a> {
 }
 
 impl Reference<'_> {
-    /// Change of the untouched picture by the fault, as a share of that by contact.
+    /// Change of the untouched picture by the fault, as a share of the change by contact.
     fn stimulus(&self, fault: &'static Fault, parameter: f64) -> f64 {
         if Stress::new(fault, parameter, self.seed).repeats() {
             return parameter * self.scale.successive / self.contact;

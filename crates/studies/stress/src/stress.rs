@@ -6,7 +6,7 @@ use taceva_core::{Frame, single};
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};
 
-/// Seeds of the draws of `fault`: of `count` for a fault with drawn places, otherwise of one. The first is `seed`.
+/// Seeds of the draws of `fault`: `count` seeds for a fault with drawn places, otherwise one seed. The first is `seed`.
 pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
     let others = match fault.scope {
         Scope::Drawn => 1..count,
@@ -64,7 +64,7 @@ impl Stress {
         matches!(self.fault.effect, Effect::Before)
     }
 
-    /// The picture `frame` of `sample` with the fault. `before` is the picture before it, if there is one.
+    /// The picture `frame` of `sample` with the fault. `before` is the previous picture, if any.
     pub fn apply(&self, frame: &Frame, sample: &str, before: Option<&Frame>) -> Frame {
         if self.parameter <= 0.0 || frame.bytes().is_empty() {
             return frame.clone();

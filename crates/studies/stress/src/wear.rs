@@ -173,14 +173,14 @@ impl Measured {
         })
     }
 
-    /// Limits of the scores, with the folder of the recording.
+    /// Notes on limitations of the scores, each with the folder of the recording.
     fn notes(&self, dataset: &Dataset) -> Vec<String> {
         let notes = of_scores(&self.scored, self.samples).into_iter().flatten();
         let notes = notes.map(|note| format!("{}: {note}", shown(dataset.path())));
         notes.collect()
     }
 
-    /// Change of the untouched picture from that of `first`, relative to the change by contact in `first`.
+    /// Change of the untouched picture from the untouched picture of `first`, relative to the change by contact in `first`.
     fn stimulus(&self, first: &Measured) -> Option<f64> {
         let (own, before) = (self.untouched.as_ref()?, first.untouched.as_ref()?);
         let contact = first.contact.filter(|_| own.info() == before.info())?;

@@ -15,7 +15,7 @@ use crate::report::{ByChannel, CleanScore, FaultReport, SeverityReport, SkippedF
 use crate::scale::{Scale, difference};
 use crate::score::{Scored, Scorer, degradation};
 
-/// A fault of a gel, with a recording of the same presses for each severity. A bench that knows its gel makes it; others only read it.
+/// A fault of a gel, with a recording of the same presses for each severity. A simulated bench makes it; callers only read it.
 #[derive(Debug)]
 pub struct WornFault {
     /// Name of the fault, such as `gel_softening`.
@@ -30,14 +30,14 @@ pub struct WornFault {
     pub skipped: Vec<SkippedFault>,
 }
 
-/// The same presses on a gel with a fault of one severity. A bench that knows its gel makes it; others only read it.
+/// The same presses on a gel with a fault of one severity. A simulated bench makes it; callers only read it.
 #[derive(Debug)]
 pub struct WornGel {
     /// The severity, from 1 to 5.
     pub severity: u8,
     /// Parameter of the fault.
     pub parameter: f64,
-    /// The recording; its samples have the names of those on the new gel.
+    /// The recording; its samples have the names of the samples on the new gel.
     pub dataset: Dataset,
 }
 
@@ -127,7 +127,7 @@ impl NewGel<'_> {
         })
     }
 
-    /// Numbers of a fault with this name, title and parameter.
+    /// Results of a fault with this name, title and parameter.
     pub(crate) fn report(
         &self,
         [id, title, parameter]: [&str; 3],
@@ -227,7 +227,8 @@ impl NewGel<'_> {
         Ok((is_noticed, after.decoded))
     }
 
-    /// True if the check of untouched pictures finds that `after` differs from the reference, beside the change from `after` to the `pressed` pictures.
+    /// True if the check of untouched pictures finds that `after` differs from the reference, relative to the change from `after` to the `pressed`
+    /// pictures.
     pub(crate) fn differs(&self, after: &Frame, pressed: &[Frame]) -> bool {
         let before = self.scale.untouched.as_ref();
         let Some(before) = before.filter(|_| self.scale.is_reference) else {

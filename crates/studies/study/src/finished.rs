@@ -30,7 +30,7 @@ pub struct FinishedStudy {
 #[derive(Debug)]
 #[non_exhaustive]
 pub struct FittedStudy {
-    /// The model; that of the first seed if the study has several.
+    /// The model, or the model of the first seed if the study has several.
     pub model: Model,
     /// Calibration samples with a picture that the model has not seen.
     pub unseen: Target,

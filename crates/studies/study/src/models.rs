@@ -1,4 +1,4 @@
-//! Models of a scene: those of its studies, and the classifier of gratings.
+//! Models of a scene: the models of its studies, and the classifier of gratings.
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_evaluate::{EvaluateError, FitRequest, Recipe};

@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use crate::choices::choices;
 
-    /// Rows of the table, each with the chosen configuration, the compared one, the seeds and the result.
+    /// Rows of the table, each with the chosen configuration, the compared configuration, the seeds and the result.
     fn rows(groups: &[Group<'_>]) -> Vec<[String; 4]> {
         let choices = choices(groups, &["Fz".to_owned()]);
         let csv = table(groups, &choices).csv();

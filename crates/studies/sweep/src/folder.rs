@@ -34,7 +34,7 @@ impl SweepFolder {
         SweepFolder { path }
     }
 
-    /// Default folder for results, beside the sweep file: `which.sweep` for `which.toml`.
+    /// Default folder for results, next to the sweep file: `which.sweep` for `which.toml`.
     pub fn beside(file: &Path) -> SweepFolder {
         SweepFolder::new(file.with_extension("sweep"))
     }

@@ -10,7 +10,7 @@ pub(crate) fn is_pattern(text: &str) -> bool {
 
 /// Folders below `base` that match `pattern`, sorted by name, as paths relative to `base`.
 ///
-/// `*` matches any characters except `/`, `?` matches one. Only a pattern that begins with a dot matches names with a leading dot.
+/// `*` matches any characters except `/`, `?` matches one character. Only a pattern that begins with a dot matches names with a leading dot.
 pub(crate) fn folders(base: &Path, pattern: &str) -> std::io::Result<Vec<String>> {
     let (root, rest) = match pattern.strip_prefix('/') {
         Some(rest) => (PathBuf::from("/"), rest),

@@ -1,4 +1,4 @@
-//! Pages of a sweep: one of results, and a separate one of run times.
+//! Pages of a sweep: a page of results and a page of run times.
 
 mod label_scores;
 mod times;

@@ -1,4 +1,4 @@
-//! Result of a task: its scores and the errors behind them, in a sealed file.
+//! Result of a task: its scores and the errors of its predictions, in a sealed file.
 
 mod file;
 

@@ -1,4 +1,5 @@
-//! A fogged lens: pictures lose contrast. The model of a fault is loaded from severity and size, and predicts the numbers of a picture with the fault.
+//! A fogged lens: pictures lose contrast. The model of a fault is loaded from severity and size, and predicts the pixel values of a picture with the
+//! fault.
 
 use taceva_core::{
     Channels, DriverKey, ErrorKind, FeatureShape, Features, ModelError, Regressor, Saved,
@@ -10,7 +11,7 @@ static KEY: DriverKey = DriverKey::fixed("org.example.fogged-lens/fog");
 
 /// First line of the bytes of a fault.
 const HEAD: &str = "taceva.fault/1";
-/// Contrast that each severity takes.
+/// Fraction of the contrast that each severity step removes.
 const LOST: f64 = 0.15;
 
 /// Factory of the fault.
@@ -34,7 +35,7 @@ impl EstimatorFactory for Fog {
         Err(ModelError::new(ErrorKind::Unsupported, why))
     }
 
-    /// `saved.bytes` has a line for each of severity, seed, sample, width, height, full scale and numbers of a pixel.
+    /// `saved.bytes` has a line for each of severity, seed, sample, width, height, full scale and number of values per pixel.
     fn load(&self, saved: &Saved<'_>) -> Result<Box<dyn SavedRegressor>, ModelError> {
         let severity = severity(saved.bytes).ok_or_else(|| {
             ModelError::new(ErrorKind::Protocol, "expected the lines of a fault with `severity` from 1 to 5")

@@ -1,6 +1,6 @@
 //! Driver of a six-axis transducer that writes a line for each reading to every TCP client: `number;Fx;Fy;Fz;Tx;Ty;Tz` in N and N m.
 //!
-//! A thread reads every line on arrival, so a late call gets the newest reading and never a queued one.
+//! A thread reads every line on arrival, so a late call gets the newest reading and never a queued reading.
 
 use std::io::{BufRead, BufReader, Read};
 use std::net::{TcpStream, ToSocketAddrs};

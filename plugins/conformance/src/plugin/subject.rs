@@ -81,7 +81,7 @@ impl Subject {
         }
     }
 
-    /// Arguments for opening: given arguments, and declared defaults of the others.
+    /// Arguments for opening: given arguments, and declared defaults of the other arguments.
     pub(super) fn args(&self) -> Result<Args, Unmet> {
         let args = Args::parse(self.entry()?.arguments(), &self.probe.arguments);
         args.map_err(|error| {

@@ -48,7 +48,7 @@ pub(crate) fn get<T: Number>(count: usize, from: &[u8]) -> Option<(Vec<T>, &[u8]
     Some((place.chunks_exact(T::LENGTH).map(T::get).collect(), rest))
 }
 
-/// Allocates shared memory of `bytes` bytes, at least one. Fails for `None`, the result of a size computation that overflowed.
+/// Allocates shared memory of `bytes` bytes, at least one byte. Fails for `None`, the result of a size computation that overflowed.
 pub(crate) fn memory(bytes: Option<usize>) -> Result<SharedMemory, Failure> {
     let refused = |why: &str| Failure::new(ErrorKind::OutOfRange, "share memory", why);
     let bytes = bytes.ok_or_else(|| refused("the size exceeds the address space"))?;

@@ -161,7 +161,7 @@ impl UrgentLink {
         *self.pending.lock().unwrap_or_else(PoisonError::into_inner) = call;
     }
 
-    /// Shortens the timeout of the pending call to that of urgent messages.
+    /// Shortens the timeout of the pending call to the timeout of urgent messages.
     fn hasten(&self) {
         let pending = *self.pending.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(call) = pending {

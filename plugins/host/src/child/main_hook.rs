@@ -50,7 +50,7 @@ pub(super) fn serve_host(
     orders().map_or(NOT_A_CHILD, |orders| run(orders, load))
 }
 
-/// True once `main` has checked for a host child, so that this program can be started as one.
+/// True once `main` has checked for a host child, so that this program can be started as a host child.
 static CAN_BE_CHILD: AtomicBool = AtomicBool::new(false);
 
 /// True if this program can be started as a host child. Other programs would ignore [`CHILD_ARGUMENT`].
@@ -72,7 +72,7 @@ fn orders() -> Option<Socket> {
     Some(Socket::from(orders))
 }
 
-/// Closes every file but the standard ones and `kept`.
+/// Closes every file except the three standard files and `kept`.
 ///
 /// # Safety
 /// No other code owns an open file.

@@ -125,7 +125,7 @@ fn header_end(text: &str) -> Option<usize> {
     None
 }
 
-/// Edits the list of one plugin: removes needs that are no longer allowed and appends new ones.
+/// Edits the list of one plugin: removes needs that are no longer allowed and appends new needs.
 fn with_list(text: &str, list: &Spanned<Vec<Spanned<String>>>, needs: &BTreeSet<Need>) -> String {
     let mut edits: Vec<(Range<usize>, String)> = Vec::new();
     let mut written = BTreeSet::new();

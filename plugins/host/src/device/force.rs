@@ -28,7 +28,7 @@ pub(crate) struct PluginForce {
     numbers: Option<Sequence>,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
-    /// Number of lost readings, as stated after the last one.
+    /// Number of lost readings, as stated after the last reading.
     lost: Option<u64>,
 }
 

@@ -48,7 +48,7 @@ pub struct LentFrame<'a> {
     pub stamp: Stamp,
     /// Frame number of the device. A gap means lost frames.
     pub sequence: u64,
-    /// True if frames were lost since the last one.
+    /// True if frames were lost since the last frame.
     pub dropped: bool,
 }
 

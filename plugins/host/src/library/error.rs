@@ -127,7 +127,7 @@ pub enum LoadProblem {
         manifest: String,
         /// Value in the library.
         library: String,
-        /// Name of the Python module, if the plugin is one; `None` for a library.
+        /// Name of the Python module; `None` for a library.
         module: Option<String>,
     },
     /// A required function is NULL.

@@ -17,7 +17,7 @@ pub struct Linked {
 }
 
 impl Linked {
-    /// Wraps `table`, which was built from the code at `path`. Its functions are called like those of a loaded library.
+    /// Wraps `table`, which was built from the code at `path`. Its functions are called like the functions of a loaded library.
     pub fn new(table: &'static abi::Plugin, path: PathBuf) -> Linked {
         Linked { table, path }
     }

@@ -45,7 +45,7 @@ struct Said {
 }
 
 impl Interpreter {
-    /// Queries the environment of the interpreter at `program`. Runs no code of plugins, but the startup code of the environment.
+    /// Queries the environment of the interpreter at `program`. Runs the startup code of the environment, but no code of plugins.
     ///
     /// # Errors
     /// [`PythonError`] if the interpreter cannot be started, does not answer, or has no package `taceva`.

@@ -16,8 +16,8 @@ pub(crate) fn arguments(child: &Path) -> Vec<OsString> {
 /// The interpreter, and its script for plugin processes.
 static OWN: OnceLock<(PathBuf, PathBuf)> = OnceLock::new();
 
-/// Declares that this program runs in `interpreter`, whose package `taceva` is at `package`. Plugin processes, including those of
-/// libraries, use that interpreter from now on.
+/// Declares that this program runs in `interpreter`, whose package `taceva` is at `package`. Plugin processes, including processes of libraries, use
+/// that interpreter from now on.
 pub fn run_within(interpreter: PathBuf, package: PathBuf) {
     // A process has one interpreter, so further calls have no effect.
     let _ = OWN.set((interpreter, package.join("plugin_child.py")));
@@ -28,7 +28,7 @@ pub(crate) fn own() -> Option<&'static (PathBuf, PathBuf)> {
     OWN.get()
 }
 
-/// Interpreter of this program's environment: the one in which it runs, or the one beside its executable in a virtual environment.
+/// Interpreter of this program's environment: the interpreter in which it runs, or the interpreter next to its executable in a virtual environment.
 pub fn beside_this_program() -> Option<PathBuf> {
     if let Some((interpreter, _)) = own() {
         return Some(interpreter.clone());

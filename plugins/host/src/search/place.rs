@@ -12,7 +12,7 @@ use serde::Serialize;
 pub enum Place {
     /// Command-line option `--plugin-dir`.
     Given,
-    /// Folder `plugins` beside the scene.
+    /// Folder `plugins` next to the scene.
     Project,
     /// Environment variable `TACEVA_PLUGIN_PATH`.
     Environment,
@@ -103,7 +103,7 @@ impl SearchPath {
         self.with(Place::Given, folders)
     }
 
-    /// Adds the folder `plugins` beside a scene in `folder`.
+    /// Adds the folder `plugins` next to a scene in `folder`.
     #[must_use]
     pub fn project(self, folder: &Path) -> SearchPath {
         self.with(Place::Project, [folder.join("plugins")])

@@ -27,7 +27,7 @@ impl Writable {
         }
     }
 
-    /// As [`by_all`](Writable::by_all), for entries of `folder`. The sticky bit of a folder keeps users from replacing entries of others.
+    /// As [`by_all`](Writable::by_all), for entries of `folder`. The sticky bit of a folder keeps users from replacing entries of other users.
     fn above(&mut self, folder: &Path) -> io::Result<Option<PathBuf>> {
         if let Some(known) = self.above.get(folder) {
             return Ok(known.clone());

@@ -12,7 +12,7 @@ use super::press::{Press, Presses};
 
 /// Law of shading.
 pub(crate) enum Law {
-    /// Cameras of the bench, each with one lit lamp. The strength of each lamp in each colour is fitted. Places of lamps are those in the bench.
+    /// Cameras of the bench, each with one lit lamp. The strength of each lamp in each colour is fitted. Lamps have the same places as in the bench.
     Lamps(Vec<Camera>),
     /// Powers of the surface normal, up to the second, times 1, x and y.
     Polynomial(Tables),

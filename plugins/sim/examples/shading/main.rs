@@ -4,9 +4,9 @@
 //! cargo run --release -p taceva-sim --example shading -- FOLDER
 //! ```
 //!
-//! FOLDER contains `labels.csv` and the pictures that it names: one of the untouched gel, and others of a ball of 2.92 mm radius. Each label has the
-//! place and radius of the contact, pixels. The default is the folder `gelsight-ball-depth` of `TACEVA_DATA`. Pictures without a licence are only
-//! read; no part of them is written.
+//! FOLDER contains `labels.csv` and the pictures that it names: one of the untouched gel, and other pictures of a ball of 2.92 mm radius. Each label
+//! has the place and radius of the contact, pixels. The default is the folder `gelsight-ball-depth` of `TACEVA_DATA`. Pictures without a licence are
+//! only read; no part of them is written.
 //!
 //! Each press is scored with coefficients fitted to all other presses, so no scored picture was used in its fit.
 

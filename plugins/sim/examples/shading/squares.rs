@@ -41,7 +41,7 @@ impl Squares {
         self.seen.len()
     }
 
-    /// Normal equations without those of `press`.
+    /// Normal equations without the contribution of `press`.
     pub(crate) fn without(&self, press: &Squares) -> Squares {
         self.combined(press, -1.0)
     }

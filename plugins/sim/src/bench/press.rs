@@ -24,7 +24,7 @@ pub struct Press {
 }
 
 impl Press {
-    /// Maximum travel of this press so far.
+    /// Maximum travel that this press has reached.
     pub(super) fn deepest_mm(&self) -> f64 {
         self.turned_mm
             .map_or(self.depth_mm, |turned| turned.max(self.depth_mm))

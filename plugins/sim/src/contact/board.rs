@@ -31,7 +31,7 @@ pub(super) fn layer_stiffness_n_per_mm(layer: &Layer) -> f64 {
 /// Stiffness of the holder of a board, N/mm. The holder levels itself on the gel. A rigid holder would exceed the force limit of any flat gel within
 /// a tenth of a millimetre.
 const HOLDER_N_PER_MM: f64 = 1.0;
-/// Bisection steps for a depth; the final interval is far below a nanometre.
+/// Number of bisection steps for a depth; the final interval is far below a nanometre.
 const BISECTIONS: u32 = 40;
 
 /// Depth of a board in the gel, mm, for a holder `travel_mm` below first touch. `force_n` gives the force of the gel at a depth.
@@ -50,7 +50,7 @@ pub(super) fn depth_under_holder_mm(travel_mm: f64, force_n: impl Fn(f64) -> f64
 
 /// Upper end of the integral, at which the correction of the layer has decayed.
 const ZETA_MAX: f64 = 14.0;
-/// Intervals of the midpoint rule. The integrand is smooth and even.
+/// Number of intervals of the midpoint rule. The integrand is smooth and even.
 const INTERVALS: u32 = 2000;
 
 #[cfg(test)]

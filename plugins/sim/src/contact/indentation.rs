@@ -7,7 +7,7 @@ pub struct Indentation {
     pub place_mm: [f64; 2],
     /// Depth below first touch.
     pub depth_mm: f64,
-    /// Maximum depth so far. It exceeds `depth_mm` during unloading.
+    /// Maximum depth that was reached. It exceeds `depth_mm` during unloading.
     pub deepest_mm: f64,
     /// Shear along the surface, at depth.
     pub shear_mm: [f64; 2],

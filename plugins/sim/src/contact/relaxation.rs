@@ -66,7 +66,7 @@ impl Relaxation {
         ((1.0 - self.fraction) * self.elastic_n + self.fading_n).max(0.0)
     }
 
-    /// Ratio of the current force to the force of a gel without relaxation; 1 if the latter is zero.
+    /// Ratio of the current force to the force of a gel without relaxation; 1 if the force without relaxation is zero.
     pub fn ratio(&self) -> f64 {
         if self.elastic_n > 0.0 {
             self.force_n() / self.elastic_n

@@ -233,7 +233,7 @@ impl Solid {
 /// Radius from which a ball counts as flat, mm.
 const FLAT_MM: f64 = 1e9;
 
-/// Steps of a ramp; the force is linear in each.
+/// Number of steps of a ramp; the force is linear in each.
 const RAMP_STEPS: u32 = 12;
 
 /// Length and direction of a vector.

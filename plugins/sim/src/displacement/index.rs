@@ -3,12 +3,12 @@
 //! Tables are indexed by t = 1 + (r/a)². Each octave of t has equal cells, out to 64 contact radii. The bits of the number give the position in the octave,
 //! without logarithm or square root. The rim of the contact, t = 2, is a node, so that a kink at the rim is exact.
 
-/// Cells in an octave; a power of two.
+/// Number of cells in an octave; a power of two.
 const CELLS: usize = 1 << CELL_BITS;
 const CELL_BITS: u32 = 6;
-/// Octaves of t.
+/// Number of octaves of t.
 const OCTAVES: usize = 12;
-/// Values in a table: one at each node, from the centre to 64 contact radii.
+/// Number of values in a table: one at each node, from the centre to 64 contact radii.
 pub const NODES: usize = OCTAVES * CELLS + 1;
 
 /// A function of r², with a value at each [`node`].

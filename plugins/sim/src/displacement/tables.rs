@@ -9,12 +9,12 @@ use super::quadrature::{Layer, Values};
 use super::radial::Quantity;
 use crate::number::narrow;
 
-/// Rows of a table, one for each contact radius: three per octave, from 0.1 mm to 5 mm.
+/// Number of rows of a table, one for each contact radius: three per octave, from 0.1 mm to 5 mm.
 const ROWS: usize = 18;
 const SMALLEST_RADIUS_MM: f64 = 0.1;
 /// Step between nodes with a computed integral. A cubic interpolates between them.
 const STRIDE: usize = 4;
-/// Shared tables that are kept, of 0.4 MB each: more than twice as many as the gels of this crate need.
+/// Number of shared tables that are kept, 0.4 MB each: more than twice as many as the gels of this crate need.
 const SHARED: usize = 10;
 
 /// Radial functions of a bonded incompressible layer at one depth below its surface.
@@ -52,7 +52,7 @@ impl Tables {
         }
     }
 
-    /// [`new`](Tables::new) for the cameras of this process, whose units have gels of the same few layers. The latest tables are kept.
+    /// Same as [`new`](Tables::new), but keeps the latest tables for other cameras of this process, whose gels have the same few layers.
     pub(crate) fn shared(thickness_mm: f64, depth_mm: f64) -> Arc<Tables> {
         static KEPT: Mutex<Vec<Arc<Tables>>> = Mutex::new(Vec::new());
         let kept = || KEPT.lock().unwrap_or_else(PoisonError::into_inner);

@@ -13,10 +13,10 @@ use super::rig::SimulatedRig;
 use crate::parameters::Model;
 
 const KEY: DriverKey = DriverKey::fixed("sim/force-transducer");
-/// Reading rate, Hz. Each reading averages over the time since the last one.
+/// Reading rate, Hz. Each reading averages over the time since the last reading.
 const RATE_HZ: f64 = 200.0;
 const READING: Duration = Duration::from_millis(5);
-/// Readings averaged for the tare.
+/// Number of readings averaged for the tare.
 const TARE_READINGS: u32 = 16;
 
 /// Opens simulated force transducers.

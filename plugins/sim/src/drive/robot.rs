@@ -82,7 +82,7 @@ impl Factory<dyn Robot> for RobotFactory {
     }
 }
 
-/// Arguments of the robot. `gel` is for a sensor that this bench does not simulate. Forces are those of the gel, but pictures do not show it.
+/// Arguments of the robot. `gel` is for a sensor that this bench does not simulate. The gel determines the forces, but pictures do not show the gel.
 fn arguments() -> [ArgSpec; 3] {
     let gels = Model::ALL.map(Model::key);
     [
@@ -99,7 +99,7 @@ fn arguments() -> [ArgSpec; 3] {
 /// Unit number of the gel that `gel` names.
 const NOMINAL: u32 = 0;
 
-/// Gel named in `args`; `None` without one.
+/// Gel named in `args`; `None` if `args` name no gel.
 fn gel(args: &Args) -> Option<Model> {
     Model::from_key(args.get("gel")?.as_text()?)
 }
@@ -111,7 +111,7 @@ struct SimulatedRobot {
     latch: Arc<Latch>,
 }
 
-/// Halt that remains until it is cleared. Each robot has a latch of its own.
+/// Halt that remains until it is cleared. Each robot has its own latch.
 #[derive(Debug, Default)]
 struct Latch {
     is_halted: AtomicBool,

@@ -22,7 +22,7 @@ impl Ticks {
         self.duration().as_secs_f64()
     }
 
-    /// Time `span` after this one.
+    /// Time `span` after this time.
     pub(super) fn after(self, span: Ticks) -> Ticks {
         Ticks(self.0.saturating_add(span.0))
     }

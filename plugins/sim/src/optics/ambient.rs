@@ -22,7 +22,7 @@ pub enum AmbientLight {
 }
 
 impl AmbientLight {
-    /// All scenes, the normal one first.
+    /// All scenes, the normal scene first.
     pub const ALL: [AmbientLight; 5] = [
         AmbientLight::Normal,
         AmbientLight::Ceiling,

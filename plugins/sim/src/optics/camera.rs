@@ -56,7 +56,7 @@ impl Camera {
     /// Creates the camera of unit `unit` of a sensor with the noise of `seed`. `size` is width and height of frames, pixels.
     ///
     /// # Errors
-    /// [`OpticsError::Size`] for an empty frame or one larger than the sensor's full frame.
+    /// [`OpticsError::Size`] for an empty frame or a frame larger than the sensor's full frame.
     pub fn new(
         spec: &OpticsSpec,
         size: [u32; 2],

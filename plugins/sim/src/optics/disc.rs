@@ -16,7 +16,7 @@ pub(super) struct Disc {
 /// Parameters of a disc, in the field's unit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiscSpec {
-    /// Radius at which the darkness is half of that at the centre.
+    /// Radius at which the darkness is half of the darkness at the centre.
     pub(super) radius: f64,
     /// Absorbed part of the light at its centre: 0 to 1.
     pub(super) darkness: f64,

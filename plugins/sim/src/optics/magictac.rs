@@ -140,7 +140,8 @@ impl Magictac {
         scene.marks.stamp(&self.worn, &scene.raster, band);
     }
 
-    /// Renders a ball. The lattice moves smoothly, so that its shift is computed for every second pixel of a row and interpolated for the others.
+    /// Renders a ball. The lattice moves smoothly, so that its shift is computed for every second pixel of a row and interpolated for the other
+    /// pixels.
     #[inline(always)]
     fn paint_ball(&self, band: &mut Band<'_>) {
         let (scene, raster, shift) = (&*self.scene, &self.scene.raster, &self.shift);

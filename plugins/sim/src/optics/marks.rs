@@ -11,7 +11,7 @@ use taceva_core::whole_size;
 
 /// Part of the half field in which marks lie.
 const INSIDE: f64 = 0.8;
-/// Absorbed light at the centre of a mark; below 0 for a bright one. By kind: scratch, tear, dust.
+/// Absorbed light at the centre of a mark; below 0 for a bright mark. By kind: scratch, tear, dust.
 const DARKNESS: [f64; 3] = [-0.6, 0.8, 0.6];
 /// Radius of a scratch and of a speck of dust, in widths of the field.
 const SCRATCH: f64 = 0.003;
@@ -100,6 +100,6 @@ impl Marks {
     }
 }
 
-/// Numbers of the places of a tear and of dust, beyond those of scratches.
+/// Numbers of the places of a tear and of dust, above the numbers of scratches.
 const FIRST_TEAR: u64 = 1_000;
 const FIRST_SPECK: u64 = 2_000;

@@ -9,7 +9,7 @@ use std::sync::OnceLock;
 use crate::number::{count, narrow};
 use crate::random::{Purpose, Random, Stream};
 
-/// Size of the tile.
+/// Count of numbers in the tile.
 const TILE: usize = 1 << 16;
 /// Longest row, samples: three colours of 16,384 pixels. The end of the tile repeats as many numbers of its start.
 pub(super) const LONGEST_ROW: usize = 3 << 14;

@@ -23,7 +23,7 @@ pub(super) struct Readout {
     pub(super) full_counts: f32,
 }
 
-/// Samples in one vector step: a multiple of three colours and of every vector width.
+/// Number of samples in one vector step: a multiple of three colours and of every vector width.
 pub(super) const LANES: usize = 24;
 
 /// Constant for rounding. The sum of a value from 0 to 2¹⁶ and this constant has the nearest integer in the low bits, ties to even.

@@ -129,7 +129,7 @@ impl OpticsSpec {
     /// Size and format of a frame of `size` pixels: 8 bits at full size, 16 below it.
     ///
     /// # Errors
-    /// [`OpticsError::Size`] for an empty frame, or one with more rows or columns than the full-size frame.
+    /// [`OpticsError::Size`] for an empty frame, or a frame with more rows or columns than the full-size frame.
     pub fn frame_info(&self, size: [u32; 2]) -> Result<FrameInfo, OpticsError> {
         let [width, height] = size;
         let [native_width, native_height] = self.native;

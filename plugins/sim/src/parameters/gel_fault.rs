@@ -2,7 +2,7 @@
 
 use super::{ParameterError, Parameters};
 
-/// Fault of a gel. A recording cannot show it, because only the bench knows its gel.
+/// Fault of a gel. Recorded pictures cannot be given this fault, because the gel itself changes.
 ///
 /// ```
 /// use taceva_sim::{GelFault, Model, Parameters};
@@ -78,7 +78,7 @@ impl GelFault {
         GelFault::Dust,
     ];
 
-    /// Name, as the argument `fault` of the simulated sensors takes it.
+    /// Name, as in the argument `fault` of the simulated sensors.
     pub const fn name(self) -> &'static str {
         match self {
             GelFault::Softening => "gel_softening",
@@ -131,7 +131,7 @@ impl GelFault {
         GelFault::ALL.into_iter().find(|fault| fault.name() == name)
     }
 
-    /// Parameter of severities 1 to 5: a share, or a number in K, mm or pieces; of a tear, a share of the width.
+    /// Parameter of severities 1 to 5: a share, a value in K or mm, or a count; for a tear, a share of the width.
     pub const fn amounts(self) -> [f64; 5] {
         match self {
             GelFault::Softening | GelFault::Hardening => [0.02, 0.05, 0.10, 0.20, 0.40],

@@ -141,7 +141,7 @@ section! {
         diameter_mm: "mm", 0.05 ..= 20.0;
         /// Standard deviation of the marker places of a unit.
         jitter_mm: "mm", 0.0 ..= 1.0;
-        /// Markers in a row; on a dome, rings of a hexagon around the central one.
+        /// Number of markers in a row; on a dome, of rings of a hexagon around the central marker.
         columns: "1", 1.0 ..= 200.0;
         /// Number of rows; on a dome, the same as the rings.
         rows: "1", 1.0 ..= 200.0;

@@ -61,7 +61,7 @@ fn checked(
     }
 }
 
-/// Default channels in the unit of the tolerance: those with a prediction, otherwise those of the six channels that are in the table.
+/// Default channels in the unit of the tolerance: channels with a prediction, otherwise the contact channels in the table.
 fn usual(table: &CsvTable, tolerance: Option<&Quantity>) -> anyhow::Result<Vec<String>> {
     let names = || table.names().iter().map(String::as_str);
     let is_of_six = |name: &&str| quantity::unit_of_six(name).is_some();
@@ -87,7 +87,7 @@ fn usual(table: &CsvTable, tolerance: Option<&Quantity>) -> anyhow::Result<Vec<S
 }
 
 impl Response {
-    /// Readings of the channel called `name`. A channel other than the six has the unit of the tolerance.
+    /// Readings of the channel called `name`. A channel other than the six contact channels has the unit of the tolerance.
     fn of(
         table: &CsvTable,
         name: &str,

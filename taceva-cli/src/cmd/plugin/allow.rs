@@ -53,7 +53,7 @@ pub(super) fn deny(args: &PluginDeny) -> anyhow::Result<u8> {
     })
 }
 
-/// Changes the access of the plugin `id`, and prints the new one.
+/// Changes the access of the plugin `id`, and prints the new access.
 fn change(
     id: &PluginId,
     change: impl FnOnce(&mut BTreeSet<Need>) -> anyhow::Result<()>,

@@ -94,7 +94,7 @@ pub(super) fn checked(
     Ok((host, plugin))
 }
 
-/// Unpacks a file of `taceva plugin pack` to a temporary folder beside the user's plugins, which is not searched.
+/// Unpacks a file of `taceva plugin pack` to a temporary folder next to the user's plugins, which is not searched.
 fn unpack(file: &Path, user: &Path) -> anyhow::Result<TemporaryFolder> {
     let named = || shown(file).to_string();
     // Checked before opening, because opening a pipe would wait for a writer.

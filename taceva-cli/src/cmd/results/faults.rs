@@ -1,4 +1,4 @@
-//! Finds the errors with faults of results: files of `taceva stress`, and those of a run with `[stress]`.
+//! Finds the errors with faults of results: files of `taceva stress`, and files of a run with `[stress]`.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -13,7 +13,7 @@ use super::{RESULTS, file_of, read};
 const STRESS: &str = "stress";
 
 /// Studies of all results with their errors with faults. A result of `taceva stress` completes the study of the same sensor, serial number, gel and
-/// origin, or is a study of its own.
+/// origin, or is a separate study.
 pub(in crate::cmd) fn read_all_with_faults(named: &[PathBuf]) -> anyhow::Result<Vec<Study>> {
     let mut studies = Vec::new();
     let mut alone = Vec::new();

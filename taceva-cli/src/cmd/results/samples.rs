@@ -17,7 +17,7 @@ const RECORDINGS: &str = "recordings";
 /// Folder of reports in a run. Names begin with the number of the study.
 const REPORTS: &str = "reports";
 
-/// Adds samples to the studies of `file`: from `reports/<number>-*.samples.csv` of a run, or from `<name>.samples.csv` beside a single evaluation.
+/// Adds samples to the studies of `file`: from `reports/<number>-*.samples.csv` of a run, or from `<name>.samples.csv` next to a single evaluation.
 pub(super) fn beside(file: &Path, mut studies: Vec<Study>) -> anyhow::Result<Found> {
     let is_run = file.file_name().is_some_and(|name| name == RESULTS);
     let own = file.with_extension(SAMPLES);
@@ -136,7 +136,7 @@ fn check(path: &Path, table: &[u8], study: &Study) -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Origin of the samples in the table `<name>.samples.csv`, by the result `<name>.json` beside it; `None` without a result of one sensor.
+/// Origin of the samples in the table `<name>.samples.csv`, by the result `<name>.json` next to it; `None` without a result of one sensor.
 pub(in crate::cmd) fn source_of(table: &Path) -> anyhow::Result<Option<String>> {
     let name = table.file_name().and_then(|name| name.to_str());
     let Some(name) = name.and_then(|name| name.strip_suffix(SAMPLES)) else {

@@ -8,10 +8,10 @@ use taceva_core::shown;
 use taceva_evaluate::TaskStates;
 use taceva_report::TaskResult;
 
-/// Extension of the states beside a result, in place of `json`.
+/// Extension of the states next to a result, in place of `json`.
 const STATE: &str = "state";
 
-/// Scores of tasks in the file at `path`: a result, with the states beside it, or states; `None` for another file.
+/// Scores of tasks in the file at `path`: a result, with the states next to it, or states; `None` for another file.
 pub(in crate::cmd) fn read(path: &Path) -> anyhow::Result<Option<TaskResult>> {
     if !path.is_file() {
         return Ok(None);

@@ -138,7 +138,7 @@ fn tested(study: &PlannedStudy) -> Vec<&PlannedPress> {
 
 /// Faults of a scene.
 struct Wanted {
-    /// Faults of pictures; without a name if only gels are tested.
+    /// Request for faults of pictures; it names no fault if only gels are tested.
     request: StressRequest,
     gels: Vec<GelFault>,
 }
@@ -301,8 +301,8 @@ pub(in crate::cmd) fn plugin_faults(
     faults.collect()
 }
 
-/// Presses the test part of study `number` again on gels with `fault`, into folders beside the errors of the study. A severity that the gel cannot have is
-/// skipped.
+/// Presses the test part of study `number` again on gels with `fault`, into folders next to the errors of the study. A severity that the gel cannot
+/// have is skipped.
 fn press_worn(
     run: &TestedRun<'_>,
     number: usize,
@@ -346,7 +346,7 @@ fn press_worn(
     })
 }
 
-/// Writes the errors of study `number`, and returns them as others read them.
+/// Writes the errors of study `number`, and returns them in the form that reports read.
 fn write(
     found: &StressReport,
     folder: &RunFolder,

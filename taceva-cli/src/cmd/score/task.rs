@@ -64,7 +64,7 @@ fn rules(args: &Score) -> anyhow::Result<BTreeMap<String, TaskRule>> {
     Ok(rules)
 }
 
-/// Sets `known`, unless another word of `option` did.
+/// Sets `known`. Fails if an earlier word of `option` set it.
 fn set_once<T>(known: &mut Option<T>, value: T, option: &str, word: &str) -> anyhow::Result<()> {
     match known.replace(value) {
         None => Ok(()),

@@ -28,7 +28,7 @@ pub(super) struct SweepScene {
 /// Plans the scenes of `file` and reads their state in `folder`. Opens no device and changes no file.
 ///
 /// # Errors
-/// For a scene that does not exist, is not valid, is not fully simulated, or shares its folder with another.
+/// For a scene that does not exist, is not valid, is not fully simulated, or shares its folder with another scene.
 pub(super) fn planned(
     file: &SweepFile,
     folder: &SweepFolder,

@@ -8,7 +8,7 @@ use taceva_sweep::{Collected, SweepFolder, TaskList};
 use super::super::Context;
 use crate::output;
 
-/// Folder of results: the named folder, or the folder beside the named file.
+/// Folder of results: the named folder, or the folder next to the named file.
 pub(super) fn folder_of(named: &Path) -> SweepFolder {
     match named.is_dir() {
         true => SweepFolder::new(named.to_owned()),

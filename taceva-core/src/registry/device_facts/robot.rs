@@ -21,8 +21,8 @@ pub struct RobotFacts {
     pub speed_max: Option<Speed>,
     /// Repeatability of a pose: one standard deviation per axis.
     pub repeatability: Option<Millimetre>,
-    /// Noise of a reported pose about its target: one standard deviation per axis. For `None`, the repeatability replaces the noise of a real
-    /// robot, and 0 that of a simulated robot.
+    /// Noise of a reported pose about its target: one standard deviation per axis. For `None`, the repeatability replaces the noise of a real robot,
+    /// and 0 replaces the noise of a simulated robot.
     pub pose_noise: Option<Millimetre>,
     /// Deceleration after a halt, mm/s².
     pub deceleration_mm_s2: Option<f64>,
@@ -30,7 +30,7 @@ pub struct RobotFacts {
     pub stop_ms: Option<f64>,
     /// Delay from the measurement to the stamp of a pose, ms. A run subtracts this delay from the stamps; 0 needs no correction.
     pub latency_ms: Option<f64>,
-    /// True if the robot can stop by itself at a force.
+    /// True if the robot can stop by itself at a force limit.
     pub guarded_motion: bool,
     /// True if the robot reports poses in its own base frame. The poses must be mapped to the sensor's frame before a move over a gel.
     pub base_frame: bool,

@@ -14,23 +14,23 @@ use crate::arguments::optional_number;
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 
-/// Opens ATI's Net F/T boxes, and others that send their records (RDT): `ati/netft:host=192.168.1.1`.
+/// Opens ATI's Net F/T boxes, and other boxes that send their records (RDT): `ati/netft:host=192.168.1.1`.
 ///
 /// # The physical contract
-/// - Forces and torques are in the transducer's own axes, in N and N·mm. The value of a count is read at open from the page
-///   `/netftapi2.xml` of the box.
-/// - A box with a tool frame is refused unless `frame=tool` selects readings in that frame. A box is also refused if its rate differs from a stated `rate`, or
-///   its range is below a stated `force_max_n`. Without `force_max_n` the range of each force on the page applies.
-/// - Frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low pass is a warning, and so
-///   is a page that states no low pass.
+/// - Forces and torques are in the transducer's own axes, in N and N·mm. The value of a count is read at open from the page `/netftapi2.xml` of the
+///   box.
+/// - A box with a tool frame is refused unless `frame=tool` selects readings in that frame. A box is also refused if its rate differs from a stated
+///   `rate`, or its range is below a stated `force_max_n`. Without `force_max_n` the range of each force on the page applies.
+/// - Frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low pass is a warning, and so is a page
+///   that states no low pass.
 /// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.
-/// - A saturated gauge is `OutOfRange`; every other status but a latched threshold is `DeviceFault`, with its bits by name. A latched
-///   threshold is a warning, since readings stay valid.
+/// - A saturated gage is `OutOfRange`; every other status except a latched threshold is `DeviceFault`, with its bits by name. A latched threshold is
+///   a warning, since readings stay valid.
 /// - Zero is the mean of 0.25 s, subtracted by the driver. The bias of the box stays unchanged.
 ///
 /// # Verification
-/// The driver passes its suite on an emulated box, which the public client `NetFT` 2.0.1 reads too. **Not verified without the device**:
-/// the status bits, the delay of a low pass, and devices of other makers that send the same records.
+/// The driver passes its suite on an emulated box, which the public client `NetFT` 2.0.1 reads too. **Not verified without the device**: the status
+/// bits, the delay of a low pass, and devices of other makers that send the same records.
 ///
 /// ```
 /// use taceva_core::Factory;

@@ -159,7 +159,7 @@ fn text(page: Vec<u8>) -> String {
     String::from_utf8(page).unwrap_or_else(latin)
 }
 
-/// Replaces the entities of XML, and those of the middle dot and the degree sign.
+/// Replaces the entities of XML, and the entities of the middle dot and the degree sign.
 fn decoded(text: &str) -> String {
     let mut decoded = String::with_capacity(text.len());
     let mut rest = text;

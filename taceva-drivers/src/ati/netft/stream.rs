@@ -23,7 +23,7 @@ pub(super) struct RecordStream {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Counted {
     pub(super) record: Record,
-    /// Number of records lost so far, computed from sequence numbers.
+    /// Total number of lost records, computed from sequence numbers.
     pub(super) missing: u64,
 }
 

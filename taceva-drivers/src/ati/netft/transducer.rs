@@ -117,7 +117,7 @@ impl Transducer {
         Ok(seen)
     }
 
-    /// Number of records lost so far, computed from sequence numbers.
+    /// Total number of lost records, computed from sequence numbers.
     fn missing(&self) -> u64 {
         self.records.newest().map_or(0, |seen| seen.what.missing)
     }

@@ -23,7 +23,7 @@ pub(super) struct Picture {
     pub(super) began: Duration,
     /// Stamp by the clock of the server, s; `None` if the server writes none.
     pub(super) stamped_s: Option<f64>,
-    /// Number of parts with a wrong length so far.
+    /// Total number of parts with a wrong length.
     pub(super) broken: u64,
 }
 

@@ -23,25 +23,25 @@ use crate::text::shown;
 
 submit_builtin!(dyn Sensor, || Ok(Box::new(V4l2Factory::new()?)));
 
-/// Opens local cameras (Linux), such as those in DIGIT and GelSight Mini: `camera/v4l2:device=/dev/video0;preset=digit`.
+/// Opens local cameras (Linux), such as the cameras in DIGIT and GelSight Mini: `camera/v4l2:device=/dev/video0;preset=digit`.
 ///
 /// # The physical contract
-/// - Opening sets size, pixel format and rate. A camera that does not support them is rejected, with the list of supported formats. For JPEG,
-///   opening captures one image.
-/// - Exposure, gain, white balance and focus are **fixed**. Automatic control is switched off at open and at every start; requested values
-///   are set and read back; others stay unchanged. The values read back are stored with a recording. A camera that keeps automatic control
-///   on is rejected, or flagged with `automatic=keep`.
-/// - A frame is the newest image received, with the kernel's time stamp on the monotonic clock. Missed images are counted by the camera's
-///   numbers. A damaged, short or wrongly sized image is an error of that frame. An unplugged camera is `Disconnected`; `start` reopens it.
+/// - Opening sets size, pixel format and rate. A camera that does not support them is rejected, with the list of supported formats. For JPEG, opening
+///   captures one image.
+/// - Exposure, gain, white balance and focus are **fixed**. Automatic control is switched off at open and at every start; requested values are set
+///   and read back; others stay unchanged. The values read back are stored with a recording. A camera that keeps automatic control on is rejected, or
+///   flagged with `automatic=keep`.
+/// - A frame is the newest image received, with the kernel's time stamp on the monotonic clock. Missed images are counted by the camera's numbers. A
+///   damaged, short or wrongly sized image is an error of that frame. An unplugged camera is `Disconnected`; `start` reopens it.
 /// - A camera serves one program. A second program gets an error that the camera is in use.
-/// - With `preset=digit`, `led` sets the LEDs of the sensor at open and at every start. They are read back, stored with a recording, and an
-///   error if they do not hold. Without `led` they stay unchanged and are read back.
+/// - With `preset=digit`, `led` sets the LEDs of the sensor at open and at every start. They are read back, stored with a recording, and an error if
+///   they do not keep the value. Without `led` they stay unchanged and are read back.
 ///
 /// # Verification
-/// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): YUYV pixels against its colour bars, the
-/// suite, gain, a second program, unplugging. `vivid` gives only uncompressed pixels and, of the fixed controls, only gain and automatic
-/// gain. The test checks that it rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**:
-/// JPEG through this interface (decoded as in `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
+/// The kernel's emulated camera `vivid` in a virtual machine (`taceva-wire`, test `kernel`): YUYV pixels against its colour bars, the suite, gain, a
+/// second program, unplugging. `vivid` gives only uncompressed pixels and, of the fixed controls, only gain and automatic gain. The test checks that
+/// it rejects `pixels=mjpeg`, `exposure_ms`, `white_balance_k` and `focus`. **Not verified without the device**: JPEG through this interface (decoded
+/// as in `camera/mjpeg`), exposure, white balance and focus, the presets, and any latency.
 ///
 /// ```
 /// use taceva_core::Factory;

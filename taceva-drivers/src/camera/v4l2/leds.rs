@@ -69,7 +69,7 @@ impl Leds {
     /// Sets the LEDs, reads them back, and adds them to the settings as `led` = `15,15,15`.
     ///
     /// # Errors
-    /// As [`colour`](Leds::colour); `Unsupported` for a camera without the control, `DeviceFault` if the LEDs do not hold.
+    /// As [`colour`](Leds::colour); `Unsupported` for a camera without the control, `DeviceFault` if the LEDs do not keep the value.
     pub(super) fn apply(
         &self,
         camera: &mut Camera,

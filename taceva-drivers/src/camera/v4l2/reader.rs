@@ -18,7 +18,7 @@ pub(super) struct Picture {
     pub(super) bytes: Arc<[u8]>,
     /// Kernel time stamp on the monotonic clock; `None` if the kernel uses another clock.
     pub(super) taken: Option<Duration>,
-    /// Number of images marked as damaged so far.
+    /// Total number of images marked as damaged.
     pub(super) damaged: u64,
 }
 

@@ -17,11 +17,14 @@ use crate::{OpenError, Selector};
 
 /// An open pedal: `hid/pedal:usb=0c45:7403`, or with `;byte=2` if other bits of its reports are unrelated.
 ///
-/// # The physical contract - The device must be selected by `usb`, `serial` or `device`. Pedals do not identify themselves, and a moving mouse
-/// must not count as a pedal. - The pedal is held while one of its bits is set. The watching code halts the robot once it is released, unplugged
-/// or not understood. Until its first report it counts as released, so press it after opening. - A pedal reports only changes, so a pedal whose
-/// electronics fail while it is held still counts as held. **It is not a safety function**; the switch of the robot's own safety circuit is. -
-/// Pedals that act as keyboards keep typing their letter into the focused window.
+/// # The physical contract
+/// - The device must be selected by `usb`, `serial` or `device`. Pedals do not identify themselves, and a moving mouse must not count as a
+///   pedal.
+/// - The pedal is held while one of its bits is set. The watching code halts the robot once the pedal is released, unplugged or not understood.
+///   Until its first report it counts as released, so press it after opening.
+/// - A pedal reports only changes, so a pedal whose electronics fail while it is held still counts as held. **It is not a safety function**;
+///   the switch of the robot's own safety circuit is.
+/// - Pedals that act as keyboards keep typing their letter into the focused window.
 ///
 /// # Verification
 /// The HID layer of Linux: a pedal emulated by `uhid` in a virtual machine (`taceva-wire`, test `kernel`). **Not verified without the

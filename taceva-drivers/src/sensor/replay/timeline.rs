@@ -39,7 +39,7 @@ impl Timeline {
         (self.repeat || round == 0).then(|| begins_s + self.times_s[self.position(frame)])
     }
 
-    /// Number of the newest frame that is due at `now_s`, or of the first frame before its time.
+    /// Number of the newest frame that is due at `now_s`; the first frame if no frame is due.
     pub(super) fn newest(&self, now_s: f64) -> usize {
         let frames = self.times_s.len();
         let elapsed_s = now_s - self.shift_s - self.times_s[0];

@@ -47,13 +47,13 @@ pub(super) struct BoxLink {
     reader: Option<JoinHandle<()>>,
 }
 
-/// A reading with the counts of losses so far.
+/// A reading with the total counts of losses.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Counted {
     pub(super) reading: Reading,
-    /// Number of frames lost so far, computed from frame numbers.
+    /// Total number of lost frames, computed from frame numbers.
     pub(super) missing: u64,
-    /// Number of bytes skipped so far, because they belong to no message.
+    /// Total number of skipped bytes, because they belong to no message.
     pub(super) lost_bytes: u64,
 }
 

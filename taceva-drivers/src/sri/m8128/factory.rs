@@ -14,22 +14,23 @@ use crate::arguments::optional_number;
 
 submit_builtin!(dyn ForceTransducer, || Ok(Box::new(M8128Factory::new()?)));
 
-/// Opens interface boxes M8128 of SRI, and others with the same commands: `sri/m8128:host=192.168.0.108`.
+/// Opens interface boxes M8128 of SRI, and other boxes with the same commands: `sri/m8128:host=192.168.0.108`.
 ///
 /// # The physical contract
-/// - Forces and torques are in the transducer's own axes, in N and N·mm, as in its certificate. The axis that presses into the gel depends
-///   on the mounting in the rig.
-/// - Opening changes nothing in the box. It asks for the decoupling matrix and its unit, which are settings if the box states them.
-///   Starting sets rate, checksum and units, and starts the readings.
-/// - A reading is the newest frame received. Frames are checked by their checksum (`check=crc32`: CRC32 with the polynomial of zlib) and
-///   their number. Damaged and repeated frames are dropped. After a loss of synchronisation, two frames with consecutive numbers restore
-///   it. A value that is not finite is a `DeviceFault` of that reading.
+/// - Forces and torques are in the transducer's own axes, in N and N·mm, as in its certificate. The axis that presses into the gel depends on the
+///   mounting in the rig.
+/// - Opening changes nothing in the box. It asks for the decoupling matrix and its unit, which are settings if the box states them. Starting sets
+///   rate, checksum and units, and starts the readings.
+/// - A reading is the newest frame received. Frames are checked by their checksum (`check=crc32`: CRC32 with the polynomial of zlib) and their
+///   number. Damaged and repeated frames are dropped. After a loss of synchronisation, two frames with consecutive numbers restore it. A value that
+///   is not finite is a `DeviceFault` of that reading.
 /// - Zero is the mean of 0.25 s, subtracted by the driver. With `zero=box` the box zeroes itself, which takes seconds.
 /// - `force_max_n` from the certificate makes a clipped force an error. Without it, clipping goes undetected.
 ///
-/// # Verification Two published frames, whose values and checksums are tested, and an emulated box on which the driver passes its suite. There
-/// is no public client. **Not verified without the device**: the answers to queries and to a stop, zero in the box, and frames with CRC32. The
-/// unit of torque (N·m unless `torque=N mm`) is not verified either. The CRC's polynomial and byte order come from a single public driver.
+/// # Verification
+/// The values and checksums of two published frames are tested. The driver passes its suite on an emulated box. There is no public client. **Not
+/// verified without the device**: the answers to queries and to a stop, zero in the box, and frames with CRC32. The unit of torque (N·m unless
+/// `torque=N mm`) is not verified either. The CRC's polynomial and byte order come from a single public driver.
 ///
 /// ```
 /// use taceva_core::Factory;

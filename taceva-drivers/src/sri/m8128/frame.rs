@@ -94,7 +94,7 @@ impl Messages {
         self.waiting.extend_from_slice(bytes);
     }
 
-    /// Number of bytes skipped so far.
+    /// Total number of skipped bytes.
     pub(super) fn lost(&self) -> u64 {
         self.lost
     }

@@ -149,7 +149,7 @@ impl Transducer {
         Ok(seen)
     }
 
-    /// Describes losses so far; empty if there are none.
+    /// Describes all losses; empty if there are none.
     fn losses(&self) -> String {
         match self.link.readings().newest().map(|seen| seen.what) {
             Some(Counted {

@@ -25,7 +25,7 @@ impl XarmFault {
         }
     }
 
-    /// Converts the fault into an error that occurred while `doing`.
+    /// Converts the error into a driver error that occurred while `doing`.
     pub(super) fn met(self, doing: &'static str) -> DriverError {
         let error = failed(ErrorKind::DeviceFault, doing, self);
         match self.kind() {

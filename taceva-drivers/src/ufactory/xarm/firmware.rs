@@ -53,7 +53,7 @@ impl Firmware {
     }
 }
 
-/// Leading number of `text`; `None` if it does not begin with one.
+/// Leading number of `text`; `None` if it does not begin with a number.
 fn leading_number(text: &str) -> Option<u32> {
     let end = text.find(|digit: char| !digit.is_ascii_digit());
     text[..end.unwrap_or(text.len())].parse().ok()

@@ -20,7 +20,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 ///   person does that at the teach pendant; this driver never does.
 /// - A move is a program with one `movel`. It ends once no program runs and the reported pose is within 0.05 mm of the target.
 /// - An expiring move is a program with one `speedl` that lasts 0.2 s and then brakes, renewed every 50 ms. The last 0.1 s of the path is a
-///   `movel`. A short move, or one with rotation of the tool, is a single `movel`.
+///   `movel`. A short move, or a move with rotation of the tool, is a single `movel`.
 /// - A halt sends a program with one `stopl` over a separate connection, which replaces the running program; the controller does not confirm
 ///   that a program arrived.
 ///   Without that connection no move begins.
@@ -31,7 +31,7 @@ submit_builtin!(dyn Robot, || Ok(Box::new(UrFactory::new()?)));
 ///
 /// # Verification
 /// The driver passes its suite on an emulated controller, whose poses the public client `ur-rtde` 1.6.5 reads too. Only this driver has
-/// sent it script. **Not verified without the device**: how soon a program begins and `stopl` ends one, and bits of the safety status,
+/// sent it script. **Not verified without the device**: how soon a program begins and `stopl` ends a program, and bits of the safety status,
 /// which are from the documents. Also whether an arm keeps its speed when a `speedl` program of 0.2 s replaces another every 50 ms.
 ///
 /// ```

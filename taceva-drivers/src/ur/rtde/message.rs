@@ -141,7 +141,7 @@ fn message(kind: u8, says: &[u8]) -> Vec<u8> {
 /// Requested outputs that the controller lacks, each with the versions that have it. Empty if no output is missing.
 ///
 /// # Errors
-/// [`MessageError::Types`] if the others do not have the expected types.
+/// [`MessageError::Types`] if the other outputs do not have the expected types.
 pub(super) fn missing_outputs(found: &str) -> Result<Vec<String>, MessageError> {
     let types: Vec<&str> = found.split(',').collect();
     let is_answer = |(output, kind): (&Output, &&str)| [output.kind, NOT_FOUND].contains(kind);

@@ -62,7 +62,7 @@ impl Resampling {
         }
     }
 
-    /// True if any of the numbers has an interval. Maxima have none.
+    /// True if any of the numbers has an interval. Maxima have no interval.
     pub(super) fn is_needed(&self) -> bool {
         let mut ranges = self.names.iter().map(|(_, range)| range);
         ranges.any(|range| *range != Range::Greatest)

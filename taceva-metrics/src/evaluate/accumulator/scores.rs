@@ -47,7 +47,7 @@ impl Accumulator {
         })
     }
 
-    /// Numbers for another selection of clusters; only those with intervals.
+    /// Numbers for another selection of clusters; only numbers with intervals.
     fn resampled(&self, metric: &Metric, output: &Output, sums: &ErasedSums) -> Numbers {
         self.of_parts(metric, output, sums, |part| {
             self.family.resampled(metric, output, sums, part)

@@ -143,7 +143,7 @@ fn correlation(sums: &JointSums, left: usize, right: usize) -> f64 {
     product / deviation(sums, left) / deviation(sums, right)
 }
 
-/// Slopes of one prediction on each truth alone.
+/// Slopes of one prediction on each single truth.
 fn single_slopes(sums: &JointSums, varying: &[usize], predicted: usize) -> Vec<f64> {
     let slope = |&truth: &usize| {
         let shared = sums.shared_products(predicted, truth);

@@ -58,7 +58,7 @@ impl<'a> Errors<'a> {
         sample.ok_or(UndefinedReason::Overflow)
     }
 
-    /// Mean ± k standard deviations, with k the given factor or else that of the sample.
+    /// Mean ± k standard deviations, with k the given factor or else the factor of the sample.
     pub(crate) fn tolerance_ends(
         &self,
         factor: fn(&NormalSample) -> Option<f64>,
@@ -75,7 +75,7 @@ impl<'a> Errors<'a> {
 
     /// Slope of the errors over the means of truth and prediction, and its p value.
     ///
-    /// The p value is that of independent errors. For clusters, the jackknife computes the p value.
+    /// The p value assumes independent errors. For clusters, the jackknife computes the p value.
     pub(crate) fn slope(&self) -> [Finished; 2] {
         let line = self.line();
         let chance = line.and_then(|line| match self.are_independent() {

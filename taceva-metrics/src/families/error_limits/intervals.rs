@@ -56,7 +56,7 @@ impl Part {
 
 /// Intervals of the value and of every variant of a score with these `clusters`, part by part.
 ///
-/// The tolerance factor is that of all clusters, because another sample of as many clusters would have nearly the same factor.
+/// The tolerance factor is the factor of all clusters, because another sample of as many clusters would have nearly the same factor.
 pub(super) fn intervals(
     metric: &Metric,
     formula: &LimitFormula,

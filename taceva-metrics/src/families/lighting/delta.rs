@@ -139,7 +139,7 @@ impl<'a> Moves<'a> {
         with.filter(|cell| cell.scenes.get(scene).is_some()).count()
     }
 
-    /// First-order change of the mean of `terms` for the sums `others` alone.
+    /// First-order change of the mean of `terms` if only the sums `others` are used.
     fn moved(&self, terms: &[&Term<'_>], others: &LightingSums) -> Finished {
         let baseline = self.change_of(self.reference, others)?;
         let mut sum = 0.0;

@@ -97,9 +97,9 @@ fn suffix(unit: Unit) -> String {
     }
 }
 
-/// Fewest decimals, up to 12, whose last place is at most a tenth of an interval's width. For an asymmetric interval the width is twice the
-/// nearer distance, for an infinite interval the magnitude of the value. Up to three more decimals if an end that is not 0 would print as 0,
-/// which would contradict the verdict.
+/// Fewest decimals, up to 12, whose last place is at most a tenth of an interval's width. For an asymmetric interval the width is twice the nearer
+/// distance, for an infinite interval the magnitude of the value. Up to three more decimals if an end that is not 0 would print as 0, which would
+/// contradict the verdict.
 fn decimals(ends: &[f64; 2], value: f64) -> usize {
     let fewest = decimals_of_width(ends, value);
     let hides_an_end = |decimals: usize| {

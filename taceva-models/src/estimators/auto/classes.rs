@@ -36,7 +36,7 @@ fn candidates<'a>(
 
 impl Auto {
     /// Fits each classifier to `training` and takes the classifier with the smallest share of wrong samples of `held`, averaged over its labels.
-    /// Takes the simplest of several classifiers with equal shares.
+    /// Takes the simplest of several with equal shares.
     ///
     /// # Errors
     /// [`ModelError`] without a validation part, if no classifier can be fitted, or if `progress` was cancelled.

@@ -5,7 +5,7 @@ use super::excess::{Excess, mean};
 use crate::training::card::AutoTrial;
 use crate::training::fit::ModelEstimator;
 
-/// A model and its results so far.
+/// A model and its results.
 pub(super) struct Entrant {
     pub(super) candidate: Candidate,
     pub(super) estimator: Box<dyn ModelEstimator>,
@@ -29,7 +29,7 @@ impl Entrant {
         mean(&self.losses[..folds].concat())
     }
 
-    /// Mean difference between the losses of this model and those of `other` on the first `folds` folds.
+    /// Mean difference between the losses of this model and the losses of `other` on the first `folds` folds.
     pub(super) fn excess_over(&self, other: &Entrant, folds: usize) -> Excess {
         Excess::of(
             &self.losses[..folds].concat(),

@@ -141,7 +141,7 @@ impl NetworkEstimator {
     }
 }
 
-/// Card of the classes `labels`, with the temperature of the validation part `kept`; 1 without it.
+/// Card of the classes `labels`, with the temperature of the validation part `kept`. Without `kept`, the temperature is 1.
 fn calibrated(
     network: &NetworkRegressor,
     labels: Vec<f64>,

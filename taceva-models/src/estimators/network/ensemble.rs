@@ -30,7 +30,7 @@ const MEMBERS: SettingInfo = SettingInfo {
 
 const OF_EACH: &[SettingInfo] = NetworkEstimator::CNN.settings;
 
-/// Settings in the registry: those of the small network, and the number of members.
+/// Settings in the registry: settings of the small network, and the number of members.
 const SETTINGS: [SettingInfo; OF_EACH.len() + 1] = {
     let mut all = [MEMBERS; OF_EACH.len() + 1];
     let mut at = 0;

@@ -136,7 +136,7 @@ pub(super) const fn picture(shape: FeatureShape) -> Picture {
     }
 }
 
-/// All tensors of a file except those of the training distance. All must be of type f32.
+/// All tensors of a file except the tensors of the training distance. All must be of type f32.
 pub(super) fn named_tensors(tensors: &Tensors<'_>) -> Result<Vec<NamedTensor>, FormatError> {
     let all = tensors.0.tensors().into_iter();
     let own = all.filter(|(name, _)| !DISTANCE.contains(&name.as_str()));

@@ -17,8 +17,8 @@ const FINER: f64 = 0.8;
 const NEIGHBOURS: usize = 6;
 /// Minimum number of spots in a grid. Fewer spots would fit into any arrangement.
 const GRID_MIN: usize = 9;
-/// Largest allowed unevenness of a grid. Unevenness is the median relative excess of the distance to the third nearest spot over that to the nearest. It is 0
-/// in square and hexagonal grids, and about 0.5 for random spots.
+/// Largest allowed unevenness of a grid. Unevenness is the median relative excess of the distance to the third nearest spot over the distance to the
+/// nearest. It is 0 in square and hexagonal grids, and about 0.5 for random spots.
 const UNEVEN: f64 = 0.3;
 
 /// Markers of an untouched gel.
@@ -133,7 +133,7 @@ fn nearest_distances(markers: &[Marker], otherwise: f64) -> Vec<f64> {
     markers.iter().enumerate().map(of).collect()
 }
 
-/// Median relative excess of the distance to the third nearest marker over that to the nearest. Needs at least four markers.
+/// Median relative excess of the distance to the third nearest marker over the distance to the nearest. Needs at least four markers.
 fn unevenness(markers: &[Marker]) -> f64 {
     let places: Vec<[f64; 2]> = markers.iter().map(|marker| marker.place_px).collect();
     let of = |own: &[f64; 2]| {

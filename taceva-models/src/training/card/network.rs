@@ -45,6 +45,6 @@ pub struct ClassCard {
     pub labels: Vec<f64>,
     /// Divisor of the outputs before the softmax that gives probabilities.
     pub temperature: f64,
-    /// Number of samples of the validation part that set the temperature; 0 if it was not set.
+    /// Number of samples of the validation part that set the temperature; 0 if the temperature was not set.
     pub calibrated_on: usize,
 }

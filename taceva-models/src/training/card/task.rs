@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Task whose labels a model predicts: the positions of the names of classes, or the numbers of a pose.
+/// Task whose labels a model predicts: indices of class names, or the numbers of a pose.
 ///
 /// ```
 /// let text = r#"{"name": "slip", "kind": "event", "names": ["no", "yes"], "positive": "yes", "cluster": "stroke"}"#;
@@ -35,7 +35,7 @@ impl TaskCard {
         }
     }
 
-    /// Name of the class at `position`; `None` for a number that is no position.
+    /// Name of the class at `position`; `None` for a number that is not a position.
     pub fn class(&self, position: f64) -> Option<&str> {
         let mut places = (0_u32..).zip(&self.names);
         let found = places.find(|(place, _)| (f64::from(*place) - position).abs() < 1e-6);

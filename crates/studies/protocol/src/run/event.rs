@@ -27,7 +27,7 @@ pub enum Event {
     Approaching {
         /// Id of the press.
         press: ContentId,
-        /// Number of the press among those of this unit, counted from 1.
+        /// Number of the press among the presses of this unit, counted from 1.
         number: usize,
     },
     /// The gel was touched.

@@ -1,4 +1,4 @@
-//! Visits the waypoints of a press, and the remaining ones after a limit of the gel was reached.
+//! Visits the waypoints of a press, and the remaining waypoints after a limit of the gel was reached.
 
 use taceva_core::{Limit, Nanometre, Phase, PressOutcome};
 
@@ -16,7 +16,7 @@ const DRAW_BACKS: u32 = 32;
 impl Run<'_> {
     /// Visits the waypoints. Their depths are measured from `height_mm`.
     ///
-    /// If a limit of the gel stops the tip, the tip draws back until it may rest, and the sample of this waypoint is recorded there. Deeper waypoints are
+    /// If a limit of the gel stops the tip, the tip draws back until it may rest. The sample of this waypoint is recorded there. Deeper waypoints are
     /// skipped. Waypoints of the unloading phase are visited from this depth.
     pub(super) fn indent(
         &mut self,

@@ -9,7 +9,7 @@ use crate::content_id::ContentId;
 
 /// Record of finished presses that remains after the process ends.
 pub trait PressLog {
-    /// True if `press` was appended, in this run or an earlier one.
+    /// True if `press` was appended, in this run or an earlier run.
     fn is_finished(&self, press: ContentId) -> bool;
 
     /// Appends a complete press, and returns when it is safely stored. After an interruption, the log contains all of the press or nothing.
@@ -24,8 +24,8 @@ pub trait PressLog {
     /// Any failure to store the frame safely. The run then stops.
     fn untouched(&mut self, frame: &Frame) -> Result<(), SinkError>;
 
-    /// Stores the zero of the transducer of an attempt at `press` that was discarded, because the zero changed too far. Finished presses have theirs in
-    /// [`PressRecord::force_zero`].
+    /// Stores the zero of the transducer of an attempt at `press` that was discarded, because the zero changed too far. The zero of a finished press
+    /// is in [`PressRecord::force_zero`].
     ///
     /// # Errors
     /// Any failure to store the zero. The run then stops.

@@ -35,7 +35,7 @@ impl PressLog for Memory {
     }
 }
 
-/// End of such a run.
+/// Result of a run of one press.
 pub(super) struct OnePress {
     pub(super) log: Memory,
     pub(super) events: Vec<Event>,
@@ -43,7 +43,7 @@ pub(super) struct OnePress {
 }
 
 impl OnePress {
-    /// Presses straight down to `depth` in the middle of a gel with this force, by the plan that `change` changes.
+    /// Presses straight down to `depth` in the middle of a gel with this force, with a plan that `change` modifies.
     pub(super) fn to(
         depth: Nanometre,
         force: impl FnMut(u32, f64) -> Option<f64> + Send + 'static,

@@ -58,7 +58,7 @@ pub enum Question {
     },
     /// Remove all hands from the reach of the robot. After a skipped step, the robot continues with presses that need no operator.
     GoOn,
-    /// Continue although the touch differs from that of an earlier session of this recording.
+    /// Continue although the touch differs from the touch of an earlier session of this recording.
     Resume(ChangedTouch),
 }
 
@@ -73,7 +73,7 @@ pub enum Spot {
     AlongY,
 }
 
-/// Difference between a touch and that of an earlier session.
+/// Difference between a touch and the touch of an earlier session.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ChangedTouch {
     /// Change of the height of the gel, in mm. Positive values mean a deeper gel.

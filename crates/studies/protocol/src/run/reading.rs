@@ -59,8 +59,8 @@ impl Tip<'_> {
 
     /// Reads a force that was measured after this call.
     ///
-    /// The tip rests during the reading, so slow links and filters cost time but no travel. Readings from before the end of the last motion are only passed to
-    /// the supervisor, and the next one is read.
+    /// The tip rests during the reading, so slow links and filters cost time but no travel. Readings from before the end of the last motion are only
+    /// passed to the supervisor, and another force is read.
     pub(super) fn read_force(&mut self) -> Step<Reading> {
         let asked_s = self.clock.now_s();
         for _ in 0..READ_TRIES {

@@ -33,7 +33,7 @@ pub struct ReferenceTouch {
     pub force_n: f64,
     /// Standard uncertainty of the height, in mm.
     pub height_u_mm: f64,
-    /// Standard uncertainty of the force, in N, including that of the depth.
+    /// Standard uncertainty of the force, in N, including the uncertainty of the depth.
     pub force_u_n: f64,
 }
 
@@ -50,7 +50,7 @@ impl ReferenceTouch {
         self.force_n / self.depth_mm
     }
 
-    /// Message for the operator: the stiffness, and that of the `earlier` touch.
+    /// Message for the operator: the stiffness in this and in the `earlier` touch.
     pub(super) fn line(&self, earlier: Option<&ReferenceTouch>) -> String {
         let stiffness = self.stiffness_n_mm();
         let beside = match earlier {
@@ -94,7 +94,7 @@ pub struct SessionRecord {
     pub zero: Wrench,
     /// True for each push, to +x and to +y, whose force had the sign stated by the rig file.
     pub pushes_felt: [bool; 2],
-    /// True if the frames changed in contact, and not otherwise; false without frames.
+    /// True if the frames changed in contact only; false without frames.
     pub picture_changed: bool,
     /// Time from an exceeded limit to the halt, in ms: the 99.9th percentile.
     pub reaction_ms: f64,

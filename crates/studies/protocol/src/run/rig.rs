@@ -222,7 +222,7 @@ impl Draws {
         f64::from(high) / f64::from(u32::MAX)
     }
 
-    /// A nearly normally distributed number: the sum of twelve uniform ones.
+    /// A nearly normally distributed number: the sum of twelve uniform numbers.
     pub(super) fn normal(&mut self) -> f64 {
         (0..12).map(|_| self.fraction()).sum::<f64>() - 6.0
     }

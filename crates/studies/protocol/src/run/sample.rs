@@ -30,7 +30,7 @@ impl Spot {
     }
 }
 
-/// Samples of a press so far, and the zero of the press.
+/// Recorded samples of a press, and the zero of the press.
 #[derive(Debug, Default)]
 pub(super) struct Gathered {
     /// Height relative to which the depths of the press are measured.

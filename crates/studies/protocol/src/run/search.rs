@@ -16,7 +16,7 @@ use super::supervisor::MotionStage;
 use super::surface_fit::DepthForce;
 use super::tip::{Step, Tip};
 
-/// Maximum rise of the gel above the greatest contact height so far, in mm. A slope of 1 mm in 20 mm is 3 degrees.
+/// Maximum rise of the gel above the greatest earlier contact height, in mm. A slope of 1 mm in 20 mm is 3 degrees.
 const UNEVEN_MM: f64 = 0.4;
 /// Number of steps above the first contact whose readings are used to fit the gel height.
 const FITTED_STEPS: f64 = 6.0;

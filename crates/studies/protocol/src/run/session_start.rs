@@ -178,7 +178,7 @@ fn allowed(reaction_s: f64, limits: &RigLimits, speed_mm_s: f64) -> Step<Reactio
     })
 }
 
-/// Up to three distant places: the least and greatest along x, and the one farthest from both.
+/// Up to three distant places: the places of least and greatest x, and the place farthest from both.
 fn farthest(places: &[[Nanometre; 2]]) -> Vec<[Nanometre; 2]> {
     let (Some(first), Some(last)) = (places.iter().min(), places.iter().max()) else {
         return Vec::new();

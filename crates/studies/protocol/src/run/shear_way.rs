@@ -8,7 +8,8 @@ use crate::press::Waypoint;
 
 /// Least change of the shear force that is compared, in multiples of the least force in the air.
 const FORCE_STEPS: f64 = 5.0;
-/// Least change that is compared, as a part of the greater shear force. Slip and relaxation lower a shear force by less, also along the way.
+/// Least change that is compared, as a part of the greater shear force. Slip and relaxation lower a shear force by less, even during motion along the
+/// force.
 const CHANGED_PART: f64 = 0.75;
 /// Minimum part of the force change along the displacement. Friction and an elastic gel push along the displacement. If x and y are swapped, the force is
 /// reversed for every displacement whose components along x and y have opposite signs.

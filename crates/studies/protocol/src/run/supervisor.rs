@@ -28,7 +28,7 @@ use repeats::Repeats;
 
 /// Distance from target or path at which the tip counts as diverged, in mm.
 const DIVERGED_MM: f64 = 0.5;
-/// The same in standard deviations of the reported pose, if that is greater.
+/// Distance at which the tip counts as diverged, in standard deviations of the reported pose. The greater distance applies.
 const DIVERGED_NOISES: f64 = 5.0;
 /// Greatest rate of force of a gel pressed at 5 mm/s or slower, in N/s.
 const RATE_MAX_N_S: f64 = 200.0;
@@ -226,12 +226,12 @@ impl Supervisor {
         self.tripped
     }
 
-    /// True if the last force differs from the one before the last motion. The signal is then not frozen.
+    /// True if the last force differs from the force before the last motion. The signal is then not frozen.
     pub fn is_fresh(&self) -> bool {
         self.repeats.count() == 0
     }
 
-    /// Checks an observation. A bad one halts the robot before this returns.
+    /// Checks an observation. A bad observation halts the robot before the call returns.
     ///
     /// # Errors
     /// The [`Trip`], which is stored until the next [`release`](Supervisor::release).

@@ -25,7 +25,7 @@ pub(super) struct Surface {
 
 /// Least number of readings: one more than b, c, p, z₀ and the noise.
 pub(super) const LEAST_READINGS: usize = 6;
-/// Parameters beside z₀: b, c and the noise.
+/// Number of parameters besides z₀: b, c and the noise.
 const PARAMETERS: usize = 3;
 /// Exponents of the force in quarters, with their prior weights: 4 for a flat tip and a skin, 6 for a sphere, 8 for an edge.
 const EXPONENTS: [(u32, f64); 5] = [(4, 2.0), (5, 2.0), (6, 2.0), (7, 0.5), (8, 0.25)];
@@ -213,7 +213,7 @@ impl<'a> Centred<'a> {
         }
     }
 
-    /// Weight of a residual relative to that of the least one.
+    /// Weight of a residual relative to the weight of the least residual.
     fn part_of(&self, least: f64, residual: f64) -> f64 {
         let mut base = (least / residual).sqrt();
         let mut exponent = self.readings.len().saturating_sub(PARAMETERS);

@@ -43,7 +43,7 @@ pub trait TapListener {
     fn begins(&mut self);
     /// Stops recording after a tap or its interruption, and returns the recording.
     fn ends(&mut self) -> TapHeard;
-    /// Called if the last tap is valid. It is not repeated.
+    /// Called if the last tap is valid and will not be repeated.
     fn counts(&mut self);
 }
 

@@ -23,7 +23,7 @@ use crate::plan::Plan;
 
 /// Deadline of every call except motions.
 pub(super) const DEADLINE: Deadline = Deadline::after(Duration::from_secs(2));
-/// Number of additional segments of a motion, beyond twice those of its path, after which the robot counts as stuck.
+/// Number of additional segments of a motion, beyond twice the segments of its path, after which the robot counts as stuck.
 pub(super) const SPARE_SEGMENTS: f64 = 8.0;
 
 /// Stage while the zero or the present force is unknown: only saturation of the transducer limits the force.
@@ -252,7 +252,7 @@ impl<'a> Tip<'a> {
         }
     }
 
-    /// Waits until the gel rests, then reads until the force differs from that before the last motion.
+    /// Waits until the gel rests, then reads until the force differs from the force before the last motion.
     pub(super) fn settle(&mut self) -> Step<Look> {
         self.clock.rest(self.pace.settle);
         for _ in 0..FROZEN_READINGS {

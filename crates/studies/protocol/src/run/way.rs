@@ -20,7 +20,7 @@ pub(crate) fn distance(one: &Pose, other: &Pose) -> f64 {
     x.hypot(y).hypot(z)
 }
 
-/// Distance of a tip from the straight line between two others, ends included, in mm.
+/// Distance of a tip from the straight line between two other tip positions, ends included, in mm.
 pub(super) fn distance_from_way(tip: &Pose, from: &Pose, to: &Pose) -> f64 {
     let coordinates = |pose: &Pose| {
         let Point { x, y, z } = pose.position;
@@ -80,7 +80,7 @@ pub(super) fn is_straight_down(from: &Pose, to: &Pose) -> bool {
     aside_mm <= ASIDE_PART * (end.z.0 - start.z.0)
 }
 
-/// A pose between two, with the rotation of the second.
+/// Pose at the fraction `part` of the way between two poses, with the rotation of the second.
 pub(super) fn part_way(from: &Pose, to: &Pose, part: f64) -> Pose {
     let mix = |from: Millimetre, to: Millimetre| Millimetre(from.0 + (to.0 - from.0) * part);
     let (start, end) = (&from.position, &to.position);

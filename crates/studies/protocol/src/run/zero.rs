@@ -42,7 +42,7 @@ impl Tip<'_> {
         Ok(())
     }
 
-    /// Compares the zero of the host after a press with that before. The tip rests in the air. `None` if the transducer sets its own zero.
+    /// Compares the zero of the host after a press with the zero before. The tip rests in the air. `None` if the transducer sets its own zero.
     pub(super) fn compare_zero(&mut self) -> Step<Option<ForceZero>> {
         if !self.pace.host_zero {
             return Ok(None);

@@ -1,4 +1,4 @@
-//! Counts of a protocol; the defaults are those of the paper.
+//! Counts of a protocol; the defaults are the counts of the paper.
 
 use std::collections::BTreeMap;
 
@@ -190,7 +190,7 @@ table! {
     Slip {
         /// Number of strokes, each at its own place; 0 for none.
         strokes: u32 = 0,
-        /// Speed of a stroke, in mm/s. The tip rests at each frame, so the speed sets the distance of frames.
+        /// Speed of a stroke, in mm/s. The tip rests at each frame, so the speed sets the distance between frames.
         speed_mm_s: f64 = 5.0,
         /// Number of frames per second of a stroke.
         rate_hz: f64 = 50.0,

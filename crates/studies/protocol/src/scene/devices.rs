@@ -21,7 +21,7 @@ pub struct DeviceSpec {
 pub struct LightingSpec {
     /// Selector of the lighting device. Without one, the sensor sets the light; if it cannot, the operator does.
     pub driver: Option<Setting<String>>,
-    /// Light scenes to use, that of calibration first. The default is all scenes of the driver. Required if the operator sets the light.
+    /// Light scenes to use, the calibration scene first. The default is all scenes of the driver. Required if the operator sets the light.
     pub scenes: Option<Setting<Vec<String>>>,
 }
 

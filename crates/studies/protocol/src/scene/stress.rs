@@ -6,7 +6,7 @@ use crate::text::Setting;
 
 /// Faults that a run gives the pictures of each test part. For an absent key, the default of `taceva stress` applies.
 ///
-/// The table `[stress]` of a scene sets them; others only read them.
+/// The table `[stress]` of a scene sets them; callers only read them.
 ///
 /// ```
 /// use taceva_protocol::Scene;
@@ -39,7 +39,7 @@ pub struct StressSpec {
 
 /// Fault of pictures that a plugin makes.
 ///
-/// The tables `[[fault]]` of a scene set them; others only read them.
+/// The tables `[[fault]]` of a scene set them; callers only read them.
 ///
 /// ```
 /// use taceva_protocol::Scene;

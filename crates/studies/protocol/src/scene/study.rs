@@ -26,7 +26,7 @@ pub struct Study {
     pub force: Option<DeviceSpec>,
     /// The light around the sensor.
     pub lighting: Option<LightingSpec>,
-    /// Limits of the study. The defaults are those of the scene.
+    /// Limits of the study. The defaults are the limits of the scene.
     pub limits: LimitSpec,
     /// Model of the study; `None` for no predictions.
     pub model: Option<ModelSpec>,

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use crate::text::Setting;
 
-/// Load of a cycle that wears the gel. Others read it; they match it with `_`.
+/// Load of a cycle that wears the gel. Callers only read it, and match it with `_`.
 ///
 /// ```
 /// use taceva_protocol::WearLoad;
@@ -61,7 +61,7 @@ impl fmt::Display for WearLoad {
 
 /// Cycles of load between measured stages.
 ///
-/// The table `[protocol.wear]` of a scene sets them; others only read them.
+/// The table `[protocol.wear]` of a scene sets them; callers only read them.
 ///
 /// ```
 /// use taceva_protocol::Scene;
@@ -145,6 +145,6 @@ pub struct WearStage {
     pub number: u32,
     /// Cycles on the gel before the measured presses.
     pub cycles: u32,
-    /// Cycles since the stage before.
+    /// Cycles since the previous stage.
     pub added: u32,
 }

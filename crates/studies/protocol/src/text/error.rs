@@ -117,7 +117,7 @@ pub enum SceneProblem {
         /// Value as written.
         found: String,
     },
-    /// The requested frame size exceeds that of the sensor.
+    /// The requested frame size exceeds the frame size of the sensor.
     #[error(
         "`frames` is `{found}`, but the frames of study `{study}` are {frame}: expected at most `{}x{}`, since frames can only be reduced",
         frame.width,
@@ -145,7 +145,7 @@ pub enum SceneProblem {
         /// Number of grid cells along y.
         least_height: u32,
     },
-    /// A limit exceeds that of the device or of the scene.
+    /// A limit exceeds the limit of the device or of the scene.
     #[error("`{key}` is {found}, but {who} allows at most {limit}: limits may only be tightened")]
     LimitLoosened {
         /// The key.

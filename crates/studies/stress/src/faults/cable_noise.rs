@@ -16,11 +16,11 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Share of bad lines that are displaced; the others have one level.
+/// Share of bad lines that are displaced; all pixels of the other bad lines have one level.
 const DISPLACED: f32 = 0.7;
-/// Greatest displacement, pixels.
+/// Greatest displacement, in pixels.
 const MOST: u64 = 8;
-/// Random numbers of a line.
+/// Number of random numbers for each line.
 const DRAWS: u64 = 4;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {

@@ -24,7 +24,7 @@ fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     displace(&mut canvas.values, row, by / 2.0);
 }
 
-/// Displaces cells of `length` numbers each by a number of cells; the first cell continues before the beginning.
+/// Displaces cells of `length` values each by the number of cells `by`, and repeats the first cell at the beginning.
 fn displace(values: &mut [f32], length: usize, by: f32) {
     let whole = index(by);
     let part = by - by.floor();

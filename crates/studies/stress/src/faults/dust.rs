@@ -19,7 +19,7 @@ pub(super) static FAULT: Fault = Fault {
 
 /// Share of the light that is lost in the middle of a spot.
 const LOST: f32 = 0.6;
-/// Radius of a drawn spot, standard deviations.
+/// Radius of a drawn spot, in standard deviations.
 const REACH: f32 = 4.0;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {

@@ -14,9 +14,9 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-/// Light of a scratch, share of full scale.
+/// Brightness that a scratch adds, as a share of full scale.
 const LIGHT: f32 = 40.0 / 255.0;
-/// Attempts to draw a direction; all of them fail less than once in 10³⁸ lines.
+/// Attempts to draw a direction; for fewer than one line in 10³⁸, all attempts fail.
 const ATTEMPTS: u64 = 60;
 
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {

@@ -2,17 +2,17 @@
 
 use taceva_core::{Frame, FrameInfo, single};
 
-/// Cells across the width of a picture.
+/// Number of cells across the width of a picture.
 const ACROSS: usize = 16;
 
 /// Mean of untouched pictures, divided into cells.
 #[derive(Clone, Debug)]
 pub(super) struct Baseline {
-    /// Mean of each number of a picture.
+    /// Mean of each pixel value of a picture.
     means: Vec<f32>,
-    /// Cell of each number: a square of pixels, each colour by itself.
+    /// Index of the cell of each pixel value. A cell is a square of pixels of one colour.
     cells: Vec<u32>,
-    /// Numbers of each cell.
+    /// Number of pixel values in each cell.
     counts: Vec<u32>,
     full: f64,
 }
@@ -25,14 +25,14 @@ pub(super) struct Baseline {
 pub(super) struct Difference {
     /// Mean difference: brighter is above 0.
     pub(super) level: f64,
-    /// Mean absolute difference of cells that a common factor of brightness does not explain. Pixel noise hardly changes it.
+    /// Mean absolute difference of cells after correction for a common factor of brightness. Pixel noise hardly changes it.
     pub(super) pattern: f64,
-    /// Mean absolute difference that remains within cells.
+    /// Mean absolute difference of pixel values from the mean difference of their cell, after the same correction.
     pub(super) detail: f64,
 }
 
 impl Baseline {
-    /// Mean of `count` pictures of `info` whose numbers have these `sums`.
+    /// Mean of `count` pictures of `info`, whose pixel values have these `sums`.
     pub(super) fn new(info: FrameInfo, sums: &[u32], count: u32) -> Baseline {
         let (width, height) = (info.width as usize, info.height as usize);
         let colours = info.format.samples();
@@ -61,7 +61,7 @@ impl Baseline {
         }
     }
 
-    /// Difference of `frame`, of the kind of the baseline.
+    /// Difference of `frame`, which has the size and format of the baseline.
     pub(super) fn difference(&self, frame: &Frame) -> Difference {
         let numbers = self.means.len() as f64;
         let sum: f64 = self.means.iter().map(|mean| f64::from(*mean)).sum();
@@ -85,7 +85,7 @@ impl Baseline {
         }
     }
 
-    /// Difference of each number of `frame` from its mean, less the share `factor` of the mean.
+    /// Difference of each pixel value of `frame` from its mean, minus `factor` times the mean.
     fn residuals<'a>(
         &'a self,
         frame: &'a Frame,
@@ -102,7 +102,7 @@ impl Baseline {
     }
 }
 
-/// Difference of one number, and its cell.
+/// Difference of one pixel value, and the index of its cell.
 struct Residual {
     value: f64,
     cell: usize,

@@ -18,7 +18,7 @@ pub enum Change {
     Detail,
     /// Lines of some untouched pictures are displaced or lost: a cable, a connector.
     Lines,
-    /// Untouched pictures repeat the one before.
+    /// Untouched pictures repeat the previous picture.
     Repeats,
     /// Pictures of contact are unlike the training pictures.
     Contact,
@@ -42,7 +42,7 @@ impl Change {
         }
     }
 
-    /// Action that mends the change.
+    /// Action that removes the cause of the change.
     pub fn remedy(self) -> &'static str {
         match self {
             Change::Reference => {
@@ -80,7 +80,7 @@ pub struct Alarm {
     pub change: Change,
     /// Number of the picture, from 1, among all untouched pictures, or among all pictures of contact.
     pub picture: u64,
-    /// Stimulus: the change beside that by contact. For repeats and contact, the share of the newest 30 pictures.
+    /// Stimulus: the change divided by the change by contact. For repeats and contact, the share of the newest 30 pictures.
     pub strength: f64,
 }
 

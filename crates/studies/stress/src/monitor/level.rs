@@ -1,6 +1,6 @@
-//! Brightness of untouched pictures, as a mean over the newest ones, because a single picture flickers.
+//! Brightness of untouched pictures, as a mean over the newest pictures, because a single picture flickers.
 //!
-//! Real flicker is not independent: lamps beat with the exposure. The means of successive pictures while the limit is set show how far it moves them.
+//! Real flicker is not independent: lamps beat with the exposure. Means of successive pictures, taken while the limit is set, measure this flicker.
 
 use std::collections::VecDeque;
 
@@ -8,17 +8,17 @@ use taceva_metrics::distributions::student_t;
 
 use super::limit::{LEARNT, RUNS, WINDOW};
 
-/// Standard errors of the difference of two means that show a change.
+/// Number of standard errors of the difference of two means that counts as a change.
 const ERRORS: f64 = 6.5;
 /// Least change that counts.
 const LEAST: f64 = 0.1;
-/// Limits that a single picture counts at most, so that a few accidental pictures are no change.
+/// Greatest change that one picture contributes, in multiples of the limit. A few outliers are then no change.
 const MOST: f64 = 5.0;
 
-/// Brightness of each untouched picture, with the mean and the spread of the first ones.
+/// Brightness of each untouched picture, with the mean and the spread of the first values.
 #[derive(Clone, Debug)]
 pub(super) struct Level {
-    /// Pictures that set the limit, at least [`WINDOW`].
+    /// Number of pictures that set the limit, at least [`WINDOW`].
     wanted: usize,
     learnt: Vec<f64>,
     usual: Option<Usual>,
@@ -44,7 +44,7 @@ impl Default for Level {
 }
 
 impl Level {
-    /// Sets the number of pictures that set the limit. No picture was taken yet.
+    /// Sets the number of pictures that set the limit. Call it before the first picture.
     pub(super) fn want(&mut self, pictures: usize) {
         self.wanted = pictures;
     }
@@ -54,7 +54,8 @@ impl Level {
         self.usual.map(|of| of.limit)
     }
 
-    /// Takes the brightness of the next picture. If the mean of the newest pictures is beyond the limit, returns the usual change of those beyond it.
+    /// Takes the brightness of the next picture. If the mean of the newest pictures is beyond the limit, returns the median change of the pictures
+    /// beyond it.
     pub(super) fn push(&mut self, brightness: f64) -> Option<f64> {
         if self.newest.len() == WINDOW {
             self.newest.pop_front();

@@ -2,12 +2,12 @@
 
 use std::collections::VecDeque;
 
-/// Pictures that set a limit.
+/// Number of pictures that set a limit.
 pub(super) const LEARNT: usize = 200;
 /// Newest pictures that are compared with the limit.
 pub(super) const WINDOW: usize = 30;
 
-/// Multiples of the farthest run of [`WINDOW`] pictures that set the limit. They count if successive pictures are alike, as with slow flicker.
+/// Least limit, in multiples of the greatest excess of a run of [`WINDOW`] pictures. It exceeds other limits if flicker is slow.
 pub(super) const RUNS: f64 = 3.0;
 
 /// Numbers of pictures that set a limit and exceed it.
@@ -40,10 +40,10 @@ pub(super) struct Limited {
     rule: Rule,
     /// Least excess over the median that counts as beyond.
     least: f64,
-    /// Pictures that set the limit, at least [`WINDOW`].
+    /// Number of pictures that set the limit, at least [`WINDOW`].
     wanted: usize,
     learnt: Vec<f64>,
-    /// Set by the last of the `wanted` pictures.
+    /// Limit, set by the last of the `wanted` pictures.
     limit: Option<Limit>,
     newest: VecDeque<f64>,
 }
@@ -76,7 +76,7 @@ impl Limited {
         }
     }
 
-    /// Sets the number of pictures that set the limit. No picture was taken yet.
+    /// Sets the number of pictures that set the limit. Call it before the first picture.
     pub(super) fn want(&mut self, pictures: usize) {
         self.wanted = pictures;
     }
@@ -131,10 +131,11 @@ impl Limited {
     }
 }
 
-/// Expected number of false alarms of one number in `pictures` untouched pictures that are exchangeable with those that set the limit.
+/// Expected number of false alarms of one measured value in `pictures` untouched pictures that are exchangeable with those that set the limit.
 ///
 /// The share q of pictures beyond the k-th greatest of n numbers has the distribution Beta(k, n + 1 − k), whatever the distribution of the numbers.
-/// The number of pictures of a window beyond the limit is therefore beta-binomial. The sum over all windows is an upper bound, because windows overlap.
+/// The number of pictures of a window beyond the limit is therefore beta-binomial. The sum over all windows is an upper bound, because windows
+/// overlap.
 pub(super) fn false_alarms(pictures: u64) -> f64 {
     let chance: f64 = (MOST.beyond..=WINDOW).map(chance_of).sum();
     pictures as f64 * chance

@@ -9,13 +9,13 @@ use super::limit::WINDOW;
 use super::{Monitor, SETTLED, framed};
 use crate::scale::{Touch, touches};
 
-/// Successive pictures of a run that is learnt. Pictures far apart would hide that successive ones are alike.
+/// Number of successive pictures in each run to learn. Pictures far apart would hide that successive pictures are alike.
 const RUN: usize = SETTLED as usize;
 
 impl Monitor {
-    /// Learns from untouched pictures of `dataset`, the recording of the calibration: five evenly spaced runs of 50 successive ones, or as many as it has.
-    /// Returns false if it has fewer than [`LEAST_PICTURES`](Monitor::LEAST_PICTURES); the monitor then learns from the pictures that it watches, and finds no
-    /// smaller change since the calibration than one by contact.
+    /// Learns from untouched pictures of `dataset`, the recording of the calibration: five evenly spaced runs of 50 successive pictures, or all
+    /// untouched pictures. Returns false if it has fewer than [`LEAST_PICTURES`](Monitor::LEAST_PICTURES). The monitor then learns from the pictures
+    /// that it watches. It finds a change since the calibration only if this exceeds the change by contact.
     ///
     /// # Errors
     /// Errors of reading.

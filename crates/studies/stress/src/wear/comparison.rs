@@ -1,4 +1,4 @@
-//! Differences of errors from those of the first recording of a gel.
+//! Differences of errors from the errors of the first recording of a gel.
 
 use taceva_metrics::{ComparisonError, Difference, Estimate, Sides, by_intervals, decide};
 
@@ -14,7 +14,7 @@ struct Compared<'a> {
     difference: Result<Difference, ComparisonError>,
 }
 
-/// Differences of the errors of each of `later` from those of `first`. They are one family of Holm's procedure.
+/// Differences of the errors of each of `later` from the errors of `first`. The differences are one family of Holm's procedure.
 pub(crate) fn differences(first: &Scored, later: &[&Scored]) -> Vec<ByChannel<WearDifference>> {
     let mut all: Vec<Compared<'_>> = Vec::new();
     for (position, of) in later.iter().enumerate() {

@@ -50,7 +50,7 @@ pub(crate) struct Placed {
 /// Recordings of one unit, by gel and place.
 pub(crate) struct Order {
     pub(crate) by: WearBy,
-    /// Recordings of each gel, the first ones first.
+    /// Recordings of each gel in the order of their places, by the name of the gel.
     pub(crate) gels: Vec<Vec<Placed>>,
 }
 
@@ -91,7 +91,7 @@ fn refused<T>(words: String) -> Result<T, EvaluateError> {
     Err(EvaluateError::Request(words))
 }
 
-/// Refuses fewer than two recordings, a recording given twice or with an earlier state of itself, and recordings of several units.
+/// Refuses fewer than two recordings, a recording given twice or together with its earlier state, and recordings of several units.
 fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
     let expected = "expected two or more recordings of one unit, made at different times";
     let [first, others @ ..] = recordings else {
@@ -149,7 +149,7 @@ fn check_presses(recordings: &[Dataset], gel: &[Placed]) -> Result<(), EvaluateE
     ))
 }
 
-/// Gives the recordings of a gel their places, and sorts them.
+/// Sets the place of each recording of a gel, and sorts by place.
 fn place(recordings: &[Dataset], gel: &mut [Placed], by: WearBy) -> Result<(), EvaluateError> {
     let first = gel.iter().filter_map(|of| of.day).min();
     let day = |day: Date| day.days_since_1970() as f64;

@@ -29,7 +29,7 @@ pub struct WearReport {
     pub units: ByChannel<&'static str>,
     /// Gels of the unit, by name.
     pub gels: Vec<GelWear>,
-    /// Limits of what the numbers contain, as sentences.
+    /// Limitations of the numbers, as sentences.
     pub notes: Vec<String>,
 }
 
@@ -49,7 +49,7 @@ pub struct GelWear {
 pub struct RecordingWear {
     /// Folder of the recording.
     pub recording: String,
-    /// Origin of the samples, as of [`Subject::source`].
+    /// Origin of the samples, as in [`Subject::source`].
     pub source: String,
     /// Presses on the gel before the recording, if they are stated.
     pub presses_since_gel: Option<u32>,
@@ -63,17 +63,17 @@ pub struct RecordingWear {
     pub left_out: usize,
     /// Untouched picture: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
-    /// Change of the untouched picture from that of the first recording, divided by the mean change by contact in the first.
+    /// Change of the untouched picture from the untouched picture of the first recording, divided by the mean change by contact in the first.
     pub stimulus: Option<f64>,
     /// Mean absolute errors.
     pub mae: ByChannel<Estimate>,
-    /// Differences of the errors from those of the first recording; empty for the first.
+    /// Differences of the errors from the errors of the first recording; empty for the first recording.
     pub differences: ByChannel<WearDifference>,
     /// Origin of the numbers.
     pub provenance: Provenance,
 }
 
-/// Difference of the error of a recording from that of the first.
+/// Difference of the error of a recording from the error of the first recording.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct WearDifference {
     /// The difference, in the unit of the channel.
@@ -97,7 +97,7 @@ pub struct ChannelWear {
     pub slope: Estimate,
     /// Place at which the limit of the channel is met; `None` without a limit.
     pub limit: Option<LimitMet>,
-    /// Folder of the first recording whose error is shown to differ from that of the first.
+    /// Folder of the first recording whose error is shown to differ from the error of the first recording.
     pub first_different: Option<String>,
 }
 

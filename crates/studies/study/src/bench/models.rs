@@ -58,8 +58,9 @@ pub struct TrialError {
     pub ci95: Option<[f64; 2]>,
     /// Number of samples.
     pub n: u64,
-    /// Models of the race that beat this one on the channel. Such a model has a fit with less processor time, and this model is not shown to be more accurate.
-    /// Accuracy is shown if the 95 % interval of the difference of errors, paired by contact point, is below 0. Empty on the Pareto front.
+    /// Models of the race that beat this model on the channel. Such a model has a fit with less processor time, and this model is not shown to be
+    /// more accurate. Accuracy is shown if the 95 % interval of the difference of errors, paired by contact point, is below 0. Empty on the Pareto
+    /// front.
     pub beaten_by: Vec<String>,
 }
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// Best and median of several times.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
-    /// Shortest time, the one least affected by disturbances.
+    /// Shortest time, least affected by disturbances.
     pub best: f64,
     /// Median time.
     pub median: f64,
@@ -44,7 +44,7 @@ pub struct Stopwatch {
 impl Stopwatch {
     /// Runs all candidates once untimed, then `rounds` times in turns.
     ///
-    /// `run` receives the index of a candidate. After each candidate, `go_on` returns true to continue. If it returns false, the times measured so far are
+    /// `run` receives the index of a candidate. After each candidate, `go_on` returns true to continue. If it returns false, the measured times are
     /// kept.
     pub fn race(
         candidates: usize,
@@ -90,12 +90,12 @@ fn timed(run: impl FnOnce()) -> (Duration, Option<Duration>) {
     (wall, thread.and_then(|(end, start)| end.checked_sub(start)))
 }
 
-/// Processor time of all threads of this process so far; `None` if the system does not report it.
+/// Total processor time of all threads of this process; `None` if the system does not report it.
 pub(super) fn process_time() -> Option<Duration> {
     clock(Clock::Process)
 }
 
-/// Processor time of the calling thread so far; `None` if the system does not report it.
+/// Total processor time of the calling thread; `None` if the system does not report it.
 fn thread_time() -> Option<Duration> {
     clock(Clock::Thread)
 }

@@ -100,7 +100,7 @@ impl<'a> PhaseRows<'a> {
         !self.predicted_phases().is_empty()
     }
 
-    /// True if any planned metric compares predicted spacings with the true ones.
+    /// True if any planned metric compares predicted spacings with the true spacings.
     pub(super) fn reads_spacings(&self) -> bool {
         let mut metrics = self.metrics();
         metrics.any(|(_, metric)| metric.needs.fields.contains(Field::PredictedSpacing))
@@ -123,7 +123,7 @@ impl<'a> PhaseRows<'a> {
         phases
     }
 
-    /// Channels with needed predictions, in the order of the plan: the channels of samples with a frame.
+    /// Channels to predict, in the order of the plan: the channels of samples with a frame.
     pub(super) fn predicted_channels(&self) -> Vec<String> {
         let table = self.dataset.table();
         let is_seen = |channel: &str| {
@@ -218,7 +218,7 @@ pub(super) fn seen(divided: &Divided) -> Vec<usize> {
     rows
 }
 
-/// Rows of each phase of the protocol, without those of repeated presses on further units, which are added to `others`. Samples are named
+/// Rows of each phase of the protocol, without the rows of repeated presses on further units, which are added to `others`. Samples are named
 /// `<press>/<number>`.
 fn by_phase(
     plan: &Plan,

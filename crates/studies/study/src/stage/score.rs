@@ -63,7 +63,7 @@ impl Within {
     }
 }
 
-/// Scores of a study, with the sums behind them.
+/// Scores of a study, with the sums from which they were computed.
 pub(super) struct StudyScores {
     pub(super) evaluation: Evaluation,
     /// Notes on omissions that cannot be expressed as a skip.

@@ -13,7 +13,7 @@ use crate::error::StudyError;
 
 /// Name of the task.
 const SLIP: &str = "slip";
-/// Share of the limit of friction from which a frame is labelled slip. The outermost part of a contact slides long before.
+/// Share of the limit of friction from which a frame is labelled slip. The outermost part of a contact slides earlier.
 const SHARE: f64 = 0.9;
 /// Model that predicts slip from few strokes: linear discriminants of small pictures.
 const MODEL: &str = "lda";

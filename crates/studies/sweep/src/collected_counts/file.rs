@@ -13,7 +13,7 @@ use crate::seal;
 
 /// Schema of the file.
 const SCHEMA: &str = "taceva.sweep-collected/1.0";
-/// Output files that must exist beside the file of counts.
+/// Output files that must exist next to the file of counts.
 const BESIDE: [&str; 5] = [
     "table.csv",
     "table.parquet",

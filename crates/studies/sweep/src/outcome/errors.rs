@@ -1,4 +1,4 @@
-//! Errors behind the scores of a task, by group or contact point.
+//! Errors from which the scores of a task were computed, by group or contact point.
 
 use std::collections::BTreeMap;
 

@@ -19,7 +19,7 @@ struct ForceProxy {
     tare: bool,
     /// Sequence number of the last reading.
     sequence: Option<u64>,
-    /// Number of lost readings, as stated after the last one.
+    /// Number of lost readings, as stated after the last reading.
     lost: Option<u64>,
 }
 

@@ -21,7 +21,7 @@ use super::Need;
 
 type Rules = BTreeMap<i64, Vec<SeccompRule>>;
 
-/// Allows the listed calls and those that `needs` require. Returns the number of distinct calls.
+/// Allows the listed calls and the calls that `needs` require. Returns the number of distinct calls.
 ///
 /// # Errors
 /// A message that names the failure.

@@ -12,8 +12,8 @@ listed! {
     DriverSource, [DriverSource::Real, DriverSource::Simulated, DriverSource::Recorded], "a source of readings";
 }
 
-/// Implements [`Wire`] for a struct that can get further fields, as [`fields`] does for a fixed one. The compiler cannot detect a missing field here; the test
-/// `facts_that_can_grow_cross_with_every_field` does.
+/// Implements [`Wire`] for a struct that can get further fields, as [`fields`] does for a fixed struct. The compiler cannot detect a missing field
+/// here; the test `facts_that_can_grow_cross_with_every_field` does.
 macro_rules! growing {
     ($type:ident { $($field:ident),* $(,)? }) => {
         impl Wire for $type {

@@ -166,7 +166,7 @@ impl Wire for ArgValue {
     }
 }
 
-/// Implements [`Wire`] for fieldless values by list index. An unlisted value gets the index after the last one.
+/// Implements [`Wire`] for fieldless values by list index. An unlisted value gets the index after the last value.
 macro_rules! listed {
     ($($type:ty, $list:expr, $expected:literal;)*) => {$(
         impl Wire for $type {

@@ -97,8 +97,8 @@ impl Dent {
 
 /// Slope of the sink over r at `distance`, blurred by a Gaussian of `sigma`.
 ///
-/// The slope is a vector field r t(r²). Blurring it in the plane is blurring t as a field in four dimensions. Three of them lie across r and add
-/// their variance to r². Along r, seven Gauss-Hermite nodes are used.
+/// The slope is a vector field r t(r²). Blurring it in the plane is blurring t as a field in four dimensions. Three of the dimensions lie across r
+/// and add their variance to r². Along r, seven Gauss-Hermite nodes are used.
 fn blurred(profile: &Profile, distance: f64, sigma: f64) -> f32 {
     let table = profile.table(Quantity::SinkSlope);
     HERMITE

@@ -3,7 +3,7 @@
 use crate::number::narrow;
 use crate::random::Stream;
 
-/// A bar of light beside the gel.
+/// A bar of light next to the gel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LampSpec {
     /// Centre of the bar: x, y, and its height over the gel, on the side of the camera.
@@ -23,7 +23,7 @@ pub(super) struct Lamp {
     pub(super) colour: [f32; 3],
 }
 
-/// Pixels shaded together.
+/// Number of pixels shaded together.
 pub(super) const CHUNK: usize = 32;
 
 /// Slopes of the coating under a run of pixels of one row, as the camera sees it.

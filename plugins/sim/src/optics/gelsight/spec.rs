@@ -12,7 +12,7 @@ pub struct GelsightSpec {
     pub thickness_mm: f64,
     /// Sag of the surface at x = 7 mm and at y = 9 mm (geometry).
     pub sag_mm: [f64; 2],
-    /// Lamps: red on the left, green on the right, blue at the bottom, and a weak cyan one at the top (free).
+    /// Lamps: red on the left, green on the right, blue at the bottom, and weak cyan at the top (free).
     pub lamps: Vec<LampSpec>,
     /// Distance at which the colours of the lamps are stated (free).
     pub lamp_reach_mm: f64,
@@ -30,14 +30,14 @@ pub struct GelsightSpec {
     pub markers: Option<MarkerGrid>,
     /// Width and height of the field.
     pub field_mm: [f64; 2],
-    /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less of all directions (free).
+    /// Wear of the gel, if any. A glossier coating reflects more light of the lamps and less diffuse light (free).
     pub wear: Option<GelWear>,
 }
 
 /// Grid of dark discs on the gel's surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MarkerGrid {
-    /// Number along x and along y.
+    /// Number of markers along x and along y.
     pub count: [u16; 2],
     /// Distance between centres (literature).
     pub pitch_mm: f64,
@@ -45,7 +45,7 @@ pub struct MarkerGrid {
     pub diameter_mm: f64,
     /// Part of the light that a marker absorbs (free).
     pub darkness: f64,
-    /// Standard deviation of their places between units (free).
+    /// Standard deviation of the marker places between units (free).
     pub jitter_mm: f64,
 }
 

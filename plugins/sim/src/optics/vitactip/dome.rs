@@ -27,7 +27,7 @@ impl Dimple {
         }
     }
 
-    /// Depth at `arc` decay lengths from the load, relative to the depth under it.
+    /// Depth at `arc` decay lengths from the load, relative to the depth under the load.
     fn at(&self, arc: f64) -> f64 {
         let place = arc * NODES_A_LENGTH;
         let node = whole_size(place).min(self.depths.len() - 2);

@@ -17,7 +17,7 @@ pub struct VitactipSpec {
     pub dimple_mm: f64,
     /// Sway of the apex per lateral force (free).
     pub sway_mm_per_n: f64,
-    /// Rings of markers around the middle one: 6 make 127 markers (literature).
+    /// Number of rings of markers around the middle marker: 6 make 127 markers (literature).
     pub rings: i32,
     /// Distance between markers, projected along the axis (literature).
     pub marker_pitch_mm: f64,

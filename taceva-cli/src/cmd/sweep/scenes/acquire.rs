@@ -30,7 +30,7 @@ pub(crate) struct Acquisition<'a> {
     pub(crate) cache: &'a CacheArgs,
 }
 
-/// Acquires the incomplete ones of `scenes` in turn. True if at least one was incomplete.
+/// Acquires the incomplete scenes of `scenes` in turn. True if at least one was incomplete.
 pub(crate) fn acquire(
     scenes: &[SweepScene],
     acquisition: &Acquisition<'_>,

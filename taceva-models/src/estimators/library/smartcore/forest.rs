@@ -67,7 +67,7 @@ const SEED: Number = Number {
     unset: Unset::Is(0.0),
 };
 
-/// Candidate shares of features, descending. Of shares with equal errors, the last and cheapest one is chosen.
+/// Candidate shares of features, descending. Of shares with equal errors, the last and cheapest share is chosen.
 const SHARES: [f64; 3] = [0.3, 0.1, 0.03];
 
 const NUMBERS: &[Number] = &[TREES, LEAF, SHARE, SEED];

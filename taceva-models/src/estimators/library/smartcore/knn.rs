@@ -31,7 +31,7 @@ const COUNT: Number = Number {
     unset: Unset::ChosenAmong(&COUNTS),
 };
 
-/// Candidate numbers of neighbours, ascending. Of numbers with equal errors, the last and smoothest one is chosen.
+/// Candidate numbers of neighbours, ascending. Of numbers with equal errors, the last and greatest number is chosen.
 const COUNTS: [f64; 8] = [1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 12.0, 20.0];
 
 /// Nearest neighbours by Euclidean distance, weighted by 1 / distance. If samples have distance 0, all other samples are ignored.

@@ -9,16 +9,17 @@ use super::moment::Moment;
 const LIVE_FRAMES: u32 = 8;
 /// Number of changed frames of the untouched gel after which a camera counts as noisy. No two frames of a noisy camera are equal.
 const NOISY_FRAMES: u32 = 4;
-/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. A similar change must have changed the frame before.
+/// Number of repeats of one frame after which a camera with fewer changes counts as frozen. An earlier similar change of the force must have changed
+/// the frame.
 const STUCK_REPEATS: u32 = 3;
-/// Part of the greatest change of the force that changed the frame. A change of this part must change it again. Presses to one depth differ.
+/// Fraction of the greatest earlier force change. A larger force change must change the frame. Forces of presses to one depth vary.
 const SHOWN_PART: f64 = 0.75;
-/// Number of repeated older frames after which a camera counts as frozen: for a noisy camera, and for any other.
+/// Numbers of repeated older frames after which a noisy camera, and any other camera, counts as frozen.
 const NOISY_RETURNS: u32 = 3;
 const CYCLE_RETURNS: u32 = 6;
 /// Distance of a pixel value from black or full scale up to which it counts as clipped.
 const CLIPPED: u16 = 4;
-/// Greatest part of the samples of a blank frame that are not clipped, as of hot pixels.
+/// Greatest fraction of unclipped samples in a blank frame, such as hot pixels.
 const SEEN_PART: f64 = 0.01;
 
 /// Last distinct frame of a run, and the evidence that this camera does not repeat frames.
@@ -34,7 +35,7 @@ pub(super) struct Freeze {
     is_noiseless: bool,
 }
 
-/// Frame that differs from the one before it.
+/// Frame that differs from the previous frame.
 struct Distinct {
     frame: Frame,
     moment: Moment,
@@ -42,7 +43,7 @@ struct Distinct {
     is_left: bool,
     /// Number of equal frames that should have differed.
     repeats: u32,
-    /// True if the frame was captured in the air and in contact, or in two presses, although a similar change of the force changed the frame before.
+    /// True if the frame repeats between air and contact, or between two presses, although an earlier similar force change changed the frame.
     is_seen_across: bool,
 }
 
@@ -54,7 +55,7 @@ impl Freeze {
         }
     }
 
-    /// True if `frame`, captured at `moment`, equals the previous frame or repeats a sequence of older ones, although the force changed.
+    /// True if `frame`, captured at `moment`, equals the previous frame or repeats a sequence of older frames, although the force changed.
     ///
     /// A blank frame, as from a camera in the dark, never counts as repeated.
     pub(super) fn is_frozen(&mut self, frame: &Frame, moment: Moment) -> bool {

@@ -40,7 +40,7 @@ impl Moment {
         normal_n.hypot(shear_n)
     }
 
-    /// True if the force changed so far since `earlier` that every camera shows it.
+    /// True if the force changed enough since `earlier` for every camera to show the change.
     pub(super) fn is_pressed_otherwise_than(&self, earlier: &Moment) -> bool {
         self.change_n(earlier) > FORCE_STEPS * self.air_n
     }
@@ -51,7 +51,7 @@ impl Moment {
         (here.x.0 - there.x.0).hypot(here.y.0 - there.y.0) > MOVED_MM
     }
 
-    /// True if the tip moved so far since `earlier` that a camera without noise shows it.
+    /// True if the tip moved enough since `earlier` for a camera without noise to show the motion.
     pub(super) fn is_moved_from(&self, earlier: &Moment) -> bool {
         distance(&earlier.pose, &self.pose) > MOVED_MM
     }

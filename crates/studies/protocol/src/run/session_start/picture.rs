@@ -79,7 +79,7 @@ pub(super) struct Seen {
 }
 
 impl Seen {
-    /// True if the change in contact clearly exceeds that in the air.
+    /// True if the change in contact clearly exceeds the change in the air.
     pub(super) fn shows(&self) -> bool {
         self.in_contact > (CHANGES * self.in_air).max(LEAST[self.place])
     }

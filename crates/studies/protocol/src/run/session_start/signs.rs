@@ -68,7 +68,7 @@ fn greatest(force: &[f64; 3]) -> Along {
     }
 }
 
-/// Completes three signed axes if at most one is unknown, by the cross product of the others.
+/// Completes three signed axes if at most one is unknown, by the cross product of the other axes.
 fn whole(along: [Option<Along>; 3]) -> Option<[Along; 3]> {
     let missing: Vec<usize> = (0..3).filter(|axis| along[*axis].is_none()).collect();
     match missing[..] {
@@ -83,7 +83,7 @@ fn whole(along: [Option<Along>; 3]) -> Option<[Along; 3]> {
     }
 }
 
-/// Cross product of two signed axes; `None` for parallel ones.
+/// Cross product of two signed axes; `None` for parallel axes.
 fn cross(one: Along, other: Along) -> Option<Along> {
     let sign = one.sign * other.sign;
     let (step, sign) = match (3 + other.axis - one.axis) % 3 {

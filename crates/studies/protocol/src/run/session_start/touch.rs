@@ -26,11 +26,11 @@ const RISE: f64 = 3.0;
 const FORCE_PART: f64 = 0.5;
 /// Greatest depth of the touch, as a part of the depth limit.
 const DEPTH_PART: f64 = 0.5;
-/// Depth for the comparison with other sessions, in mm, and its greatest part of the limits of depth and force.
-/// A shallower touch varies with the height of the contact. Taps use a greater part.
+/// Depth for the comparison with other sessions, in mm, and its greatest fraction of the depth limit and of the force limit. A shallower touch varies
+/// with the height of the contact. Taps use a greater fraction.
 const REFERENCE_MM: f64 = 0.3;
 const REFERENCE_PART: f64 = 0.3;
-/// Greatest slope of a force over its depth, relative to their ratio: of a ball, by Hertz.
+/// Greatest ratio of the force slope to force divided by depth: 1.5 for a ball (Hertz).
 const SLOPE: f64 = 1.5;
 /// Sideways push to each side, in mm.
 const PUSH_MM: f64 = 0.2;
@@ -129,8 +129,8 @@ impl Run<'_> {
         }
     }
 
-    /// Continues the press to the depth at which sessions are compared. It is that of an earlier session, or otherwise [`REFERENCE_MM`]. Stops earlier at a
-    /// part of the force limit.
+    /// Continues the press to the depth at which sessions are compared. The depth is `earlier_mm`, or [`REFERENCE_MM`] in a first session. Stops
+    /// earlier at a part of the force limit.
     fn press_deeper(&mut self, height_mm: f64, earlier_mm: Option<f64>) -> Step<Force> {
         let part = match earlier_mm {
             Some(_) => FORCE_PART,
@@ -163,7 +163,7 @@ impl Run<'_> {
         limits.map_or(0.0, |limits| limits.depth_max.0)
     }
 
-    /// Force of a push to +x and of one to +y, each as half the difference from its opposite; `None` if not measurable.
+    /// Forces of a push to +x and of a push to +y, each as half the difference from its opposite; `None` if not measurable.
     fn push_aside(&mut self) -> Step<[Option<[f64; 3]>; 2]> {
         let measured = self.tip.force.axes();
         let measures_shear = measured.contains(Axis::Fx) && measured.contains(Axis::Fy);
@@ -238,8 +238,8 @@ impl Run<'_> {
 }
 
 impl Tip<'_> {
-    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step below the
-    /// threshold and the first one above. `None` at the end of the search.
+    /// Descends by steps until the force exceeds the threshold along any axis. Returns the height of contact, interpolated between the last step
+    /// below the threshold and the first step above. `None` at the end of the search.
     fn feel_down(&mut self, threshold_n: f64) -> Step<Option<Surface>> {
         self.watch(MotionStage::Search);
         let start_mm = self.target.position.z.0;
@@ -319,7 +319,7 @@ impl Tip<'_> {
     }
 }
 
-/// Standard uncertainty of a height between two steps, in mm, from the noise of a reading and the rise of the force over the step, in N.
+/// Standard uncertainty of a height between two steps, in mm. It follows from the noise of a reading and the rise of the force over the step, in N.
 fn between_steps_mm(step_mm: f64, noise_n: f64, rise_n: f64) -> f64 {
     // The line between two steps deviates from the curve of a gel by up to an eighth of a step.
     let of_line_mm = step_mm / 8.0 / 3.0_f64.sqrt();

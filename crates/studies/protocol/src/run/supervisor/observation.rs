@@ -45,7 +45,8 @@ pub enum MotionStage {
     Search,
     /// In contact, below `height_mm`.
     Press {
-        /// Height relative to which depths are measured, in mm of the sensor frame. It is that of the first contact, or of the fitted surface above it.
+        /// Height relative to which depths are measured, in mm of the sensor frame. It is the height of the first contact, or of the fitted surface
+        /// above it.
         height_mm: f64,
     },
     /// Retreat. The force must not exceed `force_n`.
