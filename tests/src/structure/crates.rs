@@ -8,7 +8,7 @@ use crate::root;
 /// Crates of a build of `package` on this machine, itself among them, as name and version. Build scripts do not count.
 ///
 /// # Panics
-/// If cargo fails, which ends the test.
+/// If cargo fails, which ends the program.
 pub fn compiled_crates(package: &str) -> BTreeSet<String> {
     let mut tree = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     tree.current_dir(root())

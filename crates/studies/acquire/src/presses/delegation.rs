@@ -120,6 +120,10 @@ macro_rules! delegate_sensor {
             self.$sensor.interrupt_handle()
         }
 
+        fn is_stamped_by_host(&self) -> bool {
+            self.$sensor.is_stamped_by_host()
+        }
+
         fn lighting(&mut self) -> Option<&mut dyn taceva_core::Lighting> {
             self.$sensor.lighting()
         }

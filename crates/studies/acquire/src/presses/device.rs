@@ -308,6 +308,7 @@ mod tests {
                 let camera = opened::<dyn Sensor>(device, source, facts);
                 // A latency wraps a device whose timing is not checked, too.
                 let mut camera = camera.timely(false, |_| Some(1.0));
+                assert_eq!(camera.is_stamped_by_host(), is_stamped_by_host);
                 let mut off_s = 0.0;
                 while MonotonicClock.now_s() < begun_s + 4.0 {
                     let mut bytes = [0];

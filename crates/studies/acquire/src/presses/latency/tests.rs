@@ -1,6 +1,6 @@
 //! Tests of the wrappers.
 
-use taceva_core::{Halt, Newton};
+use taceva_core::Halt;
 
 use super::*;
 
