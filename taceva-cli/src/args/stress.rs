@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use taceva_stress::FAULTS;
+use taceva_stress::{FAULTS, Fault, RECORDING_FAULTS};
 
 use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
@@ -21,7 +21,8 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 and all both mean the whole list, ORG/NAME a fault of a plugin
+    /// Faults, separated by commas; gel-12 or all means those of pictures, recording-5 those of files, markers, clocks and labels, ORG/NAME a fault of a
+    /// plugin
     #[arg(
         long,
         value_name = "FAULTS",
@@ -54,10 +55,17 @@ pub(crate) struct Stress {
 
 /// Names of the faults, each with its appearance.
 fn faults_help() -> String {
-    let lines = FAULTS
-        .iter()
-        .map(|fault| format!("\n  {:<15}{}", fault.id, fault.title));
-    format!("Faults:{}", lines.collect::<String>())
+    let lines = |faults: &[&Fault]| -> String {
+        let lines = faults.iter();
+        lines
+            .map(|fault| format!("\n  {:<15}{}", fault.id, fault.title))
+            .collect()
+    };
+    format!(
+        "Faults of gel-12:{}\n\nFaults of recording-5:{}",
+        lines(&FAULTS),
+        lines(&RECORDING_FAULTS)
+    )
 }
 
 /// Samples that the model has not seen.

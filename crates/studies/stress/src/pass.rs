@@ -10,30 +10,30 @@ use crate::severity::Level;
 use crate::stress::Stress;
 
 /// A fault of one severity.
-pub(crate) struct Cell {
+pub(crate) struct Cell<'m> {
     /// Position of the fault in the list.
     pub(crate) fault: usize,
     pub(crate) level: Level,
     /// The draws of the fault, at least one.
-    pub(crate) draws: Vec<CellDraw>,
+    pub(crate) draws: Vec<CellDraw<'m>>,
 }
 
 /// One draw of a fault.
-pub(crate) struct CellDraw {
-    pub(crate) stress: Stress,
+pub(crate) struct CellDraw<'m> {
+    pub(crate) stress: Stress<'m>,
     /// Features beside an untouched picture from after the fault; `None` if the model or the fault has none.
     fresh: Option<Extractor>,
 }
 
-impl Cell {
+impl<'m> Cell<'m> {
     /// The fault with an untouched picture from before it, and from after it where `untouched` is given.
     pub(crate) fn new(
         fault: usize,
         level: Level,
-        stresses: Vec<Stress>,
+        stresses: Vec<Stress<'m>>,
         model: &Model,
         untouched: Option<&Frame>,
-    ) -> Cell {
+    ) -> Cell<'m> {
         let draws = stresses.into_iter().map(|stress| CellDraw {
             fresh: untouched.and_then(|untouched| {
                 let faulty = stress.apply(untouched, UNTOUCHED, None);
@@ -43,7 +43,7 @@ impl Cell {
             }),
             stress,
         });
-        let mut draws: Vec<CellDraw> = draws.collect();
+        let mut draws: Vec<CellDraw<'m>> = draws.collect();
         if draws.iter().any(|draw| draw.fresh.is_none()) {
             draws.iter_mut().for_each(|draw| draw.fresh = None);
         }
@@ -55,7 +55,7 @@ impl Cell {
     }
 
     /// The fault, if it repeats pictures.
-    fn repeating(&self) -> Option<&Stress> {
+    fn repeating(&self) -> Option<&Stress<'m>> {
         let mut stresses = self.draws.iter().map(|draw| &draw.stress);
         stresses.find(|stress| stress.repeats())
     }
@@ -125,15 +125,22 @@ impl Predictor<'_> {
         Ok(self.model.predict_unbounded(&features)?)
     }
 
-    fn row(&self, sample: &str, frame: Frame, cells: &[Cell]) -> Result<Row, EvaluateError> {
+    /// Numbers of the picture `frame` of `sample`, at this share of the duration of the recording.
+    fn row(
+        &self,
+        sample: &str,
+        share: f64,
+        frame: Frame,
+        cells: &[Cell<'_>],
+    ) -> Result<Row, EvaluateError> {
         let clean = self.of(&frame, self.clean.as_ref())?;
-        let of_cell = |cell: &Cell| -> Result<CellPredictions, EvaluateError> {
+        let of_cell = |cell: &Cell<'_>| -> Result<CellPredictions, EvaluateError> {
             let mut found = CellPredictions::default();
             if cell.repeating().is_some() {
                 return Ok(found);
             }
             for draw in &cell.draws {
-                let faulty = draw.stress.apply(&frame, sample, None);
+                let faulty = draw.stress.at(share).apply(&frame, sample, None);
                 found.stale.extend(self.of(&faulty, self.clean.as_ref())?);
                 if let (Some(fresh), Some(_)) = (&draw.fresh, &self.clean) {
                     found.fresh.extend(self.of(&faulty, Some(fresh))?);
@@ -151,12 +158,14 @@ impl Predictor<'_> {
     }
 }
 
-/// Predictions of `rows`, which have pictures, without a fault and in each of `cells`.
+/// Predictions of `rows`, which have pictures, without a fault and in each of `cells`. `shares` has the time of each row of the table, a share of the
+/// duration.
 pub(crate) fn predictions(
     dataset: &Dataset,
     model: &Model,
     rows: &[usize],
-    cells: &[Cell],
+    shares: &[f64],
+    cells: &[Cell<'_>],
     work: Work<'_>,
 ) -> Result<Predictions, EvaluateError> {
     let clean = model.reads_features();
@@ -170,7 +179,7 @@ pub(crate) fn predictions(
     let mut before: Option<Row> = None;
     dataset.map_frames(
         Pass::new(rows, work.jobs, work.progress),
-        |row, frame| predictor.row(&samples[row], frame, cells),
+        |row, frame| predictor.row(&samples[row], shares[row], frame, cells),
         |row, found| {
             let mut found: Row = found?;
             for (cell, own) in cells.iter().zip(&mut found.cells) {

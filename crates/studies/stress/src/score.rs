@@ -132,6 +132,22 @@ impl<'a> Scorer<'a> {
         })
     }
 
+    /// Scorer of the same samples with the labels `truth`, one column for each of [`labels`](Scorer::labels).
+    pub(crate) fn with_labels(&self, truth: Vec<Column>) -> Scorer<'a> {
+        Scorer {
+            plan: self.plan.clone(),
+            positions: self.positions.clone(),
+            truth,
+            clusters: self.clusters.clone(),
+            ..*self
+        }
+    }
+
+    /// Scored channels, each with its labels.
+    pub(crate) fn labels(&self) -> impl Iterator<Item = (&Channel, &Column)> {
+        self.plan.channels().iter().zip(&self.truth)
+    }
+
     /// Scores of `predictions`.
     ///
     /// # Shapes

@@ -1,9 +1,9 @@
 //! Choice of samples and faults, checked before any picture is read.
 
-use taceva_core::{counted, shown};
+use taceva_core::{Frame, counted, shown};
 use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, Plan, Target, subject_of};
-use taceva_models::Model;
+use taceva_models::{MarkerTracker, Model};
 use taceva_results::not_measured;
 
 use crate::fault::{Fault, Scope};
@@ -71,7 +71,10 @@ impl StressRequest {
 /// Samples and faults of a test, checked before any picture is read.
 pub(crate) struct Setup {
     pub(crate) samples: Unseen,
+    /// Faults of pictures.
     pub(crate) faults: Vec<&'static Fault>,
+    /// Faults of labels.
+    pub(crate) of_labels: Vec<&'static Fault>,
     pub(crate) skipped: Vec<SkippedFault>,
 }
 
@@ -85,7 +88,7 @@ impl Setup {
         require_testable(dataset, model)?;
         let chosen = request.checked(has_others)?;
         let samples = Unseen::of(dataset, model, request.part)?;
-        Ok(Setup::with(samples, chosen, request))
+        Ok(Setup::with(dataset, model, samples, chosen))
     }
 
     /// Setup for the samples of `target`, which the caller knows to be unseen.
@@ -98,22 +101,64 @@ impl Setup {
     ) -> Result<Setup, EvaluateError> {
         let chosen = request.checked(has_others)?;
         let samples = Unseen::of_target(dataset, model, target)?;
-        Ok(Setup::with(samples, chosen, request))
+        Ok(Setup::with(dataset, model, samples, chosen))
     }
 
-    fn with(samples: Unseen, chosen: Vec<&'static Fault>, request: &StressRequest) -> Setup {
-        let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
-            let stress = Stress::new(fault, 0.0, request.seed);
-            !stress.repeats() || samples.rows.len() > 1
-        });
-        let skipped = orderless.into_iter().map(|fault| SkippedFault {
-            fault: fault.id.to_owned(),
-            reason: "the only scored picture has no previous picture".to_owned(),
-        });
+    fn with(
+        dataset: &Dataset,
+        model: &Model,
+        samples: Unseen,
+        chosen: Vec<&'static Fault>,
+    ) -> Setup {
+        let is_timed = samples.shares(dataset).is_some();
+        let lacks = |fault: &'static Fault| -> Option<&'static str> {
+            let is_alone = samples.rows.len() == 1;
+            if is_alone && Stress::new(fault, 0.0, 0).repeats() {
+                return Some("the only scored picture has no previous picture");
+            }
+            if fault.grows() && !is_timed {
+                return Some(
+                    "expected the times `t_s` of all samples, with a first and a last one",
+                );
+            }
+            (fault.label_change()?.lacks)(dataset, model, &samples.rows)
+        };
+        let (mut faults, mut skipped) = (Vec::new(), Vec::new());
+        for fault in chosen {
+            match lacks(fault) {
+                None => faults.push(fault),
+                Some(reason) => skipped.push(SkippedFault::new(fault, reason)),
+            }
+        }
+        let (of_labels, faults) = faults.into_iter().partition(|fault| fault.is_of_labels());
         Setup {
-            skipped: skipped.collect(),
             samples,
             faults,
+            of_labels,
+            skipped,
+        }
+    }
+
+    /// Markers of the untouched picture, if a fault needs them. Without markers, that fault is skipped.
+    pub(crate) fn markers(&mut self, untouched: Option<&Frame>) -> Option<MarkerTracker> {
+        let position = self.faults.iter().position(|fault| fault.is_of_markers())?;
+        let tracker = untouched.map(MarkerTracker::new);
+        let reason = match tracker {
+            Some(Ok(tracker)) => return Some(tracker),
+            Some(Err(error)) => format!("the untouched picture: {error}"),
+            None => "the recording has no untouched picture".to_owned(),
+        };
+        let fault = self.faults.remove(position);
+        self.skipped.push(SkippedFault::new(fault, &reason));
+        None
+    }
+}
+
+impl SkippedFault {
+    fn new(fault: &Fault, reason: &str) -> SkippedFault {
+        SkippedFault {
+            fault: fault.id.to_owned(),
+            reason: reason.to_owned(),
         }
     }
 }
@@ -164,8 +209,8 @@ pub fn stress_plan(
     );
     let draws = |fault: &Fault| draw_seeds(fault, request.seed, request.draws).len();
     let cells: usize = setup.faults.iter().map(|fault| draws(fault)).sum();
-    let cells = (cells + foreign.len()) * request.severities.len();
-    for fault in &setup.faults {
+    let cells = (cells + foreign.len() + setup.of_labels.len()) * request.severities.len();
+    for fault in setup.faults.iter().chain(&setup.of_labels) {
         plan.step("fault", format!("{}: {}", fault.id, fault.title));
     }
     for fault in foreign {

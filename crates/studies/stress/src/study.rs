@@ -2,28 +2,27 @@
 
 use taceva_check::{FrameFacts, RestChange, Tiles};
 use taceva_core::Frame;
-use taceva_dataset::{Dataset, Digest};
+use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Target, Work, subject_of};
-use taceva_models::Model;
+use taceva_models::{MarkerTracker, Model};
 use taceva_results::not_measured;
 
 use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
-use crate::faults::{FAULTS, LIST, LIST_VERSION};
 use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
-use crate::foreign::PictureFault;
+use crate::list::list;
 use crate::notes::notes;
+use crate::others::OtherFaults;
 use crate::pass::{Cell, CellPredictions, UNTOUCHED, compares, predictions};
 use crate::report::{
-    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
-    StressReport,
+    ByChannel, CleanScore, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault, StressReport,
 };
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest};
 use crate::severity::{By, Levels, Reference};
 use crate::stress::{Stress, draw_seeds};
-use crate::worn::{NewGel, ScoredFault, WornFault};
+use crate::worn::{NewGel, ScoredFault};
 
 /// Errors of `model` on the pictures of `dataset` with faults. Nothing is fitted.
 ///
@@ -69,38 +68,22 @@ pub fn stress_unseen(
     measure(dataset, model, setup, request, others, work)
 }
 
-/// Faults that the crate does not make itself. Callers build it as a literal; it has no further fields.
-///
-/// ```
-/// let none = taceva_stress::OtherFaults::default();
-/// assert!(none.worn.is_empty() && none.foreign.is_empty());
-/// ```
-#[derive(Clone, Copy, Default)]
-pub struct OtherFaults<'a> {
-    /// Faults of gels.
-    pub worn: &'a [WornFault],
-    /// Faults of pictures that plugins make.
-    pub foreign: &'a [&'a dyn PictureFault],
-}
-
-impl OtherFaults<'_> {
-    fn is_some(&self) -> bool {
-        !self.worn.is_empty() || !self.foreign.is_empty()
-    }
-}
-
 fn measure(
     dataset: &Dataset,
     model: &Model,
-    setup: Setup,
+    mut setup: Setup,
     request: &StressRequest,
     others: OtherFaults<'_>,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let scale = Scale::of(dataset, &setup.samples.rows)?;
-    let levels = levels(&setup, &scale, request)?;
-    let cells = cells(&setup, &scale, &levels, model, request);
-    let found = predictions(dataset, model, &setup.samples.rows, &cells, work)?;
+    let markers = setup.markers(scale.untouched.as_ref());
+    let levels = levels(&setup, &scale, markers.as_ref(), request)?;
+    let cells = cells(&setup, &scale, markers.as_ref(), &levels, model, request);
+    let shares = setup.samples.shares(dataset);
+    let shares = shares.unwrap_or_else(|| vec![1.0; dataset.table().rows()]);
+    let rows = &setup.samples.rows;
+    let found = predictions(dataset, model, rows, &shares, &cells, work)?;
     let scorer = Scorer::new(
         dataset,
         model,
@@ -130,7 +113,10 @@ fn measure(
         clean: &clean,
         scale: &scale,
     };
-    let other_scores = others.worn.iter().map(|fault| new.beside(fault, work));
+    let of_labels = setup.of_labels.iter();
+    let of_labels = of_labels.map(|&fault| new.by_labels(fault, &found.clean, request));
+    let worn = others.worn.iter().map(|fault| new.beside(fault, work));
+    let other_scores = of_labels.chain(worn);
     let mut other_scores: Vec<ScoredFault> = other_scores.collect::<Result<_, EvaluateError>>()?;
     let mut failed = Vec::new();
     for fault in others.foreign {
@@ -159,7 +145,7 @@ fn measure(
         not_measured: not_measured([subject.source.as_str()]),
         subject,
         by: request.by,
-        list: list(&setup.faults, request, others),
+        list: list(&setup.faults, &setup.of_labels, request, others),
         seed: request.seed,
         draws: request.draws,
         samples: setup.samples.rows.len(),
@@ -182,6 +168,7 @@ fn measure(
 fn levels(
     setup: &Setup,
     scale: &Scale,
+    markers: Option<&MarkerTracker>,
     request: &StressRequest,
 ) -> Result<Vec<Levels>, EvaluateError> {
     let faults = setup.faults.iter();
@@ -200,6 +187,7 @@ fn levels(
         scale,
         untouched,
         contact,
+        markers,
         seed: request.seed,
         draws: request.draws,
     };
@@ -208,13 +196,14 @@ fn levels(
 }
 
 /// Every fault at every severity.
-fn cells(
+fn cells<'m>(
     setup: &Setup,
     scale: &Scale,
+    markers: Option<&'m MarkerTracker>,
     levels: &[Levels],
     model: &Model,
     request: &StressRequest,
-) -> Vec<Cell> {
+) -> Vec<Cell<'m>> {
     let reference = scale.untouched.as_ref();
     let reference = reference.filter(|_| scale.is_reference && compares(model));
     let mut cells = Vec::new();
@@ -223,43 +212,13 @@ fn cells(
         for level in &levels[position].reached {
             let seeds = draw_seeds(fault, request.seed, request.draws);
             let stresses = seeds.into_iter();
-            let stresses = stresses.map(|seed| Stress::new(fault, level.parameter, seed));
+            let stresses = stresses
+                .map(|seed| Stress::new(fault, level.parameter, seed).with_markers(markers));
             let stresses = stresses.collect();
             cells.push(Cell::new(position, *level, stresses, model, untouched));
         }
     }
     cells
-}
-
-/// Name and digest of the faults with their severities.
-fn list(faults: &[&'static Fault], request: &StressRequest, others: OtherFaults<'_>) -> FaultList {
-    let known = faults.iter().map(|fault| fault.id);
-    let worn = others.worn.iter().map(|fault| fault.id.as_str());
-    let foreign = others.foreign.iter().map(|fault| fault.name());
-    let ids = known.chain(worn).chain(foreign);
-    let ids: Vec<&str> = ids.collect();
-    let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
-    let is_whole =
-        ids.len() == FAULTS.len() && faults.len() == FAULTS.len() && request.severities.len() == 5;
-    let mut text = format!(
-        "{LIST_VERSION}\n{:?}\n{}\n{}\n",
-        request.by,
-        severities.join(","),
-        ids.join(",")
-    );
-    if request.draws > 1 {
-        text.push_str(&format!("{} draws\n", request.draws));
-    }
-    for fault in others.foreign {
-        text.push_str(&format!("{} is {}\n", fault.name(), fault.key()));
-    }
-    FaultList {
-        name: match is_whole {
-            true => format!("{LIST}/{LIST_VERSION}"),
-            false => ids.join(","),
-        },
-        digest: Digest::of(text.as_bytes()).to_string(),
-    }
 }
 
 /// Scores of one cell.
@@ -282,7 +241,7 @@ impl ScoredCell {
 struct Results<'a> {
     scale: &'a Scale,
     clean: &'a ByChannel<CleanScore>,
-    cells: &'a [Cell],
+    cells: &'a [Cell<'a>],
     predicted: &'a [CellPredictions],
     scored: &'a [ScoredCell],
     baseline: &'a Scored,
@@ -351,7 +310,7 @@ impl Results<'_> {
     }
 
     /// True if the check of untouched pictures finds the fault, which is in the pictures of contact too.
-    fn is_noticed(&self, stress: &Stress) -> bool {
+    fn is_noticed(&self, stress: &Stress<'_>) -> bool {
         let untouched = self.scale.untouched.as_ref();
         let Some(reference) = untouched.filter(|_| self.scale.is_reference) else {
             return false;

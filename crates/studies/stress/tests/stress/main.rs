@@ -10,6 +10,7 @@ mod golden;
 mod memory;
 mod monitor;
 mod pictures;
+mod recording_faults;
 mod scores;
 mod severities;
 mod wear;
