@@ -30,6 +30,9 @@ pub(crate) struct Stress {
         default_value = "gel-12"
     )]
     pub(crate) faults: Vec<String>,
+    /// A second fitted model: states the error that each fault adds, divided by the error that it adds to this model
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) reference: Option<PathBuf>,
     /// Severities, such as 3, 1,3,5 or 1-5
     #[arg(long, value_name = "SEVERITIES", default_value = "1-5")]
     pub(crate) severity: String,

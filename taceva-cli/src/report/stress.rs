@@ -170,6 +170,12 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
         ));
     }
     line.push_str(&spread(fault, channels));
+    if let Some(relative) = &fault.relative_error {
+        let relative = by_channel(channels, |name| Some(phrase(relative.get(name)?, "")));
+        line.push_str(&format!(
+            "; added error relative to the reference model: {relative}"
+        ));
+    }
     line.push_str(&match common_reason(fault) {
         Some(reason) => {
             format!("; the error that a new untouched picture removes is unknown: {reason}")

@@ -1,5 +1,7 @@
 //! Faults of pictures, scored with a fitted model.
 
+mod options;
+
 use std::fs;
 #[cfg(target_os = "linux")]
 use std::path::Path;

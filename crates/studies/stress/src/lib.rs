@@ -14,6 +14,7 @@ mod notes;
 mod others;
 mod pass;
 mod ratio;
+mod relative;
 mod report;
 mod samples;
 mod scale;
@@ -31,6 +32,7 @@ pub use faults::{FAULTS, GEL_FAULTS, LIST, RECORDING_FAULTS, RECORDING_LIST, sel
 pub use foreign::PictureFault;
 pub use monitor::{Alarm, Change, Monitor, watch};
 pub use others::OtherFaults;
+pub use relative::add_reference;
 pub use report::{
     ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
     SkippedFault, StressReport, Unnoticed,

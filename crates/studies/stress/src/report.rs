@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use taceva_results::{Provenance, Subject};
+use taceva_results::{ModelProvenance, Provenance, Subject};
 
 use crate::estimate::Estimate;
+use crate::ratio::Errors;
 use crate::severity::{By, Unreached};
 
 /// Schema of the result.
-pub const STRESS_SCHEMA: &str = "taceva.stress/1";
+pub const STRESS_SCHEMA: &str = "taceva.stress/1.1";
 
 /// Numbers by the name of a channel or plane.
 pub type ByChannel<T> = BTreeMap<String, T>;
@@ -60,6 +61,19 @@ pub struct StressReport {
     pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
+    /// Model to whose errors `relative_error` of each fault refers; `None` without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ModelProvenance>,
+    /// Scored rows, and their errors without a fault.
+    #[serde(skip)]
+    pub(crate) basis: Basis,
+}
+
+/// Scored rows, and their errors by contact point.
+#[derive(Clone, Debug)]
+pub(crate) struct Basis {
+    pub(crate) rows: Vec<usize>,
+    pub(crate) clean: ByChannel<Errors>,
 }
 
 /// List of faults. Scores by different lists are not compared.
@@ -119,6 +133,12 @@ pub struct FaultReport {
     pub recovers: ByChannel<Estimate>,
     /// Least severity whose skill is no longer shown to be above 0; 6 if there is none, `None` if that is unknown.
     pub breaks_at: ByChannel<Option<u8>>,
+    /// Added error over all severities, divided by that of the reference model; `None` without a reference model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative_error: Option<ByChannel<Estimate>>,
+    /// Errors by contact point of each of `severities`.
+    #[serde(skip)]
+    pub(crate) errors: Vec<ByChannel<Errors>>,
 }
 
 /// Numbers of one fault at one severity.

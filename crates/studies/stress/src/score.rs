@@ -39,7 +39,7 @@ pub(crate) struct Scored {
     pub(crate) scores: ByChannel<Score>,
     pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
-    errors: ByChannel<Errors>,
+    pub(crate) errors: ByChannel<Errors>,
     /// Least and greatest mean error of a single draw; empty for one draw.
     spread: ByChannel<[f64; 2]>,
 }

@@ -15,7 +15,8 @@ use crate::notes::notes;
 use crate::others::OtherFaults;
 use crate::pass::{Cell, CellPredictions, UNTOUCHED, compares, predictions};
 use crate::report::{
-    ByChannel, CleanScore, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault, StressReport,
+    Basis, ByChannel, CleanScore, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
+    StressReport,
 };
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
@@ -161,6 +162,11 @@ fn measure(
         skipped,
         failed,
         provenance,
+        reference: None,
+        basis: Basis {
+            clean: baseline.errors.clone(),
+            rows: setup.samples.rows,
+        },
     })
 }
 
@@ -283,6 +289,8 @@ impl Results<'_> {
                 let breaks = names.map(|name| (name.clone(), breaks_at(&severities, name)));
                 breaks.collect()
             },
+            relative_error: None,
+            errors: scored.iter().map(|of| of.stale.errors.clone()).collect(),
             severities,
             unreached: levels.unreached.clone(),
         }

@@ -43,6 +43,9 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
         for (channel, share) in &fault.recovers {
             rows.push(&whole, channel, "recovers", share, "1");
         }
+        for (channel, ratio) in fault.relative_error.iter().flatten() {
+            rows.push(&whole, channel, "relative_error", ratio, "1");
+        }
         for (channel, severity) in &fault.breaks_at {
             let severity = Estimate::of_known(severity.map(f64::from));
             rows.push(&whole, channel, "breaks_at", &severity, "1");

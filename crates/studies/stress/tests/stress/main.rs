@@ -11,6 +11,7 @@ mod memory;
 mod monitor;
 mod pictures;
 mod recording_faults;
+mod relative;
 mod scores;
 mod severities;
 mod wear;

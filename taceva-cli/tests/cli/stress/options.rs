@@ -1,0 +1,59 @@
+//! Options of a test with faults: a reference model, other lists.
+
+use super::bench;
+
+#[test]
+fn a_reference_model_adds_relative_errors_to_text_csv_and_json() {
+    let bench = bench();
+    bench.ok("fit seen --model ridge --set size=4x4 --out r.taceva -q");
+    let words =
+        "stress unseen --model m.taceva --reference r.taceva --faults exposure_low --by parameter";
+    let report = bench.json(words);
+    crate::schema::check("stress", &report);
+    assert_eq!(report["reference"]["name"], "ridge");
+    assert!(
+        report["faults"][0]["relative_error"]["Fz"].is_object(),
+        "{report}"
+    );
+    let said = bench.ok(&format!("{words} -q"));
+    assert!(
+        said.contains("added error relative to the reference model: "),
+        "{said}"
+    );
+    let csv = bench.ok(&format!("{words} --format csv -q"));
+    assert!(csv.contains(",relative_error,"), "{csv}");
+    let plan = bench.ok(&format!("{words} --explain"));
+    assert!(plan.contains("the same with the model r.taceva"), "{plan}");
+    let alone = bench.json("stress unseen --model m.taceva --faults dust --by parameter");
+    assert!(alone.get("reference").is_none());
+    bench.refused(
+        "stress unseen --model m.taceva --reference ridge",
+        2,
+        "--reference ridge: no such file",
+    );
+}
+
+#[test]
+fn recording_faults_have_their_own_list_and_name_what_they_lack() {
+    let bench = bench();
+    let report = bench.json("stress unseen --model m.taceva --faults recording-5 --by parameter");
+    crate::schema::check("stress", &report);
+    let ids: Vec<&str> = report["faults"]
+        .as_array()
+        .expect("faults")
+        .iter()
+        .filter_map(|fault| fault["id"].as_str())
+        .collect();
+    assert!(
+        ids.contains(&"jpeg") && ids.contains(&"force_noise"),
+        "{report}"
+    );
+    let skipped = report["skipped"].as_array().expect("skipped");
+    assert_eq!(ids.len() + skipped.len(), 5, "{report}");
+    let noise = report["faults"]
+        .as_array()
+        .expect("faults")
+        .last()
+        .expect("one");
+    assert!(noise["severities"][0]["stimulus"].is_null(), "{noise}");
+}
