@@ -47,6 +47,9 @@ pub(crate) struct Stress {
     /// The part of the recording [default: test, or all if the model was fitted on another recording]
     #[arg(long, value_enum)]
     pub(crate) part: Option<StressPart>,
+    /// Leaves out the severities of a fault above the first at which no skill is left; each severity decodes the pictures once
+    #[arg(long)]
+    pub(crate) stop_at_no_skill: bool,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
     /// An SVG file: the growth of each error by fault and severity

@@ -58,6 +58,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
             StressPart::Test => DataPart::Test,
             StressPart::All => DataPart::All,
         }),
+        stops_at_no_skill: args.stop_at_no_skill,
     };
     let models = context.models()?;
     let model = models.open(&args.model)?;

@@ -82,7 +82,9 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     let faults = report.faults.iter();
     notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
     let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
-    notes.push(format!("Mean degradation over all faults: {mean}."));
+    let is_bound = report.faults.iter().any(|fault| fault.stopped_at.is_some());
+    let bound = if is_bound { "≥ " } else { "" };
+    notes.push(format!("Mean degradation over all faults: {bound}{mean}."));
     if let Some(unnoticed) = &report.unnoticed {
         let main = unnoticed
             .iter()
@@ -164,9 +166,19 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     let tested: Vec<String> = tested.collect();
     if !tested.is_empty() {
         let mean = by_channel(channels, |name| Some(phrase(fault.mean.get(name)?, "")));
+        let bound = if fault.stopped_at.is_some() {
+            "≥ "
+        } else {
+            ""
+        };
         line.push_str(&format!(
-            "; mean degradation D over severity {}: {mean}",
+            "; mean degradation D over severity {}: {bound}{mean}",
             tested.join(", ")
+        ));
+    }
+    if let Some(last) = fault.stopped_at {
+        line.push_str(&format!(
+            "; no skill is left at severity {last}, so higher ones are not tested"
         ));
     }
     line.push_str(&spread(fault, channels));

@@ -21,6 +21,7 @@ mod scale;
 mod score;
 mod setup;
 mod severity;
+mod stages;
 mod stress;
 mod study;
 mod wear;

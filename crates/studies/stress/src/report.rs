@@ -133,6 +133,9 @@ pub struct FaultReport {
     pub recovers: ByChannel<Estimate>,
     /// Least severity whose skill is no longer shown to be above 0; 6 if there is none, `None` if that is unknown.
     pub breaks_at: ByChannel<Option<u8>>,
+    /// Severity at which no channel has skill, if higher ones were left out for that reason. Means over severities are then lower bounds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped_at: Option<u8>,
     /// Added error over all severities, divided by that of the reference model; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<ByChannel<Estimate>>,

@@ -341,6 +341,12 @@ impl Scored {
         ends[0].is_finite().then_some(ends)
     }
 
+    /// True if a channel has skill, or its skill is not known.
+    pub(crate) fn has_skill(&self) -> bool {
+        let mut known = self.skill.values().filter(|skill| skill.value.is_some());
+        known.any(|skill| skill.is_above_zero() != Some(false))
+    }
+
     fn skill_of(&self, name: &str) -> Estimate {
         let known = self.skill.get(name).copied();
         known.unwrap_or(Estimate::undefined(Undefined::Empty))

@@ -31,6 +31,8 @@ pub struct StressRequest {
     pub draws: u32,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
+    /// True to leave out the severities of a fault of pictures above the first at which no channel has skill. Each severity then decodes the scored pictures.
+    pub stops_at_no_skill: bool,
 }
 
 impl Default for StressRequest {
@@ -42,6 +44,7 @@ impl Default for StressRequest {
             seed: 0,
             draws: 1,
             part: None,
+            stops_at_no_skill: false,
         }
     }
 }
@@ -201,9 +204,13 @@ pub fn stress_plan(
     plan.step(
         "decode",
         format!(
-            "{} of the part `{}`, each once for all faults; before that, at most {} for the change by contact",
+            "{} of the part `{}`, each once {}; before that, at most {} for the change by contact",
             counted(scored, "frame"),
             setup.samples.target.part.name(),
+            match request.stops_at_no_skill {
+                true => "for each severity until no skill is left",
+                false => "for all faults",
+            },
             counted(PICTURES.min(scored) + 1, "frame")
         ),
     );

@@ -13,7 +13,7 @@ use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
 use crate::list::list;
 use crate::notes::notes;
 use crate::others::OtherFaults;
-use crate::pass::{Cell, CellPredictions, UNTOUCHED, compares, predictions};
+use crate::pass::{Cell, UNTOUCHED, compares};
 use crate::report::{
     Basis, ByChannel, CleanScore, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
     StressReport,
@@ -22,6 +22,7 @@ use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest};
 use crate::severity::{By, Levels, Reference};
+use crate::stages::{Pictures, ScoredCell, Tested};
 use crate::stress::{Stress, draw_seeds};
 use crate::worn::{NewGel, ScoredFault};
 
@@ -84,24 +85,25 @@ fn measure(
     let shares = setup.samples.shares(dataset);
     let shares = shares.unwrap_or_else(|| vec![1.0; dataset.table().rows()]);
     let rows = &setup.samples.rows;
-    let found = predictions(dataset, model, rows, &shares, &cells, work)?;
-    let scorer = Scorer::new(
+    let scorer = Scorer::new(dataset, model, &setup.samples.target, rows, work.jobs)?;
+    let pictures = Pictures {
         dataset,
         model,
-        &setup.samples.target,
-        &setup.samples.rows,
-        work.jobs,
-    )?;
+        rows,
+        shares: &shares,
+        scorer: &scorer,
+        work,
+    };
+    let found = match request.stops_at_no_skill {
+        true => pictures.until_no_skill(cells),
+        false => pictures.at_once(cells),
+    }?;
     let baseline = scorer.score(&found.clean)?;
-    let scored = found.cells.iter().map(|of| ScoredCell::of(&scorer, of));
-    let scored: Vec<ScoredCell> = scored.collect::<Result<_, EvaluateError>>()?;
     let clean = scorer.clean(&baseline);
     let results = Results {
         scale: &scale,
         clean: &clean,
-        cells: &cells,
-        predicted: &found.cells,
-        scored: &scored,
+        found: &found,
         baseline: &baseline,
         rows: setup.samples.rows.len(),
     };
@@ -134,7 +136,8 @@ fn measure(
         .collect();
     let mean = results.mean(setup.faults.len(), &other_scores);
     let subject = subject_of(dataset);
-    let decoded = other_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded;
+    let again = (found.passes - 1) * setup.samples.rows.len() as u64;
+    let decoded = other_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded + again;
     let provenance = setup.samples.provenance(dataset, model, decoded)?;
     let mut skipped = setup.skipped;
     for of in other_scores {
@@ -227,29 +230,11 @@ fn cells<'m>(
     cells
 }
 
-/// Scores of one cell.
-struct ScoredCell {
-    stale: Scored,
-    fresh: Option<Scored>,
-}
-
-impl ScoredCell {
-    fn of(scorer: &Scorer<'_>, of: &CellPredictions) -> Result<ScoredCell, EvaluateError> {
-        let fresh = (!of.fresh.is_empty()).then(|| scorer.score(&of.fresh));
-        Ok(ScoredCell {
-            stale: scorer.score(&of.stale)?,
-            fresh: fresh.transpose()?,
-        })
-    }
-}
-
 /// Scores of all cells.
 struct Results<'a> {
     scale: &'a Scale,
     clean: &'a ByChannel<CleanScore>,
-    cells: &'a [Cell<'a>],
-    predicted: &'a [CellPredictions],
-    scored: &'a [ScoredCell],
+    found: &'a Tested<'a>,
     baseline: &'a Scored,
     rows: usize,
 }
@@ -257,12 +242,13 @@ struct Results<'a> {
 impl Results<'_> {
     /// Positions of the cells of a fault.
     fn positions(&self, fault: usize) -> impl Iterator<Item = usize> {
-        let positions = 0..self.cells.len();
-        positions.filter(move |position| self.cells[*position].fault == fault)
+        let positions = 0..self.found.cells.len();
+        positions.filter(move |position| self.found.cells[*position].fault == fault)
     }
 
     fn of_fault(&self, fault: usize, of: &'static Fault, levels: &Levels) -> FaultReport {
-        let scored: Vec<&ScoredCell> = self.positions(fault).map(|at| &self.scored[at]).collect();
+        let scored = self.positions(fault).map(|at| &self.found.scored[at]);
+        let scored: Vec<&ScoredCell> = scored.collect();
         let severities: Vec<SeverityReport> =
             self.positions(fault).map(|at| self.of_cell(at)).collect();
         let stale = |name: &str| {
@@ -289,6 +275,10 @@ impl Results<'_> {
                 let breaks = names.map(|name| (name.clone(), breaks_at(&severities, name)));
                 breaks.collect()
             },
+            stopped_at: {
+                let last = severities.last().map(|of| of.severity);
+                last.filter(|_| severities.len() < levels.reached.len())
+            },
             relative_error: None,
             errors: scored.iter().map(|of| of.stale.errors.clone()).collect(),
             severities,
@@ -297,9 +287,9 @@ impl Results<'_> {
     }
 
     fn of_cell(&self, at: usize) -> SeverityReport {
-        let (cell, scored) = (&self.cells[at], &self.scored[at]);
-        let contact = self.scale.contact;
-        let stimulus = contact.map(|contact| self.predicted[at].change(self.rows) / contact);
+        let (cell, scored) = (&self.found.cells[at], &self.found.scored[at]);
+        let change = self.found.predicted[at].change(self.rows);
+        let stimulus = self.scale.contact.map(|contact| change / contact);
         SeverityReport {
             severity: cell.level.severity,
             parameter: cell.level.parameter,
@@ -340,7 +330,8 @@ impl Results<'_> {
     fn mean(&self, faults: usize, others: &[ScoredFault]) -> ByChannel<Estimate> {
         let mean = |name: &String| {
             let of_fault = |fault| {
-                let cells = self.positions(fault).map(|at| &self.scored[at].stale);
+                let cells = self.positions(fault);
+                let cells = cells.map(|at| &self.found.scored[at].stale);
                 cells.collect::<Vec<&Scored>>()
             };
             let others = others.iter().map(|fault| fault.cells.iter().collect());

@@ -3,6 +3,9 @@
 use taceva_report::{Cell, Table};
 use taceva_stress::{CellScore, Estimate, SeverityReport, StressReport, Unnoticed, Unreached};
 
+/// Remark on a fault whose higher severities are not tested.
+const NO_SKILL: &str = "no skill is left, so means over severities are lower bounds";
+
 /// Table for programs: one row for each number, in shortest round-trip form.
 pub(crate) fn numbers(report: &StressReport) -> Table {
     let columns = [
@@ -42,6 +45,9 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
         }
         for (channel, share) in &fault.recovers {
             rows.push(&whole, channel, "recovers", share, "1");
+        }
+        if let Some(last) = fault.stopped_at {
+            rows.push_words(&whole, "", "stopped_at", Some(f64::from(last)), NO_SKILL);
         }
         for (channel, ratio) in fault.relative_error.iter().flatten() {
             rows.push(&whole, channel, "relative_error", ratio, "1");

@@ -34,6 +34,32 @@ fn a_reference_model_adds_relative_errors_to_text_csv_and_json() {
 }
 
 #[test]
+fn severities_above_the_end_of_skill_are_left_out_and_means_are_lower_bounds() {
+    let bench = bench();
+    bench.ok("fit seen --model baseline --out constant.taceva -q");
+    let words = "stress unseen --model constant.taceva --stop-at-no-skill --faults dust,tear --by parameter";
+    let report = bench.json(words);
+    crate::schema::check("stress", &report);
+    for fault in report["faults"].as_array().expect("faults") {
+        assert_eq!(fault["stopped_at"], 1, "{fault}");
+        assert_eq!(fault["severities"].as_array().map(Vec::len), Some(1));
+    }
+    let said = bench.ok(&format!("{words} -q"));
+    assert!(said.contains("no skill is left at severity 1"), "{said}");
+    assert!(
+        said.contains("Mean degradation over all faults: ≥ "),
+        "{said}"
+    );
+    let csv = bench.ok(&format!("{words} --format csv -q"));
+    assert!(csv.contains(",stopped_at,1"), "{csv}");
+    let plan = bench.ok(&format!("{words} --explain"));
+    assert!(
+        plan.contains("each once for each severity until no skill is left"),
+        "{plan}"
+    );
+}
+
+#[test]
 fn recording_faults_have_their_own_list_and_name_what_they_lack() {
     let bench = bench();
     let report = bench.json("stress unseen --model m.taceva --faults recording-5 --by parameter");

@@ -14,4 +14,5 @@ mod recording_faults;
 mod relative;
 mod scores;
 mod severities;
+mod stages;
 mod wear;
