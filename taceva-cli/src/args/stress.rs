@@ -55,6 +55,9 @@ pub(crate) struct Stress {
     /// An SVG file: the growth of each error by fault and severity
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) svg: Option<PathBuf>,
+    /// A new folder: the picture of the greatest load with each fault and severity, as PNG, with digests
+    #[arg(long, value_name = "DIR")]
+    pub(crate) keep_frames: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }

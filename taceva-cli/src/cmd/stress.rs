@@ -7,12 +7,12 @@ use taceva_core::shown;
 use taceva_evaluate::{DataPart, EvaluateError, Plan};
 use taceva_report::FaultResult;
 use taceva_stress::{
-    By, OtherFaults, PictureFault, StressReport, StressRequest, add_reference, severities,
-    stress_beside, stress_plan,
+    By, Examples, OtherFaults, PictureFault, StressReport, StressRequest, add_reference,
+    severities, stress_beside, stress_plan,
 };
 
 use super::plugin_fault::{PluginFault, find, is_taken};
-use super::{Context, Usage, open_seen, results};
+use super::{Context, Usage, kept_frames, open_seen, results};
 use crate::args::{Format, Stress, StressBy, StressPart};
 use crate::report::stress::{numbers, table};
 use crate::{exit, output, stderr};
@@ -37,6 +37,9 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     let files = args.output.path.iter().chain(&args.svg);
     output::check_all_free(files, args.output.force)?;
     check_model_file(&args.model)?;
+    args.keep_frames
+        .as_deref()
+        .map_or(Ok(()), kept_frames::check_new)?;
     let reference = args.reference.as_deref();
     reference.map_or(Ok(()), |path| check_file_of("--reference", path))?;
     // The key of an estimator of a plugin has a slash, and no fault of the program has one.
@@ -75,6 +78,12 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
                 format!("the same with the model {model}, each frame once more"),
             );
         }
+        if let Some(folder) = &args.keep_frames {
+            plan.step(
+                "write",
+                format!("{}: one picture of each cell", shown(folder)),
+            );
+        }
         Ok::<Plan, EvaluateError>(plan)
     };
     if args.explain.is_wanted {
@@ -103,6 +112,15 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.svg {
         let figure = FaultResult::read(&json)?.figure();
         output::write(Some(path), |out| out.write_all(figure.svg().as_bytes()))?;
+    }
+    if let Some(folder) = &args.keep_frames {
+        let examples = Examples::of(&dataset, &found)?;
+        kept_frames::write(folder, &examples)?;
+        context.say(format_args!(
+            "{}: sample {} with each fault",
+            shown(folder),
+            shown(examples.sample())
+        ));
     }
     Ok(match say_failed(&found, "") {
         true => exit::DEVICE,

@@ -2,6 +2,7 @@
 
 mod canvas;
 mod estimate;
+mod example;
 mod fault;
 mod faults;
 mod findings;
@@ -28,6 +29,7 @@ mod wear;
 mod worn;
 
 pub use estimate::{Estimate, Undefined};
+pub use example::Examples;
 pub use fault::{Fault, Scope};
 pub use faults::{FAULTS, GEL_FAULTS, LIST, RECORDING_FAULTS, RECORDING_LIST, select};
 pub use foreign::PictureFault;

@@ -62,17 +62,6 @@ impl Unseen {
         Ok(Unseen { target, rows })
     }
 
-    /// Time of each row of `dataset`, a share of the time from its first row to its last. `None` if one of these samples has no time, or all times are equal.
-    pub(crate) fn shares(&self, dataset: &Dataset) -> Option<Vec<f64>> {
-        let times = dataset.table().t_s();
-        let known = || times.iter().copied().flatten();
-        let first = known().fold(f64::INFINITY, f64::min);
-        let last = known().fold(f64::NEG_INFINITY, f64::max);
-        let is_timed = self.rows.iter().all(|row| times[*row].is_some());
-        let share = |time: &Option<f64>| time.map_or(1.0, |time| (time - first) / (last - first));
-        (is_timed && last > first).then(|| times.iter().map(share).collect())
-    }
-
     /// Number of samples of the part without a picture.
     pub(crate) fn left_out(&self) -> usize {
         self.target.left_out + self.target.rows.len() - self.rows.len()
@@ -96,6 +85,17 @@ impl Unseen {
             ..provenance_of(dataset)
         })
     }
+}
+
+/// Time of each row of `dataset`, a share of the time from its first row to its last. `None` if one of `rows` has no time, or all times are equal.
+pub(crate) fn shares(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
+    let times = dataset.table().t_s();
+    let known = || times.iter().copied().flatten();
+    let first = known().fold(f64::INFINITY, f64::min);
+    let last = known().fold(f64::NEG_INFINITY, f64::max);
+    let is_timed = rows.iter().all(|row| times[*row].is_some());
+    let share = |time: &Option<f64>| time.map_or(1.0, |time| (time - first) / (last - first));
+    (is_timed && last > first).then(|| times.iter().map(share).collect())
 }
 
 /// Refuses recordings without pictures of one sensor, and models that read none.

@@ -124,6 +124,13 @@ pub(crate) fn touches(dataset: &Dataset, rows: &[usize]) -> Option<Vec<Touch>> {
     Loads::of(dataset, rows).touches()
 }
 
+/// Row of the greatest load among `rows`; the last one if no load is known.
+pub(crate) fn most_loaded(dataset: &Dataset, rows: &[usize]) -> Option<usize> {
+    let loads = Loads::of(dataset, rows).rows.into_iter();
+    let most = loads.max_by(|one, other| one.load.total_cmp(&other.load));
+    most.map(|load| load.row)
+}
+
 /// A row with its load.
 struct Load {
     row: usize,

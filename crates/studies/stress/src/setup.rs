@@ -11,7 +11,7 @@ use crate::faults::{LIST, select};
 use crate::foreign::PictureFault;
 use crate::pass::compares;
 use crate::report::SkippedFault;
-use crate::samples::Unseen;
+use crate::samples::{Unseen, shares};
 use crate::scale::PICTURES;
 use crate::severity::By;
 use crate::stress::{Stress, draw_seeds};
@@ -113,7 +113,7 @@ impl Setup {
         samples: Unseen,
         chosen: Vec<&'static Fault>,
     ) -> Setup {
-        let is_timed = samples.shares(dataset).is_some();
+        let is_timed = shares(dataset, &samples.rows).is_some();
         let lacks = |fault: &'static Fault| -> Option<&'static str> {
             let is_alone = samples.rows.len() == 1;
             if is_alone && Stress::new(fault, 0.0, 0).repeats() {

@@ -18,6 +18,7 @@ use crate::report::{
     Basis, ByChannel, CleanScore, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
     StressReport,
 };
+use crate::samples::shares;
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest};
@@ -82,7 +83,7 @@ fn measure(
     let markers = setup.markers(scale.untouched.as_ref());
     let levels = levels(&setup, &scale, markers.as_ref(), request)?;
     let cells = cells(&setup, &scale, markers.as_ref(), &levels, model, request);
-    let shares = setup.samples.shares(dataset);
+    let shares = shares(dataset, &setup.samples.rows);
     let shares = shares.unwrap_or_else(|| vec![1.0; dataset.table().rows()]);
     let rows = &setup.samples.rows;
     let scorer = Scorer::new(dataset, model, &setup.samples.target, rows, work.jobs)?;

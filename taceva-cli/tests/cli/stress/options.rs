@@ -1,5 +1,7 @@
 //! Options of a test with faults: a reference model, other lists.
 
+use std::fs;
+
 use super::bench;
 
 #[test]
@@ -57,6 +59,72 @@ fn severities_above_the_end_of_skill_are_left_out_and_means_are_lower_bounds() {
         plan.contains("each once for each severity until no skill is left"),
         "{plan}"
     );
+}
+
+#[test]
+fn one_picture_of_each_cell_is_kept_with_its_digest_beside_equal_results() {
+    let bench = bench();
+    let words = "stress unseen --model m.taceva --faults exposure_low,stale_frames --severity 1,5 --by parameter -q --format json";
+    let alone = bench.ok(words);
+    let kept = bench.ok(&format!("{words} --keep-frames kept"));
+    assert_eq!(alone, kept);
+    let read = |name: &str| fs::read(bench.path(&format!("kept/{name}"))).expect(name);
+    let table = String::from_utf8(read("digests.csv")).expect("UTF-8");
+    let names: Vec<&str> = table
+        .lines()
+        .skip(1)
+        .filter_map(|line| line.split(',').next())
+        .collect();
+    let expected = [
+        "clean.png",
+        "exposure_low-1.png",
+        "exposure_low-5.png",
+        "stale_frames-1.png",
+        "stale_frames-5.png",
+    ];
+    assert_eq!(names, expected);
+    assert!(read("clean.png").starts_with(b"\x89PNG"));
+    assert_ne!(read("clean.png"), read("exposure_low-5.png"));
+    bench.ok(&format!("{words} --keep-frames again"));
+    let again = fs::read(bench.path("again/digests.csv")).expect("written");
+    assert_eq!(again, table.as_bytes());
+    bench.refused(
+        &format!("{words} --keep-frames kept"),
+        2,
+        "--keep-frames kept: it exists already",
+    );
+}
+
+#[test]
+fn pictures_that_cannot_be_written_leave_the_results_and_nothing_half_written() {
+    let bench = bench();
+    bench.write("blocked", "a file, where a folder is needed");
+    let words =
+        "stress unseen --model m.taceva --faults dust --severity 1 --by parameter -q --format json";
+    let ran = bench.run(&format!(
+        "{words} --out s.json --keep-frames blocked/frames"
+    ));
+    assert_ne!(ran.code, 0);
+    assert!(
+        ran.err.contains("the results are complete without it"),
+        "{}",
+        ran.err
+    );
+    let text = fs::read_to_string(bench.path("s.json")).expect("complete");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    crate::schema::check("stress", &report);
+    let left: Vec<String> = fs::read_dir(bench.path("."))
+        .expect("the folder")
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .filter(|name| name.starts_with(".taceva-staged"))
+        .collect();
+    assert!(left.is_empty(), "{left:?}");
 }
 
 #[test]
