@@ -33,9 +33,9 @@ pub(crate) fn table(report: &StressReport) -> Table {
                 score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
             });
             cells.extend(ratios);
-            cells.push(Cell::text(match report.unnoticed {
-                Some(_) => of.check.join(" "),
-                None => "–".to_owned(),
+            cells.push(Cell::text(match (&report.unnoticed, of.check.is_empty()) {
+                (None, true) => "–".to_owned(),
+                _ => of.check.join(" "),
             }));
             table.push(cells);
         }
@@ -97,7 +97,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             false => names.join(", "),
         };
         notes.push(format!(
-            "Errors at least doubled without a finding of the check of untouched pictures (TAC034), by fault, severity and channel: {names}."
+            "Errors at least doubled without a finding of `taceva check`, by fault, severity and channel: {names}."
         ));
     }
     notes.extend(missed_targets(report));

@@ -10,6 +10,7 @@ mod foreign;
 mod label_scores;
 mod labels;
 mod list;
+mod looks;
 mod monitor;
 mod notes;
 mod others;

@@ -5,6 +5,7 @@ use taceva_dataset::{Dataset, Pass};
 use taceva_evaluate::{EvaluateError, Work, blank, model_extractor};
 use taceva_models::{Extractor, Model};
 
+use crate::looks::Look;
 use crate::scale::difference;
 use crate::severity::Level;
 use crate::stress::Stress;
@@ -70,6 +71,8 @@ pub(crate) const UNTOUCHED: &str = "untouched";
 /// `[rows, draws, channels]`, row after row; one draw without a fault.
 pub(crate) struct Predictions {
     pub(crate) clean: Vec<f64>,
+    /// Statistics of each picture without a fault.
+    pub(crate) looks: Vec<Look>,
     pub(crate) cells: Vec<CellPredictions>,
 }
 
@@ -80,6 +83,11 @@ pub(crate) struct CellPredictions {
     pub(crate) stale: Vec<f64>,
     /// With an untouched picture from after the fault; empty if there is none.
     pub(crate) fresh: Vec<f64>,
+    /// Statistics of each picture with the fault.
+    ///
+    /// # Shapes
+    /// `[rows, draws]`.
+    pub(crate) looks: Vec<Look>,
     /// Sum over all pictures of their changes, each a mean over draws.
     changes: f64,
 }
@@ -95,6 +103,7 @@ impl CellPredictions {
 struct Row {
     frame: Frame,
     clean: Vec<f64>,
+    look: Look,
     /// Numbers of each cell; those of a fault that repeats pictures are filled in order.
     cells: Vec<CellPredictions>,
 }
@@ -132,6 +141,7 @@ impl Predictor<'_> {
         share: f64,
         frame: Frame,
         cells: &[Cell<'_>],
+        reference: Option<&Frame>,
     ) -> Result<Row, EvaluateError> {
         let clean = self.of(&frame, self.clean.as_ref())?;
         let of_cell = |cell: &Cell<'_>| -> Result<CellPredictions, EvaluateError> {
@@ -142,6 +152,7 @@ impl Predictor<'_> {
             for draw in &cell.draws {
                 let faulty = draw.stress.at(share).apply(&frame, sample, None);
                 found.stale.extend(self.of(&faulty, self.clean.as_ref())?);
+                found.looks.push(Look::of(&faulty, reference));
                 if let (Some(fresh), Some(_)) = (&draw.fresh, &self.clean) {
                     found.fresh.extend(self.of(&faulty, Some(fresh))?);
                 }
@@ -151,6 +162,7 @@ impl Predictor<'_> {
         };
         let cells = cells.iter().map(of_cell).collect::<Result<_, _>>()?;
         Ok(Row {
+            look: Look::of(&frame, reference),
             frame,
             clean,
             cells,
@@ -159,13 +171,14 @@ impl Predictor<'_> {
 }
 
 /// Predictions of `rows`, which have pictures, without a fault and in each of `cells`. `shares` has the time of each row of the table, a share of the
-/// duration.
+/// duration. `reference` is the untouched picture of the recording.
 pub(crate) fn predictions(
     dataset: &Dataset,
     model: &Model,
     rows: &[usize],
     shares: &[f64],
     cells: &[Cell<'_>],
+    reference: Option<&Frame>,
     work: Work<'_>,
 ) -> Result<Predictions, EvaluateError> {
     let clean = model.reads_features();
@@ -174,12 +187,13 @@ pub(crate) fn predictions(
     let samples = dataset.table().samples();
     let mut all = Predictions {
         clean: Vec::new(),
+        looks: Vec::new(),
         cells: vec![CellPredictions::default(); cells.len()],
     };
     let mut before: Option<Row> = None;
     dataset.map_frames(
         Pass::new(rows, work.jobs, work.progress),
-        |row, frame| predictor.row(&samples[row], shares[row], frame, cells),
+        |row, frame| predictor.row(&samples[row], shares[row], frame, cells, reference),
         |row, found| {
             let mut found: Row = found?;
             for (cell, own) in cells.iter().zip(&mut found.cells) {
@@ -188,11 +202,14 @@ pub(crate) fn predictions(
                         .as_ref()
                         .filter(|_| stress.is_repeated(&samples[row]));
                     own.stale = repeated.map_or(&found.clean, |row| &row.clean).clone();
+                    own.looks = vec![repeated.map_or(&found.look, |row| &row.look).clone()];
                     own.changes = repeated.map_or(0.0, |row| difference(&row.frame, &found.frame));
                 }
             }
             all.clean.extend_from_slice(&found.clean);
+            all.looks.push(found.look.clone());
             for (cell, own) in all.cells.iter_mut().zip(&found.cells) {
+                cell.looks.extend_from_slice(&own.looks);
                 cell.stale.extend_from_slice(&own.stale);
                 cell.fresh.extend_from_slice(&own.fresh);
                 cell.changes += own.changes;

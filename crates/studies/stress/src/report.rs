@@ -50,7 +50,7 @@ pub struct StressReport {
     /// Mean degradation over all faults.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Errors that a fault at least doubles without a finding in the check of untouched pictures. `None` without a reference.
+    /// Errors that a fault at least doubles without a finding in the checks of pictures. `None` without a reference.
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
@@ -155,7 +155,7 @@ pub struct SeverityReport {
     pub stimulus: Option<f64>,
     /// True if the stimulus is below 0.05, so that the fault hardly changes the pictures.
     pub low_stimulus: bool,
-    /// Codes of the checks of untouched pictures that find the fault, in every draw.
+    /// Codes of the checks of pictures that find the fault, in every draw, and find nothing without it.
     pub check: Vec<&'static str>,
     /// Scores with an untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,
@@ -163,7 +163,7 @@ pub struct SeverityReport {
     pub fresh: Option<ByChannel<CellScore>>,
 }
 
-/// Error that a fault at least doubles without a finding in the check of untouched pictures.
+/// Error that a fault at least doubles without a finding in the checks of pictures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unnoticed {
     /// Name of the fault.

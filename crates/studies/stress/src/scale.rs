@@ -81,6 +81,11 @@ impl Scale {
         })
     }
 
+    /// Untouched picture, if it is the reference of the recording.
+    pub(crate) fn reference(&self) -> Option<&Frame> {
+        self.untouched.as_ref().filter(|_| self.is_reference)
+    }
+
     /// Origin of the untouched picture.
     pub(crate) fn source(&self) -> &'static str {
         match (&self.untouched, self.is_reference) {

@@ -2,10 +2,12 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::Frame;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Work};
 use taceva_models::Model;
 
+use crate::looks::Look;
 use crate::pass::{Cell, CellPredictions, predictions};
 use crate::score::{Scored, Scorer};
 use crate::severity::NEVER;
@@ -17,6 +19,8 @@ pub(crate) struct Pictures<'a> {
     pub(crate) rows: &'a [usize],
     /// Time of each row of the table, a share of the duration.
     pub(crate) shares: &'a [f64],
+    /// Untouched picture of the recording.
+    pub(crate) reference: Option<&'a Frame>,
     pub(crate) scorer: &'a Scorer<'a>,
     pub(crate) work: Work<'a>,
 }
@@ -25,6 +29,8 @@ pub(crate) struct Pictures<'a> {
 #[derive(Default)]
 pub(crate) struct Tested<'m> {
     pub(crate) clean: Vec<f64>,
+    /// Statistics of each picture without a fault.
+    pub(crate) looks: Vec<Look>,
     pub(crate) cells: Vec<Cell<'m>>,
     pub(crate) predicted: Vec<CellPredictions>,
     pub(crate) scored: Vec<ScoredCell>,
@@ -57,6 +63,7 @@ impl Pictures<'_> {
             self.rows,
             self.shares,
             &cells,
+            self.reference,
             self.work,
         )?;
         let scored = found.cells.iter();
@@ -64,6 +71,7 @@ impl Pictures<'_> {
         Ok(Tested {
             scored: scored.collect::<Result<_, EvaluateError>>()?,
             clean: found.clean,
+            looks: found.looks,
             cells,
             predicted: found.cells,
             passes: 1,
@@ -103,6 +111,7 @@ impl Pictures<'_> {
 impl<'m> Tested<'m> {
     fn add(&mut self, other: Tested<'m>) {
         self.clean = other.clean;
+        self.looks = other.looks;
         self.cells.extend(other.cells);
         self.predicted.extend(other.predicted);
         self.scored.extend(other.scored);

@@ -11,6 +11,7 @@ use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
 use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
 use crate::list::list;
+use crate::looks::codes;
 use crate::notes::notes;
 use crate::others::OtherFaults;
 use crate::pass::{Cell, UNTOUCHED, compares};
@@ -92,6 +93,7 @@ fn measure(
         model,
         rows,
         shares: &shares,
+        reference: scale.reference(),
         scorer: &scorer,
         work,
     };
@@ -106,7 +108,14 @@ fn measure(
         clean: &clean,
         found: &found,
         baseline: &baseline,
-        rows: setup.samples.rows.len(),
+        dataset,
+        rows: &setup.samples.rows,
+        codes: codes(
+            dataset,
+            &setup.samples.rows,
+            found.looks.iter(),
+            scale.reference(),
+        ),
     };
     let new = NewGel {
         dataset,
@@ -214,8 +223,7 @@ fn cells<'m>(
     model: &Model,
     request: &StressRequest,
 ) -> Vec<Cell<'m>> {
-    let reference = scale.untouched.as_ref();
-    let reference = reference.filter(|_| scale.is_reference && compares(model));
+    let reference = scale.reference().filter(|_| compares(model));
     let mut cells = Vec::new();
     for (position, &fault) in setup.faults.iter().enumerate() {
         let untouched = reference.filter(|_| fault.scope != Scope::Each);
@@ -237,7 +245,11 @@ struct Results<'a> {
     clean: &'a ByChannel<CleanScore>,
     found: &'a Tested<'a>,
     baseline: &'a Scored,
-    rows: usize,
+    dataset: &'a Dataset,
+    /// Scored rows.
+    rows: &'a [usize],
+    /// Codes of the checks that find something without a fault.
+    codes: Vec<&'static str>,
 }
 
 impl Results<'_> {
@@ -289,17 +301,14 @@ impl Results<'_> {
 
     fn of_cell(&self, at: usize) -> SeverityReport {
         let (cell, scored) = (&self.found.cells[at], &self.found.scored[at]);
-        let change = self.found.predicted[at].change(self.rows);
+        let change = self.found.predicted[at].change(self.rows.len());
         let stimulus = self.scale.contact.map(|contact| change / contact);
         SeverityReport {
             severity: cell.level.severity,
             parameter: cell.level.parameter,
             stimulus,
             low_stimulus: stimulus.is_some_and(|stimulus| stimulus < LOW),
-            check: match cell.draws.iter().all(|draw| self.is_noticed(&draw.stress)) {
-                true => vec![CHANGED_REST],
-                false => Vec::new(),
-            },
+            check: self.check(at),
             stale: scored.stale.beside(self.baseline, self.clean),
             fresh: scored
                 .fresh
@@ -308,10 +317,28 @@ impl Results<'_> {
         }
     }
 
+    /// Codes of the checks that find the fault in every draw, and nothing without it.
+    fn check(&self, at: usize) -> Vec<&'static str> {
+        let draws = &self.found.cells[at].draws;
+        let of_draw = |draw: usize| {
+            let looks = self.found.predicted[at].looks.iter();
+            let looks = looks.skip(draw).step_by(draws.len());
+            codes(self.dataset, self.rows, looks, self.scale.reference())
+        };
+        let mut found = of_draw(0);
+        found.retain(|code| !self.codes.contains(code));
+        for draw in 1..draws.len() {
+            let other = of_draw(draw);
+            found.retain(|code| other.contains(code));
+        }
+        let is_noticed = draws.iter().all(|draw| self.is_noticed(&draw.stress));
+        found.extend(is_noticed.then_some(CHANGED_REST));
+        found
+    }
+
     /// True if the check of untouched pictures finds the fault, which is in the pictures of contact too.
     fn is_noticed(&self, stress: &Stress<'_>) -> bool {
-        let untouched = self.scale.untouched.as_ref();
-        let Some(reference) = untouched.filter(|_| self.scale.is_reference) else {
+        let Some(reference) = self.scale.reference() else {
             return false;
         };
         let tiles = |frame: &Frame| FrameFacts::of(frame, None).tiles;

@@ -159,7 +159,7 @@ impl Measured {
             false => Scale::untouched(dataset, &samples.rows)?,
         };
         let shares = vec![1.0; dataset.table().rows()];
-        let found = predictions(dataset, model, &samples.rows, &shares, &[], work)?;
+        let found = predictions(dataset, model, &samples.rows, &shares, &[], None, work)?;
         let scorer = Scorer::new(dataset, model, &samples.target, &samples.rows, work.jobs)?;
         let scored = scorer.score(&found.clean)?;
         Ok(Measured {

@@ -136,7 +136,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Findings of the check of untouched pictures, and the errors that it does not notice.
+    /// Findings of the checks of pictures, and the errors that they do not notice.
     fn push_check(&mut self, fault: &str, of: &SeverityReport) {
         let place = Place {
             fault,
@@ -144,14 +144,14 @@ impl<'a> Rows<'a> {
             untouched: "",
         };
         let report = self.report;
-        let Some(unnoticed) = &report.unnoticed else {
+        if report.unnoticed.is_none() && of.check.is_empty() {
             let reason = "no untouched picture";
             return self.push_words(&place, "", "check", None, reason);
-        };
+        }
         let found = f64::from(u8::from(!of.check.is_empty()));
         self.push_words(&place, "", "check", Some(found), &of.check.join(" "));
         let is_own = |hidden: &&Unnoticed| hidden.fault == fault && hidden.severity == of.severity;
-        for hidden in unnoticed.iter().filter(is_own) {
+        for hidden in report.unnoticed.iter().flatten().filter(is_own) {
             self.push_words(&place, &hidden.channel, "unnoticed", Some(1.0), "");
         }
     }
