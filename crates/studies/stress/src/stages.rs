@@ -84,7 +84,7 @@ impl Pictures<'_> {
         cells: Vec<Cell<'m>>,
     ) -> Result<Tested<'m>, EvaluateError> {
         let mut all = Tested::default();
-        let mut ended = BTreeSet::new();
+        let mut ended: BTreeSet<usize> = BTreeSet::new();
         let mut rest = cells;
         for severity in 1..NEVER {
             let (now, later): (Vec<Cell<'m>>, Vec<Cell<'m>>) = rest

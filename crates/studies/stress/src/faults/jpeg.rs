@@ -1,5 +1,6 @@
 //! Compression as by cameras that send JPEG pictures.
 
+use std::array::from_fn;
 use std::f64::consts::FRAC_1_SQRT_2;
 use std::sync::LazyLock;
 
@@ -23,6 +24,18 @@ pub(super) static FAULT: Fault = Fault {
 const SIDE: usize = 8;
 /// Middle of the 256 levels.
 const MIDDLE: f32 = 128.0;
+/// Brightness and two colours from red, green and blue (ITU-T T.871).
+const TO: [[f32; 3]; 3] = [
+    [0.299, 0.587, 0.114],
+    [-0.168736, -0.331264, 0.5],
+    [0.5, -0.418688, -0.081312],
+];
+/// Red, green and blue from brightness and two colours.
+const FROM: [[f32; 3]; 3] = [
+    [1.0, 0.0, 1.402],
+    [1.0, -0.344136, -0.714136],
+    [1.0, 1.772, 0.0],
+];
 
 /// Numbers of a block, row by row.
 type Block = [[f32; SIDE]; SIDE];
@@ -63,26 +76,14 @@ const COSINES: [f64; 9] = [
     0.0,
 ];
 
-/// Weights of the discrete cosine transform: a row for each frequency.
-static FORWARD: LazyLock<Block> = LazyLock::new(|| {
-    let mut weights = [[0.0; SIDE]; SIDE];
-    for (frequency, row) in weights.iter_mut().enumerate() {
+/// Weights of the discrete cosine transform, with a row for each frequency, and of its inverse, with a row for each place.
+static WEIGHTS: LazyLock<[Block; 2]> = LazyLock::new(|| {
+    let forward: Block = from_fn(|frequency| {
         let scale = if frequency == 0 { FRAC_1_SQRT_2 } else { 1.0 };
-        for (place, weight) in row.iter_mut().enumerate() {
-            *weight = single(0.5 * scale * cosine((2 * place + 1) * frequency));
-        }
-    }
-    weights
-});
-/// Weights of the inverse transform: a row for each place.
-static INVERSE: LazyLock<Block> = LazyLock::new(|| {
-    let mut weights = [[0.0; SIDE]; SIDE];
-    for (place, row) in weights.iter_mut().enumerate() {
-        for (weight, frequency) in row.iter_mut().zip(FORWARD.iter()) {
-            *weight = frequency[place];
-        }
-    }
-    weights
+        from_fn(|place| single(0.5 * scale * cosine((2 * place + 1) * frequency)))
+    });
+    let inverse = from_fn(|place| from_fn(|frequency: usize| forward[frequency][place]));
+    [forward, inverse]
 });
 
 /// Cosine of `step` · π / 16.
@@ -95,72 +96,48 @@ fn cosine(step: usize) -> f64 {
     }
 }
 
-/// One plane of numbers.
-struct Plane {
-    width: usize,
-    height: usize,
-    values: Vec<f32>,
-}
-
 fn apply(canvas: &mut Canvas, drawn: &Realisation) {
-    let (width, height, full) = (canvas.width(), canvas.height(), canvas.full());
-    let (brightness, colour) = (
-        steps(&BRIGHTNESS, drawn.parameter),
-        steps(&COLOUR, drawn.parameter),
-    );
-    let is_gray = canvas.colours() == 1;
-    let plane = |values| Plane {
-        width,
-        height,
-        values,
-    };
-    let to_byte = 255.0 / full;
-    let scaled: Vec<[f32; 3]> = canvas
-        .pixels()
-        .map(|pixel| {
-            let number = |colour: usize| pixel[colour.min(pixel.len() - 1)] * to_byte;
-            [number(0), number(1), number(2)]
-        })
-        .collect();
-    let part = |weights: [f32; 3]| -> Vec<f32> {
-        let parts = scaled.iter();
-        parts
-            .map(|[red, green, blue]| weights[0] * red + weights[1] * green + weights[2] * blue)
-            .collect()
-    };
-    let mut light = match is_gray {
-        true => plane(scaled.iter().map(|[gray, ..]| *gray).collect()),
-        false => plane(part([0.299, 0.587, 0.114])),
-    };
-    light.values.iter_mut().for_each(|value| *value -= MIDDLE);
-    light.compress(&brightness);
-    let colours = (!is_gray).then(|| {
-        let weights = [[-0.168736, -0.331264, 0.5], [0.5, -0.418688, -0.081312]];
-        weights.map(|weights| {
-            let mut half = plane(part(weights)).halved();
-            half.compress(&colour);
-            half
-        })
-    });
-    let to_full = full / 255.0;
-    for (place, pixel) in canvas.pixels().enumerate() {
-        let light = light.values[place] + MIDDLE;
-        let numbers = match &colours {
-            None => [light; 3],
-            Some([blue, red]) => {
-                let (column, row) = (place % width, place / width);
-                let [blue, red] = [blue, red].map(|of| of.values[row * of.width + column / 2]);
-                [
-                    light + 1.402 * red,
-                    light - 0.344136 * blue - 0.714136 * red,
-                    light + 1.772 * blue,
-                ]
-            }
+    let (width, height, depth) = (canvas.width(), canvas.height(), canvas.colours());
+    let scale = canvas.full() / 255.0;
+    let steps = [&BRIGHTNESS, &COLOUR].map(|table| steps(table, drawn.parameter));
+    let planes = (0..depth).map(|at| {
+        let middle = if at == 0 { MIDDLE } else { 0.0 };
+        let pixels = canvas.values.chunks_exact(depth);
+        let values = pixels.map(|pixel| mixed(&TO, pixel, at) / scale - middle);
+        let whole = Plane {
+            width,
+            height,
+            values: values.collect(),
         };
-        for (value, number) in pixel.iter_mut().zip(numbers) {
-            *value = number.round_ties_even().clamp(0.0, 255.0) * to_full;
+        let mut plane = if at == 0 { whole } else { whole.halved() };
+        plane.compress(&steps[at.min(1)]);
+        plane
+    });
+    let planes: Vec<Plane> = planes.collect();
+    for (place, pixel) in canvas.pixels().enumerate() {
+        let (column, row) = (place % width, place / width);
+        let mut numbers = [planes[0].values[place] + MIDDLE, 0.0, 0.0];
+        for (number, plane) in numbers.iter_mut().zip(&planes).skip(1) {
+            *number = plane.values[row * plane.width + column / 2];
+        }
+        for (at, value) in pixel.iter_mut().enumerate() {
+            let number = mixed(&FROM, &numbers[..depth], at);
+            *value = number.round_ties_even().clamp(0.0, 255.0) * scale;
         }
     }
+}
+
+/// Sum of `numbers` by the weights at `at`; a single number stays as it is.
+fn mixed(weights: &[[f32; 3]; 3], numbers: &[f32], at: usize) -> f32 {
+    match numbers {
+        [only] => *only,
+        _ => product(numbers, &weights[at]),
+    }
+}
+
+fn product(numbers: &[f32], weights: &[f32]) -> f32 {
+    let products = numbers.iter().zip(weights);
+    products.map(|(number, weight)| number * weight).sum()
 }
 
 /// Steps of the coefficients at a quality of 100 less `lost`, as the encoder of the Independent JPEG Group scales them.
@@ -173,14 +150,19 @@ fn steps(table: &Block, lost: f32) -> Block {
     table.map(|row| row.map(|step| (step * percent / 100.0 + 0.5).floor().clamp(1.0, 255.0)))
 }
 
+/// One plane of numbers.
+struct Plane {
+    width: usize,
+    height: usize,
+    values: Vec<f32>,
+}
+
 impl Plane {
     /// The plane with half of its columns: means of two neighbours, as cameras send colour.
     fn halved(&self) -> Plane {
         let rows = self.values.chunks_exact(self.width);
-        let values = rows.flat_map(|row| {
-            row.chunks(2)
-                .map(|pair| 0.5 * (pair[0] + pair[pair.len() - 1]))
-        });
+        let pairs = rows.flat_map(|row| row.chunks(2));
+        let values = pairs.map(|pair| 0.5 * (pair[0] + pair[pair.len() - 1]));
         Plane {
             width: self.width.div_ceil(2),
             height: self.height,
@@ -190,25 +172,21 @@ impl Plane {
 
     /// Rounds the coefficients of each block to `steps`. Blocks at the edge continue its last pixel.
     fn compress(&mut self, steps: &Block) {
+        let [forward, inverse] = &*WEIGHTS;
         for top in (0..self.height).step_by(SIDE) {
             for left in (0..self.width).step_by(SIDE) {
-                let place = |row: usize, column: usize| {
+                let number = |row: usize, column: usize| {
                     let row = (top + row).min(self.height - 1);
-                    row * self.width + (left + column).min(self.width - 1)
+                    self.values[row * self.width + (left + column).min(self.width - 1)]
                 };
-                let mut block = [[0.0; SIDE]; SIDE];
-                for (row, values) in block.iter_mut().enumerate() {
-                    for (column, value) in values.iter_mut().enumerate() {
-                        *value = self.values[place(row, column)];
-                    }
-                }
-                let mut coefficients = transformed(&block, &FORWARD);
-                for (row, steps) in coefficients.iter_mut().zip(steps) {
-                    for (coefficient, step) in row.iter_mut().zip(steps) {
-                        *coefficient = (*coefficient / step).round_ties_even() * step;
-                    }
-                }
-                let block = transformed(&coefficients, &INVERSE);
+                let block = from_fn(|row| from_fn(|column| number(row, column)));
+                let found = transformed(&block, forward);
+                let rounded = |row: usize, column: usize| {
+                    let step = steps[row][column];
+                    (found[row][column] / step).round_ties_even() * step
+                };
+                let coefficients = from_fn(|row| from_fn(|column| rounded(row, column)));
+                let block = transformed(&coefficients, inverse);
                 let length = SIDE.min(self.width - left);
                 for (row, values) in block.iter().take(self.height - top).enumerate() {
                     let first = (top + row) * self.width + left;
@@ -226,12 +204,5 @@ fn transformed(block: &Block, weights: &Block) -> Block {
 
 /// Transform of each row, written as a column.
 fn turned(block: &Block, weights: &Block) -> Block {
-    let mut turned = [[0.0; SIDE]; SIDE];
-    for (row, values) in block.iter().enumerate() {
-        for (place, weights) in turned.iter_mut().zip(weights) {
-            let products = values.iter().zip(weights);
-            place[row] = products.map(|(value, weight)| value * weight).sum();
-        }
-    }
-    turned
+    from_fn(|place| from_fn(|row| product(&block[row], &weights[place])))
 }
