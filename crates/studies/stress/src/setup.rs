@@ -16,6 +16,9 @@ use crate::scale::PICTURES;
 use crate::severity::By;
 use crate::stress::{Stress, draw_seeds};
 
+/// Minimum number of markers for their loss. Fewer spots would fit into any grid.
+const LEAST_MARKERS: usize = 9;
+
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
 pub struct StressRequest {
@@ -145,14 +148,13 @@ impl Setup {
     /// Markers of the untouched picture, if a fault needs them. Without markers, that fault is skipped.
     pub(crate) fn markers(&mut self, untouched: Option<&Frame>) -> Option<MarkerTracker> {
         let position = self.faults.iter().position(|fault| fault.is_of_markers())?;
-        let tracker = untouched.map(MarkerTracker::new);
-        let reason = match tracker {
-            Some(Ok(tracker)) => return Some(tracker),
-            Some(Err(error)) => format!("the untouched picture: {error}"),
-            None => "the recording has no untouched picture".to_owned(),
+        let reason = match untouched.map(MarkerTracker::new) {
+            Some(Ok(tracker)) if tracker.markers().len() >= LEAST_MARKERS => return Some(tracker),
+            Some(_) => "the untouched picture shows no grid of markers",
+            None => "the recording has no untouched picture",
         };
         let fault = self.faults.remove(position);
-        self.skipped.push(SkippedFault::new(fault, &reason));
+        self.skipped.push(SkippedFault::new(fault, reason));
         None
     }
 }
