@@ -24,6 +24,7 @@ pub(crate) mod fit;
 pub(crate) mod gauge;
 pub(crate) mod import;
 pub(crate) mod init;
+mod kept_frames;
 mod live_predictions;
 pub(crate) mod man;
 pub(crate) mod merge;

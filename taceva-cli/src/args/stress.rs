@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use taceva_stress::FAULTS;
+use taceva_stress::{FAULTS, Fault, RECORDING_FAULTS};
 
 use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
@@ -21,7 +21,8 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 and all both mean the whole list, ORG/NAME a fault of a plugin
+    /// Faults, separated by commas; gel-12 or all means those of pictures, recording-5 those of files, markers, clocks and labels, ORG/NAME a fault of a
+    /// plugin
     #[arg(
         long,
         value_name = "FAULTS",
@@ -29,6 +30,9 @@ pub(crate) struct Stress {
         default_value = "gel-12"
     )]
     pub(crate) faults: Vec<String>,
+    /// A second fitted model: states the error that each fault adds, divided by the error that it adds to this model
+    #[arg(long, value_name = "MODEL")]
+    pub(crate) reference: Option<PathBuf>,
     /// Severities, such as 3, 1,3,5 or 1-5
     #[arg(long, value_name = "SEVERITIES", default_value = "1-5")]
     pub(crate) severity: String,
@@ -43,21 +47,34 @@ pub(crate) struct Stress {
     /// The part of the recording [default: test, or all if the model was fitted on another recording]
     #[arg(long, value_enum)]
     pub(crate) part: Option<StressPart>,
+    /// Leaves out the severities of a fault above the first at which no skill is left; each severity decodes the pictures once
+    #[arg(long)]
+    pub(crate) stop_at_no_skill: bool,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
     /// An SVG file: the growth of each error by fault and severity
     #[arg(long, value_name = "FILE.svg")]
     pub(crate) svg: Option<PathBuf>,
+    /// A new folder: the picture of the greatest load with each fault and severity, as PNG, with digests
+    #[arg(long, value_name = "DIR")]
+    pub(crate) keep_frames: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) output: Output,
 }
 
 /// Names of the faults, each with its appearance.
 fn faults_help() -> String {
-    let lines = FAULTS
-        .iter()
-        .map(|fault| format!("\n  {:<15}{}", fault.id, fault.title));
-    format!("Faults:{}", lines.collect::<String>())
+    let lines = |faults: &[&Fault]| -> String {
+        let lines = faults.iter();
+        lines
+            .map(|fault| format!("\n  {:<15}{}", fault.id, fault.title))
+            .collect()
+    };
+    format!(
+        "Faults of gel-12:{}\n\nFaults of recording-5:{}",
+        lines(&FAULTS),
+        lines(&RECORDING_FAULTS)
+    )
 }
 
 /// Samples that the model has not seen.

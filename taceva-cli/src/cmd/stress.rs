@@ -4,25 +4,30 @@ use std::path::Path;
 
 use anyhow::Context as _;
 use taceva_core::shown;
-use taceva_evaluate::DataPart;
+use taceva_evaluate::{DataPart, EvaluateError, Plan};
 use taceva_report::FaultResult;
 use taceva_stress::{
-    By, OtherFaults, PictureFault, StressReport, StressRequest, severities, stress_beside,
-    stress_plan,
+    By, Examples, OtherFaults, PictureFault, StressReport, StressRequest, add_reference,
+    severities, stress_beside, stress_plan,
 };
 
 use super::plugin_fault::{PluginFault, find, is_taken};
-use super::{Context, Usage, open_seen, results};
+use super::{Context, Usage, kept_frames, open_seen, results};
 use crate::args::{Format, Stress, StressBy, StressPart};
 use crate::report::stress::{numbers, table};
 use crate::{exit, output, stderr};
 
 /// Refuses a model that is not a file: nothing is fitted here.
 pub(super) fn check_model_file(path: &Path) -> anyhow::Result<()> {
+    check_file_of("--model", path)
+}
+
+/// Refuses a model file of this option that does not exist.
+fn check_file_of(option: &str, path: &Path) -> anyhow::Result<()> {
     match path.is_file() {
         true => Ok(()),
         false => Err(Usage::error(format!(
-            "--model {}: no such file, expected a fitted model; `taceva fit DATASET --model fast --out m.taceva` writes one",
+            "{option} {}: no such file, expected a fitted model; `taceva fit DATASET --model fast --out m.taceva` writes one",
             shown(path)
         ))),
     }
@@ -32,6 +37,11 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     let files = args.output.path.iter().chain(&args.svg);
     output::check_all_free(files, args.output.force)?;
     check_model_file(&args.model)?;
+    args.keep_frames
+        .as_deref()
+        .map_or(Ok(()), kept_frames::check_new)?;
+    let reference = args.reference.as_deref();
+    reference.map_or(Ok(()), |path| check_file_of("--reference", path))?;
     // The key of an estimator of a plugin has a slash, and no fault of the program has one.
     let names = args.faults.iter().map(|name| name.trim().to_owned());
     let (keys, names): (Vec<String>, Vec<String>) = names.partition(|name| name.contains('/'));
@@ -51,23 +61,48 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
             StressPart::Test => DataPart::Test,
             StressPart::All => DataPart::All,
         }),
+        stops_at_no_skill: args.stop_at_no_skill,
     };
-    let model = context.models()?.open(&args.model)?;
+    let models = context.models()?;
+    let model = models.open(&args.model)?;
+    let reference = reference.map(|path| models.open(path)).transpose()?;
     let recordings = [args.dataset.clone()];
     let dataset = open_seen(&recordings, &args.view, Some(&model))?;
     let applied = || super::applied(&args.model, &recordings);
+    let plan = || {
+        let mut plan = stress_plan(&dataset, &model, &request, &foreign)?;
+        if let Some(path) = &args.reference {
+            let model = shown(path);
+            plan.step(
+                "predict",
+                format!("the same with the model {model}, each frame once more"),
+            );
+        }
+        if let Some(folder) = &args.keep_frames {
+            plan.step(
+                "write",
+                format!("{}: one picture of each cell", shown(folder)),
+            );
+        }
+        Ok::<Plan, EvaluateError>(plan)
+    };
     if args.explain.is_wanted {
-        let plan = stress_plan(&dataset, &model, &request, &foreign).with_context(applied)?;
+        let plan = plan().with_context(applied)?;
         output::write(None, |out| write!(out, "{plan}"))?;
         return Ok(exit::DONE);
     }
-    context.print_plan(|| stress_plan(&dataset, &model, &request, &foreign))?;
+    context.print_plan(plan)?;
     let others = OtherFaults {
         foreign: &foreign,
         ..OtherFaults::default()
     };
     let work = context.work(None);
-    let found = stress_beside(&dataset, &model, &request, others, work).with_context(applied)?;
+    let mut found =
+        stress_beside(&dataset, &model, &request, others, work).with_context(applied)?;
+    if let (Some(model), Some(path)) = (&reference, &args.reference) {
+        add_reference(&mut found, &dataset, model, &request, others, work)
+            .with_context(|| super::applied(path, &recordings))?;
+    }
     let written = match args.output.format {
         Format::Csv => numbers(&found),
         _ => table(&found),
@@ -77,6 +112,15 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     if let Some(path) = &args.svg {
         let figure = FaultResult::read(&json)?.figure();
         output::write(Some(path), |out| out.write_all(figure.svg().as_bytes()))?;
+    }
+    if let Some(folder) = &args.keep_frames {
+        let examples = Examples::of(&dataset, &found)?;
+        kept_frames::write(folder, &examples)?;
+        context.say(format_args!(
+            "{}: sample {} with each fault",
+            shown(folder),
+            shown(examples.sample())
+        ));
     }
     Ok(match say_failed(&found, "") {
         true => exit::DEVICE,

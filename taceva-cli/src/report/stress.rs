@@ -33,9 +33,9 @@ pub(crate) fn table(report: &StressReport) -> Table {
                 score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
             });
             cells.extend(ratios);
-            cells.push(Cell::text(match report.unnoticed {
-                Some(_) => of.check.join(" "),
-                None => "–".to_owned(),
+            cells.push(Cell::text(match (&report.unnoticed, of.check.is_empty()) {
+                (None, true) => "–".to_owned(),
+                _ => of.check.join(" "),
             }));
             table.push(cells);
         }
@@ -80,7 +80,9 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     let faults = report.faults.iter();
     notes.extend(faults.map(|fault| of_fault(report, fault, channels)));
     let mean = by_channel(channels, |name| Some(phrase(report.mean.get(name)?, "")));
-    notes.push(format!("Mean degradation over all faults: {mean}."));
+    let is_bound = report.faults.iter().any(|fault| fault.stopped_at.is_some());
+    let bound = if is_bound { "≥ " } else { "" };
+    notes.push(format!("Mean degradation over all faults: {bound}{mean}."));
     if let Some(unnoticed) = &report.unnoticed {
         let main = unnoticed
             .iter()
@@ -93,7 +95,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             false => names.join(", "),
         };
         notes.push(format!(
-            "Errors at least doubled without a finding of the check of untouched pictures (TAC034), by fault, severity and channel: {names}."
+            "Errors at least doubled without a finding of `taceva check`, by fault, severity and channel: {names}."
         ));
     }
     notes.extend(missed_targets(report));
@@ -162,12 +164,28 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     let tested: Vec<String> = tested.collect();
     if !tested.is_empty() {
         let mean = by_channel(channels, |name| Some(phrase(fault.mean.get(name)?, "")));
+        let bound = if fault.stopped_at.is_some() {
+            "≥ "
+        } else {
+            ""
+        };
         line.push_str(&format!(
-            "; mean degradation D over severity {}: {mean}",
+            "; mean degradation D over severity {}: {bound}{mean}",
             tested.join(", ")
         ));
     }
+    if let Some(last) = fault.stopped_at {
+        line.push_str(&format!(
+            "; no skill is left at severity {last}, so higher ones are not tested"
+        ));
+    }
     line.push_str(&spread(fault, channels));
+    if let Some(relative) = &fault.relative_error {
+        let relative = by_channel(channels, |name| Some(phrase(relative.get(name)?, "")));
+        line.push_str(&format!(
+            "; added error relative to the reference model: {relative}"
+        ));
+    }
     line.push_str(&match common_reason(fault) {
         Some(reason) => {
             format!("; the error that a new untouched picture removes is unknown: {reason}")

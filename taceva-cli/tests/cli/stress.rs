@@ -1,5 +1,7 @@
 //! Faults of pictures, scored with a fitted model.
 
+mod options;
+
 use std::fs;
 #[cfg(target_os = "linux")]
 use std::path::Path;
@@ -145,7 +147,8 @@ fn explain_names_faults_and_pictures_and_the_origin() {
 #[test]
 fn the_help_lists_all_faults_and_only_parts_that_are_accepted() {
     let said = Bench::new().ok("stress --help");
-    for fault in taceva_stress::FAULTS {
+    let faults = taceva_stress::FAULTS.into_iter();
+    for fault in faults.chain(taceva_stress::RECORDING_FAULTS) {
         let named = format!("  {} ", fault.id);
         assert!(said.contains(&named), "{named}: {said}");
     }

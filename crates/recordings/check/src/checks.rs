@@ -16,7 +16,7 @@ mod dead_zone;
 pub(crate) mod depth_maps;
 mod doubled_frames;
 mod dropped_frames;
-mod duplicate_frames;
+pub(crate) mod duplicate_frames;
 mod equal_channels;
 mod equal_taxels;
 mod equal_views;
@@ -47,6 +47,15 @@ pub(crate) mod unseen_classes;
 mod zero_shift;
 
 use crate::finding::Check;
+
+/// Checks that need the statistics of pictures without tiles, and labels.
+pub(crate) static OF_PICTURES: [&Check; 5] = [
+    &channel_order::CHECK,
+    &saturation::CHECK,
+    &pressed_reference::CHECK,
+    &blank::CHECK,
+    &dead_zone::CHECK,
+];
 
 /// All checks, in the order of their codes.
 pub static ALL: [&Check; 45] = [

@@ -109,6 +109,14 @@ pub struct FrameFacts {
 impl FrameFacts {
     /// Statistics of `frame`, compared with the frame without contact.
     pub fn of(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
+        FrameFacts {
+            tiles: Tiles::of(frame),
+            ..FrameFacts::without_tiles(frame, reference)
+        }
+    }
+
+    /// The same without tiles, which take most of the time.
+    pub fn without_tiles(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
         let format = frame.info().format;
         match format.bytes_per_sample() {
             1 => facts_of_bytes(frame, reference),
@@ -159,7 +167,7 @@ fn facts_of_bytes(frame: &Frame, reference: Option<&Frame>) -> FrameFacts {
             levels.count() == 1
         }),
         distance,
-        tiles: Tiles::of(frame),
+        tiles: Tiles::default(),
     }
 }
 
@@ -198,7 +206,7 @@ fn facts_of_samples(frame: &Frame, reference: Option<&Frame>, format: PixelForma
         zero: share(zero, count),
         is_flat,
         distance,
-        tiles: Tiles::of(frame),
+        tiles: Tiles::default(),
     }
 }
 

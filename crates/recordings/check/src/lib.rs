@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod changed_pictures;
 mod check;
 mod checks;
 mod count;
@@ -14,6 +15,7 @@ mod tiles;
 mod untouched;
 mod views;
 
+pub use changed_pictures::codes_of_pictures;
 pub use check::check;
 pub use checks::ALL;
 pub use depth_facts::{DepthFacts, OneMap};

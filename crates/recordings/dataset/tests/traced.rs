@@ -217,7 +217,7 @@ fn a_recording_is_resumed_with_the_leds_that_it_began_with_and_with_no_others() 
         (Some("15,15,15"), "`15,15,15`"),
         (None, "not stated by the device"),
     ] {
-        let refused = Recorder::open(&path, &lit(leds)).err().expect("other LEDs");
+        let refused = Recorder::open(&path, &lit(leds)).expect_err("other LEDs");
         let refused = refused.to_string();
         let expected = format!("the setting `led` is {found}, expected `15,0,15`");
         assert!(refused.contains(&expected), "{refused}");

@@ -9,7 +9,7 @@ use taceva_results::{ResultsError, Subject};
 
 /// Severity in results for a fault that ends the skill at no severity.
 pub(crate) const NEVER: u8 = 6;
-/// Schema of the results.
+/// Schema of the results; a minor version may follow: `taceva.stress/1.1`.
 const SCHEMA: &str = "taceva.stress/1";
 
 /// Errors of a model on pictures with faults, as read from JSON of the schema `taceva.stress/1`.
@@ -102,7 +102,7 @@ impl FaultResult {
         struct Named {
             schema: String,
         }
-        serde_json::from_str(text).is_ok_and(|named: Named| named.schema == SCHEMA)
+        serde_json::from_str(text).is_ok_and(|named: Named| is_schema(&named.schema))
     }
 
     /// Parses the result in `text`.
@@ -111,7 +111,7 @@ impl FaultResult {
     /// [`ResultsError`] for invalid JSON or another schema.
     pub fn read(text: &str) -> Result<FaultResult, ResultsError> {
         let result: FaultResult = serde_json::from_str(text)?;
-        if result.schema != SCHEMA {
+        if !is_schema(&result.schema) {
             return Err(ResultsError::Place {
                 place: "schema".to_owned(),
                 problem: format!("expected `{SCHEMA}`, found `{}`", shown(&result.schema)),
@@ -171,6 +171,12 @@ impl FaultResult {
     pub(crate) fn main_channels(&self) -> Vec<&str> {
         main_channels(&self.clean)
     }
+}
+
+/// True for the schema of these results with any minor version.
+fn is_schema(schema: &str) -> bool {
+    let rest = schema.strip_prefix(SCHEMA);
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
 /// Names of planes in `of`, and of channels that are not an axis of one of these planes.

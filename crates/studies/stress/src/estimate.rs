@@ -29,6 +29,8 @@ pub enum Undefined {
     NoInterval,
     /// No severity of the fault was reached.
     NoSeverity,
+    /// The fault is not shown to add to the error of the reference model.
+    ReferenceUnmoved,
     /// Fewer than three recordings of the gel have the error.
     TooFewRecordings,
     /// All recordings have the same number of presses, or the same day.
@@ -55,6 +57,7 @@ impl fmt::Display for Undefined {
             Undefined::TooFewClusters => "fewer than five contact points",
             Undefined::NoInterval => "no interval",
             Undefined::NoSeverity => "no severity was reached",
+            Undefined::ReferenceUnmoved => "the error of the reference model does not grow",
             Undefined::TooFewRecordings => "fewer than three recordings",
             Undefined::EqualPlaces => "all recordings have the same presses or day",
             Undefined::ZeroError => "an error is zero",

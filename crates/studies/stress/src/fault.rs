@@ -1,6 +1,7 @@
-//! Kinds of faults of pictures.
+//! Kinds of faults.
 
 use crate::canvas::{Canvas, Realisation};
+use crate::labels::LabelChange;
 
 /// Random numbers of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,7 +14,7 @@ pub enum Scope {
     Each,
 }
 
-/// A fault of pictures, a pure function of picture, parameter, seed and sample name.
+/// A fault of pictures or of labels, a pure function of picture or label, parameter, seed and sample name.
 #[derive(Debug)]
 pub struct Fault {
     /// Name of the fault, such as `defocus`.
@@ -38,9 +39,52 @@ pub struct Fault {
 pub(crate) enum Effect {
     /// Changes the pixel values of the picture.
     Numbers(fn(&mut Canvas, &Realisation)),
+    /// Changes the numbers of the picture by a parameter that grows with time, from 0 at the first row to the whole parameter at the last.
+    Growing(fn(&mut Canvas, &Realisation)),
+    /// Changes the numbers of the picture at the places of markers.
+    Markers(fn(&mut Canvas, &Realisation, &Markers)),
     /// Replaces the picture by the previous one.
     Before,
+    /// Changes the labels, and no picture.
+    Labels(LabelChange),
 }
+
+/// Markers of one picture.
+pub(crate) struct Markers {
+    /// Column and row of each marker of the untouched picture, in pixels from the centre of the first pixel.
+    pub(crate) places_px: Vec<[f64; 2]>,
+    /// Typical distance of two markers.
+    pub(crate) spacing_px: f64,
+}
+
+impl Fault {
+    /// True if the fault changes labels, and no picture. Its severity is then set by its parameter.
+    pub fn is_of_labels(&self) -> bool {
+        self.label_change().is_some()
+    }
+
+    /// Change of labels; `None` for a fault of pictures.
+    pub(crate) fn label_change(&self) -> Option<LabelChange> {
+        match self.effect {
+            Effect::Labels(change) => Some(change),
+            _ => None,
+        }
+    }
+
+    /// True if the fault grows with the time of the samples.
+    pub(crate) fn grows(&self) -> bool {
+        matches!(self.effect, Effect::Growing(_))
+    }
+
+    /// True if the fault is one of markers.
+    pub(crate) fn is_of_markers(&self) -> bool {
+        matches!(self.effect, Effect::Markers(_))
+    }
+}
+
+/// Remark on faults of labels.
+pub(crate) const NO_STIMULUS: &str =
+    "it changes labels and no picture, so it has no stimulus; its severity is its parameter";
 
 /// Remark on faults of a gel that are drawn at the same pixels of every picture.
 pub(crate) const LIES_STILL: &str = "it lies still in the picture; on a real gel it moves with the contact, so errors after a new untouched picture \

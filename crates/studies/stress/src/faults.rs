@@ -1,13 +1,18 @@
-//! List of the faults, and selection of faults for a test.
+//! Lists of the faults, and selection of faults for a test.
 
 mod cable_noise;
 mod camera_shift;
 mod dead_pixels;
 mod defocus;
 mod dust;
+mod exposure_drift;
 mod exposure_high;
 mod exposure_low;
+mod force_noise;
+mod jpeg;
+mod label_lag;
 mod led_loss;
+mod marker_loss;
 mod scratches;
 mod sensor_noise;
 mod stale_frames;
@@ -18,9 +23,11 @@ use taceva_evaluate::EvaluateError;
 
 use crate::fault::Fault;
 
-/// Name of the list of all faults.
+/// Name of the list of faults of pictures.
 pub const LIST: &str = "gel-12";
-/// Another name of the list of all faults.
+/// Name of the list of faults of camera files, markers, clocks and labels.
+pub const RECORDING_LIST: &str = "recording-5";
+/// Another name of the list of faults of pictures.
 const ALL: &str = "all";
 /// Faults of a gel. Changed pictures alone cannot simulate them, because force and picture change together.
 pub const GEL_FAULTS: [&str; 10] = [
@@ -38,7 +45,7 @@ pub const GEL_FAULTS: [&str; 10] = [
 /// Version of the list. Scores by lists of different versions are not compared.
 pub(crate) const LIST_VERSION: u32 = 1;
 
-/// All faults, in the order of the list.
+/// Faults of pictures, in the order of the list [`LIST`].
 pub static FAULTS: [&Fault; 12] = [
     &defocus::FAULT,
     &dead_pixels::FAULT,
@@ -54,16 +61,26 @@ pub static FAULTS: [&Fault; 12] = [
     &stale_frames::FAULT,
 ];
 
-/// Faults called `names`, in the order of the list; all for the name of the list, or for `all`. Spaces around a name do not count.
+/// Faults of camera files, markers, clocks and labels, in the order of the list [`RECORDING_LIST`].
+pub static RECORDING_FAULTS: [&Fault; 5] = [
+    &jpeg::FAULT,
+    &exposure_drift::FAULT,
+    &marker_loss::FAULT,
+    &label_lag::FAULT,
+    &force_noise::FAULT,
+];
+
+/// Faults called `names`, in the order of both lists; those of a list for its name, those of [`LIST`] for `all`. Spaces around a name do not count.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for an unknown name, or without a name.
 pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
     let names: Vec<&str> = names.iter().map(|name| name.trim()).collect();
-    let ids: Vec<&str> = FAULTS.iter().map(|fault| fault.id).collect();
-    let known: Vec<&str> = [LIST].into_iter().chain(ids).collect();
-    let is_all = |name: &str| name == ALL || name == LIST;
-    let is_known = |name: &str| is_all(name) || known.contains(&name);
+    let ids = FAULTS.iter().map(|fault| fault.id);
+    let others = RECORDING_FAULTS.iter().map(|fault| fault.id);
+    let known = [LIST].into_iter().chain(ids);
+    let known: Vec<&str> = known.chain([RECORDING_LIST]).chain(others).collect();
+    let is_known = |name: &str| name == ALL || known.contains(&name);
     if let Some(gel) = names.iter().find(|name| GEL_FAULTS.contains(name)) {
         return Err(EvaluateError::Request(format!(
             "fault `{gel}`: only the bench knows its gel; write in a scene with a simulated sensor: stress = {{ faults = [\"{gel}\"] }}"
@@ -76,11 +93,16 @@ pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
             suggestion(unknown, &known)
         )));
     }
-    let is_every = names.iter().any(|name| is_all(name));
-    let chosen: Vec<&'static Fault> = FAULTS
+    let has_pictures = names.contains(&ALL) || names.contains(&LIST);
+    let has_others = names.contains(&RECORDING_LIST);
+    let pictures = FAULTS.into_iter().map(|fault| (fault, has_pictures));
+    let others = RECORDING_FAULTS
         .into_iter()
-        .filter(|fault| is_every || names.contains(&fault.id))
-        .collect();
+        .map(|fault| (fault, has_others));
+    let wanted = pictures
+        .chain(others)
+        .filter(|(fault, is_in_list)| *is_in_list || names.contains(&fault.id));
+    let chosen: Vec<&'static Fault> = wanted.map(|(fault, _)| fault).collect();
     match chosen.is_empty() {
         true => Err(EvaluateError::Request(format!(
             "no fault is named, expected {LIST} or some of `{}`",

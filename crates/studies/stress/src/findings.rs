@@ -52,7 +52,7 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Errors that a fault at least doubles without a finding in the check of untouched pictures.
+/// Errors that a fault at least doubles without a finding in the checks of pictures.
 pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
     let hidden = faults.iter().flat_map(|fault| {
         let severities = fault.severities.iter().filter(|of| of.check.is_empty());

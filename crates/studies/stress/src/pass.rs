@@ -5,35 +5,36 @@ use taceva_dataset::{Dataset, Pass};
 use taceva_evaluate::{EvaluateError, Work, blank, model_extractor};
 use taceva_models::{Extractor, Model};
 
+use crate::looks::Look;
 use crate::scale::difference;
 use crate::severity::Level;
 use crate::stress::Stress;
 
 /// A fault of one severity.
-pub(crate) struct Cell {
+pub(crate) struct Cell<'m> {
     /// Position of the fault in the list.
     pub(crate) fault: usize,
     pub(crate) level: Level,
     /// The draws of the fault, at least one.
-    pub(crate) draws: Vec<CellDraw>,
+    pub(crate) draws: Vec<CellDraw<'m>>,
 }
 
 /// One draw of a fault.
-pub(crate) struct CellDraw {
-    pub(crate) stress: Stress,
+pub(crate) struct CellDraw<'m> {
+    pub(crate) stress: Stress<'m>,
     /// Feature extractor with an untouched picture from after the fault; `None` if the model or the fault has no such picture.
     fresh: Option<Extractor>,
 }
 
-impl Cell {
+impl<'m> Cell<'m> {
     /// Creates the cell of a fault. If `untouched` is given, also creates the extractors for a new untouched picture.
     pub(crate) fn new(
         fault: usize,
         level: Level,
-        stresses: Vec<Stress>,
+        stresses: Vec<Stress<'m>>,
         model: &Model,
         untouched: Option<&Frame>,
-    ) -> Cell {
+    ) -> Cell<'m> {
         let draws = stresses.into_iter().map(|stress| CellDraw {
             fresh: untouched.and_then(|untouched| {
                 let faulty = stress.apply(untouched, UNTOUCHED, None);
@@ -43,7 +44,7 @@ impl Cell {
             }),
             stress,
         });
-        let mut draws: Vec<CellDraw> = draws.collect();
+        let mut draws: Vec<CellDraw<'m>> = draws.collect();
         if draws.iter().any(|draw| draw.fresh.is_none()) {
             draws.iter_mut().for_each(|draw| draw.fresh = None);
         }
@@ -55,7 +56,7 @@ impl Cell {
     }
 
     /// The fault, if it repeats pictures.
-    fn repeating(&self) -> Option<&Stress> {
+    fn repeating(&self) -> Option<&Stress<'m>> {
         let mut stresses = self.draws.iter().map(|draw| &draw.stress);
         stresses.find(|stress| stress.repeats())
     }
@@ -70,6 +71,8 @@ pub(crate) const UNTOUCHED: &str = "untouched";
 /// `[rows, draws, channels]`, row after row; one draw without a fault.
 pub(crate) struct Predictions {
     pub(crate) clean: Vec<f64>,
+    /// Statistics of each picture without a fault.
+    pub(crate) looks: Vec<Look>,
     pub(crate) cells: Vec<CellPredictions>,
 }
 
@@ -80,6 +83,11 @@ pub(crate) struct CellPredictions {
     pub(crate) stale: Vec<f64>,
     /// With an untouched picture from after the fault; empty if there is none.
     pub(crate) fresh: Vec<f64>,
+    /// Statistics of each picture with the fault.
+    ///
+    /// # Shapes
+    /// `[rows, draws]`.
+    pub(crate) looks: Vec<Look>,
     /// Sum over all pictures of their changes, each a mean over draws.
     changes: f64,
 }
@@ -95,6 +103,7 @@ impl CellPredictions {
 struct Row {
     frame: Frame,
     clean: Vec<f64>,
+    look: Look,
     /// Predictions of each cell; for a fault that repeats pictures, filled in row order.
     cells: Vec<CellPredictions>,
 }
@@ -125,16 +134,25 @@ impl Predictor<'_> {
         Ok(self.model.predict_unbounded(&features)?)
     }
 
-    fn row(&self, sample: &str, frame: Frame, cells: &[Cell]) -> Result<Row, EvaluateError> {
+    /// Numbers of the picture `frame` of `sample`, at this share of the duration of the recording.
+    fn row(
+        &self,
+        sample: &str,
+        share: f64,
+        frame: Frame,
+        cells: &[Cell<'_>],
+        reference: Option<&Frame>,
+    ) -> Result<Row, EvaluateError> {
         let clean = self.of(&frame, self.clean.as_ref())?;
-        let of_cell = |cell: &Cell| -> Result<CellPredictions, EvaluateError> {
+        let of_cell = |cell: &Cell<'_>| -> Result<CellPredictions, EvaluateError> {
             let mut found = CellPredictions::default();
             if cell.repeating().is_some() {
                 return Ok(found);
             }
             for draw in &cell.draws {
-                let faulty = draw.stress.apply(&frame, sample, None);
+                let faulty = draw.stress.at(share).apply(&frame, sample, None);
                 found.stale.extend(self.of(&faulty, self.clean.as_ref())?);
+                found.looks.push(Look::of(&faulty, reference));
                 if let (Some(fresh), Some(_)) = (&draw.fresh, &self.clean) {
                     found.fresh.extend(self.of(&faulty, Some(fresh))?);
                 }
@@ -144,6 +162,7 @@ impl Predictor<'_> {
         };
         let cells = cells.iter().map(of_cell).collect::<Result<_, _>>()?;
         Ok(Row {
+            look: Look::of(&frame, reference),
             frame,
             clean,
             cells,
@@ -151,12 +170,15 @@ impl Predictor<'_> {
     }
 }
 
-/// Predictions of `rows`, which have pictures, without a fault and in each of `cells`.
+/// Predictions of `rows`, which have pictures, without a fault and in each of `cells`. `shares` has the time of each row of the table, a share of the
+/// duration. `reference` is the untouched picture of the recording.
 pub(crate) fn predictions(
     dataset: &Dataset,
     model: &Model,
     rows: &[usize],
-    cells: &[Cell],
+    shares: &[f64],
+    cells: &[Cell<'_>],
+    reference: Option<&Frame>,
     work: Work<'_>,
 ) -> Result<Predictions, EvaluateError> {
     let clean = model.reads_features();
@@ -165,12 +187,13 @@ pub(crate) fn predictions(
     let samples = dataset.table().samples();
     let mut all = Predictions {
         clean: Vec::new(),
+        looks: Vec::new(),
         cells: vec![CellPredictions::default(); cells.len()],
     };
     let mut before: Option<Row> = None;
     dataset.map_frames(
         Pass::new(rows, work.jobs, work.progress),
-        |row, frame| predictor.row(&samples[row], frame, cells),
+        |row, frame| predictor.row(&samples[row], shares[row], frame, cells, reference),
         |row, found| {
             let mut found: Row = found?;
             for (cell, own) in cells.iter().zip(&mut found.cells) {
@@ -179,11 +202,14 @@ pub(crate) fn predictions(
                         .as_ref()
                         .filter(|_| stress.is_repeated(&samples[row]));
                     own.stale = repeated.map_or(&found.clean, |row| &row.clean).clone();
+                    own.looks = vec![repeated.map_or(&found.look, |row| &row.look).clone()];
                     own.changes = repeated.map_or(0.0, |row| difference(&row.frame, &found.frame));
                 }
             }
             all.clean.extend_from_slice(&found.clean);
+            all.looks.push(found.look.clone());
             for (cell, own) in all.cells.iter_mut().zip(&found.cells) {
+                cell.looks.extend_from_slice(&own.looks);
                 cell.stale.extend_from_slice(&own.stale);
                 cell.fresh.extend_from_slice(&own.fresh);
                 cell.changes += own.changes;

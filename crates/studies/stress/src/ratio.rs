@@ -9,7 +9,7 @@ use taceva_metrics::elementary::exponential;
 use crate::estimate::{Estimate, Undefined};
 
 /// Share of the distribution below the upper end of an interval.
-const UPPER: f64 = 0.975;
+pub(crate) const UPPER: f64 = 0.975;
 
 /// Absolute errors of some rows, summed by cluster.
 #[derive(Clone, Debug)]
@@ -63,12 +63,24 @@ impl Errors {
         (self.count > 0).then_some(self.total / self.count as f64)
     }
 
-    /// Relative change of the mean error if only the errors outside of the cluster at `left` remain.
-    fn change(&self, left: usize) -> f64 {
+    /// For each cluster, the number of all errors divided by the number of its own; empty if a row has no cluster.
+    pub(crate) fn sizes(&self) -> Vec<f64> {
+        let clusters = self.clusters.iter().flatten();
+        clusters
+            .map(|own| self.count as f64 / own.count as f64)
+            .collect()
+    }
+
+    /// Mean error outside of the cluster at `left`.
+    pub(crate) fn mean_without(&self, left: usize) -> f64 {
         let clusters = self.clusters.as_deref().unwrap_or_default();
         let own = clusters[left];
-        let others = (self.total - own.sum) / (self.count - own.count) as f64;
-        others / (self.total / self.count as f64) - 1.0
+        (self.total - own.sum) / (self.count - own.count) as f64
+    }
+
+    /// Relative change of the mean error if only the errors outside of the cluster at `left` remain.
+    fn change(&self, left: usize) -> f64 {
+        self.mean_without(left) / (self.total / self.count as f64) - 1.0
     }
 }
 
@@ -135,10 +147,8 @@ fn interval(value: f64, terms: &[Term<'_>], clean: &Errors) -> Result<[f64; 2], 
             .map(|term| term.part / value * (term.errors.change(left) - baseline));
         moves.sum::<f64>()
     };
-    let shares = clusters
-        .iter()
-        .map(|own| clean.count as f64 / own.count as f64);
-    let pseudo: Vec<[f64; 2]> = shares
+    let sizes = clean.sizes().into_iter();
+    let pseudo: Vec<[f64; 2]> = sizes
         .enumerate()
         .map(|(left, share)| [share - 1.0, (1.0 - share) * moved(left)])
         .collect();

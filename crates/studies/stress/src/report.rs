@@ -4,13 +4,14 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use taceva_results::{Provenance, Subject};
+use taceva_results::{ModelProvenance, Provenance, Subject};
 
 use crate::estimate::Estimate;
+use crate::ratio::Errors;
 use crate::severity::{By, Unreached};
 
 /// Schema of the result.
-pub const STRESS_SCHEMA: &str = "taceva.stress/1";
+pub const STRESS_SCHEMA: &str = "taceva.stress/1.1";
 
 /// Numbers by the name of a channel or plane.
 pub type ByChannel<T> = BTreeMap<String, T>;
@@ -49,7 +50,7 @@ pub struct StressReport {
     /// Mean degradation over all faults.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Errors that a fault at least doubles without a finding in the check of untouched pictures. `None` without a reference.
+    /// Errors that a fault at least doubles without a finding in the checks of pictures. `None` without a reference.
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
@@ -60,6 +61,19 @@ pub struct StressReport {
     pub notes: Vec<String>,
     /// Origin of the numbers.
     pub provenance: Provenance,
+    /// Model to whose errors `relative_error` of each fault refers; `None` without one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reference: Option<ModelProvenance>,
+    /// Scored rows, and their errors without a fault.
+    #[serde(skip)]
+    pub(crate) basis: Basis,
+}
+
+/// Scored rows, and their errors by contact point.
+#[derive(Clone, Debug)]
+pub(crate) struct Basis {
+    pub(crate) rows: Vec<usize>,
+    pub(crate) clean: ByChannel<Errors>,
 }
 
 /// List of faults. Scores by different lists are not compared.
@@ -119,6 +133,15 @@ pub struct FaultReport {
     pub recovers: ByChannel<Estimate>,
     /// Least severity whose skill is no longer shown to be above 0; 6 if there is none, `None` if that is unknown.
     pub breaks_at: ByChannel<Option<u8>>,
+    /// Severity at which no channel has skill, if higher ones were left out for that reason. Means over severities are then lower bounds.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stopped_at: Option<u8>,
+    /// Added error over all severities, divided by that of the reference model; `None` without a reference model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative_error: Option<ByChannel<Estimate>>,
+    /// Errors by contact point of each of `severities`.
+    #[serde(skip)]
+    pub(crate) errors: Vec<ByChannel<Errors>>,
 }
 
 /// Results of one fault at one severity.
@@ -132,7 +155,7 @@ pub struct SeverityReport {
     pub stimulus: Option<f64>,
     /// True if the stimulus is below 0.05, so that the fault hardly changes the pictures.
     pub low_stimulus: bool,
-    /// Codes of the checks of untouched pictures that find the fault, in every draw.
+    /// Codes of the checks of pictures that find the fault, in every draw, and find nothing without it.
     pub check: Vec<&'static str>,
     /// Scores with an untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,
@@ -140,7 +163,7 @@ pub struct SeverityReport {
     pub fresh: Option<ByChannel<CellScore>>,
 }
 
-/// Error that a fault at least doubles without a finding in the check of untouched pictures.
+/// Error that a fault at least doubles without a finding in the checks of pictures.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unnoticed {
     /// Name of the fault.

@@ -87,6 +87,17 @@ impl Unseen {
     }
 }
 
+/// Time of each row of `dataset`, a share of the time from its first row to its last. `None` if one of `rows` has no time, or all times are equal.
+pub(crate) fn shares(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
+    let times = dataset.table().t_s();
+    let known = || times.iter().copied().flatten();
+    let first = known().fold(f64::INFINITY, f64::min);
+    let last = known().fold(f64::NEG_INFINITY, f64::max);
+    let is_timed = rows.iter().all(|row| times[*row].is_some());
+    let share = |time: &Option<f64>| time.map_or(1.0, |time| (time - first) / (last - first));
+    (is_timed && last > first).then(|| times.iter().map(share).collect())
+}
+
 /// Refuses recordings without pictures of one sensor, and models that read no pictures.
 fn require_pictures(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));

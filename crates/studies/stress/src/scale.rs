@@ -81,6 +81,11 @@ impl Scale {
         })
     }
 
+    /// Untouched picture, if it is the reference of the recording.
+    pub(crate) fn reference(&self) -> Option<&Frame> {
+        self.untouched.as_ref().filter(|_| self.is_reference)
+    }
+
     /// Origin of the untouched picture.
     pub(crate) fn source(&self) -> &'static str {
         match (&self.untouched, self.is_reference) {
@@ -122,6 +127,13 @@ pub(crate) struct Touch {
 /// Rows among `rows` with a known load, in order; `None` for a recording without a channel of loads.
 pub(crate) fn touches(dataset: &Dataset, rows: &[usize]) -> Option<Vec<Touch>> {
     Loads::of(dataset, rows).touches()
+}
+
+/// Row of the greatest load among `rows`; the last one if no load is known.
+pub(crate) fn most_loaded(dataset: &Dataset, rows: &[usize]) -> Option<usize> {
+    let loads = Loads::of(dataset, rows).rows.into_iter();
+    let most = loads.max_by(|one, other| one.load.total_cmp(&other.load));
+    most.map(|load| load.row)
 }
 
 /// A row with its load.

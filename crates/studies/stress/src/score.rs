@@ -39,7 +39,7 @@ pub(crate) struct Scored {
     pub(crate) scores: ByChannel<Score>,
     pub(crate) mae: ByChannel<Estimate>,
     skill: ByChannel<Estimate>,
-    errors: ByChannel<Errors>,
+    pub(crate) errors: ByChannel<Errors>,
     /// Least and greatest mean error of a single draw; empty for one draw.
     spread: ByChannel<[f64; 2]>,
 }
@@ -130,6 +130,22 @@ impl<'a> Scorer<'a> {
             clusters: self.clusters.clone(),
             jobs: self.jobs,
         })
+    }
+
+    /// Scorer of the same samples with the labels `truth`, one column for each of [`labels`](Scorer::labels).
+    pub(crate) fn with_labels(&self, truth: Vec<Column>) -> Scorer<'a> {
+        Scorer {
+            plan: self.plan.clone(),
+            positions: self.positions.clone(),
+            truth,
+            clusters: self.clusters.clone(),
+            ..*self
+        }
+    }
+
+    /// Scored channels, each with its labels.
+    pub(crate) fn labels(&self) -> impl Iterator<Item = (&Channel, &Column)> {
+        self.plan.channels().iter().zip(&self.truth)
     }
 
     /// Scores of `predictions`.
@@ -323,6 +339,12 @@ impl Scored {
         let clean = baseline.errors.get(name)?.mean().filter(|of| *of > 0.0)?;
         let ends = self.spread.get(name)?.map(|error| error / clean);
         ends[0].is_finite().then_some(ends)
+    }
+
+    /// True if a channel has skill, or its skill is not known.
+    pub(crate) fn has_skill(&self) -> bool {
+        let mut known = self.skill.values().filter(|skill| skill.value.is_some());
+        known.any(|skill| skill.is_above_zero() != Some(false))
     }
 
     fn skill_of(&self, name: &str) -> Estimate {

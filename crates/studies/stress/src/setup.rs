@@ -1,9 +1,9 @@
 //! Choice of samples and faults, checked before any picture is read.
 
-use taceva_core::{counted, shown};
+use taceva_core::{Frame, counted, shown};
 use taceva_dataset::Dataset;
 use taceva_evaluate::{DataPart, EvaluateError, Plan, Target, subject_of};
-use taceva_models::Model;
+use taceva_models::{MarkerTracker, Model};
 use taceva_results::not_measured;
 
 use crate::fault::{Fault, Scope};
@@ -11,10 +11,13 @@ use crate::faults::{LIST, select};
 use crate::foreign::PictureFault;
 use crate::pass::compares;
 use crate::report::SkippedFault;
-use crate::samples::Unseen;
+use crate::samples::{Unseen, shares};
 use crate::scale::PICTURES;
 use crate::severity::By;
 use crate::stress::{Stress, draw_seeds};
+
+/// Minimum number of markers for their loss. Fewer spots would fit into any grid.
+const LEAST_MARKERS: usize = 9;
 
 /// Choice of faults and samples.
 #[derive(Clone, Debug)]
@@ -31,6 +34,8 @@ pub struct StressRequest {
     pub draws: u32,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
+    /// True to leave out the severities of a fault of pictures above the first at which no channel has skill. Each severity then decodes the scored pictures.
+    pub stops_at_no_skill: bool,
 }
 
 impl Default for StressRequest {
@@ -42,6 +47,7 @@ impl Default for StressRequest {
             seed: 0,
             draws: 1,
             part: None,
+            stops_at_no_skill: false,
         }
     }
 }
@@ -71,7 +77,10 @@ impl StressRequest {
 /// Samples and faults of a test, checked before any picture is read.
 pub(crate) struct Setup {
     pub(crate) samples: Unseen,
+    /// Faults of pictures.
     pub(crate) faults: Vec<&'static Fault>,
+    /// Faults of labels.
+    pub(crate) of_labels: Vec<&'static Fault>,
     pub(crate) skipped: Vec<SkippedFault>,
 }
 
@@ -85,7 +94,7 @@ impl Setup {
         require_testable(dataset, model)?;
         let chosen = request.checked(has_others)?;
         let samples = Unseen::of(dataset, model, request.part)?;
-        Ok(Setup::with(samples, chosen, request))
+        Ok(Setup::with(dataset, model, samples, chosen))
     }
 
     /// Setup for the samples of `target`, which the caller knows to be unseen.
@@ -98,22 +107,63 @@ impl Setup {
     ) -> Result<Setup, EvaluateError> {
         let chosen = request.checked(has_others)?;
         let samples = Unseen::of_target(dataset, model, target)?;
-        Ok(Setup::with(samples, chosen, request))
+        Ok(Setup::with(dataset, model, samples, chosen))
     }
 
-    fn with(samples: Unseen, chosen: Vec<&'static Fault>, request: &StressRequest) -> Setup {
-        let (faults, orderless): (Vec<_>, Vec<_>) = chosen.into_iter().partition(|&fault| {
-            let stress = Stress::new(fault, 0.0, request.seed);
-            !stress.repeats() || samples.rows.len() > 1
-        });
-        let skipped = orderless.into_iter().map(|fault| SkippedFault {
-            fault: fault.id.to_owned(),
-            reason: "the only scored picture has no previous picture".to_owned(),
-        });
+    fn with(
+        dataset: &Dataset,
+        model: &Model,
+        samples: Unseen,
+        chosen: Vec<&'static Fault>,
+    ) -> Setup {
+        let is_timed = shares(dataset, &samples.rows).is_some();
+        let lacks = |fault: &'static Fault| -> Option<&'static str> {
+            let is_alone = samples.rows.len() == 1;
+            if is_alone && Stress::new(fault, 0.0, 0).repeats() {
+                return Some("the only scored picture has no previous picture");
+            }
+            if fault.grows() && !is_timed {
+                return Some(
+                    "expected the times `t_s` of all samples, with a first and a last one",
+                );
+            }
+            (fault.label_change()?.lacks)(dataset, model, &samples.rows)
+        };
+        let (mut faults, mut skipped) = (Vec::new(), Vec::new());
+        for fault in chosen {
+            match lacks(fault) {
+                None => faults.push(fault),
+                Some(reason) => skipped.push(SkippedFault::new(fault, reason)),
+            }
+        }
+        let (of_labels, faults) = faults.into_iter().partition(|fault| fault.is_of_labels());
         Setup {
-            skipped: skipped.collect(),
             samples,
             faults,
+            of_labels,
+            skipped,
+        }
+    }
+
+    /// Markers of the untouched picture, if a fault needs them. Without markers, that fault is skipped.
+    pub(crate) fn markers(&mut self, untouched: Option<&Frame>) -> Option<MarkerTracker> {
+        let position = self.faults.iter().position(|fault| fault.is_of_markers())?;
+        let reason = match untouched.map(MarkerTracker::new) {
+            Some(Ok(tracker)) if tracker.markers().len() >= LEAST_MARKERS => return Some(tracker),
+            Some(_) => "the untouched picture shows no grid of markers",
+            None => "the recording has no untouched picture",
+        };
+        let fault = self.faults.remove(position);
+        self.skipped.push(SkippedFault::new(fault, reason));
+        None
+    }
+}
+
+impl SkippedFault {
+    fn new(fault: &Fault, reason: &str) -> SkippedFault {
+        SkippedFault {
+            fault: fault.id.to_owned(),
+            reason: reason.to_owned(),
         }
     }
 }
@@ -156,16 +206,20 @@ pub fn stress_plan(
     plan.step(
         "decode",
         format!(
-            "{} of the part `{}`, each once for all faults; before that, at most {} for the change by contact",
+            "{} of the part `{}`, each once {}; before that, at most {} for the change by contact",
             counted(scored, "frame"),
             setup.samples.target.part.name(),
+            match request.stops_at_no_skill {
+                true => "for each severity until no skill is left",
+                false => "for all faults",
+            },
             counted(PICTURES.min(scored) + 1, "frame")
         ),
     );
     let draws = |fault: &Fault| draw_seeds(fault, request.seed, request.draws).len();
     let cells: usize = setup.faults.iter().map(|fault| draws(fault)).sum();
-    let cells = (cells + foreign.len()) * request.severities.len();
-    for fault in &setup.faults {
+    let cells = (cells + foreign.len() + setup.of_labels.len()) * request.severities.len();
+    for fault in setup.faults.iter().chain(&setup.of_labels) {
         plan.step("fault", format!("{}: {}", fault.id, fault.title));
     }
     for fault in foreign {

@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use taceva_core::{Frame, shown};
 use taceva_evaluate::EvaluateError;
+use taceva_models::MarkerTracker;
 
 use crate::fault::{Fault, Scope};
 use crate::scale::{Scale, difference};
@@ -20,6 +21,8 @@ const LEAST: f64 = 1e-7;
 const ACCURACY: f64 = 1.02;
 /// Number of bisections of a search.
 const STEPS: usize = 28;
+/// Share of the recording at which the stimulus of a fault that grows with time is solved.
+const MIDDLE: f64 = 0.5;
 /// Number of lines over which the stimulus is averaged, for a fault that is drawn for each picture.
 const LINES: u32 = 512;
 /// Maximum number of pictures over which the stimulus of such a fault is averaged.
@@ -167,6 +170,7 @@ pub(crate) struct Reference<'a> {
     pub(crate) scale: &'a Scale,
     pub(crate) untouched: &'a Frame,
     pub(crate) contact: f64,
+    pub(crate) markers: Option<&'a MarkerTracker>,
     pub(crate) seed: u64,
     /// Draws of the places of a fault.
     pub(crate) draws: u32,
@@ -188,6 +192,7 @@ impl Reference<'_> {
             .flat_map(|&seed| (0..drawn).map(move |number| (seed, number)));
         let changes = pictures.map(|(seed, number)| {
             let stress = Stress::new(fault, parameter, seed);
+            let stress = stress.with_markers(self.markers).at(MIDDLE);
             let sample = format!("untouched {number}");
             difference(&stress.apply(self.untouched, &sample, None), self.untouched)
         });

@@ -2,9 +2,10 @@
 
 use taceva_core::random::{Draws, fnv_1a, mix};
 use taceva_core::{Frame, single};
+use taceva_models::MarkerTracker;
 
 use crate::canvas::{Canvas, Realisation};
-use crate::fault::{Effect, Fault, Scope};
+use crate::fault::{Effect, Fault, Markers, Scope};
 
 /// Seeds of the draws of `fault`: `count` seeds for a fault with drawn places, otherwise one seed. The first is `seed`.
 pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
@@ -33,19 +34,39 @@ pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
 /// # Ok::<(), taceva_core::FrameError>(())
 /// ```
 #[derive(Clone, Copy, Debug)]
-pub struct Stress {
+pub struct Stress<'m> {
     fault: &'static Fault,
     parameter: f64,
     seed: u64,
+    markers: Option<&'m MarkerTracker>,
 }
 
-impl Stress {
+impl<'m> Stress<'m> {
     /// The fault with this parameter. Without a positive parameter there is no fault.
-    pub fn new(fault: &'static Fault, parameter: f64, seed: u64) -> Stress {
+    pub fn new(fault: &'static Fault, parameter: f64, seed: u64) -> Stress<'m> {
         Stress {
             fault,
             parameter,
             seed,
+            markers: None,
+        }
+    }
+
+    /// The same with the markers of the untouched picture. Without them, a fault of markers changes no picture.
+    #[must_use]
+    pub fn with_markers(self, markers: Option<&'m MarkerTracker>) -> Stress<'m> {
+        Stress { markers, ..self }
+    }
+
+    /// The same at a share of the duration of the recording, from 0 to 1. Only a fault that grows with time depends on it.
+    #[must_use]
+    pub fn at(self, share: f64) -> Stress<'m> {
+        match self.fault.grows() {
+            true => Stress {
+                parameter: self.parameter * share,
+                ..self
+            },
+            false => self,
         }
     }
 
@@ -70,15 +91,20 @@ impl Stress {
             return frame.clone();
         }
         match self.fault.effect {
-            Effect::Numbers(change) => {
-                let drawn = Realisation {
-                    parameter: single(self.parameter),
-                    draws: self.draws(sample),
-                };
+            Effect::Numbers(change) | Effect::Growing(change) => {
                 let mut canvas = Canvas::of(frame);
-                change(&mut canvas, &drawn);
+                change(&mut canvas, &self.drawn(sample));
                 canvas.into_frame()
             }
+            Effect::Markers(change) => match self.markers_of(frame) {
+                Some(markers) => {
+                    let mut canvas = Canvas::of(frame);
+                    change(&mut canvas, &self.drawn(sample), &markers);
+                    canvas.into_frame()
+                }
+                None => frame.clone(),
+            },
+            Effect::Labels(_) => frame.clone(),
             Effect::Before => match before.filter(|_| self.is_repeated(sample)) {
                 Some(before) => before.clone(),
                 None => frame.clone(),
@@ -91,12 +117,40 @@ impl Stress {
         self.repeats() && self.draws(sample).unit(0) < self.parameter
     }
 
+    /// Strength and random numbers of the fault in the picture of `sample`.
+    fn drawn(&self, sample: &str) -> Realisation {
+        Realisation {
+            parameter: single(self.parameter),
+            draws: self.draws(sample),
+        }
+    }
+
+    /// Markers of the untouched picture at their places in `frame`; `None` if none is known.
+    fn markers_of(&self, frame: &Frame) -> Option<Markers> {
+        let tracker = self.markers?;
+        let tracked = tracker.track(frame).ok()?;
+        let places = tracker.markers().iter().zip(&tracked);
+        let places = places.map(|(marker, tracked)| {
+            let [x, y] = marker.place_px;
+            let [right, down] = tracked.displacement_px;
+            [x + right, y + down]
+        });
+        Some(Markers {
+            places_px: places.collect(),
+            spacing_px: tracker.spacing_px(),
+        })
+    }
+
     /// Random numbers of the fault in the picture of `sample`.
     fn draws(&self, sample: &str) -> Draws {
-        let of_fault = Draws::new(mix(mix(self.seed) ^ fnv_1a(self.fault.id.as_bytes())));
         match self.fault.scope {
-            Scope::Fixed | Scope::Drawn => of_fault,
-            Scope::Each => of_fault.of(fnv_1a(sample.as_bytes())),
+            Scope::Fixed | Scope::Drawn => self.of_fault(),
+            Scope::Each => self.of_fault().of(fnv_1a(sample.as_bytes())),
         }
+    }
+
+    /// Random numbers of the fault.
+    pub(crate) fn of_fault(&self) -> Draws {
+        Draws::new(mix(mix(self.seed) ^ fnv_1a(self.fault.id.as_bytes())))
     }
 }

@@ -2,28 +2,31 @@
 
 use taceva_check::{FrameFacts, RestChange, Tiles};
 use taceva_core::Frame;
-use taceva_dataset::{Dataset, Digest};
+use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Target, Work, subject_of};
-use taceva_models::Model;
+use taceva_models::{MarkerTracker, Model};
 use taceva_results::not_measured;
 
 use crate::estimate::{Estimate, Undefined};
 use crate::fault::{Fault, Scope};
-use crate::faults::{FAULTS, LIST, LIST_VERSION};
 use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
-use crate::foreign::PictureFault;
+use crate::list::list;
+use crate::looks::codes;
 use crate::notes::notes;
-use crate::pass::{Cell, CellPredictions, UNTOUCHED, compares, predictions};
+use crate::others::OtherFaults;
+use crate::pass::{Cell, UNTOUCHED, compares};
 use crate::report::{
-    ByChannel, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
+    Basis, ByChannel, CleanScore, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
     StressReport,
 };
+use crate::samples::shares;
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest};
 use crate::severity::{By, Levels, Reference};
+use crate::stages::{Pictures, ScoredCell, Tested};
 use crate::stress::{Stress, draw_seeds};
-use crate::worn::{NewGel, ScoredFault, WornFault};
+use crate::worn::{NewGel, ScoredFault};
 
 /// Errors of `model` on the pictures of `dataset` with faults. Nothing is fitted.
 ///
@@ -69,57 +72,50 @@ pub fn stress_unseen(
     measure(dataset, model, setup, request, others, work)
 }
 
-/// Faults that the crate does not make itself. Callers build it as a literal; it has no further fields.
-///
-/// ```
-/// let none = taceva_stress::OtherFaults::default();
-/// assert!(none.worn.is_empty() && none.foreign.is_empty());
-/// ```
-#[derive(Clone, Copy, Default)]
-pub struct OtherFaults<'a> {
-    /// Faults of gels.
-    pub worn: &'a [WornFault],
-    /// Faults of pictures that plugins make.
-    pub foreign: &'a [&'a dyn PictureFault],
-}
-
-impl OtherFaults<'_> {
-    fn is_some(&self) -> bool {
-        !self.worn.is_empty() || !self.foreign.is_empty()
-    }
-}
-
 fn measure(
     dataset: &Dataset,
     model: &Model,
-    setup: Setup,
+    mut setup: Setup,
     request: &StressRequest,
     others: OtherFaults<'_>,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
     let scale = Scale::of(dataset, &setup.samples.rows)?;
-    let levels = levels(&setup, &scale, request)?;
-    let cells = cells(&setup, &scale, &levels, model, request);
-    let found = predictions(dataset, model, &setup.samples.rows, &cells, work)?;
-    let scorer = Scorer::new(
+    let markers = setup.markers(scale.untouched.as_ref());
+    let levels = levels(&setup, &scale, markers.as_ref(), request)?;
+    let cells = cells(&setup, &scale, markers.as_ref(), &levels, model, request);
+    let shares = shares(dataset, &setup.samples.rows);
+    let shares = shares.unwrap_or_else(|| vec![1.0; dataset.table().rows()]);
+    let rows = &setup.samples.rows;
+    let scorer = Scorer::new(dataset, model, &setup.samples.target, rows, work.jobs)?;
+    let pictures = Pictures {
         dataset,
         model,
-        &setup.samples.target,
-        &setup.samples.rows,
-        work.jobs,
-    )?;
+        rows,
+        shares: &shares,
+        reference: scale.reference(),
+        scorer: &scorer,
+        work,
+    };
+    let found = match request.stops_at_no_skill {
+        true => pictures.until_no_skill(cells),
+        false => pictures.at_once(cells),
+    }?;
     let baseline = scorer.score(&found.clean)?;
-    let scored = found.cells.iter().map(|of| ScoredCell::of(&scorer, of));
-    let scored: Vec<ScoredCell> = scored.collect::<Result<_, EvaluateError>>()?;
     let clean = scorer.clean(&baseline);
     let results = Results {
         scale: &scale,
         clean: &clean,
-        cells: &cells,
-        predicted: &found.cells,
-        scored: &scored,
+        found: &found,
         baseline: &baseline,
-        rows: setup.samples.rows.len(),
+        dataset,
+        rows: &setup.samples.rows,
+        codes: codes(
+            dataset,
+            &setup.samples.rows,
+            found.looks.iter(),
+            scale.reference(),
+        ),
     };
     let new = NewGel {
         dataset,
@@ -130,7 +126,10 @@ fn measure(
         clean: &clean,
         scale: &scale,
     };
-    let other_scores = others.worn.iter().map(|fault| new.beside(fault, work));
+    let of_labels = setup.of_labels.iter();
+    let of_labels = of_labels.map(|&fault| new.by_labels(fault, &found.clean, request));
+    let worn = others.worn.iter().map(|fault| new.beside(fault, work));
+    let other_scores = of_labels.chain(worn);
     let mut other_scores: Vec<ScoredFault> = other_scores.collect::<Result<_, EvaluateError>>()?;
     let mut failed = Vec::new();
     for fault in others.foreign {
@@ -147,7 +146,8 @@ fn measure(
         .collect();
     let mean = results.mean(setup.faults.len(), &other_scores);
     let subject = subject_of(dataset);
-    let decoded = other_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded;
+    let again = (found.passes - 1) * setup.samples.rows.len() as u64;
+    let decoded = other_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded + again;
     let provenance = setup.samples.provenance(dataset, model, decoded)?;
     let mut skipped = setup.skipped;
     for of in other_scores {
@@ -159,7 +159,7 @@ fn measure(
         not_measured: not_measured([subject.source.as_str()]),
         subject,
         by: request.by,
-        list: list(&setup.faults, request, others),
+        list: list(&setup.faults, &setup.of_labels, request, others),
         seed: request.seed,
         draws: request.draws,
         samples: setup.samples.rows.len(),
@@ -175,6 +175,11 @@ fn measure(
         skipped,
         failed,
         provenance,
+        reference: None,
+        basis: Basis {
+            clean: baseline.errors.clone(),
+            rows: setup.samples.rows,
+        },
     })
 }
 
@@ -182,6 +187,7 @@ fn measure(
 fn levels(
     setup: &Setup,
     scale: &Scale,
+    markers: Option<&MarkerTracker>,
     request: &StressRequest,
 ) -> Result<Vec<Levels>, EvaluateError> {
     let faults = setup.faults.iter();
@@ -200,6 +206,7 @@ fn levels(
         scale,
         untouched,
         contact,
+        markers,
         seed: request.seed,
         draws: request.draws,
     };
@@ -208,22 +215,23 @@ fn levels(
 }
 
 /// Every fault at every severity.
-fn cells(
+fn cells<'m>(
     setup: &Setup,
     scale: &Scale,
+    markers: Option<&'m MarkerTracker>,
     levels: &[Levels],
     model: &Model,
     request: &StressRequest,
-) -> Vec<Cell> {
-    let reference = scale.untouched.as_ref();
-    let reference = reference.filter(|_| scale.is_reference && compares(model));
+) -> Vec<Cell<'m>> {
+    let reference = scale.reference().filter(|_| compares(model));
     let mut cells = Vec::new();
     for (position, &fault) in setup.faults.iter().enumerate() {
         let untouched = reference.filter(|_| fault.scope != Scope::Each);
         for level in &levels[position].reached {
             let seeds = draw_seeds(fault, request.seed, request.draws);
             let stresses = seeds.into_iter();
-            let stresses = stresses.map(|seed| Stress::new(fault, level.parameter, seed));
+            let stresses = stresses
+                .map(|seed| Stress::new(fault, level.parameter, seed).with_markers(markers));
             let stresses = stresses.collect();
             cells.push(Cell::new(position, *level, stresses, model, untouched));
         }
@@ -231,73 +239,29 @@ fn cells(
     cells
 }
 
-/// Name and digest of the faults with their severities.
-fn list(faults: &[&'static Fault], request: &StressRequest, others: OtherFaults<'_>) -> FaultList {
-    let known = faults.iter().map(|fault| fault.id);
-    let worn = others.worn.iter().map(|fault| fault.id.as_str());
-    let foreign = others.foreign.iter().map(|fault| fault.name());
-    let ids = known.chain(worn).chain(foreign);
-    let ids: Vec<&str> = ids.collect();
-    let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
-    let is_whole =
-        ids.len() == FAULTS.len() && faults.len() == FAULTS.len() && request.severities.len() == 5;
-    let mut text = format!(
-        "{LIST_VERSION}\n{:?}\n{}\n{}\n",
-        request.by,
-        severities.join(","),
-        ids.join(",")
-    );
-    if request.draws > 1 {
-        text.push_str(&format!("{} draws\n", request.draws));
-    }
-    for fault in others.foreign {
-        text.push_str(&format!("{} is {}\n", fault.name(), fault.key()));
-    }
-    FaultList {
-        name: match is_whole {
-            true => format!("{LIST}/{LIST_VERSION}"),
-            false => ids.join(","),
-        },
-        digest: Digest::of(text.as_bytes()).to_string(),
-    }
-}
-
-/// Scores of one cell.
-struct ScoredCell {
-    stale: Scored,
-    fresh: Option<Scored>,
-}
-
-impl ScoredCell {
-    fn of(scorer: &Scorer<'_>, of: &CellPredictions) -> Result<ScoredCell, EvaluateError> {
-        let fresh = (!of.fresh.is_empty()).then(|| scorer.score(&of.fresh));
-        Ok(ScoredCell {
-            stale: scorer.score(&of.stale)?,
-            fresh: fresh.transpose()?,
-        })
-    }
-}
-
 /// Scores of all cells.
 struct Results<'a> {
     scale: &'a Scale,
     clean: &'a ByChannel<CleanScore>,
-    cells: &'a [Cell],
-    predicted: &'a [CellPredictions],
-    scored: &'a [ScoredCell],
+    found: &'a Tested<'a>,
     baseline: &'a Scored,
-    rows: usize,
+    dataset: &'a Dataset,
+    /// Scored rows.
+    rows: &'a [usize],
+    /// Codes of the checks that find something without a fault.
+    codes: Vec<&'static str>,
 }
 
 impl Results<'_> {
     /// Positions of the cells of a fault.
     fn positions(&self, fault: usize) -> impl Iterator<Item = usize> {
-        let positions = 0..self.cells.len();
-        positions.filter(move |position| self.cells[*position].fault == fault)
+        let positions = 0..self.found.cells.len();
+        positions.filter(move |position| self.found.cells[*position].fault == fault)
     }
 
     fn of_fault(&self, fault: usize, of: &'static Fault, levels: &Levels) -> FaultReport {
-        let scored: Vec<&ScoredCell> = self.positions(fault).map(|at| &self.scored[at]).collect();
+        let scored = self.positions(fault).map(|at| &self.found.scored[at]);
+        let scored: Vec<&ScoredCell> = scored.collect();
         let severities: Vec<SeverityReport> =
             self.positions(fault).map(|at| self.of_cell(at)).collect();
         let stale = |name: &str| {
@@ -324,24 +288,27 @@ impl Results<'_> {
                 let breaks = names.map(|name| (name.clone(), breaks_at(&severities, name)));
                 breaks.collect()
             },
+            stopped_at: {
+                let last = severities.last().map(|of| of.severity);
+                last.filter(|_| severities.len() < levels.reached.len())
+            },
+            relative_error: None,
+            errors: scored.iter().map(|of| of.stale.errors.clone()).collect(),
             severities,
             unreached: levels.unreached.clone(),
         }
     }
 
     fn of_cell(&self, at: usize) -> SeverityReport {
-        let (cell, scored) = (&self.cells[at], &self.scored[at]);
-        let contact = self.scale.contact;
-        let stimulus = contact.map(|contact| self.predicted[at].change(self.rows) / contact);
+        let (cell, scored) = (&self.found.cells[at], &self.found.scored[at]);
+        let change = self.found.predicted[at].change(self.rows.len());
+        let stimulus = self.scale.contact.map(|contact| change / contact);
         SeverityReport {
             severity: cell.level.severity,
             parameter: cell.level.parameter,
             stimulus,
             low_stimulus: stimulus.is_some_and(|stimulus| stimulus < LOW),
-            check: match cell.draws.iter().all(|draw| self.is_noticed(&draw.stress)) {
-                true => vec![CHANGED_REST],
-                false => Vec::new(),
-            },
+            check: self.check(at),
             stale: scored.stale.beside(self.baseline, self.clean),
             fresh: scored
                 .fresh
@@ -350,10 +317,28 @@ impl Results<'_> {
         }
     }
 
+    /// Codes of the checks that find the fault in every draw, and nothing without it.
+    fn check(&self, at: usize) -> Vec<&'static str> {
+        let draws = &self.found.cells[at].draws;
+        let of_draw = |draw: usize| {
+            let looks = self.found.predicted[at].looks.iter();
+            let looks = looks.skip(draw).step_by(draws.len());
+            codes(self.dataset, self.rows, looks, self.scale.reference())
+        };
+        let mut found = of_draw(0);
+        found.retain(|code| !self.codes.contains(code));
+        for draw in 1..draws.len() {
+            let other = of_draw(draw);
+            found.retain(|code| other.contains(code));
+        }
+        let is_noticed = draws.iter().all(|draw| self.is_noticed(&draw.stress));
+        found.extend(is_noticed.then_some(CHANGED_REST));
+        found
+    }
+
     /// True if the check of untouched pictures finds the fault, which is in the pictures of contact too.
-    fn is_noticed(&self, stress: &Stress) -> bool {
-        let untouched = self.scale.untouched.as_ref();
-        let Some(reference) = untouched.filter(|_| self.scale.is_reference) else {
+    fn is_noticed(&self, stress: &Stress<'_>) -> bool {
+        let Some(reference) = self.scale.reference() else {
             return false;
         };
         let tiles = |frame: &Frame| FrameFacts::of(frame, None).tiles;
@@ -373,7 +358,8 @@ impl Results<'_> {
     fn mean(&self, faults: usize, others: &[ScoredFault]) -> ByChannel<Estimate> {
         let mean = |name: &String| {
             let of_fault = |fault| {
-                let cells = self.positions(fault).map(|at| &self.scored[at].stale);
+                let cells = self.positions(fault);
+                let cells = cells.map(|at| &self.found.scored[at].stale);
                 cells.collect::<Vec<&Scored>>()
             };
             let others = others.iter().map(|fault| fault.cells.iter().collect());

@@ -158,7 +158,8 @@ impl Measured {
             true => Scale::of(dataset, &samples.rows)?,
             false => Scale::untouched(dataset, &samples.rows)?,
         };
-        let found = predictions(dataset, model, &samples.rows, &[], work)?;
+        let shares = vec![1.0; dataset.table().rows()];
+        let found = predictions(dataset, model, &samples.rows, &shares, &[], None, work)?;
         let scorer = Scorer::new(dataset, model, &samples.target, &samples.rows, work.jobs)?;
         let scored = scorer.score(&found.clean)?;
         Ok(Measured {

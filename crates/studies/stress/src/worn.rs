@@ -158,6 +158,9 @@ impl NewGel<'_> {
             recovers: by_channel(&recovered),
             breaks_at: breaks.collect(),
             unreached: Vec::new(),
+            stopped_at: None,
+            relative_error: None,
+            errors: cells.iter().map(|cell| cell.errors.clone()).collect(),
             severities,
         }
     }

@@ -165,6 +165,7 @@ impl Wanted {
                 seed: planned.scene.seed,
                 by: usual.by,
                 part: None,
+                stops_at_no_skill: usual.stops_at_no_skill,
             },
             gels,
         })

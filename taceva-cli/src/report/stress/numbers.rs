@@ -3,6 +3,9 @@
 use taceva_report::{Cell, Table};
 use taceva_stress::{CellScore, Estimate, SeverityReport, StressReport, Unnoticed, Unreached};
 
+/// Remark on a fault whose higher severities are not tested.
+const NO_SKILL: &str = "no skill is left, so means over severities are lower bounds";
+
 /// Table for programs: one row for each number, in shortest round-trip form.
 pub(crate) fn numbers(report: &StressReport) -> Table {
     let columns = [
@@ -42,6 +45,12 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
         }
         for (channel, share) in &fault.recovers {
             rows.push(&whole, channel, "recovers", share, "1");
+        }
+        if let Some(last) = fault.stopped_at {
+            rows.push_words(&whole, "", "stopped_at", Some(f64::from(last)), NO_SKILL);
+        }
+        for (channel, ratio) in fault.relative_error.iter().flatten() {
+            rows.push(&whole, channel, "relative_error", ratio, "1");
         }
         for (channel, severity) in &fault.breaks_at {
             let severity = Estimate::of_known(severity.map(f64::from));
@@ -127,7 +136,7 @@ impl<'a> Rows<'a> {
         }
     }
 
-    /// Findings of the check of untouched pictures, and the errors that it does not notice.
+    /// Findings of the checks of pictures, and the errors that they do not notice.
     fn push_check(&mut self, fault: &str, of: &SeverityReport) {
         let place = Place {
             fault,
@@ -135,14 +144,14 @@ impl<'a> Rows<'a> {
             untouched: "",
         };
         let report = self.report;
-        let Some(unnoticed) = &report.unnoticed else {
+        if report.unnoticed.is_none() && of.check.is_empty() {
             let reason = "no untouched picture";
             return self.push_words(&place, "", "check", None, reason);
-        };
+        }
         let found = f64::from(u8::from(!of.check.is_empty()));
         self.push_words(&place, "", "check", Some(found), &of.check.join(" "));
         let is_own = |hidden: &&Unnoticed| hidden.fault == fault && hidden.severity == of.severity;
-        for hidden in unnoticed.iter().filter(is_own) {
+        for hidden in report.unnoticed.iter().flatten().filter(is_own) {
             self.push_words(&place, &hidden.channel, "unnoticed", Some(1.0), "");
         }
     }

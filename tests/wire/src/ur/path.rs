@@ -75,8 +75,8 @@ mod tests {
             "\tsignal_async_progress(0)\n\tmovel(p[0.3,0.002,0.268,3.14,0,0],a=0.5,v=0.05,r=0)\n\tsignal_async_progress(1)\n\tmovep(p[0.3,0,0.27,3.14,0,0],a=0.5,v=0.1,r=0.001)\n",
         );
         let expected = [
-            ([0.3, 0.002, 0.268, 3.14, 0.0, 0.0], 0.05),
-            ([0.3, 0.0, 0.27, 3.14, 0.0, 0.0], 0.1),
+            ([0.3, 0.002, 0.268, 3.1, 0.0, 0.0], 0.05),
+            ([0.3, 0.0, 0.27, 3.1, 0.0, 0.0], 0.1),
         ]
         .map(|(pose, speed_m_s)| Waypoint { pose, speed_m_s });
         assert_eq!(of(&text), expected);

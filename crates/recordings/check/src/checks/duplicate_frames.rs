@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use crate::evidence::Evidence;
 use crate::finding::{Check, Found, Severity};
 
-pub(super) static CHECK: Check = Check {
+pub(crate) static CHECK: Check = Check {
     code: "TAC002",
     name: "duplicate-frames",
     looks_for: "frames that are byte-identical files",

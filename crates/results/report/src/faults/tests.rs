@@ -97,3 +97,14 @@ fn another_schema_is_refused_and_not_taken_for_faults() {
         "schema: expected `taceva.stress/1`, found `taceva.stress/2`"
     );
 }
+
+#[test]
+fn a_minor_version_of_the_schema_is_read() {
+    let mut newer = written("gel", "tear", 4.0);
+    newer["schema"] = json!("taceva.stress/1.1");
+    let text = newer.to_string();
+    assert!(FaultResult::is_in(&text));
+    FaultResult::read(&text).expect("the same numbers");
+    newer["schema"] = json!("taceva.stress/10");
+    assert!(!FaultResult::is_in(&newer.to_string()));
+}

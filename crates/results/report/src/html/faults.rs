@@ -59,9 +59,11 @@ fn unnoticed(result: &FaultResult) -> Option<String> {
     let hidden = hidden.map(|of| format!("{} {} {}", of.fault, of.severity, of.channel));
     let hidden: Vec<String> = hidden.collect();
     Some(match hidden.is_empty() {
-        true => "Every fault that at least doubles an error is found by the check of untouched pictures (TAC034).".to_owned(),
+        true => {
+            "Every fault that at least doubles an error is found by a check of pictures.".to_owned()
+        }
         false => format!(
-            "At least doubled, and not found by the check of untouched pictures (TAC034), by fault, severity and channel: {}.",
+            "At least doubled, and not found by a check of pictures, by fault, severity and channel: {}.",
             listed(&hidden)
         ),
     })

@@ -14,7 +14,7 @@ pub(super) static FAULT: Fault = Fault {
     effect: Effect::Numbers(apply),
 };
 
-fn apply(canvas: &mut Canvas, drawn: &Realisation) {
+pub(super) fn apply(canvas: &mut Canvas, drawn: &Realisation) {
     let kept = 1.0 - drawn.parameter;
     canvas.values.iter_mut().for_each(|value| *value *= kept);
 }

@@ -6,10 +6,14 @@ mod bench_monitor;
 mod drawing;
 mod foreign;
 mod golden;
+mod looks;
 #[cfg(target_os = "linux")]
 mod memory;
 mod monitor;
 mod pictures;
+mod recording_faults;
+mod relative;
 mod scores;
 mod severities;
+mod stages;
 mod wear;

@@ -1,7 +1,5 @@
 //! Columns of classes and of their scores, as states of a task.
 
-use std::collections::BTreeMap;
-
 use taceva_core::shown;
 use taceva_dataset::TaskKind;
 use taceva_tasks::events::EventRule;

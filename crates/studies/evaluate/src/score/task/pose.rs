@@ -1,6 +1,6 @@
 //! Columns of poses and places, as states of a task.
 
-use taceva_core::{SourceUnit, shown};
+use taceva_core::SourceUnit;
 use taceva_dataset::TaskKind;
 use taceva_import::CsvTable;
 use taceva_tasks::pose::{EulerErrors, Pose, PoseError, PoseState, Rotation};

@@ -1,0 +1,49 @@
+//! Name and digest of a list of faults.
+
+use taceva_dataset::Digest;
+
+use crate::fault::Fault;
+use crate::faults::{FAULTS, LIST, LIST_VERSION, RECORDING_FAULTS, RECORDING_LIST};
+use crate::others::OtherFaults;
+use crate::report::FaultList;
+use crate::setup::StressRequest;
+
+/// Name and digest of the faults with their severities.
+pub(crate) fn list(
+    faults: &[&'static Fault],
+    of_labels: &[&'static Fault],
+    request: &StressRequest,
+    others: OtherFaults<'_>,
+) -> FaultList {
+    let known = faults.iter().chain(of_labels).map(|fault| fault.id);
+    let own: Vec<&str> = known.clone().collect();
+    let worn = others.worn.iter().map(|fault| fault.id.as_str());
+    let foreign = others.foreign.iter().map(|fault| fault.name());
+    let ids = known.chain(worn).chain(foreign);
+    let ids: Vec<&str> = ids.collect();
+    let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
+    let is_alone = ids.len() == own.len() && request.severities.len() == 5;
+    let lists = [(LIST, &FAULTS[..]), (RECORDING_LIST, &RECORDING_FAULTS[..])];
+    let mut whole = lists
+        .into_iter()
+        .filter(|(_, all)| is_alone && own.iter().copied().eq(all.iter().map(|fault| fault.id)));
+    let mut text = format!(
+        "{LIST_VERSION}\n{:?}\n{}\n{}\n",
+        request.by,
+        severities.join(","),
+        ids.join(",")
+    );
+    if request.draws > 1 {
+        text.push_str(&format!("{} draws\n", request.draws));
+    }
+    for fault in others.foreign {
+        text.push_str(&format!("{} is {}\n", fault.name(), fault.key()));
+    }
+    FaultList {
+        name: match whole.next() {
+            Some((name, _)) => format!("{name}/{LIST_VERSION}"),
+            None => ids.join(","),
+        },
+        digest: Digest::of(text.as_bytes()).to_string(),
+    }
+}

@@ -1,0 +1,153 @@
+//! Options of a test with faults: a reference model, other lists.
+
+use std::fs;
+
+use super::bench;
+
+#[test]
+fn a_reference_model_adds_relative_errors_to_text_csv_and_json() {
+    let bench = bench();
+    bench.ok("fit seen --model ridge --set size=4x4 --out r.taceva -q");
+    let words =
+        "stress unseen --model m.taceva --reference r.taceva --faults exposure_low --by parameter";
+    let report = bench.json(words);
+    crate::schema::check("stress", &report);
+    assert_eq!(report["reference"]["name"], "ridge");
+    assert!(
+        report["faults"][0]["relative_error"]["Fz"].is_object(),
+        "{report}"
+    );
+    let said = bench.ok(&format!("{words} -q"));
+    assert!(
+        said.contains("added error relative to the reference model: "),
+        "{said}"
+    );
+    let csv = bench.ok(&format!("{words} --format csv -q"));
+    assert!(csv.contains(",relative_error,"), "{csv}");
+    let plan = bench.ok(&format!("{words} --explain"));
+    assert!(plan.contains("the same with the model r.taceva"), "{plan}");
+    let alone = bench.json("stress unseen --model m.taceva --faults dust --by parameter");
+    assert!(alone.get("reference").is_none());
+    bench.refused(
+        "stress unseen --model m.taceva --reference ridge",
+        2,
+        "--reference ridge: no such file",
+    );
+}
+
+#[test]
+fn severities_above_the_end_of_skill_are_left_out_and_means_are_lower_bounds() {
+    let bench = bench();
+    bench.ok("fit seen --model baseline --out constant.taceva -q");
+    let words = "stress unseen --model constant.taceva --stop-at-no-skill --faults dust,tear --by parameter";
+    let report = bench.json(words);
+    crate::schema::check("stress", &report);
+    for fault in report["faults"].as_array().expect("faults") {
+        assert_eq!(fault["stopped_at"], 1, "{fault}");
+        assert_eq!(fault["severities"].as_array().map(Vec::len), Some(1));
+    }
+    let said = bench.ok(&format!("{words} -q"));
+    assert!(said.contains("no skill is left at severity 1"), "{said}");
+    assert!(
+        said.contains("Mean degradation over all faults: ≥ "),
+        "{said}"
+    );
+    let csv = bench.ok(&format!("{words} --format csv -q"));
+    assert!(csv.contains(",stopped_at,1"), "{csv}");
+    let plan = bench.ok(&format!("{words} --explain"));
+    assert!(
+        plan.contains("each once for each severity until no skill is left"),
+        "{plan}"
+    );
+}
+
+#[test]
+fn one_picture_of_each_cell_is_kept_with_its_digest_beside_equal_results() {
+    let bench = bench();
+    let words = "stress unseen --model m.taceva --faults exposure_low,stale_frames --severity 1,5 --by parameter -q --format json";
+    let alone = bench.ok(words);
+    let kept = bench.ok(&format!("{words} --keep-frames kept"));
+    assert_eq!(alone, kept);
+    let read = |name: &str| fs::read(bench.path(&format!("kept/{name}"))).expect(name);
+    let table = String::from_utf8(read("digests.csv")).expect("UTF-8");
+    let names: Vec<&str> = table
+        .lines()
+        .skip(1)
+        .filter_map(|line| line.split(',').next())
+        .collect();
+    let expected = [
+        "clean.png",
+        "exposure_low-1.png",
+        "exposure_low-5.png",
+        "stale_frames-1.png",
+        "stale_frames-5.png",
+    ];
+    assert_eq!(names, expected);
+    assert!(read("clean.png").starts_with(b"\x89PNG"));
+    assert_ne!(read("clean.png"), read("exposure_low-5.png"));
+    bench.ok(&format!("{words} --keep-frames again"));
+    let again = fs::read(bench.path("again/digests.csv")).expect("written");
+    assert_eq!(again, table.as_bytes());
+    bench.refused(
+        &format!("{words} --keep-frames kept"),
+        2,
+        "--keep-frames kept: it exists already",
+    );
+}
+
+#[test]
+fn pictures_that_cannot_be_written_leave_the_results_and_nothing_half_written() {
+    let bench = bench();
+    bench.write("blocked", "a file, where a folder is needed");
+    let words =
+        "stress unseen --model m.taceva --faults dust --severity 1 --by parameter -q --format json";
+    let ran = bench.run(&format!(
+        "{words} --out s.json --keep-frames blocked/frames"
+    ));
+    assert_ne!(ran.code, 0);
+    assert!(
+        ran.err.contains("the results are complete without it"),
+        "{}",
+        ran.err
+    );
+    let text = fs::read_to_string(bench.path("s.json")).expect("complete");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    crate::schema::check("stress", &report);
+    let left: Vec<String> = fs::read_dir(bench.path("."))
+        .expect("the folder")
+        .map(|entry| {
+            entry
+                .expect("an entry")
+                .file_name()
+                .to_string_lossy()
+                .into_owned()
+        })
+        .filter(|name| name.starts_with(".taceva-staged"))
+        .collect();
+    assert!(left.is_empty(), "{left:?}");
+}
+
+#[test]
+fn recording_faults_have_their_own_list_and_name_what_they_lack() {
+    let bench = bench();
+    let report = bench.json("stress unseen --model m.taceva --faults recording-5 --by parameter");
+    crate::schema::check("stress", &report);
+    let ids: Vec<&str> = report["faults"]
+        .as_array()
+        .expect("faults")
+        .iter()
+        .filter_map(|fault| fault["id"].as_str())
+        .collect();
+    assert!(
+        ids.contains(&"jpeg") && ids.contains(&"force_noise"),
+        "{report}"
+    );
+    let skipped = report["skipped"].as_array().expect("skipped");
+    assert_eq!(ids.len() + skipped.len(), 5, "{report}");
+    let noise = report["faults"]
+        .as_array()
+        .expect("faults")
+        .last()
+        .expect("one");
+    assert!(noise["severities"][0]["stimulus"].is_null(), "{noise}");
+}
