@@ -72,7 +72,7 @@ mod tests {
     #[test]
     fn the_motions_of_a_path_are_read_in_their_order() {
         let text = script(
-            "\tsignal_async_progress(0)\n\tmovel(p[0.3,0.002,0.268,3.14,0,0],a=0.5,v=0.05,r=0)\n\tsignal_async_progress(1)\n\tmovep(p[0.3,0,0.27,3.14,0,0],a=0.5,v=0.1,r=0.001)\n",
+            "\tsignal_async_progress(0)\n\tmovel(p[0.3,0.002,0.268,3.1,0,0],a=0.5,v=0.05,r=0)\n\tsignal_async_progress(1)\n\tmovep(p[0.3,0,0.27,3.1,0,0],a=0.5,v=0.1,r=0.001)\n",
         );
         let expected = [
             ([0.3, 0.002, 0.268, 3.1, 0.0, 0.0], 0.05),
