@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 use taceva_core::Unit;
 use taceva_metrics::ClusterSums;
-use taceva_results::{EvaluationReport, Score, by_metric};
+use taceva_results::{EvaluationReport, Score, Value, by_metric};
 
 use crate::file::ALL_METRICS;
 use crate::key::TaskKey;
