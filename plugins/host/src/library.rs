@@ -29,7 +29,7 @@ use taceva_abi as abi;
 use taceva_core::{DriverError, DriverKey, ErrorKind};
 
 pub use self::entry::Entry;
-pub(crate) use self::entry::Place;
+pub(crate) use self::entry::{NEW_FORCE_MINOR, Place};
 pub use self::error::{LoadError, LoadProblem};
 pub use self::host::{Level, Log};
 pub use self::image::Image;
@@ -168,6 +168,11 @@ impl Library {
             .ok_or(LoadProblem::Lacks { what: "factory" })?;
         // SAFETY: [any], after `init`, with a text that outlives the call.
         Ok(unsafe { factory(abi::Text::from(id)) })
+    }
+
+    /// Minor version of the interface that the library was built for.
+    pub(crate) fn minor(&self) -> u32 {
+        self.plugin.abi_minor
     }
 
     fn device_factory(&self, id: &str) -> Result<Option<abi::Factory>, LoadProblem> {

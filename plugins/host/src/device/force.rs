@@ -16,6 +16,7 @@ use taceva_core::{
 use super::handle::{Handle, Opened, Owned, PluginDevice};
 use super::sensor::stamp;
 use crate::call::timeout;
+use crate::library::NEW_FORCE_MINOR;
 
 /// Force transducer of a plugin in this process.
 pub(crate) struct PluginForce {
@@ -24,6 +25,8 @@ pub(crate) struct PluginForce {
     calls: abi::ForceCalls,
     read: Read,
     axes: Axes,
+    /// Unit of the torques of the library, N·mm.
+    torque_unit: f64,
     tare: Option<TareAbility>,
     numbers: Option<Sequence>,
     /// Sequence number of the last reading.
@@ -78,6 +81,10 @@ impl PluginDevice for PluginForce {
             None
         };
         let timing = handle.timing(facts.rate);
+        let torque_unit = match handle.minor() < NEW_FORCE_MINOR {
+            true => 1000.0,
+            false => 1.0,
+        };
         Ok(PluginForce {
             numbers,
             sequence: None,
@@ -87,6 +94,7 @@ impl PluginDevice for PluginForce {
             read,
             timing,
             axes: facts.axes,
+            torque_unit,
             tare,
         })
     }
@@ -127,7 +135,9 @@ impl ForceTransducer for PluginForce {
         })?;
         let wrench = Wrench {
             force: wrench.force_n.map(Newton),
-            torque: wrench.torque_n_mm.map(NewtonMillimetre),
+            torque: wrench
+                .torque_n_mm
+                .map(|torque| NewtonMillimetre(torque * self.torque_unit)),
         };
         let wrench = wrench.on_grid();
         check_wrench(&wrench).map_err(|error| {

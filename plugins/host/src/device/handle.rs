@@ -131,6 +131,11 @@ unsafe impl Table for DeviceTable {
 }
 
 impl Handle {
+    /// Minor version of the interface that the library was built for.
+    pub(crate) fn minor(&self) -> u32 {
+        self._rig.minor()
+    }
+
     pub(crate) fn driver(&self) -> &DriverKey {
         &self.driver
     }

@@ -26,6 +26,11 @@ unsafe impl Send for RigHandle {}
 unsafe impl Sync for RigHandle {}
 
 impl RigHandle {
+    /// Minor version of the interface that the library was built for.
+    pub(crate) fn minor(&self) -> u32 {
+        self.library.minor()
+    }
+
     /// Opens a rig of `library`.
     ///
     /// # Errors

@@ -103,10 +103,14 @@ impl Entry {
     }
 }
 
-const FACTORIES: [(DriverKind, &str); 5] = [
+/// Id of the factory of force transducers in libraries for minor versions below [`NEW_FORCE_MINOR`]. Their torques are in N·m.
+const EARLIER_FORCE_FACTORY: &str = "taceva.force/1";
+
+const FACTORIES: [(DriverKind, &str); 6] = [
     (DriverKind::Sensor, abi::SENSOR_FACTORY),
     (DriverKind::Robot, abi::ROBOT_FACTORY),
     (DriverKind::Force, abi::FORCE_FACTORY),
+    (DriverKind::Force, EARLIER_FORCE_FACTORY),
     (DriverKind::Lighting, abi::LIGHTING_FACTORY),
     (DriverKind::Changer, abi::CHANGER_FACTORY),
 ];
@@ -121,6 +125,9 @@ pub(super) fn entries(
 ) -> Result<BTreeMap<DriverKey, Entry>, LoadProblem> {
     let mut said = BTreeMap::new();
     for (kind, id) in FACTORIES {
+        if id == EARLIER_FORCE_FACTORY && library.minor() >= NEW_FORCE_MINOR {
+            continue;
+        }
         let Some(factory) = library.device_factory(id)? else {
             continue;
         };
@@ -170,7 +177,7 @@ pub(super) fn entries(
         }
     }
     if let Some(manifest) = manifest {
-        agree(&said, manifest, library.plugin.abi_minor)?;
+        agree(&said, manifest)?;
     }
     Ok(said)
 }
@@ -228,12 +235,8 @@ fn insert(said: &mut BTreeMap<DriverKey, Entry>, entry: Entry) -> Result<(), Loa
     Ok(())
 }
 
-/// Fails if the entries of a library, built for the minor version `minor`, differ from its manifest.
-fn agree(
-    said: &BTreeMap<DriverKey, Entry>,
-    manifest: &Manifest,
-    minor: u32,
-) -> Result<(), LoadProblem> {
+/// Fails if the entries of a library differ from its manifest.
+fn agree(said: &BTreeMap<DriverKey, Entry>, manifest: &Manifest) -> Result<(), LoadProblem> {
     let module = manifest.module().map(|module| module.name.clone());
     let differs = |what: String, manifest: &str, library: &str| LoadProblem::Differs {
         what,
@@ -244,7 +247,7 @@ fn agree(
     for promised in &manifest.provides {
         let key = promised.key();
         let Some(entry) = said.get(key) else {
-            return Err(differs(format!("`{key}`"), "present", &absent(minor)));
+            return Err(differs(format!("`{key}`"), "present", "absent"));
         };
         match (promised, &entry.provided) {
             (
@@ -278,16 +281,5 @@ fn agree(
     }
 }
 
-/// Minor version with a new id for force transducers.
-const NEW_FORCE_MINOR: u32 = 3;
-
-/// Text for a missing entry, with the remedy if an old interface version may be the cause.
-fn absent(minor: u32) -> String {
-    if minor >= NEW_FORCE_MINOR {
-        return "absent".to_owned();
-    }
-    let [major, known] = [abi::ABI_MAJOR, abi::ABI_MINOR];
-    format!(
-        "absent: it was built for version {major}.{minor} of the interface, build it again for {major}.{known}"
-    )
-}
+/// First minor version whose force transducers have their own id and torques in N·mm.
+pub(crate) const NEW_FORCE_MINOR: u32 = 3;

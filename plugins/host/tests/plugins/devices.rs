@@ -230,6 +230,25 @@ fn a_torque_in_c_is_the_same_number_here() {
 }
 
 #[test]
+fn a_library_for_an_earlier_minor_version_loads_and_its_torques_are_newton_metres() {
+    let earlier = [
+        "MINOR=2",
+        "FORCE_ID=\"taceva.force/1\"",
+        "FORCE_SIZE=offsetof(taceva_force_calls, lost)",
+        r#"AXES="[\"Fz\", \"Tx\"]""#,
+    ];
+    let Some(fixture) = Fixture::built(&earlier) else {
+        return;
+    };
+    let fixture = fixture.with_manifest("axes = [\"Fz\"]", "axes = [\"Fz\", \"Tx\"]");
+    let session = fixture.session();
+    let mut wrist = session.force(&WRIST, &Args::default()).expect("opens");
+    wrist.start(SECOND).expect("starts");
+    let (wrench, _) = wrist.read(SECOND).expect("reads");
+    assert_eq!(wrench.torque[0], NewtonMillimetre(42_000.0));
+}
+
+#[test]
 fn readings_have_the_numbers_that_the_device_gave_them_and_none_where_it_gives_none() {
     let Some(fixture) = Fixture::built(&[]) else {
         return;

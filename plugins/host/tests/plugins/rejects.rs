@@ -46,7 +46,6 @@ refused!(an_id_that_is_not_utf_8: ["ID=\"\\xff\\xfe\""], LoadProblem::Text { wha
 refused!(an_id_at_an_address_that_is_none: ["BAD_ID"], LoadProblem::Address { what: "`id`" }, "the address of `id` is unreadable");
 refused!(a_descriptor_that_lies: ["RATE_HZ=\"60\""], LoadProblem::Differs { .. }, "rate_hz: the manifest says");
 refused!(a_driver_that_is_not_there: ["NO_SENSORS"], LoadProblem::Differs { .. }, "eye`: the manifest says present");
-refused!(torques_in_the_unit_of_an_older_interface: ["MINOR=2", "FORCE_ID=\"taceva.force/1\""], LoadProblem::Differs { .. }, "wrist`: the manifest says present, the library absent: it was built for version 1.2 of the interface, build it again for 1.4");
 refused!(two_drivers_of_one_key: ["DRIVERS=2"], LoadProblem::Table(_), "two of its drivers have the key");
 refused!(more_drivers_than_anybody_has: ["DRIVERS=4000000000u"], LoadProblem::Table(_), "a factory of 4000000000 drivers");
 refused!(a_description_that_is_not_utf_8: ["SAYS_NO_TEXT"], LoadProblem::Describe(_), "not UTF-8");
