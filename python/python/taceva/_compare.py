@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from taceva import _taceva
+from taceva._counted import counted
 from taceva._figure import Figure, figures_of
 from taceva._result import Result
 
@@ -82,5 +83,5 @@ def compare(
     'taceva.comparison/2.1'
     """
     if len(results) < 2:
-        raise ValueError(f"{len(results)} results: expected at least two")
+        raise ValueError(f"{counted(len(results), 'result')}, expected at least two")
     return Comparison(results, metrics, margins or {}, seed)

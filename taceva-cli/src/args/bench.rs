@@ -68,10 +68,10 @@ pub(crate) struct BenchModels {
     pub(crate) output: Output,
 }
 
-/// Runs a study of the simulated bench for each combination of points, folds and models, without a cache. The table has processor seconds of this
-/// process, without those of plugins in processes of their own. Mean absolute errors have 95 % intervals by contact point, and a width is
-/// ln(upper end / lower end). A row is on the front if no other row has both less time and a lower mean width. Coverage is not printed, because it
-/// needs repetitions of each study over many seeds.
+/// Runs a study of the simulated bench for each combination of points, folds and models, without a cache. The table has the processor seconds of
+/// this process, without those of plugin processes. Mean absolute errors have 95 % intervals by contact point. The width of an interval is
+/// ln(upper end / lower end). A row is on the Pareto front if no other row has both less time and a lower mean width. The coverage of the
+/// intervals is not printed, because it needs repetitions of each study over many seeds.
 #[derive(Debug, Args)]
 pub(crate) struct BenchStudy {
     /// A file, or the name of a built-in scene: quick, paper. All its devices must be simulated

@@ -104,7 +104,7 @@ pub(crate) struct CatalogueExport {
     /// The folder of the catalogue
     #[arg(value_name = "DIR")]
     pub(crate) catalogue: PathBuf,
-    /// Write eval.yaml and .eval_results/SENSOR.yaml, for the hub of Hugging Face, into this folder
+    /// Write eval.yaml and .eval_results/SENSOR.yaml, for the Hugging Face Hub, into this folder
     #[arg(long = "hf", value_name = "FOLDER")]
     pub(crate) hub: Option<PathBuf>,
     /// Write croissant.json into the folder of the catalogue, with the digest of each of its files

@@ -59,10 +59,10 @@ pub(crate) struct ViewArgs {
 pub(crate) struct SplitArgs {
     /// The division of samples: random, chronological, by-point, by-block, declared or by-column:NAME[=train:1,2;val:3;test:4]. Write shares of
     /// training, validation and test behind a space: 'chronological 80/0/20' tests the last fifth of the samples in order of time. all trains on
-    /// every sample, for a final model. cv:K and loo predict each sample once; random, by-point, by-block or by-column:NAME may follow. For
-    /// several recordings also by-recording[=train:A,B;test:C] and leave-one-recording-out, which fits a model without each recording in turn
-    /// [default: by-point where points have repeats, by groups or blocks of time where neighbours resemble each other, else random; `evaluate`
-    /// of 5 to 999 groups: cv:5 of these]
+    /// every sample, for a final model. cv:K and loo predict each sample once. Groups for them follow a space: 'cv:5 by-point', or random, by-block
+    /// or by-column:NAME. Several recordings also accept by-recording[=train:A,B;test:C]. leave-one-recording-out fits a model without each
+    /// recording in turn [default: by-point if points repeat, else by groups or blocks of time if neighbours resemble each other, else random.
+    /// With 5 to 999 groups `evaluate` uses cv:5 by these groups]
     #[arg(long, value_name = "SPLIT")]
     pub(crate) split: Option<String>,
     #[command(flatten)]

@@ -44,7 +44,7 @@ pub(crate) struct Stress {
     /// Random draws of the places of dead pixels, scratches, tears and dust; every draw is predicted, so that no single draw decides
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     pub(crate) draws: u32,
-    /// The part of the recording [default: test, or all if the model was fitted on another recording]
+    /// The samples on which the model is scored [default: test, or all if the model was fitted on another recording]
     #[arg(long, value_enum)]
     pub(crate) part: Option<StressPart>,
     /// Leaves out the severities of a fault above the first at which no skill is left; each severity decodes the pictures once

@@ -51,7 +51,7 @@ pub(crate) struct Run {
     #[arg(long)]
     pub(crate) force: bool,
     /// Show the run on a page of this machine, whose address is printed: frames, force against its limits, presses, questions and a stop
-    /// button. It is not a safety function
+    /// button. The page is not a safety function
     #[arg(long)]
     pub(crate) page: bool,
     /// The port of that page on 127.0.0.1, 0 for any free port

@@ -235,7 +235,7 @@ fn one_operator_and_options_that_contradict_each_other_are_refused() {
     let is_of_one = |row: &&str| !row.contains(",B,") && !row.contains(",C,");
     let of_one: Vec<&str> = complete.lines().filter(is_of_one).collect();
     bench.write("study.csv", &of_one.join("\n"));
-    bench.refused(AIAG, 3, "1 operators, expected at least 2");
+    bench.refused(AIAG, 3, "1 operator, expected at least 2");
 }
 
 #[test]

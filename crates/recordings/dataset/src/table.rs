@@ -90,8 +90,8 @@ impl Table {
     /// Adds a row.
     ///
     /// # Panics
-    /// Panics if the row does not have one value for each channel, one text for each attribute, one picture for each view and one label
-    /// of the right kind for each task.
+    /// Panics if the row lacks a value for a channel, a text for an attribute or a picture for a view, or has too many. Panics also if it does
+    /// not have one label of the right kind for each task.
     pub fn push(&mut self, row: Row) {
         assert_eq!(row.truth.len(), self.truth.len(), "one value per channel");
         assert_eq!(

@@ -1,4 +1,4 @@
-//! Claims as evaluation results for the hub of Hugging Face.
+//! Claims as evaluation results for the Hugging Face Hub.
 
 use serde_json::{Value, json};
 

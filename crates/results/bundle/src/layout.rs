@@ -14,7 +14,7 @@ pub(crate) const CARD: &str = "README.md";
 pub(crate) const CITATION: &str = "CITATION.cff";
 /// The licence.
 pub(crate) const LICENCE: &str = "LICENSE";
-/// The claims for the hub of Hugging Face.
+/// The claims for the Hugging Face Hub.
 pub(crate) const EVAL_RESULTS: &str = ".eval_results/taceva.yaml";
 /// File with the description as a Croissant.
 pub(crate) const CROISSANT: &str = "croissant.json";

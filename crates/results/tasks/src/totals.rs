@@ -1,4 +1,4 @@
-//! Exact totals of clusters, and scores from the totals without one cluster.
+//! Exact totals of clusters, and the jackknife: scores with one cluster left out.
 
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};

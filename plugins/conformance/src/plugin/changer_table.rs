@@ -72,5 +72,9 @@ fn nobody_takes(subject: &Subject) -> Result<(), Unmet> {
     let changer: Bare = subject.open()?;
     let answer = bare_bring(&changer, abi::Text::from(&holds[0]), None);
     let kinds = [ErrorKind::InvalidArgument];
-    refused("bringing without a callback for the name", answer, &kinds)
+    refused(
+        "calling `bring` without a callback for the name",
+        answer,
+        &kinds,
+    )
 }

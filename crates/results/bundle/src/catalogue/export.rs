@@ -1,4 +1,4 @@
-//! Forms of a catalogue for other programs: its numbers for the hub of Hugging Face, and its folder as a Croissant and as an RO-Crate.
+//! Forms of a catalogue for other programs: its numbers for the Hugging Face Hub, and its folder as a Croissant and as an RO-Crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
@@ -26,7 +26,7 @@ const NAME: &str = "Catalogue of tactile sensors";
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum CatalogueForm {
-    /// `eval.yaml`, and `.eval_results/SENSOR.yaml` with the numbers of each sensor, for the hub of Hugging Face.
+    /// `eval.yaml`, and `.eval_results/SENSOR.yaml` with the numbers of each sensor, for the Hugging Face Hub.
     Hub,
     /// `croissant.json`: the folder as a Croissant 1.0.
     Croissant,

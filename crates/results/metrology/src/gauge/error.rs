@@ -77,14 +77,18 @@ pub enum GaugeError {
     },
     /// Fewer than two operators.
     #[error(
-        "{have} operators, expected at least 2: reproducibility is a difference between operators"
+        "{}, expected at least 2: reproducibility is a difference between operators",
+        taceva_core::counted(*have, "operator")
     )]
     TooFewOperators {
         /// Number of operators.
         have: usize,
     },
     /// Fewer than two parts.
-    #[error("{have} complete parts, expected at least 2: parts span the range of the study")]
+    #[error(
+        "{}, expected at least 2: parts span the range of the study",
+        taceva_core::counted(*have, "complete part")
+    )]
     TooFewParts {
         /// Number of parts.
         have: usize,

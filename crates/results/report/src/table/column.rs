@@ -41,7 +41,7 @@ pub enum Align {
     Left,
     /// Right-aligned.
     Right,
-    /// In plain text, right-aligned numbers and left-aligned other cells; otherwise as [`Align::Auto`].
+    /// In plain text, numbers are right-aligned and other cells left-aligned. Other formats use [`Align::Auto`].
     ByCell,
 }
 

@@ -243,7 +243,7 @@ impl<'a> Clusters<'a> {
         own.is_none_or(|own| own.contains(self.text(pair)))
     }
 
-    /// Text of the column in a pair of rows; empty without a cluster.
+    /// Cell of the cluster column for `pair`; empty for rows without a cluster.
     fn text(&self, pair: RowPair) -> &'a str {
         self.table.cell(self.row(pair), self.column)
     }

@@ -11,7 +11,7 @@ use crate::content_id::ContentId;
 use crate::plan::{Plan, PlannedPress};
 use crate::press::{Motion, Waypoint};
 
-/// Log of presses, and of zeros that changed too far.
+/// Press log in memory: records of presses, and changes of the force zero that exceed the limit.
 #[derive(Default)]
 pub(super) struct Memory {
     pub(super) records: Vec<PressRecord>,

@@ -251,7 +251,7 @@ pub enum SceneProblem {
     },
     /// A frozen signal of the force transducer cannot be detected.
     #[error(
-        "{who} has steps of {resolution_n} N, noise of {noise_n} N and readings without numbers, so a frozen signal cannot be detected: expected numbered readings, or steps below the noise"
+        "a frozen signal of {who} cannot be detected: steps of {resolution_n} N, noise of {noise_n} N, readings without numbers; expected numbered readings, or steps below the noise"
     )]
     FrozenUnseen {
         /// Name of the transducer.

@@ -1,4 +1,4 @@
-//! A lamp that fails.
+//! Fault in which the lamps of the left side dim.
 
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Scope};

@@ -62,7 +62,7 @@ pub(crate) enum Reason {
 pub(crate) enum UnitSource {
     Name,
     File,
-    /// Form of a name of `paxini-sdk`, whose numbers are counts of 0.1 N.
+    /// Column name in the form of `paxini-sdk`, which writes counts of 0.1 N.
     PaxiniCounts,
 }
 
