@@ -33,9 +33,10 @@ pub(crate) fn table(report: &StressReport) -> Table {
                 score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
             });
             cells.extend(ratios);
-            cells.push(Cell::text(match (&report.unnoticed, of.check.is_empty()) {
-                (None, true) => "–".to_owned(),
-                _ => of.check.join(" "),
+            let is_checked = report.unnoticed.is_some() && !fault.is_of_labels();
+            cells.push(Cell::text(match is_checked || !of.check.is_empty() {
+                true => of.check.join(" "),
+                false => "–".to_owned(),
             }));
             table.push(cells);
         }
@@ -95,7 +96,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             false => names.join(", "),
         };
         notes.push(format!(
-            "Errors at least doubled without a finding of `taceva check`, by fault, severity and channel: {names}."
+            "Errors at least doubled by a fault of pictures without a finding in the checks of pictures, by fault, severity and channel: {names}."
         ));
     }
     notes.extend(missed_targets(report));

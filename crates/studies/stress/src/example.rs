@@ -14,7 +14,6 @@ use crate::stress::Stress;
 /// One sample of a recording, whose picture gets the tested faults.
 ///
 /// ```no_run
-/// use std::path::Path;
 /// use taceva_dataset::Dataset;
 /// use taceva_stress::{Examples, StressReport};
 ///
@@ -40,7 +39,7 @@ pub struct Examples {
 }
 
 impl Examples {
-    /// The sample with the greatest load among those of `report`, which [`stress`](crate::stress) made of `dataset`. Decodes at most three pictures.
+    /// The sample with the greatest load among those of `report`, which [`stress`](crate::stress()) made of `dataset`. Decodes at most three pictures.
     ///
     /// # Errors
     /// [`EvaluateError`] if a picture cannot be read, or the report has no sample.
@@ -87,7 +86,7 @@ impl Examples {
     /// The picture without a fault, called `clean`, and with each fault and severity, called `tear-3`. Of several draws, the first.
     pub fn pictures(&self) -> impl Iterator<Item = (String, Frame)> {
         let clean = ("clean".to_owned(), self.frame.clone());
-        let faulty = self.cells.iter().map(|(severity, stress)| {
+        let faulty = self.cells.iter().map(move |(severity, stress)| {
             let name = format!("{}-{severity}", stress.fault().id);
             let stress = stress.with_markers(self.markers.as_ref()).at(self.share);
             let picture = stress.apply(&self.frame, &self.sample, self.before.as_ref());

@@ -52,9 +52,10 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Errors that a fault at least doubles without a finding in the checks of pictures.
+/// Errors that a fault of pictures at least doubles without a finding in the checks of pictures.
 pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
-    let hidden = faults.iter().flat_map(|fault| {
+    let of_pictures = faults.iter().filter(|fault| !fault.is_of_labels());
+    let hidden = of_pictures.flat_map(|fault| {
         let severities = fault.severities.iter().filter(|of| of.check.is_empty());
         severities.flat_map(move |of| {
             let is_doubled = |score: &CellScore| {

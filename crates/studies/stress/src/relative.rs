@@ -16,7 +16,7 @@ use crate::study::stress_beside;
 /// Adds to `report` its errors relative to those of the model `reference`. [`stress_beside`](crate::stress_beside) made `report` of the same request.
 ///
 /// # Errors
-/// Errors of [`stress`](crate::stress), and [`EvaluateError::Request`] if the reference model scores other samples.
+/// Errors of [`stress`](crate::stress()), and [`EvaluateError::Request`] if the reference model scores other samples.
 pub fn add_reference(
     report: &mut StressReport,
     dataset: &Dataset,

@@ -7,6 +7,7 @@ use serde::Serialize;
 use taceva_results::{ModelProvenance, Provenance, Subject};
 
 use crate::estimate::Estimate;
+use crate::faults::RECORDING_FAULTS;
 use crate::ratio::Errors;
 use crate::severity::{By, Unreached};
 
@@ -50,7 +51,7 @@ pub struct StressReport {
     /// Mean degradation over all faults.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Errors that a fault at least doubles without a finding in the checks of pictures. `None` without a reference.
+    /// Errors that a fault of pictures at least doubles without a finding in the checks of pictures. `None` without a reference.
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
@@ -142,6 +143,14 @@ pub struct FaultReport {
     /// Errors by contact point of each of `severities`.
     #[serde(skip)]
     pub(crate) errors: Vec<ByChannel<Errors>>,
+}
+
+impl FaultReport {
+    /// True if the fault changes labels, and no picture, so that no check of pictures can find it.
+    pub fn is_of_labels(&self) -> bool {
+        let mut known = RECORDING_FAULTS.into_iter();
+        known.any(|fault| fault.id == self.id && fault.is_of_labels())
+    }
 }
 
 /// Results of one fault at one severity.

@@ -341,10 +341,10 @@ impl Scored {
         ends[0].is_finite().then_some(ends)
     }
 
-    /// True if a channel has skill, or its skill is not known.
+    /// True if the end of skill is not shown for every channel that has a skill, or if none has one.
     pub(crate) fn has_skill(&self) -> bool {
-        let mut known = self.skill.values().filter(|skill| skill.value.is_some());
-        known.any(|skill| skill.is_above_zero() != Some(false))
+        let known = || self.skill.values().filter(|skill| skill.value.is_some());
+        known().next().is_none() || known().any(|skill| skill.is_above_zero() != Some(false))
     }
 
     fn skill_of(&self, name: &str) -> Estimate {

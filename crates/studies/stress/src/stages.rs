@@ -87,11 +87,10 @@ impl Pictures<'_> {
         let mut ended: BTreeSet<usize> = BTreeSet::new();
         let mut rest = cells;
         for severity in 1..NEVER {
-            let (now, later): (Vec<Cell<'m>>, Vec<Cell<'m>>) = rest
+            let (mut now, later): (Vec<Cell<'m>>, Vec<Cell<'m>>) = rest
                 .into_iter()
                 .partition(|cell| cell.level.severity == severity);
             rest = later;
-            let mut now = now;
             now.retain(|cell| !ended.contains(&cell.fault));
             if !now.is_empty() {
                 let found = self.at_once(now)?;

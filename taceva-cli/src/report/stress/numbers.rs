@@ -1,7 +1,9 @@
 //! Table of every number of a stress test, for programs.
 
 use taceva_report::{Cell, Table};
-use taceva_stress::{CellScore, Estimate, SeverityReport, StressReport, Unnoticed, Unreached};
+use taceva_stress::{
+    CellScore, Estimate, FaultReport, SeverityReport, StressReport, Unnoticed, Unreached,
+};
 
 /// Remark on a fault whose higher severities are not tested.
 const NO_SKILL: &str = "no skill is left, so means over severities are lower bounds";
@@ -57,7 +59,7 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
             rows.push(&whole, channel, "breaks_at", &severity, "1");
         }
         for of in &fault.severities {
-            rows.push_check(&fault.id, of);
+            rows.push_check(fault, of);
             let sides = [("stale", Some(&of.stale)), ("fresh", of.fresh.as_ref())];
             for (untouched, scores) in sides {
                 for (channel, score) in scores.into_iter().flatten() {
@@ -137,20 +139,25 @@ impl<'a> Rows<'a> {
     }
 
     /// Findings of the checks of pictures, and the errors that they do not notice.
-    fn push_check(&mut self, fault: &str, of: &SeverityReport) {
+    fn push_check(&mut self, fault: &FaultReport, of: &SeverityReport) {
         let place = Place {
-            fault,
+            fault: &fault.id,
             strength: Some(Strength::of(of)),
             untouched: "",
         };
         let report = self.report;
-        if report.unnoticed.is_none() && of.check.is_empty() {
-            let reason = "no untouched picture";
+        let reason = match (fault.is_of_labels(), &report.unnoticed) {
+            (true, _) => Some("no picture changes"),
+            (false, None) if of.check.is_empty() => Some("no untouched picture"),
+            _ => None,
+        };
+        if let Some(reason) = reason {
             return self.push_words(&place, "", "check", None, reason);
         }
         let found = f64::from(u8::from(!of.check.is_empty()));
         self.push_words(&place, "", "check", Some(found), &of.check.join(" "));
-        let is_own = |hidden: &&Unnoticed| hidden.fault == fault && hidden.severity == of.severity;
+        let is_own =
+            |hidden: &&Unnoticed| hidden.fault == fault.id && hidden.severity == of.severity;
         for hidden in report.unnoticed.iter().flatten().filter(is_own) {
             self.push_words(&place, &hidden.channel, "unnoticed", Some(1.0), "");
         }

@@ -64,9 +64,9 @@ fn severities_above_the_end_of_skill_are_left_out_and_means_are_lower_bounds() {
 #[test]
 fn one_picture_of_each_cell_is_kept_with_its_digest_beside_equal_results() {
     let bench = bench();
-    let words = "stress unseen --model m.taceva --faults exposure_low,stale_frames --severity 1,5 --by parameter -q --format json";
-    let alone = bench.ok(words);
-    let kept = bench.ok(&format!("{words} --keep-frames kept"));
+    let words = "stress unseen --model m.taceva --faults exposure_low,stale_frames --severity 1,5 --by parameter --format json";
+    let alone = bench.ok(&format!("{words} -q"));
+    let kept = bench.ok(&format!("{words} --keep-frames kept -q"));
     assert_eq!(alone, kept);
     let read = |name: &str| fs::read(bench.path(&format!("kept/{name}"))).expect(name);
     let table = String::from_utf8(read("digests.csv")).expect("UTF-8");
@@ -85,7 +85,7 @@ fn one_picture_of_each_cell_is_kept_with_its_digest_beside_equal_results() {
     assert_eq!(names, expected);
     assert!(read("clean.png").starts_with(b"\x89PNG"));
     assert_ne!(read("clean.png"), read("exposure_low-5.png"));
-    bench.ok(&format!("{words} --keep-frames again"));
+    bench.ok(&format!("{words} --keep-frames again -q"));
     let again = fs::read(bench.path("again/digests.csv")).expect("written");
     assert_eq!(again, table.as_bytes());
     bench.refused(
@@ -150,4 +150,6 @@ fn recording_faults_have_their_own_list_and_name_what_they_lack() {
         .last()
         .expect("one");
     assert!(noise["severities"][0]["stimulus"].is_null(), "{noise}");
+    let csv = bench.ok("stress unseen --model m.taceva --faults force_noise --format csv -q");
+    assert!(csv.contains("no picture changes"), "{csv}");
 }

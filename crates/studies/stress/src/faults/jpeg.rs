@@ -147,6 +147,7 @@ fn steps(table: &Block, lost: f32) -> Block {
         true => 5000.0 / quality,
         false => 200.0 - 2.0 * quality,
     };
+    let percent = percent.floor();
     table.map(|row| row.map(|step| (step * percent / 100.0 + 0.5).floor().clamp(1.0, 255.0)))
 }
 

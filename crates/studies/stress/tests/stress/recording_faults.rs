@@ -279,6 +279,11 @@ fn a_late_label_adds_the_change_of_the_label_to_the_error() {
             "{at}: {error} {clean}"
         );
     }
+    // No check of pictures can find a fault of labels, so its errors are not named as unnoticed.
+    let most = lag.severities[4].stale["Fz"].degradation.value;
+    assert!(most.expect("a ratio") > 2.0, "{lag:?}");
+    let unnoticed = report.unnoticed.as_ref().expect("there is a reference");
+    assert!(unnoticed.iter().all(|of| of.fault != "label_lag"));
     // The place is equal in all pictures of a contact.
     let place = &lag.severities[4].stale["Px"].degradation;
     assert_eq!(place.value, Some(1.0));

@@ -1,6 +1,6 @@
 //! Severities by stimulus and by parameter.
 
-use taceva_stress::{By, FAULTS, StressRequest, TARGETS, severities, stress};
+use taceva_stress::{By, FAULTS, RECORDING_FAULTS, StressRequest, TARGETS, severities, stress};
 
 use crate::drawing::{WORK, unseen};
 
@@ -119,6 +119,15 @@ fn each_table_of_the_page_names_each_fault_and_one_states_its_parameters() {
         let name = format!("`{}`", fault.id);
         assert_eq!(rows_of_page(&name).len(), 5, "{name}");
         assert_eq!(numbers(&name), [fault.table.to_vec()], "{name}");
+    }
+    for fault in RECORDING_FAULTS {
+        let rows = rows_of_page(&format!("`{}`", fault.id));
+        let stated = rows.iter().map(|cells| {
+            let numbers = cells.iter().filter_map(|cell| number(cell));
+            numbers.collect::<Vec<f64>>()
+        });
+        let stated: Vec<Vec<f64>> = stated.collect();
+        assert_eq!(stated, [fault.table.to_vec()], "{}", fault.id);
     }
     assert_eq!(numbers("stimulus"), [TARGETS.to_vec()]);
 }
