@@ -9,6 +9,7 @@ mod disk_fault;
 mod disk_full;
 mod documents;
 mod embedding;
+mod file_tree;
 mod flips;
 mod foretold_names;
 mod glossary;

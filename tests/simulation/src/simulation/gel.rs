@@ -13,6 +13,8 @@ pub(super) struct Gel {
     pub(super) normal_max_n: f64,
     /// Half the range of the noise of a reported pose, mm per axis.
     pub(super) pose_noise_mm: f64,
+    /// Tilt of the surface: change of its height along x, mm per mm.
+    pub(super) slope: f64,
 }
 
 impl Gel {

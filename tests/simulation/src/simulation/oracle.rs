@@ -87,6 +87,8 @@ pub struct Checks {
     pub slowest_halt_s: f64,
     /// Greatest true force, as a share of the greatest stated force.
     pub greatest_force: f64,
+    /// Greatest true depth, mm.
+    pub greatest_depth_mm: f64,
     /// Samples compared with the truth.
     pub samples: u64,
     /// Presses that a silent transducer interrupted and that the same process repeated.
@@ -100,6 +102,7 @@ impl Checks {
         self.halts += other.halts;
         self.slowest_halt_s = self.slowest_halt_s.max(other.slowest_halt_s);
         self.greatest_force = self.greatest_force.max(other.greatest_force);
+        self.greatest_depth_mm = self.greatest_depth_mm.max(other.greatest_depth_mm);
         self.samples += other.samples;
         self.redone += other.redone;
     }
@@ -218,6 +221,7 @@ impl Oracle {
         }
         self.checks.motions += 1;
         self.checks.greatest_force = self.checks.greatest_force.max(force_n / bound_n);
+        self.checks.greatest_depth_mm = self.checks.greatest_depth_mm.max(depth_mm);
         if depth_mm > bound_mm {
             self.violations
                 .push(Violation::TooDeep { depth_mm, bound_mm });

@@ -73,6 +73,7 @@ pub(super) fn simulate_with(seed: u64, sabotage: Sabotage) -> SimulationReport {
         normal_max_n: 0.6 + 1.5 * part(102),
         // Every second robot reports the commanded position; the others deviate by up to 0.05 mm.
         pose_noise_mm: 0.1 * (part(103) - 0.5).max(0.0),
+        slope: 0.0,
     };
     let plan = match scenario_plan(seed, &gel) {
         Ok(plan) => plan,

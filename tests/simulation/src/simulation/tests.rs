@@ -2,6 +2,7 @@
 
 mod bench;
 mod conduct;
+mod depth;
 mod operator;
 mod seeds;
 mod wear;

@@ -192,9 +192,9 @@ impl World {
         self.pass(if slow { SLOW_LINK_S } else { LINK_S });
     }
 
-    /// Height of the gel at a place, mm: slightly uneven.
+    /// Height of the gel at a place, mm: slightly uneven, and tilted by its slope.
     pub(super) fn surface(&self, [x, y]: [f64; 2]) -> f64 {
-        0.1 + 0.05 * (0.7 * x).sin() * (0.9 * y).cos()
+        0.1 + 0.05 * (0.7 * x).sin() * (0.9 * y).cos() + self.gel.slope * x
     }
 
     /// True indentation at a pose.

@@ -257,12 +257,14 @@ mod tests {
     fn over_a_noisy_tilted_gel_depths_count_from_its_surface_within_their_uncertainty() {
         for is_guarded in [false, true] {
             let (mut sum, mut squares, mut held) = (0.0, 0.0, 0.0);
+            let mut lowest_mm = f64::NEG_INFINITY;
             for seed in 0..100 {
                 let (zero, stage) = zero_of(seed, is_guarded);
                 let error_mm = zero.height.0 - CONTACT_MM;
                 let deviation = zero.uncertainty.expect("readings enough");
                 sum += error_mm;
                 squares += error_mm * error_mm;
+                lowest_mm = lowest_mm.max(error_mm);
                 held += f64::from(u8::from(error_mm.abs() <= 1.96 * deviation.0));
                 // The limit of depth counts from there too.
                 let height_mm = zero.height.0;
@@ -273,6 +275,8 @@ mod tests {
             assert!(mean_mm.abs() < 0.005, "{mean_mm}");
             assert!(deviation_mm < 0.01, "{deviation_mm}");
             assert!(held >= 95.0, "{held}");
+            // The true depth at the limit exceeds it by this error.
+            assert!(lowest_mm <= 0.02, "{lowest_mm}");
         }
     }
 

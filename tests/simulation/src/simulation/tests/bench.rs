@@ -25,6 +25,7 @@ pub(super) const SOFT: Gel = Gel {
     saturation_n: 20.0,
     normal_max_n: 1.5,
     pose_noise_mm: 0.0,
+    slope: 0.0,
 };
 
 /// Gel that is so hard that every press ends at the force limit.

@@ -42,10 +42,13 @@ struct Errors {
     /// Part of the seeds whose error is at most 1.96 standard uncertainties.
     held: f64,
     greatest_mm: f64,
+    /// Greatest distance of a fitted height below the gel. The true depth at the limit of depth exceeds it by this distance.
+    lowest_mm: f64,
 }
 
 fn errors(noise_n: f64, law: fn(f64) -> f64) -> Errors {
     let (mut sum, mut squares, mut held, mut greatest_mm) = (0.0, 0.0, 0.0, 0.0_f64);
+    let mut lowest_mm = f64::NEG_INFINITY;
     for seed in 0..SEEDS {
         let (readings, contact_mm) = search(seed, noise_n, law);
         let found = surface(&readings, contact_mm, WINDOW_MM).expect("a gel");
@@ -55,6 +58,7 @@ fn errors(noise_n: f64, law: fn(f64) -> f64) -> Errors {
         squares += error_mm * error_mm;
         held += f64::from(u8::from(error_mm.abs() <= 1.96 * found.deviation_mm));
         greatest_mm = greatest_mm.max(error_mm.abs());
+        lowest_mm = lowest_mm.max(error_mm);
     }
     let count = f64::from(SEEDS);
     let mean_mm = sum / count;
@@ -63,6 +67,7 @@ fn errors(noise_n: f64, law: fn(f64) -> f64) -> Errors {
         deviation_mm: (squares / count - mean_mm * mean_mm).sqrt(),
         held: held / count,
         greatest_mm,
+        lowest_mm,
     }
 }
 
@@ -81,6 +86,7 @@ fn the_height_of_a_noisy_linear_gel_is_found_to_hundredths_wherever_a_step_meets
     assert!(errors.mean_mm.abs() < 0.005, "{errors:?}");
     assert!(errors.deviation_mm < 0.01, "{errors:?}");
     assert!(errors.held >= 0.95, "{errors:?}");
+    assert!(errors.lowest_mm <= 0.02, "{errors:?}");
 }
 
 #[test]
@@ -89,6 +95,7 @@ fn the_height_below_a_ball_is_found_within_its_uncertainty() {
     assert!(errors.mean_mm.abs() < 0.01, "{errors:?}");
     assert!(errors.deviation_mm < 0.02, "{errors:?}");
     assert!(errors.held >= 0.93, "{errors:?}");
+    assert!(errors.lowest_mm <= 0.06, "{errors:?}");
 }
 
 #[test]
