@@ -22,8 +22,7 @@ use crate::plan::Plan;
 use crate::predict::{self, Predicted, Target};
 use crate::rows::{DataPart, Divided};
 use crate::work::Work;
-pub(crate) use by_group::fold_name;
-pub(crate) use common_model::together;
+use common_model::together;
 use default_split::default_split;
 
 /// Divisions that together test every sample.

@@ -8,7 +8,6 @@ use taceva_metrics::{MetricPlan, catalogue};
 use taceva_models::Model;
 use taceva_results::{ModelProvenance, Provenance, RecordingScores};
 
-use super::folds::{fold_name, together};
 use super::notes::{few_clusters, within};
 use super::passes::Passes;
 use super::request::{Asked, Evaluated};
@@ -59,13 +58,6 @@ impl Behind {
             notes: choices(model).collect(),
             fit: FitFacts::default(),
         })
-    }
-
-    /// Description of the models of all folds of a cross-validation of `dataset`, in the order of the folds.
-    pub fn of_folds(dataset: &Dataset, models: Vec<Behind>) -> Behind {
-        let names: Vec<String> = (1..=models.len()).map(fold_name).collect();
-        let named = names.iter().map(String::as_str).zip(models);
-        together(dataset, named.collect())
     }
 }
 

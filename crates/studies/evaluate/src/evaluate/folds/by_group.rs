@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use taceva_dataset::Dataset;
 use taceva_models::{FoldGroups, FoldSpec, Split, SplitKind, SplitSpec};
 
+use super::common_model::fold_name;
 use super::{Fold, Folds};
 use crate::error::EvaluateError;
 use crate::grouping::{Grouping, SplitFields, of_all_rows};
@@ -12,7 +13,7 @@ use crate::rows::Divided;
 
 impl<'a> Folds<'a> {
     /// Folds by group of the ascending `rows` of `dataset`. All other rows are in no part.
-    pub(in crate::evaluate) fn of_groups(
+    pub(crate) fn of_groups(
         dataset: &'a Dataset,
         rows: &[usize],
         spec: SplitSpec,
@@ -85,9 +86,4 @@ impl<'a> Folds<'a> {
             are_recordings: false,
         })
     }
-}
-
-/// Name of the fold with this number, counted from 1.
-pub(crate) fn fold_name(number: usize) -> String {
-    format!("fold {number}")
 }

@@ -8,7 +8,7 @@ use crate::evaluate::scores::Behind;
 use crate::note::Note;
 
 /// Combines the models of all folds: their common settings, and a digest of their digests.
-pub(crate) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
+pub(super) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind {
     let mut digests = String::new();
     let mut settings = models[0].1.model.settings.clone();
     let mut chosen_by = models[0].1.model.chosen_by.clone();
@@ -40,4 +40,18 @@ pub(crate) fn together(dataset: &Dataset, models: Vec<(&str, Behind)>) -> Behind
         notes,
         fit: FitFacts::default(),
     }
+}
+
+impl Behind {
+    /// Description of the models of all folds of a cross-validation of `dataset`, in the order of the folds.
+    pub fn of_folds(dataset: &Dataset, models: Vec<Behind>) -> Behind {
+        let names: Vec<String> = (1..=models.len()).map(fold_name).collect();
+        let named = names.iter().map(String::as_str).zip(models);
+        together(dataset, named.collect())
+    }
+}
+
+/// Name of the fold with this number, counted from 1.
+pub(super) fn fold_name(number: usize) -> String {
+    format!("fold {number}")
 }
