@@ -56,8 +56,11 @@ def skill(study, metric, label, _):
         return {"value": (of_constant - of_model) / of_constant if of_constant else Undefined("equal truth")}
 
     nodes = scored(rows, numbers, lambda kept: sum(int((ok & kept).sum()) for _, _, ok in pairs.values()), {"value": "below one"})
-    if len(pairs) == 1 and label in study.constants:
-        nodes["constant"] = {"value": study.constants[label]}
+    if not study.constants:
+        nodes["flags"] = ["constant is the mean of truth"]
+    if len(pairs) == 1:
+        truth, _, ok = pairs[label]
+        nodes["constant"] = {"value": study.constants.get(label, mean(truth[ok]))}
     return score(nodes, min(int(ok.sum()) for _, _, ok in pairs.values()))
 
 

@@ -43,7 +43,7 @@ def standing(metric, label, given, node, skills):
     if node.get("bounded_share", 0.0) > MOST_BOUNDED:
         found.append("bounded")
     found += [flag for flag in node.get("flags", []) if flag in WORDS]
-    if metric == "tolerance":
+    if metric == "tolerance" and "of_constant" in node:
         beside = above(node, node["of_constant"]["value"])
         found.append("not above the constant" if beside == "no skill" else beside)
     if metric in BESIDE_CHANCE and "value" in node:
