@@ -214,12 +214,12 @@ fn errors(report: &Value) -> Vec<f64> {
 #[test]
 fn a_simulated_gel_that_ages_by_loads_has_a_growing_error_and_another_has_none() {
     let bench = Bench::new();
-    let many = "calibration = { points = 40, indentations = 3 }";
+    let many = "calibration = { points = 120, indentations = 3 }";
     bench.write("fresh.toml", &loaded("sim/gelsight:", 8, many));
     bench.ok("run fresh.toml --out fresh -q");
     let fresh = recordings(&bench, "fresh").join(" ");
     bench.ok(&format!(
-        "fit {fresh} --model ridge --set size=8x8 --out m.taceva -q"
+        "fit {fresh} --model ridge --set size=16x16 --out m.taceva -q"
     ));
     let load = |cycles: &str| {
         format!(
