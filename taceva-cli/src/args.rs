@@ -143,7 +143,7 @@ pub(crate) enum Command {
     Init(Init),
     /// Turn a lab's folder of pictures and labels into a dataset
     Import(Import),
-    /// Show what a dataset holds, and who measured it: devices, certificates, latencies
+    /// Show what a dataset holds, and what measured it: devices, certificates, latencies
     Show(Show),
     /// Check a recording for defects, before any number is computed
     Check(Check),

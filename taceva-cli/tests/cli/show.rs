@@ -1,4 +1,4 @@
-//! `taceva show`: what a dataset holds, and who measured it.
+//! `taceva show`: what a dataset holds, and what measured it.
 
 use crate::support::Bench;
 

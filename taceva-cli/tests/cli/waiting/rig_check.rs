@@ -76,7 +76,7 @@ fn a_capture_warns_of_a_certificate_of_another_transducer() {
     ] {
         assert_eq!(ran.err.matches(part).count(), 1, "{part}: {}", ran.err);
     }
-    // The recording answers who measured it, with what, and calibrated by whom.
+    // The recording answers with what it was measured, and calibrated by whom.
     let shown = bench.ok("show out");
     for part in [
         "measured  force: certificate D-K-1 of a laboratory, 2020-05-12, serial FT12345",

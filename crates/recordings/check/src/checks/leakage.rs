@@ -11,7 +11,7 @@ pub(crate) static CHECK: Check = Check {
     code: "TAC007",
     name: "leakage",
     looks_for: "contact points, clusters of a task, neighbours or identical frames in both the training and the test part",
-    hint: "divide with --split by-point, by-block, or by-column with a session, an object or the cluster of a task; scores on samples similar to training \
+    hint: "divide with --split by-point (needs `point_id` in the map), by-block, or by-column with a session, an object or the cluster of a task; scores on samples similar to training \
         samples are optimistic",
     reads: None,
     find,
