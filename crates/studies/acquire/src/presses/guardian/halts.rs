@@ -63,11 +63,11 @@ pub(super) struct TimedHalt {
 /// State of a robot for its follower.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Held {
-    /// It may move.
+    /// Free to move.
     No,
-    /// It is held by a halt, and no pose is known.
+    /// Held by a halt at an unknown pose.
     Unseen,
-    /// It is held by a halt. This is its newest pose.
+    /// Held by a halt, with the newest pose.
     At(Pose, Stamp),
 }
 
