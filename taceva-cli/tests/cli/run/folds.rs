@@ -99,3 +99,19 @@ fn few_points_are_no_reason_for_a_warning_if_folds_test_all_of_them() {
     let all = bench.run("plan small.toml");
     assert!(!all.err.contains(warning), "{}", all.err);
 }
+
+#[test]
+fn folds_of_a_recording_without_contact_points_divide_by_what_is_detected() {
+    let bench = Bench::new();
+    bench.lab();
+    let map = std::fs::read_to_string(bench.path("map.toml")).expect("a map");
+    assert!(map.contains("point_id = \"point\"\n"), "{map}");
+    bench.write("map.toml", &map.replace("point_id = \"point\"\n", ""));
+    bench.ok("import lab --map map.toml --out data -q");
+    let scene = "scene_version = 1\nname = \"again\"\nmodel = { name = \"ridge\", folds = 3, set = { size = \"8x8\" } }\n\
+                 sensor = { dataset = \"data\" }\nmetrics = { want = [\"mae\"] }\n";
+    bench.write("again.toml", scene);
+    let run = bench.json("run again.toml --out r");
+    let split = run["studies"][0]["provenance"]["split"].to_string();
+    assert!(split.starts_with("\"cv:3"), "{split}");
+}

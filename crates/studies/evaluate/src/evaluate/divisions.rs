@@ -2,7 +2,7 @@
 
 use taceva_core::shown;
 use taceva_dataset::{Dataset, Task};
-use taceva_models::{FoldGroups, FoldSpec, Fractions, SplitKind, SplitSpec};
+use taceva_models::{FoldSpec, Fractions, SplitKind, SplitSpec};
 
 use super::{folds, task_division};
 use crate::error::EvaluateError;
@@ -39,20 +39,16 @@ pub struct FoldedRows {
 }
 
 impl FoldedRows {
-    /// Divides the ascending `rows` of `dataset` into `count` folds by contact point. All other rows are in no part.
+    /// Divides the ascending `rows` of `dataset` by `spec`. All other rows are in no part.
     ///
     /// # Errors
-    /// [`EvaluateError::Split`] if the rows name no contact points, or fewer than `count`.
-    pub fn by_point(
+    /// [`EvaluateError::Split`] if the rows lack the groups of `spec`, or have fewer groups than folds.
+    pub fn new(
         dataset: &Dataset,
         rows: &[usize],
-        count: usize,
+        spec: FoldSpec,
         seed: u64,
     ) -> Result<FoldedRows, EvaluateError> {
-        let spec = FoldSpec {
-            count: Some(count),
-            by: FoldGroups::Points,
-        };
         let whole = SplitSpec {
             kind: SplitKind::Folds(spec.clone()),
             fractions: Fractions::default(),

@@ -9,7 +9,7 @@ use taceva_evaluate::{
     Key, Need, Predicted, Predictor, Recipe, Target, Work, predicted_numbers, predicted_table,
     usable,
 };
-use taceva_models::{Checkpoints, Model};
+use taceva_models::{Checkpoints, FoldGroups, FoldSpec, Model};
 use taceva_protocol::PhaseKind;
 
 use super::context::RunContext;
@@ -89,7 +89,15 @@ impl Learnt {
             return fitting.on(phase_rows.divided(&request)?).map(Some);
         };
         let rows = phase_rows.rows(PhaseKind::Calibration);
-        let folded = FoldedRows::by_point(dataset, &rows, count, request.seed)?;
+        let spec = FoldSpec {
+            count: Some(count),
+            // A recording without a plan may name no contact points.
+            by: match phase_rows.protocol() {
+                Some(_) => FoldGroups::Points,
+                None => FoldGroups::Detected,
+            },
+        };
+        let folded = FoldedRows::new(dataset, &rows, spec, request.seed)?;
         fitting
             .on_folds(folded, predicted_rows(phase_rows))
             .map(Some)
