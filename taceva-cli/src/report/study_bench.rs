@@ -19,7 +19,7 @@ pub(crate) fn rows(bench: &StudyBench) -> Table {
         lower("presses").unit("processor s"),
         lower("fits and scores").unit("processor s"),
         lower("all").unit("processor s"),
-        Column::new("scored points"),
+        Column::new("clusters"),
     ];
     columns.extend(STUDY_CHANNELS.iter().map(|channel| {
         let mut errors = bench.rows.iter().filter_map(|row| row.error(channel));
@@ -40,7 +40,7 @@ pub(crate) fn rows(bench: &StudyBench) -> Table {
             time(row.press_cpu_s),
             time(row.assess_cpu_s),
             time(row.cpu_s()),
-            words(row.scored_points, |points| points.to_string()),
+            words(row.clusters, |clusters| clusters.to_string()),
         ];
         cells.extend(STUDY_CHANNELS.iter().map(|channel| {
             words(row.error(channel), |error| {

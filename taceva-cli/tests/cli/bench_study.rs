@@ -25,7 +25,7 @@ fn each_combination_is_a_study_and_a_row_without_a_width_is_not_on_the_front() {
     let folds: Vec<_> = rows.iter().map(|row| row["folds"].as_u64()).collect();
     assert_eq!(folds, [None, Some(3)]);
     // A tenth of 16 points is too few for an interval; with folds, every point is scored.
-    let scored = rows.iter().map(|row| row["scored_points"].as_u64());
+    let scored = rows.iter().map(|row| row["clusters"].as_u64());
     assert_eq!(scored.collect::<Vec<_>>(), [None, Some(16)]);
     let marks = rows.iter().map(|row| row["pareto"].as_bool());
     assert_eq!(marks.collect::<Vec<_>>(), [Some(false), Some(true)]);
@@ -62,7 +62,7 @@ fn a_model_that_cannot_be_fitted_says_why_and_the_others_continue() {
     let failed = found["rows"][0]["failed"].as_str().expect("said");
     assert!(failed.ends_with("fewer than a batch of 4096"), "{failed}");
     assert_eq!(found["rows"][0]["pareto"], false);
-    assert_eq!(found["rows"][1]["scored_points"], 16);
+    assert_eq!(found["rows"][1]["clusters"], 16);
     assert!(found["rows"][1]["failed"].is_null());
 }
 

@@ -47,8 +47,8 @@ pub struct StudyTrial {
     pub press_cpu_s: Option<f64>,
     /// Processor time of this process for fits, predictions and scores, in s.
     pub assess_cpu_s: Option<f64>,
-    /// Number of contact points behind the intervals; `None` without intervals.
-    pub scored_points: Option<usize>,
+    /// Number of clusters of contact points behind the intervals, at most 64; `None` without intervals.
+    pub clusters: Option<usize>,
     /// Error of each channel; empty if the model could not be fitted.
     pub errors: Vec<StudyChannel>,
     /// Mean of the widths of all channels; `None` if a channel has no width.
@@ -179,7 +179,7 @@ fn trial(entry: &StudyEntry, folder: &Path, setup: RunSetup<'_>) -> Result<Study
         variant: entry.variant.clone(),
         press_cpu_s,
         assess_cpu_s,
-        scored_points: report.as_ref().and_then(scored_points),
+        clusters: report.as_ref().and_then(clusters),
         errors,
         mean_width: widths.map(|widths| widths.iter().sum::<f64>() / widths.len() as f64),
         pareto: false,
@@ -204,8 +204,8 @@ fn errors_of(report: &EvaluationReport) -> Vec<StudyChannel> {
     STUDY_CHANNELS.into_iter().filter_map(error).collect()
 }
 
-/// Greatest number of contact points behind an interval of `report`.
-fn scored_points(report: &EvaluationReport) -> Option<usize> {
+/// Greatest number of clusters behind an interval of `report`.
+fn clusters(report: &EvaluationReport) -> Option<usize> {
     let clusters = |channel: &str| {
         let score = report.score(METRIC, channel)?;
         score.interval.as_ref()?.clusters()
@@ -243,7 +243,7 @@ mod tests {
             },
             press_cpu_s: Some(0.0),
             assess_cpu_s: cpu_s,
-            scored_points: None,
+            clusters: None,
             errors: Vec::new(),
             mean_width,
             pareto: false,
