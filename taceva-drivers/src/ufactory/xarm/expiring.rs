@@ -9,7 +9,7 @@ use super::command::{Command, Mode, MoveVelocity};
 use super::error::{failed, unanswered};
 use super::motion::{BrokenOff, DOING, halted};
 use super::observe::ANSWER;
-use super::report::{State, pose_of};
+use super::report::pose_of;
 use crate::link::course::{Course, LINE, RENEWED};
 use crate::link::monotonic;
 
@@ -67,8 +67,11 @@ impl Arm {
             if let Some(fault) = fault.map_err(unanswered(DOING))? {
                 return Err(fault.met(DOING).into());
             }
-            if last.state != State::MOVING && !last.state.is_ready() {
-                return Err(self.not_ready(last.state));
+            if last.state.is_stopped() {
+                let now = self.state_now()?;
+                if now.is_stopped() {
+                    return Err(self.not_ready(now));
+                }
             }
         }
         if self.stopping().is_halted() {

@@ -49,6 +49,11 @@ impl State {
         matches!(self.0, 0 | 2)
     }
 
+    /// True if the arm makes no motion: it is paused, stopped or slowing down, or its state is unknown.
+    pub(super) fn is_stopped(self) -> bool {
+        self != State::MOVING && !self.is_ready()
+    }
+
     /// Name of the state in messages.
     pub(super) fn name(self) -> &'static str {
         match self.0 {

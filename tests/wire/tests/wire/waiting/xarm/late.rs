@@ -1,9 +1,10 @@
-//! Late stops, and a silent stop connection.
+//! Late stops, late reports, and a silent stop connection.
 
 use std::sync::Arc;
 use std::time::Duration;
 
 use taceva_core::{ErrorKind, Robot};
+use taceva_wire::Device;
 use taceva_wire::xarm::{Emulator, Port, Ports};
 
 use super::setup::setup;
@@ -76,4 +77,23 @@ fn a_motion_waits_for_the_connection_by_which_it_would_be_stopped() {
     let moved = arm.move_to(lower(home, 1.0), speed(20.0), PATIENCE);
     moved.expect("it answers while that is waited for");
     opening.join().expect("no panic");
+}
+
+#[test]
+fn a_late_report_of_a_stop_that_has_ended_breaks_no_motion_off() {
+    let setup = setup(Ports::ANY);
+    setup
+        .bench
+        .set_lag(Device::Robot, Duration::from_millis(40));
+    let mut arm = setup.open();
+    let (home, _) = arm.pose(PATIENCE).expect("a pose");
+    for round in 0..20 {
+        // Between its two commands each call leaves the controller in a state that needs to be made ready, and a report may show it.
+        for _ in 0..10 {
+            arm.clear_halt(PATIENCE).expect("no halt is under way");
+        }
+        let target = lower(home, f64::from(round % 2));
+        let moved = arm.move_to(target, speed(50.0), PATIENCE);
+        moved.unwrap_or_else(|error| panic!("round {round}: {error}"));
+    }
 }
