@@ -1,6 +1,6 @@
 //! Arguments of benchmarks.
 
-use std::num::NonZeroUsize;
+use std::num::{NonZeroU32, NonZeroUsize};
 use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
@@ -70,8 +70,8 @@ pub(crate) struct BenchModels {
 
 /// Runs a study of the simulated bench for each combination of points, folds and models, without a cache. The table has the processor seconds of
 /// this process, without those of plugin processes. Mean absolute errors have 95 % intervals by contact point. The width of an interval is
-/// ln(upper end / lower end). A row is on the Pareto front if no other row has both less time and a lower mean width. The coverage of the
-/// intervals is not printed, because it needs repetitions of each study over many seeds.
+/// ln(upper end / lower end). A row is on the Pareto front if no other row has both less time and a lower mean width. With --seeds, the table
+/// also has the coverage of the intervals: the share of repetitions whose interval contains the mean error of the other repetitions.
 #[derive(Debug, Args)]
 pub(crate) struct BenchStudy {
     /// A file, or the name of a built-in scene: quick, paper. All its devices must be simulated
@@ -92,6 +92,9 @@ pub(crate) struct BenchStudy {
     /// The seed of all random numbers, instead of the scene's
     #[arg(long, value_name = "N")]
     pub(crate) seed: Option<u64>,
+    /// Repetitions of each study with consecutive seeds, for the coverage; times and widths are their means
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(crate) seeds: NonZeroU32,
     #[command(flatten)]
     pub(crate) output: Output,
 }

@@ -29,6 +29,10 @@ pub(crate) fn rows(bench: &StudyBench) -> Table {
         }
     }));
     columns.extend([lower("mean width"), Column::new("front")]);
+    if bench.seeds > 1 {
+        let coverage = |channel: &&str| Column::new(format!("coverage {channel}"));
+        columns.extend(STUDY_CHANNELS.iter().map(coverage));
+    }
     let caption = format!("Studies of {} in scene {}", bench.study, bench.scene);
     let mut table = Table::new(caption, columns);
     for row in &bench.rows {
@@ -49,6 +53,15 @@ pub(crate) fn rows(bench: &StudyBench) -> Table {
         }));
         cells.push(words(row.mean_width, |width| format!("{width:.3}")));
         cells.push(if row.pareto { "yes" } else { NONE }.to_owned());
+        if bench.seeds > 1 {
+            cells.extend(STUDY_CHANNELS.iter().map(|channel| {
+                let coverage = row.error(channel).and_then(|error| error.coverage);
+                words(coverage, |coverage| {
+                    let share = coverage.contained as f64 / coverage.intervals as f64;
+                    FormattedValue::number(share, Some(coverage.ci95)).phrase("")
+                })
+            }));
+        }
         table.push(cells);
     }
     if let Some(words) = not_measured(["simulated"]) {
@@ -56,14 +69,20 @@ pub(crate) fn rows(bench: &StudyBench) -> Table {
     }
     let machine = &bench.machine;
     let load = words(machine.load, |load| format!("{load:.2}"));
+    let seeds = match bench.seeds {
+        1 => format!("Seed {}", bench.seed),
+        seeds => format!("{} from {}", counted(seeds, "seed"), bench.seed),
+    };
     table.note(format!(
-        "Seed {}; {}, {} of {}, load {load} a core. Intervals of 95 % by contact point.",
-        bench.seed,
+        "{seeds}; {}, {} of {}, load {load} a core. Intervals of 95 % by contact point.",
         machine.cpu,
         machine.threads,
         counted(machine.cores, "core")
     ));
     table.note("mean width: mean of ln(upper end / lower end) over the channels; front: no other row has both less time and a lower mean width.");
+    if bench.seeds > 1 {
+        table.note("times and widths: means over the seeds; errors: of the first seed; coverage: share of the seeds whose interval contains the mean error of the other seeds, with its 95 % interval by Wilson.");
+    }
     for row in &bench.rows {
         if let Some(why) = &row.failed {
             table.note(format!("{}: {why}", row.variant));

@@ -49,6 +49,31 @@ fn each_combination_is_a_study_and_a_row_without_a_width_is_not_on_the_front() {
 }
 
 #[test]
+fn repetitions_with_further_seeds_give_the_coverage_of_the_intervals() {
+    let bench = with_small();
+    let words = "bench study small.toml --points 16 --folds 3 --models ridge";
+    let found = bench.json(&format!("{words} --seeds 3"));
+    crate::schema::check("bench-study", &found);
+    let once = bench.json(words);
+    assert_eq!((&found["seeds"], &once["seeds"]), (&3.into(), &1.into()));
+    let [all, first] = [&found, &once].map(|found| &found["rows"][0]["errors"][1]);
+    // The row has the errors of the first seed, whose presses are those of a single repetition.
+    assert_eq!(all["mae"], first["mae"]);
+    assert!(first["coverage"].is_null(), "{first}");
+    let coverage = &all["coverage"];
+    assert_eq!(coverage["intervals"], 3);
+    assert!(coverage["contained"].as_u64().is_some_and(|of| of <= 3));
+    assert_ne!(coverage["mean"], all["mae"], "the seeds differ");
+    let csv = bench.ok(&format!("{words} --seeds 2 --format csv -q"));
+    assert!(
+        csv.lines()
+            .next()
+            .is_some_and(|head| head.contains("coverage Fxy")),
+        "{csv}"
+    );
+}
+
+#[test]
 fn a_model_that_cannot_be_fitted_says_why_and_the_others_continue() {
     let bench = with_small();
     // A batch larger than the training part.

@@ -7,6 +7,7 @@ mod models;
 mod paired_errors;
 mod stopwatch;
 mod studies;
+mod study_coverage;
 mod study_grid;
 
 pub use kernels::{Floor, InputDigits, KernelBench, KernelRequest, KernelRow, kernels};
@@ -14,6 +15,7 @@ pub use machine::Machine;
 pub use models::{ModelRace, ModelTrial, ModelTrials, TrialError, models};
 pub use stopwatch::{Spread, Stopwatch};
 pub use studies::{STUDY_CHANNELS, StudyBench, StudyChannel, StudyTrial, studies};
+pub use study_coverage::StudyCoverage;
 pub use study_grid::{StudyEntry, StudyGrid, StudyVariant};
 
 /// Schema of every benchmark as JSON.

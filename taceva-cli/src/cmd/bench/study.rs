@@ -32,6 +32,7 @@ pub(super) fn run(args: &BenchStudy, context: &Context) -> anyhow::Result<u8> {
     let grid = StudyGrid {
         study: args.study.clone(),
         seed: args.seed,
+        seeds: args.seeds,
         points: args.points.clone(),
         folds: args.folds.iter().map(|folds| folds.0).collect(),
         models: args.models.clone(),

@@ -1,13 +1,14 @@
-//! Whole studies on the simulated bench: processor time against the widths of the intervals of their errors.
+//! Whole studies on the simulated bench: processor time against the widths and the coverage of the intervals of their errors.
 
 use std::path::Path;
 
 use serde::Serialize;
-use taceva_acquire::{AcquireError, Workshop};
+use taceva_acquire::{AcquireError, PlannedScene, Workshop};
 use taceva_core::{Progress, Unit};
 use taceva_results::{EvaluationReport, Interval};
 
 use super::models::{cpu_s, unfitted};
+use super::study_coverage::StudyCoverage;
 use super::study_grid::{StudyEntry, StudyVariant};
 use super::{BENCH_SCHEMA, Machine};
 use crate::error::StudyError;
@@ -31,27 +32,29 @@ pub struct StudyBench {
     pub scene: String,
     /// Name of its study.
     pub study: String,
-    /// Seed of all random draws.
+    /// Seed of all random draws of the first repetition; each further repetition has the next seed.
     pub seed: u64,
+    /// Number of repetitions of each study.
+    pub seeds: u32,
     /// One row for each combination, in the order of the entries.
     pub rows: Vec<StudyTrial>,
 }
 
-/// Time and errors of one study.
+/// Time and errors of one study, or of its repetitions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct StudyTrial {
     /// Points, folds and model.
     #[serde(flatten)]
     pub variant: StudyVariant,
-    /// Processor time of this process for the presses, in s. `None` if the system does not report processor time.
+    /// Processor time of this process for the presses of one repetition, in s. `None` if the system does not report processor time.
     pub press_cpu_s: Option<f64>,
     /// Processor time of this process for fits, predictions and scores, in s.
     pub assess_cpu_s: Option<f64>,
     /// Number of clusters of contact points behind the intervals, at most 64; `None` without intervals.
     pub clusters: Option<usize>,
-    /// Error of each channel; empty if the model could not be fitted.
+    /// Error of each channel in the first repetition; empty if the model could not be fitted.
     pub errors: Vec<StudyChannel>,
-    /// Mean of the widths of all channels; `None` if a channel has no width.
+    /// Mean of the widths of all channels and repetitions; `None` if one has no width.
     pub mean_width: Option<f64>,
     /// True if no other row has both less processor time and a lower mean width. False without time or width.
     pub pareto: bool,
@@ -74,6 +77,8 @@ pub struct StudyChannel {
     pub width: Option<f64>,
     /// Number of samples.
     pub n: u64,
+    /// Coverage of the intervals of all repetitions; `None` for a single one, or without intervals.
+    pub coverage: Option<StudyCoverage>,
 }
 
 impl StudyBench {
@@ -104,7 +109,7 @@ impl StudyTrial {
     }
 }
 
-/// Runs the study of each of `entries` in the folder of a run at `folder`, which each replaces, and without a cache.
+/// Runs the study of each of `entries` with each of its seeds in the folder of a run at `folder`, which each replaces, and without a cache.
 ///
 /// A model that cannot be fitted becomes a row with the reason.
 ///
@@ -130,16 +135,22 @@ pub fn studies(
         cache: None,
         ..setup
     };
+    let seeds = first.scenes.len();
     let steps: u64 = entries.iter().map(|entry| entry.variant.steps()).sum();
+    let steps = steps * seeds as u64;
     progress.begin("points fitted", Some(steps));
     let mut rows = Vec::with_capacity(entries.len());
     for entry in entries {
-        rows.push(trial(entry, folder, setup)?);
-        progress.advance(entry.variant.steps());
+        let mut repetitions = Vec::with_capacity(seeds);
+        for scene in &entry.scenes {
+            repetitions.push(repetition(scene, folder, setup)?);
+            progress.advance(entry.variant.steps());
+        }
+        rows.push(trial(entry.variant.clone(), repetitions));
     }
     progress.end();
     mark(&mut rows);
-    let scene = &first.scene;
+    let scene = &first.scenes[0];
     Ok(StudyBench {
         schema: BENCH_SCHEMA,
         subject: "study",
@@ -147,6 +158,7 @@ pub fn studies(
         scene: scene.scene.name.clone(),
         study: scene.studies[0].plan.name.clone(),
         seed: scene.scene.seed,
+        seeds: u32::try_from(seeds).unwrap_or(u32::MAX),
         rows,
     })
 }
@@ -160,8 +172,20 @@ impl Progress for WholeStudies<'_> {
     }
 }
 
-fn trial(entry: &StudyEntry, folder: &Path, setup: RunSetup<'_>) -> Result<StudyTrial, StudyError> {
-    let scene = &entry.scene;
+/// One repetition of a study.
+struct Repetition {
+    press_cpu_s: Option<f64>,
+    assess_cpu_s: Option<f64>,
+    clusters: Option<usize>,
+    errors: Vec<StudyChannel>,
+    failed: Option<String>,
+}
+
+fn repetition(
+    scene: &PlannedScene,
+    folder: &Path,
+    setup: RunSetup<'_>,
+) -> Result<Repetition, StudyError> {
     let run = RunFolder::open(folder, scene, Existing::Replace)?;
     let (acquired, press_cpu_s) = cpu_s(|| acquire_scene(scene, &run, setup));
     drop(acquired?);
@@ -172,19 +196,57 @@ fn trial(entry: &StudyEntry, folder: &Path, setup: RunSetup<'_>) -> Result<Study
         Err(StudyError::Evaluate(error)) => (None, unfitted(Err(error))?),
         Err(error) => return Err(error),
     };
-    let errors = report.as_ref().map_or_else(Vec::new, errors_of);
-    let widths: Option<Vec<f64>> = errors.iter().map(|error| error.width).collect();
-    let widths = widths.filter(|widths| !widths.is_empty());
-    Ok(StudyTrial {
-        variant: entry.variant.clone(),
+    Ok(Repetition {
         press_cpu_s,
         assess_cpu_s,
         clusters: report.as_ref().and_then(clusters),
-        errors,
-        mean_width: widths.map(|widths| widths.iter().sum::<f64>() / widths.len() as f64),
-        pareto: false,
+        errors: report.as_ref().map_or_else(Vec::new, errors_of),
         failed,
     })
+}
+
+/// Row of the repetitions of one study; there is at least one.
+fn trial(variant: StudyVariant, mut repetitions: Vec<Repetition>) -> StudyTrial {
+    let mut failures = repetitions.iter_mut();
+    let failed = failures.find_map(|one| one.failed.take());
+    let press_cpu_s = mean(repetitions.iter().map(|one| one.press_cpu_s));
+    let assess_cpu_s = mean(repetitions.iter().map(|one| one.assess_cpu_s));
+    let errors = repetitions.iter().flat_map(|one| &one.errors);
+    let mean_width = mean(errors.map(|error| error.width));
+    let coverages = STUDY_CHANNELS.map(|channel| coverage(&repetitions, channel));
+    let first = repetitions.swap_remove(0);
+    let mut errors = first.errors;
+    for error in &mut errors {
+        let at = STUDY_CHANNELS
+            .iter()
+            .position(|name| *name == error.channel);
+        error.coverage = at.and_then(|at| coverages[at]);
+    }
+    StudyTrial {
+        variant,
+        press_cpu_s,
+        assess_cpu_s,
+        clusters: first.clusters,
+        errors,
+        mean_width,
+        pareto: false,
+        failed,
+    }
+}
+
+/// Mean of `values`; `None` if there are none or one is `None`.
+fn mean(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let values: Option<Vec<f64>> = values.collect();
+    let values = values.filter(|values| !values.is_empty())?;
+    Some(values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// Coverage of the intervals of `channel` in all repetitions.
+fn coverage(repetitions: &[Repetition], channel: &str) -> Option<StudyCoverage> {
+    let errors = repetitions.iter().flat_map(|one| &one.errors);
+    let errors = errors.filter(|error| error.channel == channel);
+    let errors: Vec<_> = errors.map(|error| (error.mae, error.ci95)).collect();
+    StudyCoverage::of(&errors)
 }
 
 /// Errors of the channels that `report` scores.
@@ -199,6 +261,7 @@ fn errors_of(report: &EvaluationReport) -> Vec<StudyChannel> {
             ci95,
             width: ci95.and_then(width),
             n: score.n,
+            coverage: None,
         })
     };
     STUDY_CHANNELS.into_iter().filter_map(error).collect()

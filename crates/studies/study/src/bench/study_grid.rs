@@ -1,6 +1,7 @@
 //! Scenes of a benchmark of studies: one study of a scene with each combination of points, folds and model.
 
 use std::fmt;
+use std::num::NonZeroU32;
 
 use serde::Serialize;
 use taceva_acquire::{AcquireError, PlannedScene, SceneText};
@@ -23,6 +24,8 @@ pub struct StudyGrid {
     pub study: Option<String>,
     /// Seed of all random draws instead of the scene's.
     pub seed: Option<u64>,
+    /// Number of repetitions of each study, with consecutive seeds.
+    pub seeds: NonZeroU32,
     /// Numbers of calibration points.
     pub points: Vec<u32>,
     /// Numbers of folds; `None` for one test part.
@@ -47,12 +50,12 @@ pub struct StudyVariant {
 pub struct StudyEntry {
     /// The combination.
     pub variant: StudyVariant,
-    /// Scene with one study.
-    pub scene: PlannedScene,
+    /// Scene with one study, for each seed; never empty.
+    pub scenes: Vec<PlannedScene>,
 }
 
 impl StudyGrid {
-    /// Plans the scene in `text` with each combination, models within folds within points.
+    /// Plans the scene in `text` with each combination and seed, models within folds within points.
     ///
     /// # Errors
     /// [`StudyError`] for an invalid scene or combination, an unknown study or model, and for a scene that does not press on the simulated bench.
@@ -62,7 +65,7 @@ impl StudyGrid {
         setup: RunSetup<'_>,
     ) -> Result<Vec<StudyEntry>, StudyError> {
         // Faults of the scene itself are reported with its own lines.
-        let whole = self.planned(text.clone(), setup)?;
+        let whole = planned(text.clone(), setup, self.seed)?;
         let drivers = setup.workshop.drivers;
         whole.check_simulated(drivers).map_err(|error| {
             AcquireError::Request(format!(
@@ -85,19 +88,17 @@ impl StudyGrid {
                         model: model.clone(),
                     };
                     let text = variant.applied_to(text, study);
-                    let scene = self.planned(text, setup).map_err(unplaced)?;
-                    entries.push(StudyEntry { variant, scene });
+                    let seeds = 0..u64::from(self.seeds.get());
+                    let scenes = seeds.map(|further| {
+                        let seed = whole.scene.seed.wrapping_add(further);
+                        planned(text.clone(), setup, Some(seed)).map_err(unplaced)
+                    });
+                    let scenes = scenes.collect::<Result<_, _>>()?;
+                    entries.push(StudyEntry { variant, scenes });
                 }
             }
         }
         Ok(entries)
-    }
-
-    /// Plans the scene in `text`, and checks its models.
-    fn planned(&self, text: SceneText, setup: RunSetup<'_>) -> Result<PlannedScene, StudyError> {
-        let scene = PlannedScene::new(text, setup.workshop.drivers, self.seed)?;
-        check_models(&scene, setup.models)?;
-        Ok(scene)
     }
 
     /// Name of the benchmarked study of `scene`.
@@ -119,6 +120,17 @@ impl StudyGrid {
             )))
         })
     }
+}
+
+/// Plans the scene in `text` with `seed` instead of its own, and checks its models.
+fn planned(
+    text: SceneText,
+    setup: RunSetup<'_>,
+    seed: Option<u64>,
+) -> Result<PlannedScene, StudyError> {
+    let scene = PlannedScene::new(text, setup.workshop.drivers, seed)?;
+    check_models(&scene, setup.models)?;
+    Ok(scene)
 }
 
 /// Combination in words: `80 points, 3 folds, ridge`.
@@ -158,6 +170,7 @@ impl StudyVariant {
         };
         model.remove("folds");
         if let Some(folds) = self.folds {
+            model.remove("split");
             model.insert("folds".to_owned(), Value::Integer(i64::from(folds)));
         }
         scene.insert("model".to_owned(), Value::Table(model));
