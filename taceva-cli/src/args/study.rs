@@ -27,7 +27,7 @@ pub(crate) struct SceneArgs {
 pub(crate) struct Run {
     #[command(flatten)]
     pub(crate) scene: SceneArgs,
-    /// The model of every sensor, instead of the scene's and its settings: ridge, fast, cnn, auto and others of `taceva fit`; folds remain
+    /// The model of every sensor, instead of the scene's and its settings: ridge, fast, cnn, auto and others of `taceva fit`; folds or the split remain
     #[arg(long, value_name = "NAME")]
     pub(crate) model: Option<String>,
     /// A setting of the model or of its features, such as epochs=30 or size=32x32, in addition to those of the scene; may be repeated

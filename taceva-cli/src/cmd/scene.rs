@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
-use taceva_acquire::{Overrides, PlannedScene, SceneText};
+use taceva_acquire::{Overrides, PlannedScene, PlannedStudy, SceneText};
 use taceva_core::{Field, SkipReason, by_count, counted, shown};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
@@ -175,8 +175,7 @@ pub(super) fn check_metrics(planned: &PlannedScene) -> anyhow::Result<()> {
 /// Prints a warning for each study whose test part has too few contact points for intervals.
 pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
     for study in &planned.studies {
-        let Some(points) = tested_points(&study.plan).filter(|points| *points < LEAST_CLUSTERS)
-        else {
+        let Some(points) = tested_points(study).filter(|points| *points < LEAST_CLUSTERS) else {
             continue;
         };
         context.say(format_args!(
@@ -188,20 +187,22 @@ pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
 }
 
 /// Number of contact points in the test part of the fit; `None` if no metric uses predictions of the test part, or if folds test every point.
-fn tested_points(plan: &Plan) -> Option<usize> {
+fn tested_points(study: &PlannedStudy) -> Option<usize> {
+    let plan = &study.plan;
     let mut fits = plan.fits.iter();
     let is_fitted = fits.any(|fit| fit.field == Field::Prediction && fit.folds.is_none());
     let mut metrics = plan.metrics.iter();
     if !is_fitted || !metrics.any(|metric| metric.phase == PhaseKind::Calibration) {
         return None;
     }
-    let presses = tested_presses(plan)?;
+    let presses = tested_presses(study)?;
     let points = presses.iter().map(|planned| planned.press.point_id());
     Some(points.collect::<BTreeSet<String>>().len())
 }
 
 /// Presses of the test part of a fit; `None` if they cannot be divided. Their number does not depend on the seed.
-pub(super) fn tested_presses(plan: &Plan) -> Option<Vec<&PlannedPress>> {
+pub(super) fn tested_presses(study: &PlannedStudy) -> Option<Vec<&PlannedPress>> {
+    let plan = &study.plan;
     let presses: Vec<&PlannedPress> = plan.presses_of(PhaseKind::Calibration).collect();
     let points = presses.iter().map(|planned| planned.press.point_id());
     let points: Vec<String> = points.collect();
@@ -211,7 +212,10 @@ pub(super) fn tested_presses(plan: &Plan) -> Option<Vec<&PlannedPress>> {
         ..SplitInput::default()
     };
     // A run refuses what cannot be divided.
-    let split = "by-point".parse::<SplitSpec>().ok()?;
+    let model = study.study.model.as_ref();
+    let split = model.and_then(|model| model.split.as_ref());
+    let split = split.map_or("by-point", |split| &split.value);
+    let split = split.parse::<SplitSpec>().ok()?;
     let split = split.assign(&input, 0).ok()?;
     Some(split.test.iter().map(|row| presses[*row]).collect())
 }

@@ -3,6 +3,7 @@
 mod faults;
 mod folds;
 mod limits;
+mod model_split;
 mod overrides;
 mod recorded;
 mod reduced;

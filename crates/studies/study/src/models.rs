@@ -1,9 +1,10 @@
 //! Models of a scene: the models of its studies, and the classifier of gratings.
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
+use taceva_core::shown;
 use taceva_evaluate::{EvaluateError, FitRequest, Recipe};
-use taceva_models::Models;
-use taceva_protocol::{PhaseKind, SceneProblem};
+use taceva_models::{Models, SplitError, SplitKind, SplitSpec};
+use taceva_protocol::{ModelSpec, PhaseKind, SceneProblem};
 
 use crate::classifier::SpacingClassifier;
 use crate::error::StudyError;
@@ -23,6 +24,7 @@ pub fn check_models(scene: &PlannedScene, models: &Models) -> Result<(), StudyEr
         let (Some(model), true) = (&planned.study.model, is_fitted) else {
             continue;
         };
+        check_split(scene, planned, model)?;
         let request = fit_request(planned, scene.scene.seed, models);
         if let (Some(name), Some(request)) = (&model.name, request) {
             let refused = |error: EvaluateError| {
@@ -56,6 +58,41 @@ pub fn check_models(scene: &PlannedScene, models: &Models) -> Result<(), StudyEr
             "the classifier of gratings",
             classifier.cells(),
         )?;
+    }
+    Ok(())
+}
+
+/// Rejects, before the first press, a split that cannot divide the samples of the study.
+fn check_split(
+    scene: &PlannedScene,
+    planned: &PlannedStudy,
+    model: &ModelSpec,
+) -> Result<(), StudyError> {
+    let Some(split) = &model.split else {
+        return Ok(());
+    };
+    let refused = |problem: String| {
+        let problem = SceneProblem::Contradiction(problem);
+        StudyError::from(scene.text.error(split.at(), problem))
+    };
+    let spec: SplitSpec = split
+        .value
+        .parse()
+        .map_err(|error: SplitError| refused(format!("`split`: {error}")))?;
+    if matches!(
+        spec.kind,
+        SplitKind::Folds(_) | SplitKind::LeaveOneRecordingOut
+    ) {
+        return Err(refused(format!(
+            "`split` is `{}`, which fits several models: use `folds` instead",
+            shown(&split.value)
+        )));
+    }
+    if planned.study.sensor.dataset.is_none() && spec.kind != SplitKind::ByPoint {
+        return Err(refused(format!(
+            "`split` is `{}`, but presses at one contact point must be in one part: expected `by-point`, with shares such as `by-point 40/10/50`",
+            shown(&split.value)
+        )));
     }
     Ok(())
 }
@@ -112,13 +149,14 @@ pub(crate) fn fit_request(
 ) -> Option<Result<FitRequest, EvaluateError>> {
     let model = planned.study.model.as_ref()?;
     let name = model.name.as_ref()?;
+    let split = model.split.as_ref().map(|split| split.value.clone());
     let request = || {
         let (model, settings) = models.asked(&name.value, settings_of(&model.set)?)?;
         Ok(FitRequest {
             model,
             settings,
             channels: planned.plan.channels.clone(),
-            split: None,
+            split,
             seed,
         })
     };

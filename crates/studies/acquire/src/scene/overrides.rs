@@ -14,7 +14,7 @@ pub struct Overrides {
     pub seed: Option<u64>,
     /// Rig file whose devices replace the devices of every study that makes presses. A relative path refers to the working directory.
     pub rig: Option<PathBuf>,
-    /// Model of every study. It replaces the scene's model and that model's settings, and keeps its folds.
+    /// Model of every study. It replaces the scene's model and that model's settings, and keeps its folds or split.
     pub model: Option<String>,
     /// Settings of the model, as `key=value`. Other settings of the scene are kept.
     pub set: Vec<String>,
@@ -30,11 +30,12 @@ impl Overrides {
         model: &mut Option<ModelSpec>,
     ) -> Result<(), AcquireError> {
         if let Some(name) = &self.model {
-            // Folds divide the points, whatever the model.
-            let folds = model.take().and_then(|model| model.folds);
+            // Folds and splits divide the points, whatever the model.
+            let ModelSpec { folds, split, .. } = model.take().unwrap_or_default();
             *model = Some(ModelSpec {
                 name: Some(Setting::default_of(name.clone())),
                 folds,
+                split,
                 ..ModelSpec::default()
             });
         }

@@ -56,6 +56,8 @@ pub struct ModelSpec {
     pub set: BTreeMap<String, toml::Value>,
     /// Number of folds of the calibration points. Each point is then predicted by a model fitted on other points. `None` predicts only a test part.
     pub folds: Option<Setting<u32>>,
+    /// Split of the calibration points, or of a recording, such as `by-point 40/10/50`. `None` is 70 % training, 20 % validation and 10 % test.
+    pub split: Option<Setting<String>>,
 }
 
 /// Driver key of a selector: the text before its arguments.

@@ -162,7 +162,8 @@ impl<'a> PhaseRows<'a> {
             return Divided::new(dataset, request.split.as_deref(), request.seed);
         }
         let rows = self.rows(PhaseKind::Calibration);
-        Divided::within(dataset, &rows, Some("by-point"), request.seed)
+        let split = request.split.as_deref().unwrap_or("by-point");
+        Divided::within(dataset, &rows, Some(split), request.seed)
     }
 
     /// The only unit measured outside the map of surfaces, with a note for metrics that compare units. `None` if the study has no other unit, no metric

@@ -93,6 +93,7 @@ impl Check<'_> {
                 &model.value.file,
             )?;
             self.folds(&model.value, &scene.report)?;
+            self.split(&model.value)?;
         }
         let own = self.frames(&study.recording)?;
         if let (Some(dataset), Some(frames)) = (&sensor.value.dataset, &own)
@@ -116,6 +117,22 @@ impl Check<'_> {
             rig: None,
             wear: None,
         })
+    }
+
+    /// Checks that the split of `model` divides the samples of a fit, and only once.
+    fn split(&self, model: &ModelSpec) -> Checked {
+        let Some(split) = &model.split else {
+            return Ok(());
+        };
+        if model.file.is_some() {
+            let problem = "`split` divides the samples of a fit, and `file` names a fitted model, which brings its own split: remove one of them";
+            return self.contradiction(split.at(), problem);
+        }
+        if model.folds.is_some() {
+            let problem = "`folds` tests every contact point, so `split` would have no effect: remove one of them";
+            return self.contradiction(split.at(), problem);
+        }
+        Ok(())
     }
 
     /// Checks the number of folds of `model`, and that the run need not choose one of their models.
