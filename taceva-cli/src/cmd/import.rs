@@ -129,7 +129,7 @@ impl Source {
         let path = args
             .source
             .as_deref()
-            .ok_or_else(|| Usage::error("the folder or file to import is missing"))?;
+            .ok_or_else(|| Usage::error("no folder or file is named, expected `taceva import FOLDER`"))?;
         if !UnpackedArchive::is_archive(path) {
             return Ok(Source::Folder(folder_of(path).to_owned()));
         }
@@ -262,7 +262,7 @@ fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
     let path = args
         .map
         .as_deref()
-        .ok_or_else(|| Usage::error("either --map or --preset is needed"))?;
+        .ok_or_else(|| Usage::error("neither --map nor --preset is given: add one of them"))?;
     if !path.exists() {
         anyhow::bail!(
             "{}: no such map: `{}` writes one",

@@ -76,7 +76,7 @@ pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u
         return Err(DatasetError::path(
             format!("{}{span}", path.display()),
             format!(
-                "more than the {} bytes that are accepted of a picture",
+                "a picture has at most {} bytes",
                 limits::IMAGE_BYTES
             ),
         ));

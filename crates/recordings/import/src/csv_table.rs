@@ -244,7 +244,7 @@ impl CsvTable {
     fn check_names(&self) -> Result<(), ImportError> {
         let problem = if self.names.len() > limits::TABLE_COLUMNS {
             format!(
-                "{} columns, more than the {} that are accepted",
+                "{} columns, expected at most {}",
                 self.names.len(),
                 limits::TABLE_COLUMNS
             )

@@ -213,14 +213,14 @@ fn a_result_gives_the_certificate_of_its_recordings_unless_it_has_two_or_holds_f
     bench.refused(
         "budget budget.toml --results r.json",
         3,
-        "line 6, `from`: `certificate` is not measured here: the recordings have several",
+        "line 6, `from`: `certificate` is not measured here: the recordings have several certificates",
     );
     let in_part = [stated("D-K-1").as_str(), r#"{"instrument": "force"}"#].join(", ");
     bench.write("r.json", &result(&in_part));
     bench.refused(
         "budget budget.toml --results r.json",
         3,
-        "line 6, `from`: `certificate` is not measured here: some of the recordings have none",
+        "line 6, `from`: `certificate` is not measured here: some of the recordings have no certificate",
     );
     bench.ok("budget budget.toml --results r.json --certificate cert.toml --mc 0");
 }
@@ -245,7 +245,7 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     bench.refused(
         "budget budget.toml",
         3,
-        "budget.toml: line 6, `from`: `certificate` is not measured here: the recording has none; add --certificate",
+        "budget.toml: line 6, `from`: `certificate` is not measured here: the recording has no certificate; add --certificate",
     );
     bench.refused(
         &format!("{words} --at 60N"),

@@ -260,6 +260,6 @@ fn limits_reach_variants_and_a_missing_task_is_named() {
     bench.refused(
         "accept --template a.json",
         2,
-        "--template is for scores of channels",
+        "--template writes limits of channels",
     );
 }

@@ -35,7 +35,7 @@ impl Recorder {
                 None => "no signals".to_owned(),
             };
             return Err(refused(format!(
-                "{}, expected {} as the recording has",
+                "{}, expected {} as in the recording",
                 named(found),
                 named(expected)
             )));

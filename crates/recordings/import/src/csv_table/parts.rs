@@ -157,7 +157,7 @@ impl CsvParts {
         let length = bytes.end.saturating_sub(bytes.start);
         if length > limits::TABLE_BYTES {
             let problem = format!(
-                "{length} bytes of {PART_ROWS} rows, more than the {} that are accepted",
+                "{length} bytes of {PART_ROWS} rows, expected at most {}",
                 limits::TABLE_BYTES
             );
             return Err(ImportError::table(&self.path, problem));
@@ -205,7 +205,7 @@ impl CsvTable {
         }
         if text.len() as u64 > limits::TABLE_BYTES {
             let problem = format!(
-                "{} bytes as text, more than the {} that are accepted at once",
+                "{} bytes as text, expected at most {} at once",
                 text.len(),
                 limits::TABLE_BYTES
             );

@@ -54,7 +54,7 @@ pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String
     let mut found = cell.trim();
     for (depth, position) in index.iter().enumerate() {
         if depth > 0 && !found.starts_with(['[', '(']) {
-            return Err(format!("`{found}` is one value, where a list is expected"));
+            return Err(format!("`{found}` is a single value, expected a list"));
         }
         let parts = parts(found)?;
         if parts.contains(&"...") {

@@ -154,7 +154,7 @@ impl PlannedMaps {
                 expected if expected == found => {}
                 [rows, columns] => {
                     let problem = format!(
-                        "a map of {} x {} pixels, expected {rows} x {columns} as the first map",
+                        "a map of {} x {} pixels, expected {rows} x {columns} as in the first map",
                         found[0], found[1]
                     );
                     return Err(self.wrong(place, &problem));

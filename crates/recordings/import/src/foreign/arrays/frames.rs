@@ -84,7 +84,7 @@ impl ArrayPictures {
             });
             first = first
                 .checked_add(rows)
-                .ok_or("more frames than can be counted")?;
+                .ok_or("more than 2^64 frames")?;
         }
         Ok(ArrayPictures {
             path: path.to_owned(),

@@ -49,7 +49,7 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
         .max_by_key(|(length, count)| (**count, **length));
     match most {
         Some((length, _)) if *length > limits::ROWS => Err(format!(
-            "{length} rows, more than the {} that are accepted",
+            "{length} rows, expected at most {}",
             limits::ROWS
         )),
         Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),

@@ -73,7 +73,7 @@ pub(super) fn bytes_at(file: &mut File, extent: Extent, cap: u64) -> Result<Vec<
     let Extent { at, size } = extent;
     if size > cap {
         return Err(format!(
-            "{size} bytes, more than the {cap} that are accepted here"
+            "{size} bytes, expected at most {cap}"
         ));
     }
     let mut bytes = Vec::new();
@@ -83,6 +83,6 @@ pub(super) fn bytes_at(file: &mut File, extent: Extent, cap: u64) -> Result<Vec<
     read.map_err(|error| error.to_string())?;
     match bytes.len() as u64 == size {
         true => Ok(bytes),
-        false => Err("the file of the shard shrank while it was read".to_owned()),
+        false => Err("the file of the shard shrank while it was read: import it again when nothing writes to it".to_owned()),
     }
 }

@@ -130,7 +130,7 @@ impl Check<'_> {
                 ));
             }
             if joins.iter().any(|known| known.name == join.name) {
-                return Err(self.at(offset, &format!("two joins are called `{}`", join.name)));
+                return Err(self.at(offset, &format!("two joins are called `{}`: give each its own name", join.name)));
             }
             joins.push(join);
         }
@@ -211,7 +211,10 @@ impl Check<'_> {
         let is_rotation = match &written.kind {
             None => false,
             Some(kind) if kind.get_ref() == "rotation" => true,
-            Some(kind) => return Err(self.at(kind.span().start, "the only kind is \"rotation\"")),
+            Some(kind) => {
+                let problem = format!("`kind` is `{}`, expected \"rotation\"", kind.get_ref());
+                return Err(self.at(kind.span().start, &problem));
+            }
         };
         // The order in the file is that of the matrix rows.
         let mut gives: Vec<_> = written.gives.iter().collect();
@@ -245,7 +248,12 @@ impl Check<'_> {
             is_rotation,
         };
         if map.offset.len() != map.from.len() {
-            return Err(self.at(offset, "`offset` has one number for each column of `from`"));
+            let problem = format!(
+                "`offset` has {} numbers, expected {}, one for each column of `from`",
+                map.offset.len(),
+                map.from.len()
+            );
+            return Err(self.at(offset, &problem));
         }
         if let MatrixRows::Written(rows) = &map.by
             && let Some(problem) = map.problem(rows)
@@ -265,7 +273,7 @@ impl Check<'_> {
             let mut sorted: Vec<&String> = class.names.iter().collect();
             sorted.sort_unstable();
             if sorted.is_empty() || sorted.windows(2).any(|pair| pair[0] == pair[1]) {
-                return Err(self.at(offset, "`names` lists every class, each once"));
+                return Err(self.at(offset, "`names` is empty or names a class twice, expected every class once"));
             }
             let map = ClassMap {
                 from: class.from.clone().into_name(),
