@@ -92,7 +92,7 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
     bench.refused(
         "evaluate pictures --with skin.safetensors",
         3,
-        "the model needs signals, and the dataset has none",
+        "the model needs signals, which the dataset lacks",
     );
 }
 

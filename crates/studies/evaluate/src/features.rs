@@ -24,7 +24,7 @@ pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, Eval
     let sight = Sight::of(dataset, &spec)?;
     let sight = sight.map_err(|absent| {
         EvaluateError::Request(format!(
-            "the model needs {absent}, and the dataset has none"
+            "the model needs {absent}, which the dataset lacks"
         ))
     })?;
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)

@@ -53,7 +53,7 @@ pub(crate) fn report_of(
             if known.is_some() {
                 return Err(EvaluateError::State {
                     path: path.clone(),
-                    problem: format!("it holds `{}`, as another state does", shown(metric)),
+                    problem: format!("`{}` is also in another state; name each state once", shown(metric)),
                 });
             }
         }
@@ -64,7 +64,7 @@ pub(crate) fn report_of(
 }
 
 fn no_state() -> EvaluateError {
-    EvaluateError::Request("no state file is given: name at least one".to_owned())
+    EvaluateError::Request("no state file is given, expected one or more".to_owned())
 }
 
 /// Merges several states, and returns their common scores and the merged state.

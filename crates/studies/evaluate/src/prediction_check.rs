@@ -76,7 +76,7 @@ pub fn check_predictions(
         left_out: 0,
     });
     if target.rows.is_empty() {
-        let problem = "no sample of the table has a prediction of the model".to_owned();
+        let problem = "the model predicts no sample of the table".to_owned();
         return Ok(PredictionCheck::Differs(problem));
     }
     check_features(model.card().features.shape(), target.rows.len())?;

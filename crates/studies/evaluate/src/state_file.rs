@@ -203,7 +203,7 @@ pub(crate) fn read_capped(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     file.take(LARGEST + 1).read_to_string(&mut text)?;
     if text.len() as u64 > LARGEST {
-        return Err(io::Error::other("larger than 1 GiB"));
+        return Err(io::Error::other("larger than 1 GiB, expected a state file"));
     }
     Ok(text)
 }

@@ -172,7 +172,7 @@ fn a_model_that_predicts_no_class_fails_alone_with_the_models_that_do() {
     assert_eq!(ran.code, 1, "{}", ran.err);
     let table = text(&bench, "which.sweep/table.csv");
     assert!(
-        table.contains("expected a classifier: --model lda"),
+        table.contains("expected a classifier, such as --model lda"),
         "{table}"
     );
     let failed = rows(&table).into_iter().filter(|row| row[2] == "failed");

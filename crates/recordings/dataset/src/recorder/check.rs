@@ -14,7 +14,7 @@ impl Recorder {
         let (values, channels) = (sample.truth.as_slice(), self.table.channels());
         if values.len() > channels.len() {
             return Err(refused(format!(
-                "{} values for {} channels",
+                "{} values, expected at most {}, one per channel",
                 values.len(),
                 channels.len()
             )));
