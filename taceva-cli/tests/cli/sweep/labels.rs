@@ -110,7 +110,7 @@ fn metrics_of_channels_and_of_tasks_are_refused_in_one_sweep_with_what_to_write(
     bench.refused(
         "sweep which.toml",
         3,
-        "line 5: `metrics`: mae is of channels, and `task` scores labels: write scores of tasks",
+        "line 5: `metrics`: mae applies to channels only, but `task` scores labels: write scores of tasks",
     );
     bench.write("which.toml", &with("\"kapa\""));
     bench.refused("sweep which.toml", 3, "did you mean `kappa`?");
@@ -125,7 +125,7 @@ fn metrics_of_channels_and_of_tasks_are_refused_in_one_sweep_with_what_to_write(
     bench.refused(
         "sweep which.toml",
         3,
-        "`sensor` cannot be combined with `task`",
+        "`sensor` applies to channels only",
     );
     assert!(!bench.path("which.sweep").exists());
 }

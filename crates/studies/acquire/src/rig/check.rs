@@ -173,7 +173,7 @@ impl RigCheck {
             let halted = self.halt_on_its_way(&mut *robot, switch.as_deref());
             self.of("robot", halted.map_err(without_answer));
         } else {
-            self.halt_left_out = Some("nobody permitted the robot to move".to_owned());
+            self.halt_left_out = Some("the operator did not permit motion".to_owned());
         }
     }
 
@@ -205,7 +205,7 @@ impl RigCheck {
             problems.any(|of| matches!(of, RigProblem::Untaught | RigProblem::InGel { .. }));
         match failed.as_slice() {
             [] if is_misplaced => {
-                Some("nothing moves, because the place of the robot is wrong".to_owned())
+                Some("nothing moves, because `origin_mm` or `axes` of the robot are wrong".to_owned())
             }
             [] => None,
             failed => Some(format!(

@@ -103,7 +103,7 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
         Some((key, _)) if has_tasks => Err(place.wrong(
             key,
             format!(
-                "`{key}` is of channels, and the `task` of `[score]` has all of its scores: omit it"
+                "`{key}` applies to channels only, but `[score]` has a `task`: omit `{key}`"
             ),
         )),
         _ => Ok(()),

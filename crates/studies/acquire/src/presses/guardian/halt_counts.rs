@@ -68,7 +68,7 @@ fn words(halted: &Halted, cause: Cause, policy: &str) -> String {
             remedy(policy)
         ),
         Cause::Program => format!(
-            "{head}, {ran_ms:.0} ms of them work of the driver: report this line with the driver of the robot"
+            "{head}, of which the driver worked {ran_ms:.0} ms: report this line with the driver of the robot"
         ),
         Cause::Device => {
             let delay = match (halted.moved_on(), halted.rest_s) {

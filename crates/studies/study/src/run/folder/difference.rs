@@ -26,7 +26,7 @@ pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
                 None => "missing".to_owned(),
             };
             format!(
-                "line {number} of the scene was {} and is {}",
+                "line {number} of the scene was {} and is now {}",
                 line(before),
                 line(now)
             )
@@ -60,7 +60,7 @@ fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
             pairs.find_map(|(at, (before, now))| of_values(&inner(&at.to_string()), before, now))
         }
         (Value::Array(before), Value::Array(now)) => Some(format!(
-            "{path} had {} entries and has {}",
+            "{path} had {} entries and now has {}",
             before.len(),
             now.len()
         )),
@@ -68,7 +68,7 @@ fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
         // The plan has the digest of the rig file alone.
         _ if path == "rig" => Some("the rig file changed".to_owned()),
         (before, now) => Some(format!(
-            "{path} was {} and is {}",
+            "{path} was {} and is now {}",
             shortened(&before.to_string()),
             shortened(&now.to_string())
         )),

@@ -44,7 +44,7 @@ impl RunFolder {
         let differences = [line, difference::of_plans(before, now)];
         let differences: Vec<String> = differences.into_iter().flatten().collect();
         let differences = match differences.as_slice() {
-            [] => "its scene, seed or rig differs".to_owned(),
+            [] => "the scene, seed or rig differs".to_owned(),
             differences => differences.join("; "),
         };
         format!(
