@@ -84,7 +84,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
         Fault::Read(_) if is_beyond.get() => damaged(
             ".",
             &format!(
-                "more than {allowed} bytes unpacked, which is beyond the limit for a file of {} bytes",
+                "more than {allowed} bytes unpacked, the limit for a file of {} bytes",
                 about.len()
             ),
         ),

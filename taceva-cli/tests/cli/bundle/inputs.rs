@@ -328,6 +328,6 @@ fn texts_are_redacted_and_counted() {
     bench.refused(
         &format!("{BUNDLE} d --text notes.toml"),
         3,
-        "expected a file called scene.toml",
+        "expected a file with one of the names scene.toml",
     );
 }

@@ -138,7 +138,7 @@ fn models_of_other_labels_are_compared_by_their_intervals() {
         (&f1["paired"], &f1["winner"]),
         (&Value::Bool(false), &Value::from("a"))
     );
-    assert!(comparison["notes"].to_string().contains("other labels"));
+    assert!(comparison["notes"].to_string().contains("different labels"));
 }
 
 #[test]

@@ -200,7 +200,7 @@ fn a_certificate_of_another_serial_is_refused() {
     other.instrument_serial = Some("43".to_owned());
     assert_eq!(
         certified(other),
-        "line 6, `from`: the certificate is of serial `42`, the instrument has serial `43`"
+        "line 6, `from`: the certificate is for serial number `42`, but the instrument has `43`"
     );
 }
 
@@ -215,7 +215,7 @@ fn an_expired_certificate_is_warned_of_in_every_output() {
         .budgets(&Evidence::default().with_certificate(old), None)
         .expect("values")
         .remove(0);
-    let said = "certificate D-K-1 was valid until 2027-05-12, the recording is of 2027-05-13";
+    let said = "certificate D-K-1 was valid until 2027-05-12, but the recording was made on 2027-05-13";
     assert_eq!(budget.warnings, [said]);
     assert!(budget.to_string().contains(said));
     assert!(serde_json::to_string(&budget).expect("JSON").contains(said));

@@ -146,7 +146,7 @@ fn a_limit_may_have_a_rule_of_its_own() {
         (check.verdict, check.reason.expect("a reason"))
     };
     assert_eq!(shared(0.02).0, Word::Pass);
-    let great = "U is 0.0164 N, above the 0.01 N of the rule".to_owned();
+    let great = "U is 0.0164 N, expected at most 0.01 N by the rule".to_owned();
     assert_eq!(shared(0.01), (Word::Undecided, great));
     // An uncertainty is agreed in the unit of each limit.
     let all = "[decision]\nrule = \"shared\"";

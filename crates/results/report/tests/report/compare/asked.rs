@@ -51,7 +51,7 @@ fn markdown_has_the_answers_of_the_overview_above_every_pair() {
 fn a_metric_of_another_version_is_named_and_no_verdict_is_given_on_it() {
     let every = compare(&two(), &CompareRequest::default());
     let note =
-        "shininess not compared: this version of taceva does not know which values are better";
+        "shininess not compared: this version of TacEva does not know which values are better";
     assert!(
         every.notes.iter().any(|own| own == note),
         "{:?}",
@@ -67,7 +67,7 @@ fn a_metric_of_another_version_is_named_and_no_verdict_is_given_on_it() {
     assert_eq!(decisions[0].winner, None);
     assert_eq!(
         decisions[0].words,
-        "no winner: this version of taceva does not know which values are better"
+        "no winner: this version of TacEva does not know which values are better"
     );
 }
 
