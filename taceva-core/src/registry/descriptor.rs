@@ -72,7 +72,7 @@ impl DescriptorSpec {
             Facts::Robot(facts) => robot_fault(facts, self.source),
             Facts::Force(facts) => force_fault(facts),
             Facts::Lighting(facts) if facts.scenes.is_empty() => {
-                Some("a lighting device without scenes".to_owned())
+                Some("a lighting device without scenes, expected at least one".to_owned())
             }
             Facts::Lighting(facts) => scenes_fault(&facts.scenes),
             Facts::Changer(facts) => holds_fault(&facts.holds),
@@ -107,10 +107,10 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
         .frame
         .filter(|frame| frame.byte_len().is_none_or(|len| len == 0))
     {
-        return Some(format!("frames of {frame} fit no buffer"));
+        return Some(format!("frames of {frame} are empty or exceed the address space"));
     }
     if let Some([width, height]) = facts.camera.filter(|sides| sides.contains(&0)) {
-        return Some(format!("a camera of {width}×{height} pixels"));
+        return Some(format!("a camera of {width}×{height} pixels, expected sides above 0"));
     }
     let footprint = facts.footprint.and_then(|footprint| footprint.depth_max());
     let beyond = facts
@@ -158,7 +158,7 @@ fn robot_fault(facts: &RobotFacts, source: DriverSource) -> Option<String> {
 
 fn force_fault(facts: &ForceFacts) -> Option<String> {
     if facts.axes.is_empty() {
-        return Some("a force transducer that measures no component".to_owned());
+        return Some("a force transducer that measures no component, expected at least one".to_owned());
     }
     positive(&[
         ("rate", facts.rate.map(|rate| rate.0)),
@@ -304,7 +304,7 @@ impl Descriptor {
 /// let facts = Facts::Lighting(LightingFacts::default());
 /// let spec = DescriptorSpec::new(DriverKey::fixed("room/lamp"), "a lamp", DriverSource::Real, facts);
 /// let error = spec.check().unwrap_err();
-/// assert_eq!(error.to_string(), "the driver `room/lamp` contradicts itself: a lighting device without scenes");
+/// assert_eq!(error.to_string(), "the driver `room/lamp` contradicts itself: a lighting device without scenes, expected at least one");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DescriptorError {

@@ -52,13 +52,13 @@ impl<'a> Problem<'a> {
         check(part, "validation")?;
         if part.features.shape() != self.training.features.shape() {
             return Err(invalid(format!(
-                "validation samples of {} features, training samples of {}",
+                "validation samples of {} features, expected {} as in training",
                 part.features.shape().len(),
                 self.training.features.shape().len()
             )));
         }
         if part.targets.channels != self.training.targets.channels {
-            return Err(invalid("validation and training have different channels"));
+            return Err(invalid("validation and training have different channels, expected the same"));
         }
         let mut labels = self.scaling.scaled(part.targets);
         subtract(&mut labels, &self.mean);

@@ -182,7 +182,7 @@ driver = "lab/camera"
         let other = warned(&of_sensor, &read);
         assert_eq!(other.len(), 1, "{other:?}");
         assert!(
-            other[0].contains("of the sensor with serial number B3, the driver read D2"),
+            other[0].contains("of the sensor is for serial number B3, but the driver read D2"),
             "{other:?}"
         );
     }

@@ -62,7 +62,7 @@ impl Arm {
         }
         let first = self.after_every_stop(until)?;
         if first.what.runtime != STOPPED {
-            let why = "the controller runs another program, expected none";
+            let why = "the controller runs another program, expected none: stop that program";
             return Err(failed(ErrorKind::DeviceFault, DOING, why));
         }
         Ok(first)

@@ -143,7 +143,7 @@ impl<'p, 'd> Record<'p, 'd> {
             kind if kind % 2 == 0 => Value::Blob(range),
             _ => match std::str::from_utf8(bytes) {
                 Ok(text) => Value::Text(text.to_owned()),
-                Err(_) => return Err(self.pages.damaged(self.page, "a text is not UTF-8")),
+                Err(_) => return Err(self.pages.damaged(self.page, "a string is not UTF-8")),
             },
         })
     }
@@ -154,7 +154,7 @@ impl<'p, 'd> Record<'p, 'd> {
             Value::Text(text) => Ok(text),
             Value::Null => Ok(String::new()),
             other => {
-                let problem = format!("{other:?}, expected a text");
+                let problem = format!("{other:?}, expected a string");
                 Err(self.pages.damaged(self.page, problem))
             }
         }

@@ -174,7 +174,7 @@ fn a_wrong_value_is_named_by_its_line_its_key_and_the_expectation() {
         (
             "laboratory = \"a laboratory\"",
             "laboratory = 7",
-            "lab.toml, line 7: [force.certificate]: `laboratory` is `7`, expected a text in quotes",
+            "lab.toml, line 7: [force.certificate]: `laboratory` is `7`, expected a string in quotes",
         ),
         (
             "\"2027-05-12\"",
