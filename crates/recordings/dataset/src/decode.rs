@@ -169,7 +169,7 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     }
     let mut reader = decoder.read_info().map_err(text)?;
     let length = reader.output_buffer_size();
-    let length = length.ok_or("an image larger than the address space")?;
+    let length = length.ok_or("the image exceeds the address space")?;
     let mut pixels = vec![0; checked_length(length as u64, bytes)?];
     reader.next_frame(&mut pixels).map_err(text)?;
     let (format, pixels) = match reader.output_color_type() {
@@ -256,7 +256,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     };
     let length = info
         .byte_len()
-        .ok_or("an image larger than the address space")?;
+        .ok_or("the image exceeds the address space")?;
     checked_length(length as u64, bytes)?;
     let mut pixels = vec![0; length];
     decoder.decode_into(&mut pixels).map_err(text)?;
@@ -300,7 +300,7 @@ fn most_of(file: &[u8]) -> usize {
 /// # Errors
 /// Error message if the decoded size exceeds [`most_of`] of `file`.
 fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
-    let length = usize::try_from(bytes).map_err(|_| "an image larger than the address space")?;
+    let length = usize::try_from(bytes).map_err(|_| "the image exceeds the address space")?;
     match length <= most_of(file) {
         true => Ok(length),
         false => Err(format!(

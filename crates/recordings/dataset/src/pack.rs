@@ -154,7 +154,7 @@ impl PackWriter {
         let length = u32::try_from(bytes.len()).map_err(|_| {
             DatasetError::request(
                 &self.folder.join(&path),
-                format!("a picture of {} bytes", bytes.len()),
+                format!("a picture of {} bytes, expected less than 2^32", bytes.len()),
             )
         })?;
         let span = Span {

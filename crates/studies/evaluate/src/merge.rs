@@ -119,7 +119,7 @@ fn merged<S: Borrow<ReadState>>(
         };
         if !file.plan.merges_with(&first.plan) {
             let problem =
-                "its plan differs: metrics, channels, sensor facts and settings must be equal";
+                "another plan: metrics, channels, sensor facts and settings must be equal";
             return Err(wrong(format!(
                 "{problem} to those of {}",
                 shown(first_path)

@@ -27,7 +27,7 @@ pub(super) fn allow(args: &PluginAllow, context: &Context) -> anyhow::Result<u8>
             asked => asked.join(", "),
         };
         let problem = format!(
-            "`{need}`: the plugin `{}` does not request it, it requests {asks}",
+            "`{need}`: the plugin `{}` does not request this access; it requests {asks}",
             args.id
         );
         return Err(Usage::error(problem));

@@ -205,7 +205,7 @@ impl<'p, 'd> Record<'p, 'd> {
         let usable = self.pages.database.usable as usize;
         while self.read.len() < self.length {
             if !seen.insert(self.next) {
-                return Err(self.pages.damaged(self.next, "a row uses it twice"));
+                return Err(self.pages.damaged(self.next, "a row uses this page twice"));
             }
             let page = self.pages.read(self.next)?;
             let Some((next, bytes)) = page

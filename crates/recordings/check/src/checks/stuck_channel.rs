@@ -117,7 +117,7 @@ fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> O
         .filter(|_| values.len() >= VALUES)?;
     let rows: Vec<usize> = end.iter().map(|(row, _)| *row).collect();
     let message = format!(
-        "{channel} ends at {} {} in {} of {} samples, over {TIMES} times as many as for any other value: it is clipped there",
+        "{channel} ends at {} {} in {} of {} samples, over {TIMES} times as many as at any other value: {channel} is clipped there",
         end[0].1,
         channel.unit(),
         rows.len(),

@@ -58,7 +58,7 @@ fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
     let report = with_forces(|number| forces(number).min(2.305), |_| {});
     assert_eq!(
         message(&report, "TAC009"),
-        "Fz ends at 2.305 N in 69 of 200 samples, over 3 times as many as for any other value: it is clipped there"
+        "Fz ends at 2.305 N in 69 of 200 samples, over 3 times as many as at any other value: Fz is clipped there"
     );
     let pulled = with_forces(|number| -forces(number).min(2.305), |_| {});
     assert!(message(&pulled, "TAC009").starts_with("Fz ends at -2.305 N in 69 of 200"));

@@ -107,7 +107,7 @@ impl Recorder {
         for sample in samples {
             self.check(sample)?;
             if !names.insert(&sample.id) {
-                return refused(&sample.id, "two samples have this name".to_owned());
+                return refused(&sample.id, "two samples have this name, expected distinct names".to_owned());
             }
             let found = sample.frame.as_ref().map(Frame::info);
             match (expected, found) {

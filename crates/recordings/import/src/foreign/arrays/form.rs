@@ -196,14 +196,14 @@ impl Form {
         };
         let bytes = match (values, range) {
             (ArrayValues::U8(all), None) => {
-                let row = all.get(own).ok_or("fewer values than the shape states")?;
+                let row = all.get(own).ok_or("the array has fewer values than its shape states")?;
                 match is_planar {
                     false => row.to_vec(),
                     true => (0..row.len()).map(|sample| row[place(sample)]).collect(),
                 }
             }
             (ArrayValues::U16(all), None) => {
-                let row = all.get(own).ok_or("fewer values than the shape states")?;
+                let row = all.get(own).ok_or("the array has fewer values than its shape states")?;
                 (0..row.len())
                     .flat_map(|sample| row[place(sample)].to_le_bytes())
                     .collect()

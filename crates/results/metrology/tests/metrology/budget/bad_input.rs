@@ -167,7 +167,7 @@ fn a_correlation_with_an_unknown_source_names_the_nearest_one() {
         correlations(&pair("one", "tow", "0.1")),
         "line 14, `between`: `tow` is not a source; did you mean `two`?"
     );
-    assert!(correlations(&pair("one", "one", "0.1")).contains("between two sources"));
+    assert!(correlations(&pair("one", "one", "0.1")).contains("expected two different sources"));
     let twice = [pair("one", "two", "0.1"), pair("two", "one", "0.1")].concat();
     assert!(correlations(&twice).contains("is used twice, here and in line 14"));
 }

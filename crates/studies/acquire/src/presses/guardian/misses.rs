@@ -47,7 +47,7 @@ impl Misses {
                 remedy(policy)
             ),
             Cause::Program | Cause::Device => format!(
-                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms only, so the work of TacEva or of a driver took the rest: report this line with the drivers of the rig"
+                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms only; TacEva or a driver used the rest: report this line with the drivers of the rig"
             ),
             Cause::Unknown => format!(
                 "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
@@ -73,7 +73,7 @@ impl Misses {
             .stale
             .take_if(|stale| now_s - stale.found_s > SETTLED_S)?;
         let words = format!(
-            "late: the newest reading was from {:.0} ms ago, although its guard was in time: its device, link or driver delayed it; check cable, network and rate of the device",
+            "late: the newest reading is {:.0} ms old, although the guard was in time, so the device, its link or its driver is late; check cable, network and rate of the device",
             stale.age_s * 1e3
         );
         self.count(Cause::Device, words)
