@@ -37,7 +37,7 @@ pub(crate) struct OptionalModelArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SettingArgs {
-    /// A setting of the features or of the model, such as size=32x32, color=gray, difference=true or strength=0.1. features=markers selects
+    /// A setting of the features or of the model, such as size=32x32, color=gray, difference=true or strength=0.1. features= accepts
     /// pixels, markers, gradients, statistics, or several joined by +. input=signals is for a recording that also has frames, and device=wgpu
     /// for networks in a program built for GPUs; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]

@@ -126,10 +126,9 @@ enum Source {
 
 impl Source {
     fn open(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Result<Source> {
-        let path = args
-            .source
-            .as_deref()
-            .ok_or_else(|| Usage::error("no folder or file is named, expected `taceva import FOLDER`"))?;
+        let path = args.source.as_deref().ok_or_else(|| {
+            Usage::error("no folder or file is named, expected `taceva import FOLDER`")
+        })?;
         if !UnpackedArchive::is_archive(path) {
             return Ok(Source::Folder(folder_of(path).to_owned()));
         }

@@ -91,7 +91,9 @@ impl PictureFault for PluginFault {
         let answer = receiver.recv_timeout(longest);
         let answer = answer.map_err(|_| {
             let seconds = longest.as_secs();
-            format!("no picture within {seconds} s: make the fault faster, or test smaller pictures")
+            format!(
+                "no picture within {seconds} s: make the fault faster, or test smaller pictures"
+            )
         })?;
         self.is_started.store(true, Ordering::Relaxed);
         let numbers = answer.map_err(|error| error.to_string())?;

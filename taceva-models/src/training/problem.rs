@@ -58,7 +58,9 @@ impl<'a> Problem<'a> {
             )));
         }
         if part.targets.channels != self.training.targets.channels {
-            return Err(invalid("validation and training have different channels, expected the same"));
+            return Err(invalid(
+                "validation and training have different channels, expected the same",
+            ));
         }
         let mut labels = self.scaling.scaled(part.targets);
         subtract(&mut labels, &self.mean);

@@ -35,10 +35,7 @@ pub(crate) fn check_regular(
     if metadata.len() > cap {
         return Err(DatasetError::path(
             path.to_string_lossy(),
-            format!(
-                "{} bytes, expected at most {cap}",
-                metadata.len()
-            ),
+            format!("{} bytes, expected at most {cap}", metadata.len()),
         ));
     }
     Ok(())

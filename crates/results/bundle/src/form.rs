@@ -72,7 +72,8 @@ pub(crate) fn files(source: &Source, manifest: &Manifest) -> Result<Vec<Damage>,
         .keys()
         .filter(|name| !listed.contains(name.as_str()));
     for name in extra.take(MOST_DAMAGE) {
-        let problem = "bundle.json does not list this file; remove the file, or make the bundle again";
+        let problem =
+            "bundle.json does not list this file; remove the file, or make the bundle again";
         damage.push(Damage::new(name, "no file is added", problem));
     }
     Ok(damage)

@@ -34,7 +34,9 @@ pub(crate) fn fault(name: &str) -> Option<String> {
     }
     // Windows drops such a dot, so two names would be one.
     if parts.iter().any(|part| part.ends_with('.')) {
-        return Some("a folder or file name that ends in a dot, expected another ending".to_owned());
+        return Some(
+            "a folder or file name that ends in a dot, expected another ending".to_owned(),
+        );
     }
     (parts.len() > MOST_PARTS).then(|| {
         format!(

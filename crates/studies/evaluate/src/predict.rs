@@ -165,9 +165,7 @@ fn extractor_of(
 ) -> Result<Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &model.card().features)?;
     let sight = sight.map_err(|absent| {
-        EvaluateError::Unsuited(format!(
-            "the model needs {absent}, which the dataset lacks"
-        ))
+        EvaluateError::Unsuited(format!("the model needs {absent}, which the dataset lacks"))
     })?;
     let extractor = build(model, sight.info(), sight.reference());
     extractor.map_err(|error| match error {

@@ -114,8 +114,6 @@ fn require_pictures(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
     dataset.require_view()?;
     match dataset.header().frames {
         Some(_) => Ok(()),
-        None => refused(
-            "the recording has no pictures, expected a recording with pictures",
-        ),
+        None => refused("the recording has no pictures, expected a recording with pictures"),
     }
 }

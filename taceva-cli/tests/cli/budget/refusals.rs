@@ -233,7 +233,10 @@ fn the_day_of_a_result_is_that_on_which_a_certificate_must_be_valid() {
     bench.write("r.json", &sealed);
     let words = "budget budget.toml --results r.json --certificate cert.toml --mc 0";
     let late = bench.ok(words);
-    assert!(late.contains("the recording was made on 2027-06-01"), "{late}");
+    assert!(
+        late.contains("the recording was made on 2027-06-01"),
+        "{late}"
+    );
     let stated = bench.ok(&format!("{words} --date 2027-01-02"));
     assert!(!stated.contains("was valid until"), "{stated}");
 }
@@ -254,8 +257,7 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     );
     for format in FORMATS {
         let late = bench.ok(&format!("{words} --date 2027-06-01 --format {format}"));
-        let warning =
-            "certificate D-K-1 was valid until 2027-05-12, but the recording was made on 2027-06-01";
+        let warning = "certificate D-K-1 was valid until 2027-05-12, but the recording was made on 2027-06-01";
         assert!(late.contains(warning), "{format}: {late}");
     }
     let text = bench.ok(words);

@@ -122,11 +122,7 @@ fn metrics_of_channels_and_of_tasks_are_refused_in_one_sweep_with_what_to_write(
         "line 4: `metrics`: f1 is a score of tasks, and this sweep scores channels: write `task = \"NAME\"`",
     );
     bench.write("which.toml", &format!("{SLIP}sensor = \"sensor.toml\"\n"));
-    bench.refused(
-        "sweep which.toml",
-        3,
-        "`sensor` applies to channels only",
-    );
+    bench.refused("sweep which.toml", 3, "`sensor` applies to channels only");
     assert!(!bench.path("which.sweep").exists());
 }
 

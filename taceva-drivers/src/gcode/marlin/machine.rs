@@ -152,7 +152,8 @@ impl Printer {
             }
         }
         let command = command.to_owned();
-        let why = format!("the command arrived damaged {SENT} times: check the cable and its length");
+        let why =
+            format!("the command arrived damaged {SENT} times: check the cable and its length");
         Err(refused(CommandError::Refused { command, why }))
     }
 

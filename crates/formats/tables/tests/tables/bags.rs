@@ -244,7 +244,11 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     open[place + 10..place + 18].fill(0);
     refused(
         &at("open.bag", &open),
-        &["did not close the bag", "rosbag reindex", "16 complete messages"],
+        &[
+            "did not close the bag",
+            "rosbag reindex",
+            "16 complete messages",
+        ],
     );
 }
 

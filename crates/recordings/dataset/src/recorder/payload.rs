@@ -250,7 +250,9 @@ impl WrittenSample {
             .keys()
             .find(|name| channels.position(name).is_none());
         if let Some(name) = stranger {
-            return Err(format!("`{name}` is not a channel of this recording: correct the name"));
+            return Err(format!(
+                "`{name}` is not a channel of this recording: correct the name"
+            ));
         }
         if self
             .truth

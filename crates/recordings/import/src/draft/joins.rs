@@ -142,9 +142,10 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     };
     let (tolerance_ms, tolerance) = match rates {
         // Both neighbours of an instant must lie within the tolerance, and steps vary.
-        _ if pick.starts_with(LINEAR) => {
-            (2.0 * spacing_ms, "twice the time between two rows of this table")
-        }
+        _ if pick.starts_with(LINEAR) => (
+            2.0 * spacing_ms,
+            "twice the time between two rows of this table",
+        ),
         Some((own, _)) if spacing_ms > PRESSES_MS => (
             (SHARE_OF_STEP * spacing_ms).min(1e3 / own),
             "at most a tenth of the time between two rows of this table, so no other press matches",

@@ -158,7 +158,10 @@ fn names_that_come_twice_or_differ_in_case_alone_are_refused() {
         &[plain("a.json", b"1"), plain("A.json", b"2")],
         "in upper and lower case only",
     );
-    refused(&[plain("a/1", b"1"), plain("A/2", b"2")], "in upper and lower case only");
+    refused(
+        &[plain("a/1", b"1"), plain("A/2", b"2")],
+        "in upper and lower case only",
+    );
 }
 
 #[test]

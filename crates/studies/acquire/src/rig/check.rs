@@ -204,9 +204,9 @@ impl RigCheck {
         let is_misplaced =
             problems.any(|of| matches!(of, RigProblem::Untaught | RigProblem::InGel { .. }));
         match failed.as_slice() {
-            [] if is_misplaced => {
-                Some("nothing moves, because `origin_mm` or `axes` of the robot are wrong".to_owned())
-            }
+            [] if is_misplaced => Some(
+                "nothing moves, because `origin_mm` or `axes` of the robot are wrong".to_owned(),
+            ),
             [] => None,
             failed => Some(format!(
                 "nothing moves, because {} failed",

@@ -63,7 +63,9 @@ pub enum StopCause {
     )]
     FrozenFrame,
     /// A motion would leave the workspace. It was not started.
-    #[error("a motion to {place} would leave the workspace of the plan: correct `origin_mm` and `axes` of [robot], or plan again")]
+    #[error(
+        "a motion to {place} would leave the workspace of the plan: correct `origin_mm` and `axes` of [robot], or plan again"
+    )]
     Workspace {
         /// Target of the motion, in mm.
         place: String,

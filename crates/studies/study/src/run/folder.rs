@@ -73,7 +73,8 @@ impl RunFolder {
             }
             Existing::Resume if !is_there => {
                 return Err(refused(
-                    "no run to resume: the folder does not exist; start one without --resume".to_owned(),
+                    "no run to resume: the folder does not exist; start one without --resume"
+                        .to_owned(),
                 ));
             }
             Existing::Replace if is_run => fs::remove_dir_all(path).map_err(failed)?,

@@ -37,7 +37,10 @@ impl TaskList {
         match matching.is_empty() {
             true => Err(SweepError::Condition {
                 text: only.text().to_owned(),
-                problem: format!("this condition selects none of the {} tasks", self.tasks.len()),
+                problem: format!(
+                    "this condition selects none of the {} tasks",
+                    self.tasks.len()
+                ),
             }),
             false => Ok(matching),
         }

@@ -163,7 +163,9 @@ fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, b
             ));
         }
     };
-    let side = |side: u64| u32::try_from(side).map_err(|_| format!("{}, expected sides below 2^32 pixels", said()));
+    let side = |side: u64| {
+        u32::try_from(side).map_err(|_| format!("{}, expected sides below 2^32 pixels", said()))
+    };
     Ok((side(height)?, side(width)?, colours, is_planar))
 }
 
@@ -196,14 +198,18 @@ impl Form {
         };
         let bytes = match (values, range) {
             (ArrayValues::U8(all), None) => {
-                let row = all.get(own).ok_or("the array has fewer values than its shape states")?;
+                let row = all
+                    .get(own)
+                    .ok_or("the array has fewer values than its shape states")?;
                 match is_planar {
                     false => row.to_vec(),
                     true => (0..row.len()).map(|sample| row[place(sample)]).collect(),
                 }
             }
             (ArrayValues::U16(all), None) => {
-                let row = all.get(own).ok_or("the array has fewer values than its shape states")?;
+                let row = all
+                    .get(own)
+                    .ok_or("the array has fewer values than its shape states")?;
                 (0..row.len())
                     .flat_map(|sample| row[place(sample)].to_le_bytes())
                     .collect()
@@ -253,6 +259,7 @@ fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> 
         _ => None,
     };
     numbers.ok_or_else(|| {
-        "expected numbers of at most 32 bits or floating point, as many as the shape states".to_owned()
+        "expected numbers of at most 32 bits or floating point, as many as the shape states"
+            .to_owned()
     })
 }

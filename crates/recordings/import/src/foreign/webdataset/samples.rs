@@ -72,9 +72,7 @@ pub(super) fn samples(path: &Path) -> Result<Vec<Sample>, TarError> {
 pub(super) fn bytes_at(file: &mut File, extent: Extent, cap: u64) -> Result<Vec<u8>, String> {
     let Extent { at, size } = extent;
     if size > cap {
-        return Err(format!(
-            "{size} bytes, expected at most {cap}"
-        ));
+        return Err(format!("{size} bytes, expected at most {cap}"));
     }
     let mut bytes = Vec::new();
     let read = file

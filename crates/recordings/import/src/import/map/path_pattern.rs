@@ -62,7 +62,9 @@ impl PathPattern {
                 .iter()
                 .any(|piece| matches!(piece, Piece::Named { name: known, .. } if *known == name))
             {
-                return Err(format!("`{name}` occurs twice in the pattern, expected once"));
+                return Err(format!(
+                    "`{name}` occurs twice in the pattern, expected once"
+                ));
             }
             pieces.push(Piece::Text(before.to_owned()));
             pieces.push(Piece::Named { name, kind });

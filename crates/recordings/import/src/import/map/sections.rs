@@ -130,7 +130,13 @@ impl Check<'_> {
                 ));
             }
             if joins.iter().any(|known| known.name == join.name) {
-                return Err(self.at(offset, &format!("two joins are called `{}`: give each its own name", join.name)));
+                return Err(self.at(
+                    offset,
+                    &format!(
+                        "two joins are called `{}`: give each its own name",
+                        join.name
+                    ),
+                ));
             }
             joins.push(join);
         }
@@ -273,7 +279,10 @@ impl Check<'_> {
             let mut sorted: Vec<&String> = class.names.iter().collect();
             sorted.sort_unstable();
             if sorted.is_empty() || sorted.windows(2).any(|pair| pair[0] == pair[1]) {
-                return Err(self.at(offset, "`names` is empty or names a class twice, expected every class once"));
+                return Err(self.at(
+                    offset,
+                    "`names` is empty or names a class twice, expected every class once",
+                ));
             }
             let map = ClassMap {
                 from: class.from.clone().into_name(),

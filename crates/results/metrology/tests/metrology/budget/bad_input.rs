@@ -215,7 +215,8 @@ fn an_expired_certificate_is_warned_of_in_every_output() {
         .budgets(&Evidence::default().with_certificate(old), None)
         .expect("values")
         .remove(0);
-    let said = "certificate D-K-1 was valid until 2027-05-12, but the recording was made on 2027-05-13";
+    let said =
+        "certificate D-K-1 was valid until 2027-05-12, but the recording was made on 2027-05-13";
     assert_eq!(budget.warnings, [said]);
     assert!(budget.to_string().contains(said));
     assert!(serde_json::to_string(&budget).expect("JSON").contains(said));

@@ -134,10 +134,7 @@ fn a_certificate_of_another_instrument_is_a_reason_without_a_line() {
     let section = section(&[study]);
     let reason = "no uncertainty budget (Fz: ";
     assert!(section.contains(reason), "{section}");
-    assert!(
-        section.contains("the instrument has `43`"),
-        "{section}"
-    );
+    assert!(section.contains("the instrument has `43`"), "{section}");
     assert!(!section.contains("line "), "{section}");
 }
 
