@@ -218,7 +218,10 @@ impl Check<'_> {
             None => false,
             Some(kind) if kind.get_ref() == "rotation" => true,
             Some(kind) => {
-                let problem = format!("`kind` is `{}`, expected \"rotation\"", kind.get_ref());
+                let problem = format!(
+                    "`kind` is `{}`, expected \"rotation\"",
+                    taceva_core::shown(kind.get_ref())
+                );
                 return Err(self.at(kind.span().start, &problem));
             }
         };
