@@ -82,7 +82,7 @@ pub(crate) fn remedy(fault: &CertificateFault) -> String {
             "correct `issued`, or the clock of this machine"
         }
         CertificateContradiction::Expired { .. } => {
-            "have it calibrated again and write the new certificate, or correct `valid_until`"
+            "have the instrument calibrated again and write the new certificate, or correct `valid_until`"
         }
         _ => "write the certificate of this device, or correct `serial`",
     };

@@ -114,7 +114,7 @@ impl TaskStates {
             let numbers: Vec<String> = shards.numbers.iter().map(u32::to_string).collect();
             for task in &mut report.tasks {
                 task.notes.push(format!(
-                    "rows of shard {} of {} alone: merge the states of all shards for the scores of the tables",
+                    "only rows of shard {} of {}: merge the states of all shards for the scores of the tables",
                     numbers.join(", "),
                     shards.of
                 ));

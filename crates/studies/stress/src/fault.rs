@@ -84,7 +84,7 @@ impl Fault {
 
 /// Remark on faults of labels.
 pub(crate) const NO_STIMULUS: &str =
-    "the fault changes labels alone, so its stimulus is undefined; its severity is its parameter";
+    "the fault changes only labels, so its stimulus is undefined; its severity is its parameter";
 
 /// Remark on faults of a gel that are drawn at the same pixels of every picture.
 pub(crate) const LIES_STILL: &str = "the fault lies still in the picture, but moves with the contact on a real gel, so errors after a new untouched picture \

@@ -63,7 +63,10 @@ impl Dataset {
             let promised = self.header.table.rows;
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{}, the header says {promised}", counted(rows, "row")),
+                format!(
+                    "{}, expected {promised} by the header",
+                    counted(rows, "row")
+                ),
             ));
         }
         let digest = self.table.digest();
@@ -93,7 +96,10 @@ impl Dataset {
         if count != promised {
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{}, the header says {promised}", counted(count, "frame")),
+                format!(
+                    "{}, expected {promised} by the header",
+                    counted(count, "frame")
+                ),
             ));
         }
         for (view, own) in self.header.views.iter().zip(self.table.views()) {
@@ -102,7 +108,7 @@ impl Dataset {
                 return Err(damaged(
                     layout::SAMPLES,
                     format!(
-                        "{} of the view `{}`, the header says {}",
+                        "{} of the view `{}`, expected {} by the header",
                         counted(count, "frame"),
                         view.name,
                         view.frames.count

@@ -143,7 +143,7 @@ impl CsvParts {
         let expected = self.rows_of(part).end - self.rows_of(part).start;
         if table.rows() as u64 != expected {
             let problem = format!(
-                "{} rows from line {} on, but {expected} were counted before: the file has changed, or its lines end in CR alone",
+                "{} rows from line {} on, but {expected} were counted before: the file has changed, or its lines end in CR without LF",
                 table.rows(),
                 mark.line
             );

@@ -76,7 +76,7 @@ fn open(path: &Path, is_to_cut: bool) -> Result<Recording, String> {
     };
     opened.map_err(|error| match &error {
         TableError::Cut { messages: 1.., .. } => format!(
-            "{}; to import these messages alone, write `cut = \"keep\"` beside `rows` in the table of the map",
+            "{}; to import only these messages, write `cut = \"keep\"` beside `rows` in the table of the map",
             said(path, &error)
         ),
         _ => said(path, &error),

@@ -67,7 +67,7 @@ impl PlannedMaps {
                 if number >= array.count() {
                     return Err(table_error!(
                         rows.place(row),
-                        "[task.{}] has {} depth maps in its array, and the table has more rows",
+                        "[task.{}] has {} depth maps in its array, but the table has more rows",
                         self.name,
                         array.count()
                     ));

@@ -164,15 +164,15 @@ fn keys_of_frames_that_do_not_go_together_name_their_line() {
     for (frame, expected) in [
         (
             "array = { file = \"frames.npy\" }\nrange = [0, 1]",
-            "`bits` is 8 or 16",
+            "invalid `range` or `bits`",
         ),
         (
             "array = { file = \"frames.npy\" }\nrange = [1, 1]\nbits = 8",
-            "`bits` is 8 or 16",
+            "invalid `range` or `bits`",
         ),
         (
             "array = { file = \"frames.npy\" }\nrange = [0, 1]\nbits = 12",
-            "`bits` is 8 or 16",
+            "invalid `range` or `bits`",
         ),
         (
             "column = \"value\"\nlayout = \"nchw\"",

@@ -164,7 +164,7 @@ impl Check<'_> {
                     let columns = columns.into_iter();
                     JoinBy::Columns(columns.map(|(own, other)| (own, other.into_name())).collect())
                 }
-                _ => return Err(self.at(offset, "`on` is { column = \"column of the joined table\" }, \"row\" or \"all\"")),
+                _ => return Err(self.at(offset, "invalid `on`, expected { column = \"column of the joined table\" }, \"row\" or \"all\"")),
             },
             (None, Some(time), (pick, Some(tolerance_ms), Some(lag))) => {
                 let numbers: Vec<f64> = match &lag {
@@ -174,7 +174,7 @@ impl Check<'_> {
                 };
                 let is_finite = numbers.iter().all(|lag| lag.is_finite());
                 if !(tolerance_ms >= 0.0 && tolerance_ms.is_finite() && is_finite) {
-                    return Err(self.at(offset, "`tolerance_ms` must be at least 0, and `lag_ms` must be finite"));
+                    return Err(self.at(offset, "invalid `tolerance_ms` or `lag_ms`, expected a tolerance from 0 and a finite lag"));
                 }
                 JoinBy::Time(TimeJoin {
                     time: self.time_of(time.column, &time.unit, time.zone.as_ref())?,

@@ -249,7 +249,7 @@ fn maps_of_another_size_without_a_unit_or_fewer_than_rows_are_refused() {
     );
     let message = refused(lab.path(), &FILES.replace("\"depth\"", "\"pose\""));
     assert!(
-        message.contains("belong to `kind = \"depth\"`"),
+        message.contains("apply to `kind = \"depth\"` only"),
         "{message}"
     );
 }

@@ -43,14 +43,14 @@ impl Misses {
         let head = format!("late: the guard of the {signal} took {took_ms:.0} ms for a reading");
         let words = match late.cause {
             Cause::Kernel => format!(
-                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms: {}",
+                "{head}; its thread ({policy}) waited {kernel_ms:.0} ms for a processor: {}",
                 remedy(policy)
             ),
             Cause::Program | Cause::Device => format!(
-                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms only; TacEva or a driver used the rest: report this line with the drivers of the rig"
+                "{head}; its thread ({policy}) waited only {kernel_ms:.0} ms for a processor; TacEva or a driver used the rest: report this line with the drivers of the rig"
             ),
             Cause::Unknown => format!(
-                "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
+                "{head}; this kernel does not state how long its thread ({policy}) waited for a processor: {}",
                 remedy(policy)
             ),
         };

@@ -71,7 +71,7 @@ fn an_uncertainty_without_k_and_p_is_refused_and_so_are_both() {
         "{message}"
     );
     let message = refused("k = 2.0", "k = 2.0\np = 0.95");
-    assert!(message.contains("`k` is stated beside `p`"), "{message}");
+    assert!(message.contains("`k` is stated with `p`"), "{message}");
 }
 
 #[test]
