@@ -106,7 +106,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }));
     if report.untouched != "reference" {
         notes.push(format!(
-            "The recording has no untouched picture; the change by faults and contact is measured from: {}.",
+            "The recording has no untouched picture; changes by faults and contact are measured from: {}.",
             report.untouched
         ));
     }

@@ -87,7 +87,7 @@ fn tables_in_other_encodings_are_refused_in_words() {
     lab.write("source/labels.csv", b"");
     lab.is_refused_with(&["line 1: empty, expected a header"]);
     lab.write("source/labels.csv", b"a,\"b\nc,d\n");
-    lab.is_refused_with(&["a quote is opened and never closed"]);
+    lab.is_refused_with(&["a quotation mark is never closed"]);
     lab.write("source/labels.csv", b"a,b,a\n1,2,3\n");
     lab.is_refused_with(&["line 1: the column `a` occurs twice"]);
 }

@@ -93,7 +93,7 @@ pub(in crate::cmd) fn print_cost(planned: &PlannedScene, context: &Context) -> a
             Some(pictures) => {
                 let again = gels.len() * request.severities.len() * tested(study).len();
                 let again = match again {
-                    0 => "nothing is pressed or fitted for them".to_owned(),
+                    0 => "no press and no fit is needed".to_owned(),
                     count => format!(
                         "{} again on worn gels, for {}; nothing is fitted",
                         counted(count, "press"),

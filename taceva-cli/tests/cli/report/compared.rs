@@ -222,24 +222,24 @@ fn one_result_by_two_names_is_no_comparison() {
     bench.refused(
         "compare GelSight gelsight",
         2,
-        "gelsight: given twice, first as GelSight; expected different results",
+        "gelsight is named twice, first as GelSight, expected different results",
     );
     bench.refused(
         "compare DIGIT DIGIT",
         2,
-        "DIGIT: given twice; expected different results",
+        "DIGIT is named twice, expected different results",
     );
     fs::create_dir(bench.path("run")).expect("a folder");
     bench.write("run/results.json", "{}");
     bench.refused(
         "compare run run/results.json",
         2,
-        "run/results.json: given twice, first as run; expected different results",
+        "run/results.json is named twice, first as run, expected different results",
     );
     bench.refused(
         "choose --need shear --results run --results run",
         2,
-        "run: given twice; expected different results",
+        "run is named twice, expected different results",
     );
 }
 

@@ -203,7 +203,7 @@ fn results_of_channels_single_results_and_options_of_channels_are_refused() {
         2,
         "--metrics mae: no result has this score",
     );
-    bench.refused("compare a.json a.json", 2, "given twice");
+    bench.refused("compare a.json a.json", 2, "named twice");
 }
 
 #[test]

@@ -186,7 +186,7 @@ fn any_number_of_shards_merges_to_the_bytes_of_one_pass() {
     bench.refused("merge 1.state whole.state", 3, "has whole tables");
     let part = bench.json("merge 1.state 3.state");
     assert!(
-        part.to_string().contains("rows of shard 1, 3 of 9 alone"),
+        part.to_string().contains("only rows of shard 1, 3 of 9"),
         "{part:#}"
     );
     bench.ok(&format!("{score} --shard 2/8 --state-out other.state -q"));

@@ -89,7 +89,7 @@ impl Arm {
                 return Err(halted());
             }
             if left().is_zero() {
-                let why = "the controller did not confirm the last stop within the deadline";
+                let why = "the controller did not confirm the last stop within the deadline: check the link, then end the halt";
                 return Err(failed(ErrorKind::Timeout, DOING, why));
             }
             seen = self.look(Some(seen.number), left())?;

@@ -64,7 +64,7 @@ impl CsvParts {
         if found.quotes % 2 == 1 {
             return Err(ImportError::table(
                 path,
-                "a quote is opened and never closed".to_owned(),
+                "a quotation mark is never closed".to_owned(),
             ));
         }
         let (found, digest) = match found.quotes {

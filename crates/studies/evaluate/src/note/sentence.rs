@@ -187,7 +187,7 @@ impl fmt::Display for Note {
             Note::States(count) => write!(f, "{} merged", counted(*count, "state")),
             Note::Shards([own, all]) => write!(
                 f,
-                "{own} of {all} rows: the others are in shards that were not merged"
+                "{own} of {all} rows: other rows are in shards that were not merged"
             ),
             Note::Shard {
                 shard,
