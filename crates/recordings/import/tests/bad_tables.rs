@@ -202,7 +202,7 @@ fn a_map_whose_table_is_missing_or_matches_nothing_is_refused() {
         "map.toml",
         MAP.replace("labels.csv", "run_*/labels.csv").as_bytes(),
     );
-    lab.is_refused_with(&["`run_*/labels.csv`: matches nothing"]);
+    lab.is_refused_with(&["`run_*/labels.csv`: matches no file in"]);
 }
 
 #[test]

@@ -212,7 +212,7 @@ fn a_sweep_of_shards_of_tasks_ends_in_the_bytes_of_one_pass() {
     bench.refused("sweep show which.toml", 2, "score.json");
     let metrics = format!("metrics = [\"mae\"]\n{}", sweep(2));
     bench.write("which.toml", &metrics);
-    bench.refused("sweep which.toml", 3, "`metrics` is of channels");
+    bench.refused("sweep which.toml", 3, "`metrics` applies to channels only");
     let without_task = sweep(2).replace("task = \"slip=event:positive=slip\"\n", "");
     bench.write("which.toml", &without_task);
     bench.refused(

@@ -290,7 +290,7 @@ mod tests {
         assert!(
             refused
                 .to_string()
-                .contains("a different plan: seed was 1 and is 2; undo this change"),
+                .contains("a different plan: seed was 1 and is now 2; undo this change"),
             "{refused}"
         );
         RunFolder::open(&run, &other, Existing::Replace).expect("begun anew");
