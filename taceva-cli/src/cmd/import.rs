@@ -228,7 +228,7 @@ fn decoders(args: &Import) -> anyhow::Result<Decoders> {
         && on_path(program).is_none()
     {
         return Err(Usage::error(format!(
-            "program `{}` not found, neither as a file nor on the PATH: name ffmpeg 5.1 or later with --ffmpeg or TACEVA_FFMPEG",
+            "program `{}` is neither a file nor on the PATH: name ffmpeg 5.1 or later with --ffmpeg or TACEVA_FFMPEG",
             shown(program)
         )));
     }

@@ -301,7 +301,7 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     bench.refused(
         words,
         3,
-        "cert.toml: `certificate`: no certificate of a reference with `U`",
+        "cert.toml: `certificate`: no certificate of a reference states `U`",
     );
     let other =
         "[[traceability]]\ninstrument = \"force\"\nserial = \"43\"\n[traceability.certificate]\n";
