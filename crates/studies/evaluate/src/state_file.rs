@@ -165,7 +165,7 @@ impl ReadState {
             .map_err(|error| wrong(format!("not a state file of an evaluation: {error}")))?;
         if head.schema != STATE_SCHEMA {
             return Err(wrong(format!(
-                "its schema is `{}`, expected `{STATE_SCHEMA}`; run the command that wrote it again with this version",
+                "its schema is `{}`, expected `{STATE_SCHEMA}`; write the state again by the same command with this version",
                 shown(&head.schema)
             )));
         }

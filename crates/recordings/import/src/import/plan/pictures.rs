@@ -115,7 +115,7 @@ impl Reading<'_> {
                 &inside,
                 format!(
                     "already the picture of a row of {}: `row` in `pattern` starts anew in each of the {} tables; \
-                     replace it by a column that numbers the pictures of all of them, or put `{{path.NAME}}` before it",
+                     replace `row` by a column that numbers the pictures of all tables, or put `{{path.NAME}}` before it",
                     shown(&self.folder.inside(first, "")),
                     self.count
                 ),

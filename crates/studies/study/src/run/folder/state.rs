@@ -48,7 +48,7 @@ impl RunFolder {
             differences => differences.join("; "),
         };
         format!(
-            "the run in it has a different plan: {differences}; undo this change and use --resume, or choose another folder for the new plan"
+            "the run in this folder has a different plan: {differences}; undo this change and use --resume, or choose another folder for the new plan"
         )
     }
 
