@@ -160,11 +160,7 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
     for (name, damage, words) in [
         ("changed", "tables/prediction.csv", "expected sha256:"),
         ("lost", "states/0.json", "it is missing"),
-        (
-            "added",
-            "states/more.json",
-            "bundle.json does not list this file",
-        ),
+        ("added", "states/more.json", "does not list this file"),
         (
             "sealless",
             "bundle.json",
