@@ -119,7 +119,7 @@ impl fmt::Display for Question {
                 "raise the tip off the gel by less than half a millimetre, then jog it 5 to 10 mm along x of the sensor only",
             ),
             Question::Jog(Spot::AlongY) => f.write_str(
-                "return to the middle, then jog 5 to 10 mm along y of the sensor, in the direction for which z points into the gel",
+                "return to the middle, then jog 5 to 10 mm along y of the sensor; choose the direction for which z points into the gel",
             ),
             Question::Resume(ChangedTouch {
                 height_mm,
