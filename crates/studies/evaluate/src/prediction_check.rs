@@ -99,8 +99,7 @@ pub(crate) fn compiled_model(path: &Path) -> Result<Model, EvaluateError> {
             source: FormatError::NoPlugin { id, key },
             ..
         } => EvaluateError::Request(format!(
-            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for an untrusted model file; if you trust the model, evaluate \
-             the recording by `taceva evaluate --with`",
+            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for an untrusted model file; if you trust the model, evaluate the recording by `taceva evaluate --with`",
             shown(&key),
             shown(&id)
         )),
@@ -116,8 +115,7 @@ fn check_features(shape: FeatureShape, rows: usize) -> Result<(), EvaluateError>
     match bytes <= MOST_FEATURES {
         true => Ok(()),
         false => Err(EvaluateError::Request(format!(
-            "the model reads {bytes} bytes of features of {}, expected at most {MOST_FEATURES}; if you trust the model, evaluate the recording by \
-             `taceva evaluate --with`",
+            "the model reads {bytes} bytes of features of {}, expected at most {MOST_FEATURES}; if you trust the model, evaluate the recording by `taceva evaluate --with`",
             counted(rows, "sample")
         ))),
     }

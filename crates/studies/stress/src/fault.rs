@@ -87,5 +87,4 @@ pub(crate) const NO_STIMULUS: &str =
     "the fault changes only labels, so its stimulus is undefined; its severity is its parameter";
 
 /// Remark on faults of a gel that are drawn at the same pixels of every picture.
-pub(crate) const LIES_STILL: &str = "the fault lies still in the picture, but moves with the contact on a real gel: errors after a new untouched \
-                                     picture are lower bounds";
+pub(crate) const LIES_STILL: &str = "the fault lies still in the picture, but moves with the contact on a real gel: errors after a new untouched picture are lower bounds";

@@ -197,8 +197,7 @@ impl ForceTransducer for Transducer {
         let mut warnings = self.setup.warnings();
         if self.is_latched {
             warnings.push(
-                "a threshold of the box was exceeded and is latched (status 0x80010000); readings stay valid: reset the threshold on the Thresholding \
-                 page of the box"
+                "a threshold of the box was exceeded and is latched (status 0x80010000); readings stay valid: reset the threshold on the Thresholding page of the box"
                     .to_owned(),
             );
         }

@@ -9,8 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC042",
     name: "angle-jumps",
     looks_for: "angles that jump by more than half a turn between neighbouring samples, without `period` or `rotation` in the map",
-    hint: "for an angle that wraps around, add `period = 360` (6.283185307179586 in rad) to the channel in the map; for a component of a rotation \
-           vector, add `rotation = [\"Rx\", \"Ry\", \"Rz\"]`",
+    hint: "for an angle that wraps around, add `period = 360` (6.283185307179586 in rad) to the channel in the map; for a component of a rotation vector, add `rotation = [\"Rx\", \"Ry\", \"Rz\"]`",
     reads: None,
     find,
 };

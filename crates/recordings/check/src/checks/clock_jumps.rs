@@ -12,8 +12,7 @@ use crate::stamps::{Step, Stream, by_clock};
 pub(super) static CHECK: Check = Check {
     code: "TAC024",
     name: "clock-jumps",
-    looks_for: "a clock that was set during a contact (without contact points: within a regular stream), local times at the end of summer time, two \
-                clocks in one column, and impossible times",
+    looks_for: "a clock that was set during a contact (without contact points: within a regular stream), local times at the end of summer time, two clocks in one column, and impossible times",
     hint: "stamp with a monotonic clock; import data of two clocks as two tables, joined with their lag",
     reads: None,
     find,

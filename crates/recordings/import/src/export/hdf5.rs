@@ -174,8 +174,7 @@ fn check_text(
 ) -> Result<(), ImportError> {
     let problem = if text.len() > TEXT_BYTES {
         format!(
-            "`{name}` has {} bytes, expected at most {TEXT_BYTES}, since all strings of an HDF5 array are as long as the longest: use --format \
-             huggingface or csv",
+            "`{name}` has {} bytes, expected at most {TEXT_BYTES}, since all strings of an HDF5 array are as long as the longest: use --format huggingface or csv",
             text.len()
         )
     } else if text.contains('\0') {

@@ -14,8 +14,7 @@ const RESERVED: [&str; 2] = ["index", "measured"];
 /// Maximum length of a sensor name, bytes. Tables cut longer texts after 80 letters, including the origin, level and bundle after the name.
 const MOST_NAME: usize = 40;
 /// Names that [`is_name`] accepts, for messages.
-pub(super) const NAME_RULE: &str = "expected at most 40 bytes with Latin letters or digits, no control characters, no blanks at the ends, and neither \
-                                    `index` nor `measured`";
+pub(super) const NAME_RULE: &str = "expected at most 40 bytes with Latin letters or digits, no control characters, no blanks at the ends, and neither `index` nor `measured`";
 
 /// File of an entry, with the text to which rows are appended.
 pub(super) struct EntryPlace {

@@ -193,8 +193,7 @@ pub(super) fn results_digest(manifest: &Manifest) -> Option<&str> {
 pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
     let licence = manifest.licence.as_deref().unwrap_or_default();
     if manifest.is_unfinished || manifest.authors.is_empty() || licence.is_empty() {
-        let problem = "a draft, expected a bundle with author and licence; make the bundle again by `taceva bundle … --author \"NAME <ORCID>\" \
-                       --licence SPDX`";
+        let problem = "a draft, expected a bundle with author and licence; make the bundle again by `taceva bundle … --author \"NAME <ORCID>\" --licence SPDX`";
         return Some(problem.to_owned());
     }
     if manifest.authors.iter().any(|author| !author.is_right()) {

@@ -85,8 +85,7 @@ impl LiveModel {
     pub fn check(&self, found: FrameInfo) -> Result<(), AcquireError> {
         match self.model.card().input {
             InputInfo::Frame(expected) if expected != found => Err(self.refused(format!(
-                "the model was fitted on frames of {expected}, but the camera gives {found}: set the camera to {expected}, or fit a model on a \
-                 recording of this camera"
+                "the model was fitted on frames of {expected}, but the camera gives {found}: set the camera to {expected}, or fit a model on a recording of this camera"
             ))),
             _ => Ok(()),
         }

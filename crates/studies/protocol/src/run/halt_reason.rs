@@ -116,8 +116,7 @@ impl fmt::Display for Trip {
             } => {
                 write!(
                     f,
-                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under \
-                     [protocol.contact] of the scene and start a new run: use above 5 times the noise that `taceva rig check` prints"
+                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene and start a new run: use above 5 times the noise that `taceva rig check` prints"
                 )
             }
             Trip::UnexpectedContact {

@@ -205,8 +205,7 @@ pub enum SceneProblem {
     },
     /// The robot of a rig file found no contact in its descent to the gel.
     #[error(
-        "no contact down to {search_mm} mm below the height of `origin_mm`: correct `origin_mm` or `axes` of [robot], or check with a finger that the \
-         force transducer responds"
+        "no contact down to {search_mm} mm below the height of `origin_mm`: correct `origin_mm` or `axes` of [robot], or check with a finger that the force transducer responds"
     )]
     NothingTouched {
         /// Depth of the search, in mm.

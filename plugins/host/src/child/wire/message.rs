@@ -100,8 +100,7 @@ impl FirstWord {
     /// Error message for a host with wire version `wire`.
     pub(crate) fn refusal(wire: u32) -> String {
         format!(
-            "the plugin process speaks wire version {WIRE}, the program {wire}: install the package `taceva` of the program's version ({} here), or \
-             run the program `taceva` of this package",
+            "the plugin process speaks wire version {WIRE}, the program {wire}: install the package `taceva` of the program's version ({} here), or run the program `taceva` of this package",
             env!("CARGO_PKG_VERSION")
         )
     }

@@ -48,8 +48,7 @@ impl Reading<'_> {
             file,
             format!(
                 "the pictures of `{key}` already belong to the rows of {}, and each of the {each} would start again at the first picture: \
-                 set `index = \"COLUMN\"` to a column that numbers the pictures of all tables, or put `{{path.NAME}}` in `{key}` to name \
-                 a file for each",
+                 set `index = \"COLUMN\"` to a column that numbers the pictures of all tables, or put `{{path.NAME}}` in `{key}` to name a file for each",
                 shown(&self.folder.inside(first, ""))
             ),
         ))

@@ -47,8 +47,7 @@ impl Misses {
                 remedy(policy)
             ),
             Cause::Program | Cause::Device => format!(
-                "{head}; its thread ({policy}) waited only {kernel_ms:.0} ms for a processor; TacEva or a driver used the rest: report this line with \
-                 the drivers of the rig"
+                "{head}; its thread ({policy}) waited only {kernel_ms:.0} ms for a processor; TacEva or a driver used the rest: report this line with the drivers of the rig"
             ),
             Cause::Unknown => format!(
                 "{head}; this kernel does not state how long its thread ({policy}) waited for a processor: {}",
@@ -74,8 +73,7 @@ impl Misses {
             .stale
             .take_if(|stale| now_s - stale.found_s > SETTLED_S)?;
         let words = format!(
-            "late: the newest reading is {:.0} ms old, although the guard was in time: the device, its link or its driver is late; check cable, \
-             network and rate of the device",
+            "late: the newest reading is {:.0} ms old, although the guard was in time: the device, its link or its driver is late; check cable, network and rate of the device",
             stale.age_s * 1e3
         );
         self.count(Cause::Device, words)

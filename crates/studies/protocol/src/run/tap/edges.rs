@@ -67,8 +67,7 @@ pub enum TapError {
     },
     /// The signal of a device still changes long after the tip came to rest.
     #[error(
-        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: the latency is too long for a tap, or the gel creeps; run \
-         the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
+        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: the latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
     Late {
         /// Number of the tap, counted from 1.

@@ -65,8 +65,7 @@ impl Check<'_> {
             (None, Some(array)) if !is_other => (Vec::new(), Some(self.map_array(array)?)),
             _ => {
                 let problem = format!(
-                    "[task.{name}] needs `array = \"FILE\"` with the maps of all rows, or `from`, a column that names a .png or .npy for each row; \
-                     remove `names`, `positive`, `over` and `thresholds`"
+                    "[task.{name}] needs `array = \"FILE\"` with the maps of all rows, or `from`, a column that names a .png or .npy for each row; remove `names`, `positive`, `over` and `thresholds`"
                 );
                 return Err(self.at(offset, &problem));
             }
