@@ -30,9 +30,7 @@ pub fn features_of<'a>(matrix: impl Into<CowArray<'a, f32, Ix2>>) -> Result<Feat
     let matrix = matrix.into();
     let (samples, features) = matrix.dim();
     if features == 0 && samples > 0 {
-        return Err(invalid(format!(
-            "{samples} samples without features, expected at least one feature"
-        )));
+        return Err(invalid(format!("{samples} samples without features")));
     }
     let whole = matrix.is_standard_layout();
     let values = if whole && matrix.is_owned() {

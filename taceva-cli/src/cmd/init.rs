@@ -41,10 +41,7 @@ pub(crate) fn run(args: &Init, context: &Context) -> anyhow::Result<u8> {
                 _ => {
                     let is_there = |answer: &str| match Path::new(answer).exists() {
                         true => Ok(()),
-                        false => Err(format!(
-                            "{}: no such folder or file; name the folder of the recording",
-                            shown(answer)
-                        )),
+                        false => Err(format!("{}: no such folder or file", shown(answer))),
                     };
                     let question = "the folder of the recording, or a file in it";
                     let source = interview.ask(question, None, is_there)?;

@@ -107,14 +107,10 @@ fn sensor_fault(facts: &SensorFacts) -> Option<String> {
         .frame
         .filter(|frame| frame.byte_len().is_none_or(|len| len == 0))
     {
-        return Some(format!(
-            "frames of {frame} are empty or exceed the address space"
-        ));
+        return Some(format!("frames of {frame} fit no buffer"));
     }
     if let Some([width, height]) = facts.camera.filter(|sides| sides.contains(&0)) {
-        return Some(format!(
-            "a camera of {width}×{height} pixels, expected sides above 0"
-        ));
+        return Some(format!("a camera of {width}×{height} pixels"));
     }
     let footprint = facts.footprint.and_then(|footprint| footprint.depth_max());
     let beyond = facts
@@ -162,9 +158,7 @@ fn robot_fault(facts: &RobotFacts, source: DriverSource) -> Option<String> {
 
 fn force_fault(facts: &ForceFacts) -> Option<String> {
     if facts.axes.is_empty() {
-        return Some(
-            "a force transducer that measures no component, expected at least one".to_owned(),
-        );
+        return Some("a force transducer that measures no component".to_owned());
     }
     positive(&[
         ("rate", facts.rate.map(|rate| rate.0)),

@@ -153,9 +153,7 @@ fn timed(names: Vec<String>, table: &Path) -> Result<(Vec<String>, Vec<f64>), So
             let problem = if names.contains(&row.name) {
                 format!("`{name}` occurs twice, expected one row per frame")
             } else {
-                format!(
-                    "`{name}` is not a frame in the folder, expected the name of a file in the folder"
-                )
+                format!("`{name}` is not a frame in the folder, expected the name of a file in it")
             };
             return Err(fault(Some(row.line), problem));
         }

@@ -58,9 +58,7 @@ impl<'a> Problem<'a> {
             )));
         }
         if part.targets.channels != self.training.targets.channels {
-            return Err(invalid(
-                "validation and training have different channels, expected the same",
-            ));
+            return Err(invalid("validation and training have different channels"));
         }
         let mut labels = self.scaling.scaled(part.targets);
         subtract(&mut labels, &self.mean);

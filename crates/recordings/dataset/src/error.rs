@@ -74,10 +74,7 @@ pub enum DatasetError {
         path: PathBuf,
     },
     /// Folder that another process is writing.
-    #[error(
-        "{} is being written by another process: wait until that process has ended",
-        shown_path(path)
-    )]
+    #[error("{} is being written by another process", shown_path(path))]
     Busy {
         /// Path of the folder.
         path: PathBuf,

@@ -144,14 +144,8 @@ fn paths_out_of_the_folder_are_not_followed() {
     let good = fs::read_to_string(lab.path("source/labels.csv")).expect("read");
     let absolute = lab.path("secret.png");
     for (path, word) in [
-        (
-            "../secret.png",
-            "contains `..`, expected a path inside the folder",
-        ),
-        (
-            "images/../../secret.png",
-            "contains `..`, expected a path inside the folder",
-        ),
+        ("../secret.png", "contains `..`"),
+        ("images/../../secret.png", "contains `..`"),
         (absolute.to_str().expect("text"), "absolute"),
     ] {
         lab.write(

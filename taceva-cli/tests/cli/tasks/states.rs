@@ -215,11 +215,7 @@ fn a_sweep_of_shards_of_tasks_ends_in_the_bytes_of_one_pass() {
     bench.refused("sweep which.toml", 3, "`metrics` applies to channels only");
     let without_task = sweep(2).replace("task = \"slip=event:positive=slip\"\n", "");
     bench.write("which.toml", &without_task);
-    bench.refused(
-        "sweep which.toml",
-        3,
-        "`cluster` applies to tasks only: write `task",
-    );
+    bench.refused("sweep which.toml", 3, "`cluster` is for tasks: write `task");
     bench.write("which.toml", &sweep(2).replace("event", "evnt"));
     bench.refused("sweep which.toml", 3, "did you mean event?");
 }

@@ -245,7 +245,7 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     refused(
         &at("open.bag", &open),
         &[
-            "did not close the bag",
+            "not close the bag",
             "rosbag reindex",
             "16 complete messages",
         ],

@@ -177,10 +177,7 @@ impl Dataset {
         }
         Err(DatasetError::request(
             self.path(),
-            format!(
-                "no row {row}: the dataset has {}, counted from 0",
-                self.table.rows()
-            ),
+            format!("no row {row}, expected below {}", self.table.rows()),
         ))
     }
 }

@@ -63,10 +63,7 @@ impl Dataset {
             let promised = self.header.table.rows;
             return Err(damaged(
                 layout::SAMPLES,
-                format!(
-                    "{}, expected {promised} by the header",
-                    counted(rows, "row")
-                ),
+                format!("{}, expected {promised}", counted(rows, "row")),
             ));
         }
         let digest = self.table.digest();
@@ -96,10 +93,7 @@ impl Dataset {
         if count != promised {
             return Err(damaged(
                 layout::SAMPLES,
-                format!(
-                    "{}, expected {promised} by the header",
-                    counted(count, "frame")
-                ),
+                format!("{}, expected {promised}", counted(count, "frame")),
             ));
         }
         for (view, own) in self.header.views.iter().zip(self.table.views()) {
@@ -108,7 +102,7 @@ impl Dataset {
                 return Err(damaged(
                     layout::SAMPLES,
                     format!(
-                        "{} of the view `{}`, expected {} by the header",
+                        "{} of the view `{}`, expected {}",
                         counted(count, "frame"),
                         view.name,
                         view.frames.count

@@ -107,16 +107,12 @@ impl Recorder {
         for sample in samples {
             self.check(sample)?;
             if !names.insert(&sample.id) {
-                return refused(
-                    &sample.id,
-                    "two samples have this name, expected distinct names".to_owned(),
-                );
+                return refused(&sample.id, "two samples have this name".to_owned());
             }
             let found = sample.frame.as_ref().map(Frame::info);
             match (expected, found) {
                 (Some(expected), Some(found)) if expected != found => {
-                    let problem =
-                        format!("a frame of {found}, expected {expected} as in the first frame");
+                    let problem = format!("a frame of {found}, expected {expected} like the first");
                     return refused(&sample.id, problem);
                 }
                 _ => expected = expected.or(found),

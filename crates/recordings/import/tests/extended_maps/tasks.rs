@@ -277,10 +277,7 @@ fn limits_that_do_not_ascend_and_keys_of_the_other_kind_are_refused() {
     );
     assert!(message.contains("a pose needs `from = { t ="), "{message}");
     let message = refused_with("time = true", "over = 5");
-    assert!(
-        message.contains("apply to `kind = \"pose\"` only"),
-        "{message}"
-    );
+    assert!(message.contains("`kind = \"pose\"` only"), "{message}");
 }
 
 #[test]

@@ -30,10 +30,7 @@ fn a_row_of_units_comments_and_a_line_of_the_separator_are_read_by_a_key_that_th
     // The units row states mN, the map N.
     let contradicted = of("units-row", "units_row = true");
     let problem = planned(&folder, &contradicted).expect_err("refused");
-    assert!(
-        problem.contains("the unit is `mN` in the file"),
-        "{problem}"
-    );
+    assert!(problem.contains("is `mN` in the file"), "{problem}");
     let right = contradicted.replace("unit = \"N\"", "unit = \"mN\"");
     assert_near(mean(&imported(&folder, &right, "Fz")), 1.99570e-3);
 }

@@ -135,9 +135,7 @@ fn resting(
         }
     }
     listener.mean().ok_or_else(|| {
-        AcquireError::Request(
-            "the force transducer sent no reading: check its cable and power".to_owned(),
-        )
+        AcquireError::Request("the force transducer sent no reading: check its cable".to_owned())
     })
 }
 
@@ -178,10 +176,7 @@ fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
         Some(mistake) => format!(
             "{mistake}: set the unit of the device to N, or correct the arguments of its driver"
         ),
-        None => {
-            "check the mass, the calibration of the transducer, and that nothing else touches it"
-                .to_owned()
-        }
+        None => "check the mass, the calibration, and contacts with the transducer".to_owned(),
     };
     Some(format!(
         "Fz changed by {measured_n:.4} N under {mass_g} g, expected {expected_n:.4} ± {tolerance_n:.4} N; the factor is {factor:.4}: {cause}"

@@ -63,24 +63,18 @@ impl LabelsEntry {
                 None => Ok(None),
                 Some((key, _)) => Err(place.wrong(
                     key,
-                    format!(
-                        "`{key}` applies to tasks only: write `task = \"NAME=KIND\"` beside it"
-                    ),
+                    format!("`{key}` is for tasks: write `task = \"NAME=KIND\"` beside it"),
                 )),
             };
         }
         if !written.units.is_empty() {
-            let problem =
-                "`units` applies to channels only, but `task` scores labels: omit `units`";
+            let problem = "`units` is for channels, but `task` scores labels: omit `units`";
             return Err(place.wrong("units", problem.to_owned()));
         }
         let texts = |key: &str, written: &BTreeMap<String, toml::Value>| {
             let texts = written.iter().map(|(name, value)| {
                 let text = word(value).ok_or_else(|| {
-                    let problem = format!(
-                        "`{key}` of {} is not a number, expected a number",
-                        shown(name)
-                    );
+                    let problem = format!("`{key}` of {}: expected a number", shown(name));
                     place.wrong(key, problem)
                 })?;
                 Ok((name.clone(), text))

@@ -163,9 +163,7 @@ fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, b
             ));
         }
     };
-    let side = |side: u64| {
-        u32::try_from(side).map_err(|_| format!("{}, expected sides below 2^32 pixels", said()))
-    };
+    let side = |side: u64| u32::try_from(side).map_err(|_| format!("{}: side too long", said()));
     Ok((side(height)?, side(width)?, colours, is_planar))
 }
 
@@ -198,18 +196,14 @@ impl Form {
         };
         let bytes = match (values, range) {
             (ArrayValues::U8(all), None) => {
-                let row = all
-                    .get(own)
-                    .ok_or("the array has fewer values than its shape states")?;
+                let row = all.get(own).ok_or("fewer values than its shape states")?;
                 match is_planar {
                     false => row.to_vec(),
                     true => (0..row.len()).map(|sample| row[place(sample)]).collect(),
                 }
             }
             (ArrayValues::U16(all), None) => {
-                let row = all
-                    .get(own)
-                    .ok_or("the array has fewer values than its shape states")?;
+                let row = all.get(own).ok_or("fewer values than its shape states")?;
                 (0..row.len())
                     .flat_map(|sample| row[place(sample)].to_le_bytes())
                     .collect()
@@ -259,7 +253,6 @@ fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> 
         _ => None,
     };
     numbers.ok_or_else(|| {
-        "expected numbers of at most 32 bits or floating point, as many as the shape states"
-            .to_owned()
+        "expected numbers of up to 32 bits or floats, as many as the shape states".to_owned()
     })
 }

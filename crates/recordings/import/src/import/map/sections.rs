@@ -130,13 +130,7 @@ impl Check<'_> {
                 ));
             }
             if joins.iter().any(|known| known.name == join.name) {
-                return Err(self.at(
-                    offset,
-                    &format!(
-                        "two joins are called `{}`: give each its own name",
-                        join.name
-                    ),
-                ));
+                return Err(self.at(offset, &format!("two joins are called `{}`", join.name)));
             }
             joins.push(join);
         }
@@ -218,11 +212,7 @@ impl Check<'_> {
             None => false,
             Some(kind) if kind.get_ref() == "rotation" => true,
             Some(kind) => {
-                let problem = format!(
-                    "`kind` is `{}`, expected \"rotation\"",
-                    taceva_core::shown(kind.get_ref())
-                );
-                return Err(self.at(kind.span().start, &problem));
+                return Err(self.at(kind.span().start, "unknown `kind`, expected \"rotation\""));
             }
         };
         // The order in the file is that of the matrix rows.
@@ -282,10 +272,7 @@ impl Check<'_> {
             let mut sorted: Vec<&String> = class.names.iter().collect();
             sorted.sort_unstable();
             if sorted.is_empty() || sorted.windows(2).any(|pair| pair[0] == pair[1]) {
-                return Err(self.at(
-                    offset,
-                    "`names` is empty or names a class twice, expected every class once",
-                ));
+                return Err(self.at(offset, "`names` needs every class, each once"));
             }
             let map = ClassMap {
                 from: class.from.clone().into_name(),

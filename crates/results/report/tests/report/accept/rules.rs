@@ -177,12 +177,9 @@ fn a_score_that_takes_no_part_in_verdicts_is_undecided_and_so_is_a_missing_one()
     );
     let missing = held_on("Fq", GUARDED, "most = 9.0");
     assert_eq!((missing.verdict, missing.is_kept), (Word::Undecided, false));
-    assert_eq!(
-        missing.reason.as_deref(),
-        Some("the result has no such score")
-    );
+    assert_eq!(missing.reason.as_deref(), Some("this score is missing"));
     let reason = held_on("fx", GUARDED, "most = 9.0").reason;
-    let expected = "the result has no such score; did you mean channel `Fx`?";
+    let expected = "this score is missing; did you mean channel `Fx`?";
     assert_eq!(reason.as_deref(), Some(expected));
 }
 

@@ -60,7 +60,7 @@ fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
             pairs.find_map(|(at, (before, now))| of_values(&inner(&at.to_string()), before, now))
         }
         (Value::Array(before), Value::Array(now)) => Some(format!(
-            "{path} had {} entries and now has {}",
+            "{path} had {} entries and has {}",
             before.len(),
             now.len()
         )),
@@ -124,10 +124,7 @@ mod tests {
         );
         assert_eq!(found(&plan(20, "null", "sha256:2")), "the rig file changed");
         let fewer = before.replace(r#"{"shear": null}"#, "");
-        assert_eq!(
-            found(&fewer),
-            "studies.0.presses had 1 entries and now has 0"
-        );
+        assert_eq!(found(&fewer), "studies.0.presses had 1 entries and has 0");
         assert_eq!(found("no plan"), "");
     }
 }

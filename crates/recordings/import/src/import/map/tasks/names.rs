@@ -33,10 +33,7 @@ pub(super) fn problem_of_names(class: &ClassMap, kind: TaskKind) -> Option<Strin
         ));
     }
     if let Some(twice) = names.iter().find(|name| !seen.insert(name.as_str())) {
-        return Some(format!(
-            "`names` has `{}` twice, expected once",
-            shown(twice)
-        ));
+        return Some(format!("`names` has `{}` twice", shown(twice)));
     }
     let is_wrong =
         |name: &&String| name.is_empty() || name.trim() != *name || name.len() > NAME_BYTES;

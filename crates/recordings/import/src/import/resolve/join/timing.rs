@@ -146,14 +146,10 @@ impl Timing {
         let smaller = factors.iter().find(|factor| is_near(ratio * *factor));
         let unit = match (larger, smaller) {
             (Some(factor), _) => {
-                format!(
-                    "; times of the rows are {factor} times those of the join: correct a `unit`"
-                )
+                format!("; times of rows are {factor} times those of the join: correct a `unit`")
             }
             (None, Some(factor)) => {
-                format!(
-                    "; times of the join are {factor} times those of the rows: correct a `unit`"
-                )
+                format!("; times of the join are {factor} times those of rows: correct a `unit`")
             }
             (None, None) => String::new(),
         };
