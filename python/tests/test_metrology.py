@@ -210,7 +210,7 @@ def test_a_budget_refuses_by_line_key_and_parameter() -> None:
         taceva.budget({"measurand": "Fz", "at": ["1 N"], "source": [lamp]}, at="1")
     with pytest.raises(ValueError, match="at has several values: 1.0 N, 2.0 N; expected one, such as at='1.0 N'"):
         taceva.budget({"measurand": "Fz", "at": ["1 N", "2 N"], "source": [lamp]}, draws=0)
-    with pytest.raises(TypeError, match="expected a text, a number, a list or a mapping"):
+    with pytest.raises(TypeError, match="expected a string, a number, a list or a mapping"):
         taceva.budget({"measurand": "Fz", "at": ["1 N"], "source": [{"name": "lamp", "u": object()}]})
 
 

@@ -143,7 +143,7 @@ pub(crate) enum Command {
     Init(Init),
     /// Turn a lab's folder of pictures and labels into a dataset
     Import(Import),
-    /// Show what a dataset holds, and what measured it: devices, certificates, latencies
+    /// Show the content of a dataset and the devices that measured it, with certificates and latencies
     Show(Show),
     /// Check a recording for defects, before any number is computed
     Check(Check),
@@ -157,7 +157,7 @@ pub(crate) enum Command {
     Stress(Stress),
     /// Compare the errors of a fitted model over the life of a gel: recordings of one unit, by presses or by date
     Wear(Wear),
-    /// Watch a sensor in use, or a recording of it: changes of the camera, the light and the gel, with what to do
+    /// Watch a sensor in use, or a recording of it: changes of the camera, the light and the gel, with remedies
     Watch(Watch),
     /// Write a model's predictions as a table
     Predict(Predict),
@@ -165,7 +165,7 @@ pub(crate) enum Command {
     Score(Score),
     /// Merge the states of shards; the scores equal those of one unsharded run, bit for bit
     Merge(Merge),
-    /// Pack results with what is needed to compute them again; verify and compare such bundles
+    /// Pack results with the files that compute them again; verify and compare such bundles
     Bundle(Bundle),
     /// Accept a deliberate edit of a sealed file, and record it with its reason in the file's history
     Reseal(Reseal),

@@ -42,7 +42,7 @@ pub fn verify_bundle<W: Into<OsString> + Clone>(
         _ => None,
     };
     let Some(BundleSubject::Verify(args)) = subject else {
-        return Err(anyhow!("expected bundle verify"));
+        return Err(anyhow!("expected the command `bundle verify`"));
     };
     // The number of threads belongs to the caller.
     let found = cmd::bundle::verification(args, NonZeroUsize::MIN, &SilentProgress)?;

@@ -68,7 +68,7 @@ pub fn main_if_child() {
 pub fn main_with(arguments: impl IntoIterator<Item = impl Into<OsString> + Clone>) -> u8 {
     if process_limits::standard_output_is_closed() {
         stderr::say(format_args!(
-            "standard output is closed, and the result would be lost: nothing was done; redirect it to a file or to /dev/null"
+            "standard output is closed, and the result would be lost: nothing was done; redirect standard output to a file or to /dev/null"
         ));
         return exit::BAD_INPUT;
     }

@@ -22,7 +22,7 @@ impl Idle {
     fn unlit() -> Result<Box<dyn Factory<dyn Lighting>>, DescriptorError> {
         let spec = DescriptorSpec::new(
             DriverKey::fixed("test/unlit"),
-            "a lighting device without scenes",
+            "a lighting device without scenes, expected at least one",
             DriverSource::Simulated,
             Facts::Lighting(LightingFacts::default()),
         );
@@ -93,6 +93,6 @@ fn a_linked_driver_that_contradicts_itself_is_an_error_and_not_silence() {
     let error = Registry::<dyn Lighting>::builtin().expect_err("no scenes");
     assert_eq!(
         error.to_string(),
-        "the driver `test/unlit` contradicts itself: a lighting device without scenes"
+        "the driver `test/unlit` contradicts itself: a lighting device without scenes, expected at least one"
     );
 }

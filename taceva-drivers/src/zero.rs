@@ -58,7 +58,7 @@ impl HostZero {
         match forces.find(|(force, most)| force.0.abs() >= *most) {
             Some((beyond, most)) => {
                 let why = format!(
-                    "a force of {beyond}, expected less than {most} N: beyond its range, forces are clipped"
+                    "a force of {beyond}, expected less than {most} N: the transducer clips forces beyond its range"
                 );
                 Err(DriverError::new(ErrorKind::OutOfRange, &self.driver, READ).because(why))
             }

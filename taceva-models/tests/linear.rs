@@ -151,7 +151,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
             estimator.fit_linear(&training.set(), Some(&other_width.set()), &SilentProgress);
         assert_eq!(
             refusal(result, estimator.name()),
-            "validation samples of 5 features, training samples of 4"
+            "validation samples of 5 features, expected 4 as in training"
         );
         let short = training.set().with_groups(&training.groups[1..]);
         let result = estimator.fit_linear(&short, None, &SilentProgress);

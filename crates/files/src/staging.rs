@@ -192,7 +192,7 @@ fn refuse_devices(target: &Path) -> io::Result<()> {
     match fs::metadata(target).map(|found| found.file_type()) {
         Ok(kind) if leads_to_process || (!kind.is_file() && !kind.is_dir()) => Err(io::Error::new(
             io::ErrorKind::InvalidInput,
-            "it is a device, a pipe or a socket, which a file would replace; redirect standard output to it instead of naming it",
+            "a device, a pipe or a socket, expected a file; redirect standard output to it instead",
         )),
         // A target that cannot be looked at fails at its rename.
         _ => Ok(()),

@@ -143,7 +143,7 @@ def numbers(array: Any, name: str, *, allow_invalid: bool = False) -> Numbers:
 
 
 def points(names: Any, name: str = "points") -> npt.NDArray[np.int64] | list[str]:
-    """Return contact points, or other names, as an array of whole numbers or as a list of texts.
+    """Return contact points, or other names, as an array of whole numbers or as a list of strings.
 
     Raises
     ------

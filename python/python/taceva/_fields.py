@@ -16,7 +16,7 @@ _COUNTS = ("depth_step", "repeat")
 
 
 def columns(fields: Mapping[str, Any], expected: Sequence[str], rows: int) -> list[tuple[str, Any]]:
-    """Return each of the ``expected`` fields as an array or a list of texts, one value per row.
+    """Return each of the ``expected`` fields as an array or a list of strings, one value per row.
 
     Raises
     ------

@@ -550,10 +550,10 @@ def _toml(value: Any) -> str:
         of_tables = any(isinstance(own, Mapping) for own in value)
         opening, between, closing = ("[\n", ",\n", "\n]") if of_tables else ("[", ", ", "]")
         return opening + between.join(map(_toml, value)) + closing
-    raise TypeError(f"{value!r}: expected a text, a number, a list or a mapping")
+    raise TypeError(f"{value!r}: expected a string, a number, a list or a mapping")
 
 
 def _quoted(text: Any) -> str:
     if not isinstance(text, str):
-        raise TypeError(f"{text!r}: expected a text as a key")
+        raise TypeError(f"{text!r}: expected a string as a key")
     return json.dumps(text, ensure_ascii=False)

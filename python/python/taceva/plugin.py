@@ -147,7 +147,7 @@ class Plugin:
             if issubclass(given, Robot) and given.halt is Robot.halt:
                 raise TypeError(f"{key!r}: {given.__name__} has no halt(), expected a method that stops the motion from any thread")
         if isinstance(needs, str):
-            raise TypeError(f"needs: expected a list of texts, got {needs!r}")
+            raise TypeError(f"needs: expected a list of strings, got {needs!r}")
         self.id = id
         self.version = version
         self.provides = dict(provides)

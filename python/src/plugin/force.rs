@@ -92,7 +92,7 @@ fn wrench(said: &Bound<'_, PyAny>) -> PyResult<Wrench> {
         [x, y, z] => wrench.force = [*x, *y, *z].map(Newton),
         _ => {
             return Err(value_error(
-                "read returned a force that is not 1, 3 or 6 numbers, expected Fz, [Fx, Fy, Fz] or [Fx, Fy, Fz, Tx, Ty, Tz], in N and N·mm",
+                "read returned a force that is not 1, 3 or 6 numbers: expected Fz, [Fx, Fy, Fz] or [Fx, Fy, Fz, Tx, Ty, Tz], in N and N·mm",
             ));
         }
     }

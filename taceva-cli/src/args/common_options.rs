@@ -37,9 +37,9 @@ pub(crate) struct OptionalModelArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct SettingArgs {
-    /// A setting of the features or of the model, such as features=markers (pixels, markers, gradients, statistics, or several joined by
-    /// +), size=32x32, color=gray, difference=true, strength=0.1, input=signals for a recording that also has frames, and device=wgpu for
-    /// networks in a program built for GPUs; may be repeated
+    /// A setting of the features or of the model, such as size=32x32, color=gray, difference=true or strength=0.1. features= accepts
+    /// pixels, markers, gradients, statistics, or several joined by +. input=signals is for a recording that also has frames, and device=wgpu
+    /// for networks in a program built for GPUs; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE")]
     pub(crate) set: Vec<String>,
     /// Channels to predict, separated by commas; main tables then have a row for each channel, instead of rows for planes [default: all]

@@ -13,7 +13,7 @@ labels Fz or Pz show the contact.
 
 The mean of 50 untouched pictures is the baseline, and the next 200 set the limits. They are taken from --calibration if it has at least 100 (50 or
 more then set the limits), otherwise, and with --fresh, from the first 250 watched pictures. Then a change is found within 30 untouched pictures. Each
-kind of change is printed once, with what to do. Drift is a change: switch the sensor on half an hour before.
+kind of change is printed once, with its remedy. Drift is a change: switch the sensor on half an hour before.
 
 The exit code is 1 if a change was found, or if the untouched pictures are too few to decide, otherwise 0.";
 

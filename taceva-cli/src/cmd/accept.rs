@@ -21,7 +21,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     if let Some(result) = &args.template {
         if results::tasks::read(result)?.is_some() {
             return Err(Usage::error(
-                "--template is for scores of channels; a limit of a task is: [[limit]], metric = \"f1\", channel = \"slip\" (the task), unit = \"1\", least = 0.8",
+                "--template writes limits of channels; for a task write by hand: [[limit]], metric = \"f1\", channel = \"slip\" (the task), unit = \"1\", least = 0.8",
             ));
         }
         let text = limits_template(&study_of(result)?);
@@ -32,7 +32,7 @@ pub(crate) fn run(args: &Accept, context: &Context) -> anyhow::Result<u8> {
     }
     let (Some(result), Some(limits)) = (&args.result, &args.limits) else {
         return Err(Usage::error(
-            "expected RESULT.json and --limits LIMITS.toml",
+            "expected RESULT.json and --limits LIMITS.toml; `taceva accept --template RESULT.json` writes limits",
         ));
     };
     let date = match &args.date {

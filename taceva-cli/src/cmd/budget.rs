@@ -39,7 +39,7 @@ pub(crate) fn run(args: &Budget) -> anyhow::Result<u8> {
 /// Computes the budgets of the file of sources.
 pub(crate) fn report(args: &Budget) -> anyhow::Result<BudgetReport> {
     let Some(path) = &args.sources else {
-        return Err(Usage::error("expected BUDGET.toml"));
+        return Err(Usage::error("expected BUDGET.toml; --template writes one"));
     };
     let text = read(path)?;
     let place = || shown(path).to_string();

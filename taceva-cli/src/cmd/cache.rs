@@ -21,7 +21,7 @@ pub(crate) fn run(args: &CacheCommand, context: &Context) -> anyhow::Result<u8> 
 fn folder_of(named: Option<PathBuf>) -> anyhow::Result<PathBuf> {
     named.or_else(of_user).ok_or_else(|| {
         Usage::error(
-            "neither XDG_CACHE_HOME nor HOME is an absolute path; name the cache with --cache DIR",
+            "no folder for the cache: set HOME or XDG_CACHE_HOME to an absolute path, or name the cache with --cache DIR",
         )
     })
 }

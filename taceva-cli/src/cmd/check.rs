@@ -68,7 +68,7 @@ fn compared(recordings: &[Dataset], folder: &Path, context: &Context) -> anyhow:
         let name = shown(dataset.path());
         let Some(sums) = SourceSums::of_dataset(dataset)? else {
             anyhow::bail!(
-                "{name} stores no digests of its sources: it was recorded, or imported by an older version; import it again with `--force`"
+                "{name} stores no digests of its sources, because it was recorded or imported by an older version; import its folder again with `--force`"
             );
         };
         let differences = sums.differences(source, context.jobs, &context.progress)?;

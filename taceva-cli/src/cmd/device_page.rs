@@ -100,7 +100,7 @@ impl Viewer for Shown {
             );
         }
         self.live
-            .stage(&format!("{}, unit {unit}: on the way", plan.name));
+            .stage(&format!("{}, unit {unit}: approaching", plan.name));
     }
 
     fn event(&self, event: &Event) {

@@ -133,7 +133,7 @@ fn default_model(dataset: &Dataset, context: &Context) -> &'static str {
         false => "ridge",
     };
     context.say(format_args!(
-        "model: {name}, as --model is not given; ridge takes seconds, default and best are more accurate"
+        "model: {name}, because --model is not given; ridge takes seconds, default and best are more accurate"
     ));
     name
 }

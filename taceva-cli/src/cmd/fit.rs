@@ -37,7 +37,7 @@ pub(crate) fn run(args: &Fit, context: &Context) -> anyhow::Result<u8> {
     fitted.model.save(&args.out)?;
     checkpoints.remove().with_context(|| {
         let path = shown(&checkpoints.path);
-        format!("the model is written; cannot remove {path}")
+        format!("the model is written, but its checkpoint {path} cannot be removed")
     })?;
     if let Some(path) = &args.split_out.path {
         output::write(Some(path), |out| {

@@ -126,10 +126,9 @@ enum Source {
 
 impl Source {
     fn open(args: &Import, target: Option<&Path>, context: &Context) -> anyhow::Result<Source> {
-        let path = args
-            .source
-            .as_deref()
-            .ok_or_else(|| Usage::error("the folder or file to import is missing"))?;
+        let path = args.source.as_deref().ok_or_else(|| {
+            Usage::error("no folder or file is named, expected `taceva import FOLDER`")
+        })?;
         if !UnpackedArchive::is_archive(path) {
             return Ok(Source::Folder(folder_of(path).to_owned()));
         }
@@ -229,7 +228,7 @@ fn decoders(args: &Import) -> anyhow::Result<Decoders> {
         && on_path(program).is_none()
     {
         return Err(Usage::error(format!(
-            "program `{}` not found, neither as a file nor on the PATH: name ffmpeg 5.1 or later with --ffmpeg or TACEVA_FFMPEG",
+            "program `{}` is neither a file nor on the PATH: name ffmpeg 5.1 or later with --ffmpeg or TACEVA_FFMPEG",
             shown(program)
         )));
     }
@@ -262,7 +261,7 @@ fn map(args: &Import, source: &Source) -> anyhow::Result<ImportMap> {
     let path = args
         .map
         .as_deref()
-        .ok_or_else(|| Usage::error("either --map or --preset is needed"))?;
+        .ok_or_else(|| Usage::error("neither --map nor --preset is given: add one of them"))?;
     if !path.exists() {
         anyhow::bail!(
             "{}: no such map: `{}` writes one",

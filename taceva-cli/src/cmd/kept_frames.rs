@@ -17,7 +17,7 @@ pub(super) fn check_new(folder: &Path) -> anyhow::Result<()> {
     match fs::symlink_metadata(folder) {
         Err(_) => Ok(()),
         Ok(_) => Err(Usage::error(format!(
-            "--keep-frames {}: it exists already, expected the name of a new folder",
+            "--keep-frames {}: exists already, expected a new folder",
             shown(folder)
         ))),
     }

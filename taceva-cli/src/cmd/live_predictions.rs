@@ -43,7 +43,7 @@ impl<'a> LivePredictions<'a> {
         context.say(format_args!("predicted, not measured, by {words}"));
         if !model.knows_distance() {
             context.say(format_args!(
-                "{} has no record of its training pictures (fitted by an earlier TacEva, or on fewer than 20 samples): unfamiliar pictures are not marked; fit it again",
+                "{} has no record of its training pictures (fitted by an earlier TacEva, or on fewer than 20 samples): unfamiliar pictures are not marked; fit the model again",
                 shown(model.path())
             ));
         }

@@ -31,7 +31,7 @@ pub(super) fn find(
         let keys = estimators.iter().map(|known| known.key().as_str());
         let keys: Vec<&str> = keys.collect();
         format!(
-            "`{}`: no estimator of a plugin, {}; `taceva plugin list` shows what is installed",
+            "`{}`: no plugin has this estimator, {}; `taceva plugin list` lists the installed plugins",
             shown(key),
             match keys.is_empty() {
                 true => "none is installed".to_owned(),
@@ -91,7 +91,9 @@ impl PictureFault for PluginFault {
         let answer = receiver.recv_timeout(longest);
         let answer = answer.map_err(|_| {
             let seconds = longest.as_secs();
-            format!("no picture within {seconds} s: make it faster, or test smaller pictures")
+            format!(
+                "no picture within {seconds} s: make the fault faster, or test smaller pictures"
+            )
         })?;
         self.is_started.store(true, Ordering::Relaxed);
         let numbers = answer.map_err(|error| error.to_string())?;

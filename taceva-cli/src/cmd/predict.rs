@@ -22,7 +22,7 @@ pub(crate) fn run(args: &Predict, context: &Context) -> anyhow::Result<u8> {
     let distinct: BTreeSet<_> = files.iter().collect();
     if distinct.len() < files.len() {
         return Err(Usage::error(
-            "two of --out, --truth-out and --deviations-out name the same file",
+            "two of --out, --truth-out and --deviations-out name the same file, expected different files",
         ));
     }
     let files = args.truth_out.iter().chain(&args.deviations_out);

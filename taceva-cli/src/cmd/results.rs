@@ -58,7 +58,7 @@ pub(super) fn check_distinct(named: &[PathBuf]) -> anyhow::Result<()> {
                 false => format!(", first as {}", shown(first)),
             };
             return Err(Usage::error(format!(
-                "{}: given twice{first}; expected different results",
+                "{} is named twice{first}, expected different results",
                 shown(path)
             )));
         }

@@ -80,7 +80,7 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             continue;
         };
         context.say(format_args!(
-            "rig: {}: at most {} mm deep, {} N normal and {} N shear, {} mm/s in the air and {} mm/s in contact, where the tip may overrun by {:.3} mm",
+            "rig: {}: at most {} mm deep, {} N normal and {} N shear, {} mm/s in the air and {} mm/s in contact; overrun in contact up to {:.3} mm",
             shown(rig.name()),
             limits.depth_max.0,
             limits.normal_max.0,

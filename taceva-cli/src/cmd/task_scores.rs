@@ -34,7 +34,7 @@ pub(super) fn write_as_published(
     }
     if report.tasks.iter().all(|task| task.as_published.is_empty()) {
         return Err(Usage::error(format!(
-            "--as {program}: no number of this program is for these tasks, expected a task of {}",
+            "--as {program}: this program scores none of these tasks, expected a task of {}",
             program.of_tasks()
         )));
     }

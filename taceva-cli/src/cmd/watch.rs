@@ -76,7 +76,7 @@ fn say_what_is_known(monitor: &Monitor, path: &Path, context: &Context) {
     );
     match monitor.smallest() {
         Some([level, pattern, detail, lines]) => context.say(format_args!(
-            "{known}: they find changes of brightness from {level:.2} of the change by contact, of large parts from {pattern:.2}, of detail from {detail:.2}, of single lines from {lines:.2}"
+            "{known}; smallest changes found, relative to the change by contact: brightness {level:.2}, large parts {pattern:.2}, detail {detail:.2}, single lines {lines:.2}"
         )),
         None => context.say(format_args!(
             "{known}: a change since then is found only if it exceeds the change by contact; the first {} watched pictures set the limits for later changes",

@@ -178,7 +178,7 @@ fn text(check: &RigCheck, out: &mut dyn Write) -> io::Result<()> {
             "halt    acknowledged in {:.1} ms, the robot stopped in {:.1} ms; the tip was left {:.2} mm higher",
             halt.acknowledged_ms, halt.ended_ms, halt.left_mm
         )?,
-        (None, Some(why)) => writeln!(out, "halt    left out: {why}")?,
+        (None, Some(why)) => writeln!(out, "halt    skipped: {why}")?,
         (None, None) => {}
     }
     let noise_n = check.force.as_ref().and_then(|force| force.noise);

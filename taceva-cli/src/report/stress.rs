@@ -96,7 +96,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             false => names.join(", "),
         };
         notes.push(format!(
-            "Errors at least doubled by a fault of pictures without a finding in the checks of pictures, by fault, severity and channel: {names}."
+            "Errors at least doubled by a fault that no check of pictures finds (fault, severity, channel): {names}."
         ));
     }
     notes.extend(missed_targets(report));
@@ -106,7 +106,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }));
     if report.untouched != "reference" {
         notes.push(format!(
-            "The recording has no untouched picture; the change by faults and contact is measured from: {}.",
+            "The recording has no untouched picture; changes by faults and contact are measured from: {}.",
             report.untouched
         ));
     }
@@ -149,7 +149,7 @@ fn missed_targets(report: &StressReport) -> Option<String> {
 fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
     let breaks = by_channel(channels, |name| {
         match report.clean.get(name)?.skill.is_above_zero() {
-            Some(false) => Some("no skill without a fault".to_owned()),
+            Some(false) => Some("no skill even without the fault".to_owned()),
             _ => Some(skill_end(fault, *fault.breaks_at.get(name)?)),
         }
     });

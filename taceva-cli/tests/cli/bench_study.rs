@@ -112,7 +112,7 @@ fn real_devices_recordings_and_unknown_names_are_refused_before_a_press() {
     bench.refused(
         "bench study real.toml",
         2,
-        "real.toml: study `real`: it uses a real rig",
+        "real.toml: study `real` uses a real rig",
     );
     bench.refused(
         "bench study real.toml",
@@ -127,7 +127,7 @@ fn real_devices_recordings_and_unknown_names_are_refused_before_a_press() {
     bench.refused(
         "bench study recorded.toml",
         2,
-        "it uses a recording and acquires no data",
+        "uses a recording and acquires no data",
     );
     bench.refused(
         "bench study --study GelSigt",

@@ -160,7 +160,7 @@ fn a_changed_a_missing_an_added_and_a_linked_file_are_damage() {
     for (name, damage, words) in [
         ("changed", "tables/prediction.csv", "expected sha256:"),
         ("lost", "states/0.json", "it is missing"),
-        ("added", "states/more.json", "bundle.json does not list it"),
+        ("added", "states/more.json", "does not list this file"),
         (
             "sealless",
             "bundle.json",
@@ -309,7 +309,7 @@ fn a_state_of_other_tables_is_refused_when_a_bundle_is_made() {
     bench.refused(&swapped, 3, "--truth and --pred are swapped");
     let ran = bench.run(&format!("{words} --truth truth.csv --pred better.csv"));
     assert_eq!(ran.code, 3, "{}", ran.err);
-    let named = "result.state: it was summed from other tables";
+    let named = "result.state: the state was summed from other tables";
     assert!(ran.err.contains(named), "{}", ran.err);
     assert!(!ran.err.contains(".taceva-"), "{}", ran.err);
     let words = "bundle result.json --draft --out b";

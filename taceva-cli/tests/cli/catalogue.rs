@@ -213,9 +213,9 @@ fn the_same_bundle_and_the_same_results_are_added_once() {
     bundle(&bench, "one", "Foo", 0.01);
     bench.ok("catalogue add one --to c");
     let before = text(&bench, "entries/foo.toml");
-    bench.refused("catalogue add one --to c", 3, "in the catalogue already");
+    bench.refused("catalogue add one --to c", 3, "already in the catalogue");
     bench.ok(&packed("one", "--author Grace --licence CC-BY-4.0 --force"));
-    let message = "its results are in the catalogue already";
+    let message = "its results are already in the catalogue";
     bench.refused("catalogue add one --to c", 3, message);
     assert_eq!(text(&bench, "entries/foo.toml"), before);
     assert_eq!(names(&bench, "bundles").len(), 1);
@@ -226,7 +226,7 @@ fn a_draft_a_damaged_bundle_and_an_edited_claim_are_refused() {
     let bench = Bench::new();
     score(&bench, "one", "Foo", 0.01);
     bench.ok(&packed("one", "--draft"));
-    bench.refused("catalogue add one --to c", 3, "a draft: expected");
+    bench.refused("catalogue add one --to c", 3, "a draft, expected");
     bench.ok(&packed("one", "--author Ada --licence CC-BY-4.0 --force"));
     crate::bundle::forgery::relist(&bench, "one", |manifest| {
         manifest["claims"][0]["value"] = 123.5.into();
@@ -357,7 +357,7 @@ fn numbers_of_other_samples_or_definitions_stand_side_by_side_without_a_rank() {
     edit(&path, |text| text.replace(&own, &other));
     let differing = answered();
     assert!(
-        differing.contains("they are of different samples"),
+        differing.contains("the scores are from different samples"),
         "{differing}"
     );
 }

@@ -163,7 +163,7 @@ fn answers_that_end_are_refused_with_the_question_and_the_earlier_ones_are_kept(
         ran.err
     );
     assert!(
-        ran.err.contains("the answers so far are in first.toml"),
+        ran.err.contains("first.toml has the answers so far"),
         "{}",
         ran.err
     );

@@ -112,7 +112,7 @@ driver = "camera/v4l2:device=/dev/video-of-nobody"
         "`taceva doctor` missing permissions",
         "sensor  error: lab.toml: sensor: camera/v4l2",
         "`taceva devices` lists cameras",
-        "halt    left out: nothing moves, because the robot failed",
+        "halt    skipped: nothing moves, because the robot failed",
     ] {
         assert!(ran.out.contains(part), "no `{part}` in {}", ran.out);
     }

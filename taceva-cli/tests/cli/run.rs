@@ -127,7 +127,7 @@ fn a_run_never_writes_over_another_unless_told_to() {
     bench.refused(
         "run small.toml --out mine --force",
         3,
-        "not the folder of a run",
+        "the folder holds no run",
     );
     bench.ok("run small.toml --out runs/small-1 --force --seed 8 -q");
     assert_ne!(first, reports(&bench.path("runs/small-1")));

@@ -173,13 +173,13 @@ fn recordings_that_are_the_same_or_differ_in_what_they_are_of_are_refused_with_t
     bench.refused(
         &evaluate("monday ./tuesday/../monday"),
         3,
-        "they are the same folder",
+        "both paths name one folder",
     );
     copy(&bench, "monday", "copy");
     bench.refused(
         &evaluate("monday tuesday copy"),
         3,
-        "monday and copy cannot be joined into one recording: they hold the same 60 samples",
+        "monday and copy cannot be joined into one recording: both have the same 60 samples",
     );
     bench.record("small", 16);
     bench.refused(

@@ -81,7 +81,7 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
     bench.refused(
         "evaluate data --model ridge --set size=8",
         3,
-        "`size=8` applies to frames, but the recording has signals alone",
+        "`size=8` applies to frames, but the recording has only signals",
     );
     bench.record("pictures", 64);
     bench.refused(
@@ -92,7 +92,7 @@ fn taxels_are_imported_checked_fitted_and_evaluated() {
     bench.refused(
         "evaluate pictures --with skin.safetensors",
         3,
-        "the model needs signals, and the dataset has none",
+        "the model needs signals, which the dataset lacks",
     );
 }
 

@@ -173,7 +173,7 @@ fn a_calibration_with_few_untouched_pictures_says_what_it_finds_and_never_that_n
     let darker = watched("darker", "some");
     assert_eq!(darker.code, 1, "{}", darker.err);
     assert!(darker.out.contains("brighter or darker"), "{}", darker.out);
-    let words = "some: 120 untouched pictures in the calibration, expected 250: they find changes of brightness from 0.";
+    let words = "some: 120 untouched pictures in the calibration, expected 250; smallest changes found, relative to the change by contact: brightness 0.";
     assert!(darker.err.contains(words), "{}", darker.err);
     let same = watched("same", "some");
     assert_eq!((same.code, same.out.as_str()), (0, ""), "{}", same.err);

@@ -97,7 +97,7 @@ fn a_recording_and_its_state_before_rows_were_added_are_refused() {
     bench.refused(
         "wear data longer --model m.taceva",
         2,
-        "data and longer are the same recording or states of it",
+        "data and longer are one recording or states of one recording",
     );
 }
 

@@ -216,7 +216,7 @@ fn tables_and_recordings_without_a_row_are_bad_input() {
         "evaluate empty --model ridge",
         "fit empty --model ridge --out m",
     ] {
-        bench.refused(words, 3, "empty: no sample: the dataset has 0 rows");
+        bench.refused(words, 3, "empty: the dataset has 0 rows");
     }
 }
 
@@ -288,7 +288,7 @@ fn a_final_model_learns_from_every_sample_and_is_not_tested_on_them() {
     }
     let report = bench.json("evaluate data --with m.taceva --part train");
     let notes = report["provenance"]["notes"].to_string();
-    assert!(notes.contains("this is not a test"), "{notes}");
+    assert!(notes.contains("these scores are not a test"), "{notes}");
 }
 
 #[test]

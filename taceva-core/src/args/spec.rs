@@ -168,7 +168,7 @@ impl ArgSpec {
     /// Accepted values, as words for the end of a message: "expected …".
     pub fn expected(&self) -> String {
         let mut words = match &self.kind {
-            ArgKind::Text => "a text".to_owned(),
+            ArgKind::Text => "a string".to_owned(),
             ArgKind::Path => "a path".to_owned(),
             ArgKind::Whole { least, most } => {
                 let least = (*least > i64::MIN).then_some(least);

@@ -141,7 +141,7 @@ impl SampleTiming {
 /// ```
 /// use taceva_core::TimingError;
 /// let jump = TimingError::Jump { jump_s: -3600.0 };
-/// assert_eq!(jump.to_string(), "its stamps jump by -3600.0 s: check the clock of the device");
+/// assert_eq!(jump.to_string(), "the stamps jump by -3600.0 s: check the clock of the device");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -178,7 +178,7 @@ impl fmt::Display for TimingError {
             ),
             TimingError::Jump { jump_s } => write!(
                 f,
-                "its stamps jump by {jump_s:.1} s: check the clock of the device"
+                "the stamps jump by {jump_s:.1} s: check the clock of the device"
             ),
         }
     }

@@ -72,7 +72,7 @@ impl DescriptorSpec {
             Facts::Robot(facts) => robot_fault(facts, self.source),
             Facts::Force(facts) => force_fault(facts),
             Facts::Lighting(facts) if facts.scenes.is_empty() => {
-                Some("a lighting device without scenes".to_owned())
+                Some("a lighting device without scenes, expected at least one".to_owned())
             }
             Facts::Lighting(facts) => scenes_fault(&facts.scenes),
             Facts::Changer(facts) => holds_fault(&facts.holds),
@@ -304,7 +304,7 @@ impl Descriptor {
 /// let facts = Facts::Lighting(LightingFacts::default());
 /// let spec = DescriptorSpec::new(DriverKey::fixed("room/lamp"), "a lamp", DriverSource::Real, facts);
 /// let error = spec.check().unwrap_err();
-/// assert_eq!(error.to_string(), "the driver `room/lamp` contradicts itself: a lighting device without scenes");
+/// assert_eq!(error.to_string(), "the driver `room/lamp` contradicts itself: a lighting device without scenes, expected at least one");
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DescriptorError {

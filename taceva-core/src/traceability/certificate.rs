@@ -198,7 +198,7 @@ impl Certificate {
         ];
         for (key, text) in required {
             if text.trim().is_empty() {
-                let expected = "a text that is not empty";
+                let expected = "a string that is not empty";
                 return Err(CertificateError::value(key, text, expected));
             }
         }

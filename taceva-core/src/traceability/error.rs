@@ -104,7 +104,7 @@ impl fmt::Display for CertificateError {
                 "`U` is stated without its coverage, expected `k = 2.0`, or `p = 0.95` with `dof`",
             ),
             CertificateError::TwoCoverages => {
-                f.write_str("`k` is stated beside `p` or `dof`, expected `k` alone, or `p` with `dof`")
+                f.write_str("`k` is stated with `p` or `dof`, expected `k` without them, or `p` with `dof`")
             }
             CertificateError::NoUncertainty => f.write_str(
                 "the certificate states no uncertainty, expected `U = { Fz = \"3.0 mN\" }` or `U_relative = { Fz = 0.001 }`",

@@ -19,7 +19,7 @@ use crate::printable::shown;
 /// let traced = traced.with_certificate(certificate)?;
 /// let faults = traced.faults(None, &[]);
 /// assert!(faults[0].is_error());
-/// assert!(faults[0].to_string().ends_with("serial number 42, the driver read 43"));
+/// assert!(faults[0].to_string().ends_with("serial number 42, but the driver read 43"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -87,17 +87,17 @@ impl fmt::Display for CertificateFault {
         match &self.contradiction {
             CertificateContradiction::OtherSerial { stated, read } => write!(
                 f,
-                "the certificate {number} is of the {instrument} with serial number {}, the driver read {}",
+                "the certificate {number} of the {instrument} is for serial number {}, but the driver read {}",
                 shown(stated),
                 shown(read)
             ),
             CertificateContradiction::Expired { until, last } => write!(
                 f,
-                "the certificate {number} of the {instrument} was valid until {until}, the measurement is of {last}"
+                "the certificate {number} of the {instrument} was valid until {until}, but the measurement was made on {last}"
             ),
             CertificateContradiction::IssuedLater { issued, first } => write!(
                 f,
-                "the certificate {number} of the {instrument} was issued on {issued}, the measurement is of {first}"
+                "the certificate {number} of the {instrument} was issued on {issued}, but the measurement was made on {first}"
             ),
         }
     }

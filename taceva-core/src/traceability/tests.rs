@@ -260,7 +260,7 @@ fn a_certificate_issued_after_the_first_day_of_the_labels_is_a_fault_unless_an_e
     assert!(!fault.is_error());
     assert_eq!(
         fault.to_string(),
-        "the certificate D-K-1 of the force transducer was issued on 2026-05-12, the measurement is of 2026-05-11"
+        "the certificate D-K-1 of the force transducer was issued on 2026-05-12, but the measurement was made on 2026-05-11"
     );
     let on_its_day = day("2026-05-12")..=day("2026-05-13");
     assert_eq!(traced.faults(Some(&on_its_day), &all), Vec::new());

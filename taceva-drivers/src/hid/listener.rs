@@ -48,7 +48,9 @@ impl Listener {
                         Err(error) => {
                             posting.end(Ending {
                                 kind: ErrorKind::Disconnected,
-                                why: format!("it was unplugged, or cannot be read: {error}"),
+                                why: format!(
+                                    "the device was unplugged, or cannot be read: {error}"
+                                ),
                             });
                             return;
                         }
@@ -56,7 +58,7 @@ impl Listener {
                 }
                 posting.end(Ending {
                     kind: ErrorKind::Disconnected,
-                    why: "it was closed".to_owned(),
+                    why: "the device was closed".to_owned(),
                 });
             })?;
         Ok(Listener {

@@ -88,7 +88,7 @@ impl Sensor for Replay {
             return Err(self.refused(ErrorKind::InvalidArgument, problem));
         }
         if !self.running {
-            return Err(self.refused(ErrorKind::InvalidArgument, "it is not started"));
+            return Err(self.refused(ErrorKind::InvalidArgument, "the sensor is not started"));
         }
         let now_s = self.pace.now_s();
         if self.pace.runs_by_itself() {

@@ -262,7 +262,7 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::ShortBranch => f.write_str("no point has two depths on both branches"),
             UndefinedReason::NoOverlap => f.write_str("no common range"),
             UndefinedReason::NoForce => f.write_str("no force was measured"),
-            UndefinedReason::NoIdleSamples => f.write_str("no sample is without contact"),
+            UndefinedReason::NoIdleSamples => f.write_str("every sample is in contact"),
             UndefinedReason::NoLightPresses => {
                 f.write_str("no light press: press ten places or more with 0.02 N to 0.2 N")
             }
@@ -304,10 +304,10 @@ impl fmt::Display for UndefinedReason {
             UndefinedReason::AtEnd => f.write_str("at the end of its range in every cluster"),
             UndefinedReason::ZeroMean => f.write_str("the mean is zero"),
             UndefinedReason::NoReferenceScene => f.write_str("no sample of the reference scene"),
-            UndefinedReason::OneScene => f.write_str("no scene but the reference scene"),
+            UndefinedReason::OneScene => f.write_str("only the reference scene"),
             UndefinedReason::ZeroIntensity => f.write_str("the reference scene is black"),
             UndefinedReason::ZeroBaseline => f.write_str("the reference scene has no error"),
-            UndefinedReason::NoChange => f.write_str("neither light nor error changed"),
+            UndefinedReason::NoChange => f.write_str("light and error did not change"),
             UndefinedReason::NoMillionths => {
                 f.write_str("no value is known to a millionth of its unit")
             }
@@ -325,7 +325,7 @@ impl fmt::Display for UndefinedReason {
             }
             UndefinedReason::NoClusters => f.write_str("samples without point_id"),
             UndefinedReason::HangsOnOneCluster => {
-                f.write_str("without one of the clusters the score has no value")
+                f.write_str("the score has no value if one cluster is left out")
             }
         }
     }
@@ -335,7 +335,7 @@ impl fmt::Display for UndefinedReason {
 ///
 /// ```
 /// use taceva_metrics::InapplicableReason;
-/// assert_eq!(InapplicableReason::NotOneNumber.to_string(), "not one number but many");
+/// assert_eq!(InapplicableReason::NotOneNumber.to_string(), "many numbers instead of one");
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -358,7 +358,7 @@ impl fmt::Display for InapplicableReason {
             InapplicableReason::ChannelAbsent(name) => {
                 write!(f, "channel `{}` is not scored", taceva_core::shown(name))
             }
-            InapplicableReason::NotOneNumber => f.write_str("not one number but many"),
+            InapplicableReason::NotOneNumber => f.write_str("many numbers instead of one"),
         }
     }
 }

@@ -268,7 +268,7 @@ fn a_value_in_words_fills_its_column_and_no_precision_cuts_it() {
     let absent = Value::NotApplicable(InapplicableReason::NotOneNumber);
     assert_eq!(
         format!("{absent:>41}|"),
-        "  not applicable: not one number but many|"
+        "  not applicable: many numbers instead of one|"
     );
 }
 

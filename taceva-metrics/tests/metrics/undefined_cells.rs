@@ -96,7 +96,7 @@ fn an_empty_stream_has_no_value_of_any_kind() {
         assert!(evaluation.scores().count() > 0, "{}", metric.id);
         for (_, label, score) in evaluation.scores() {
             let expected = match metric.id {
-                "noise_equivalent_force" | "zero_error" => "no sample is without contact",
+                "noise_equivalent_force" | "zero_error" => "every sample is in contact",
                 "detection_limit" => {
                     "no light press: press ten places or more with 0.02 N to 0.2 N"
                 }

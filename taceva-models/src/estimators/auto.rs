@@ -174,7 +174,7 @@ impl ModelEstimator for Auto {
         pictures.features = closer.unwrap_or(training.features);
         if pictures.features.samples() != samples {
             return Err(invalid(format!(
-                "{samples} training samples, but finer features of {}",
+                "{samples} training samples, but finer features of {} samples",
                 pictures.features.samples()
             )));
         }

@@ -137,7 +137,7 @@ pub enum FeatureError {
         window: FrameWindow,
     },
     /// The caller's buffer has the wrong length.
-    #[error("a buffer of {found} numbers for {expected} features")]
+    #[error("a buffer of {found} numbers, expected {expected}, one per feature")]
     Buffer {
         /// Number of features.
         expected: usize,

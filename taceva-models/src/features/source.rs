@@ -49,7 +49,7 @@ impl FeatureSpec {
                     Some(asked) => Err(FeatureError::NoFrames {
                         asked,
                         has: match frame {
-                            None => "signals alone",
+                            None => "only signals",
                             Some(_) => "signals, which were requested",
                         },
                     }),

@@ -25,7 +25,7 @@ pub enum SplitError {
         found: String,
     },
     /// A value is assigned to two parts.
-    #[error("value `{value}` is assigned twice", value = taceva_core::shown(value))]
+    #[error("value `{value}` is assigned twice, expected once", value = taceva_core::shown(value))]
     Twice {
         /// Repeated value.
         value: String,
@@ -91,7 +91,7 @@ pub enum SplitError {
         found: usize,
     },
     /// A required part is empty.
-    #[error("the part `{part}` has no sample")]
+    #[error("the part `{part}` has no sample: change the shares of the split")]
     Empty {
         /// Empty part.
         part: Part,

@@ -21,7 +21,7 @@ pub(crate) fn check_call(
     let channels = channels.len();
     if into.len() != features.samples() * channels {
         return Err(invalid(format!(
-            "a buffer of {} values for {} samples of {channels} channels",
+            "a buffer of {} values, expected {} samples × {channels} channels",
             into.len(),
             features.samples()
         )));

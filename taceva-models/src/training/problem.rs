@@ -52,7 +52,7 @@ impl<'a> Problem<'a> {
         check(part, "validation")?;
         if part.features.shape() != self.training.features.shape() {
             return Err(invalid(format!(
-                "validation samples of {} features, training samples of {}",
+                "validation samples of {} features, expected {} as in training",
                 part.features.shape().len(),
                 self.training.features.shape().len()
             )));

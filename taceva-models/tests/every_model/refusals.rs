@@ -58,7 +58,7 @@ fn parts_that_do_not_fit_each_other_are_refused() {
         other.features = Features::new(FeatureShape::flat(20), vec![0.5; 480]).expect("whole");
         let said = case.refusal(&training, Some(&other));
         let expected = format!(
-            "validation samples of 20 features, training samples of {}",
+            "validation samples of 20 features, expected {} as in training",
             case.blob.shape.len()
         );
         assert_eq!(said, expected, "{}", case.name);

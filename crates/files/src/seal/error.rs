@@ -20,7 +20,7 @@ pub enum SealError {
     )]
     Gone,
     /// File that contains a seal and nothing else.
-    #[error("a seal without the file that it belongs to")]
+    #[error("a seal without its file")]
     Alone,
     /// Seal that cannot be parsed.
     #[error("the seal cannot be read: {problem}")]

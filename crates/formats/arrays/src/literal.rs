@@ -117,7 +117,7 @@ impl Reader<'_> {
         let digits = self.rest().bytes().take_while(u8::is_ascii_digit).count();
         let number = self.rest()[..digits].parse().ok();
         let number = number
-            .ok_or_else(|| self.expected("a text, a whole number, a list or a dictionary"))?;
+            .ok_or_else(|| self.expected("a string, a whole number, a list or a dictionary"))?;
         self.place += digits;
         // Python 2 appended an `L` to long numbers.
         if self.rest().starts_with('L') {
@@ -151,7 +151,7 @@ impl Reader<'_> {
             .chars()
             .next()
             .filter(|letter| ['\'', '"'].contains(letter));
-        let quote = quote.ok_or_else(|| self.expected("a text in quotes"))?;
+        let quote = quote.ok_or_else(|| self.expected("a string in quotes"))?;
         let mut text = String::new();
         let mut letters = self.rest().char_indices().skip(1);
         while let Some((at, letter)) = letters.next() {
@@ -162,12 +162,12 @@ impl Reader<'_> {
                 }
                 '\\' => match letters.next() {
                     Some((_, escaped @ ('\\' | '\'' | '"'))) => text.push(escaped),
-                    _ => return Err(self.expected("a text without escapes")),
+                    _ => return Err(self.expected("a string without escapes")),
                 },
                 letter => text.push(letter),
             }
         }
-        Err(self.expected("a text that ends"))
+        Err(self.expected("a string with a closing quote"))
     }
 }
 
@@ -204,9 +204,9 @@ mod tests {
             ("{'a': os.system}", "byte 16: `os.system}`"),
             ("{'a': 1", "the end of the header"),
             ("(1 2)", "byte 13: `2)`"),
-            ("'x", "a text that ends"),
+            ("'x", "a string with a closing quote"),
             ("1 2", "expected the end of the header"),
-            ("99999999999999999999", "expected a text"),
+            ("99999999999999999999", "expected a string"),
             ("-1", "`-1`"),
         ] {
             let message = Literal::parse(text, 10).expect_err(text).to_string();

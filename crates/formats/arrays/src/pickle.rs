@@ -97,7 +97,7 @@ impl Pickle {
             Element::Text => {
                 let text = |value: &Value| match value {
                     Value::Text(text) => String::from_utf8(bytes(text)?).map_err(|_| {
-                        Problem::unsupported("a text that is not UTF-8", "write it again")
+                        Problem::unsupported("a string that is not UTF-8", "write it again")
                     }),
                     _ => Ok(String::new()),
                 };

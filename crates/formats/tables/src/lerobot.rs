@@ -275,7 +275,7 @@ impl DataFile {
             true => Ok(table),
             false => {
                 let problem = format!(
-                    "{} rows, but it had {} when it was first opened",
+                    "{} rows, but the file had {} when it was first opened",
                     table.rows(),
                     self.rows
                 );

@@ -205,7 +205,7 @@ impl<'m> Value<'m> {
 fn text(bytes: &[u8]) -> Result<String, String> {
     let text = std::str::from_utf8(bytes);
     text.map(str::to_owned)
-        .map_err(|_| "a text is not UTF-8".to_owned())
+        .map_err(|_| "a string is not UTF-8".to_owned())
 }
 
 fn cell(column: &Column, value: &Value<'_>) -> Result<Cell, String> {

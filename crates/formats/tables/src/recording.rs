@@ -184,7 +184,7 @@ fn store(source: Source, is_to_cut: bool) -> Result<Arc<dyn MessageStore>, Table
         return Err(source.unsupported(Place::byte(0), problem));
     }
     if !begins(&mcap::MAGIC) {
-        let problem = "not a recording: it begins like neither MCAP nor SQLite nor a ROS 1 bag";
+        let problem = "not a recording, expected a file of MCAP or SQLite, or a ROS 1 bag";
         return Err(source.damaged(Place::byte(0), problem));
     }
     opened(source, is_to_cut, McapFile::open, McapFile::open_to_cut)

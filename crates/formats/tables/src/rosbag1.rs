@@ -58,12 +58,12 @@ impl Rosbag1 {
             ));
         };
         if index == 0 {
-            let problem = "the recorder did not close it, so it is cut short";
+            let problem = "the recorder did not close the bag, which is cut short";
             return Err(refusal(&source, Place::byte(begin), problem.to_owned()));
         }
         if index > source.length() {
             let problem = format!(
-                "its index should begin at byte {index}, but the file has {} bytes: it is cut short",
+                "the index should begin at byte {index}, but the file has {} bytes: the bag is cut short",
                 source.length()
             );
             return Err(refusal(&source, Place::byte(begin), problem));
@@ -117,7 +117,7 @@ impl Rosbag1 {
         }
         if chunks != of_chunks || bag.channels.len() != of_connections as usize {
             let problem = format!(
-                "{chunks} chunks and {} connections, but it announces {of_chunks} and {of_connections}: it is cut short or was changed",
+                "{chunks} chunks and {} connections, but the bag header states {of_chunks} and {of_connections}: the bag is cut short or was changed",
                 bag.channels.len()
             );
             return Err(refusal(&source, Place::byte(begin), problem));

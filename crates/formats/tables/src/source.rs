@@ -48,7 +48,7 @@ impl Source {
             false => Err(self.damaged(
                 Place::default(),
                 format!(
-                    "{length} bytes, but it had {} when it was first opened",
+                    "{length} bytes, but the file had {} when it was first opened",
                     self.length
                 ),
             )),

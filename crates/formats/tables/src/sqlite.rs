@@ -104,7 +104,7 @@ impl Database {
             return Err(source.unsupported(begin, problem));
         }
         if !matches!(four(56), 0 | 1) {
-            return Err(source.unsupported(begin, "texts in UTF-16, expected UTF-8"));
+            return Err(source.unsupported(begin, "strings in UTF-16, expected UTF-8"));
         }
         let whole = u32::try_from(source.length() / u64::from(page_bytes)).unwrap_or(u32::MAX);
         // The page count in the header is valid only if the change counter equals the counter of the last version.

@@ -33,7 +33,7 @@ pub(crate) fn absence(path: &Path) -> String {
     match datasets(path).as_slice() {
         [] => missing.to_owned(),
         found => format!(
-            "{missing}, but datasets are in it: {}",
+            "{missing}, but contains datasets; name one: {}",
             first_names(found, LISTED)
         ),
     }

@@ -82,7 +82,7 @@ impl Dataset {
         let folder = HeldFolder::open(path)?;
         if !folder.has(layout::HEADER) {
             let problem = if folder.has(layout::JOURNAL) {
-                "the recording was not closed; resume and close it".to_owned()
+                "the recording was not closed: resume its run with `taceva run --resume`, or close a capture with `taceva capture FOLDER --close`".to_owned()
             } else {
                 absence(path)
             };

@@ -169,7 +169,7 @@ fn decode_png(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     }
     let mut reader = decoder.read_info().map_err(text)?;
     let length = reader.output_buffer_size();
-    let length = length.ok_or("an image larger than the address space")?;
+    let length = length.ok_or("the image exceeds the address space")?;
     let mut pixels = vec![0; checked_length(length as u64, bytes)?];
     reader.next_frame(&mut pixels).map_err(text)?;
     let (format, pixels) = match reader.output_color_type() {
@@ -248,7 +248,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
         other => return Err(unsupported("JPEG colour", &other)),
     };
     decoder.set_options(options.jpeg_set_out_colorspace(output));
-    let size = decoder.info().ok_or("no size in the file")?;
+    let size = decoder.info().ok_or("the file states no size")?;
     let info = FrameInfo {
         width: u32::from(size.width),
         height: u32::from(size.height),
@@ -256,7 +256,7 @@ fn decode_jpeg(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     };
     let length = info
         .byte_len()
-        .ok_or("an image larger than the address space")?;
+        .ok_or("the image exceeds the address space")?;
     checked_length(length as u64, bytes)?;
     let mut pixels = vec![0; length];
     decoder.decode_into(&mut pixels).map_err(text)?;
@@ -269,7 +269,7 @@ fn decode_scan_a_component(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String>
     let mut decoder = Decoder::new(bytes);
     decoder.set_max_decoding_buffer_size(most_of(bytes));
     decoder.read_info().map_err(text)?;
-    let found = decoder.info().ok_or("no size in the file")?;
+    let found = decoder.info().ok_or("the file states no size")?;
     let format = match found.pixel_format {
         JpegFormat::L8 => PixelFormat::Gray8,
         JpegFormat::RGB24 => PixelFormat::Rgb8,
@@ -300,11 +300,11 @@ fn most_of(file: &[u8]) -> usize {
 /// # Errors
 /// Error message if the decoded size exceeds [`most_of`] of `file`.
 fn checked_length(bytes: u64, file: &[u8]) -> Result<usize, String> {
-    let length = usize::try_from(bytes).map_err(|_| "an image larger than the address space")?;
+    let length = usize::try_from(bytes).map_err(|_| "the image exceeds the address space")?;
     match length <= most_of(file) {
         true => Ok(length),
         false => Err(format!(
-            "{bytes} bytes when decoded, more than the {} that are accepted of a file of {} bytes: write it with less compression",
+            "{bytes} bytes when decoded, expected at most {} for a file of {} bytes: write it with less compression",
             most_of(file),
             file.len()
         )),

@@ -35,10 +35,7 @@ pub(crate) fn check_regular(
     if metadata.len() > cap {
         return Err(DatasetError::path(
             path.to_string_lossy(),
-            format!(
-                "{} bytes, more than the {cap} that are accepted here",
-                metadata.len()
-            ),
+            format!("{} bytes, expected at most {cap}", metadata.len()),
         ));
     }
     Ok(())
@@ -65,7 +62,7 @@ pub fn check_relative(written: &str) -> Result<(), &'static str> {
     for component in Path::new(written).components() {
         match component {
             Component::Normal(_) | Component::CurDir => {}
-            Component::ParentDir => return Err("`..` is not followed"),
+            Component::ParentDir => return Err("contains `..`, expected a path inside the folder"),
             Component::RootDir | Component::Prefix(_) => {
                 return Err("absolute, expected a path relative to the folder");
             }
@@ -99,7 +96,7 @@ pub(crate) fn refuse_link(path: &Path) -> Result<(), DatasetError> {
     Err(DatasetError::damaged(
         path,
         format!(
-            "a symbolic link to {target}, which no recorder follows: put the target back by `rm {link} && mv {target} {link}`, or move the whole recording to the disk of the target, with the target at the place of the link, and name the new path; remove a link that is not yours"
+            "a symbolic link to {target}, which no recorder follows: put the target back by `rm {link} && mv {target} {link}`; or move the whole recording to the disk of the target, replace the link by the target, and name the new path; remove a link that is not yours"
         ),
     ))
 }

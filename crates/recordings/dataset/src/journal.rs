@@ -149,7 +149,7 @@ impl Journal {
                 DatasetError::request(
                     &self.path,
                     format!(
-                        "a record of {} bytes, more than the {} that are accepted",
+                        "a record of {} bytes, expected at most {}",
                         payload.len(),
                         limits::RECORD_BYTES
                     ),

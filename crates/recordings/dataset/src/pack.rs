@@ -75,10 +75,7 @@ pub(crate) fn read_span(mut file: File, path: &Path, span: Span) -> Result<Vec<u
     if u64::from(span.length) > limits::IMAGE_BYTES {
         return Err(DatasetError::path(
             format!("{}{span}", path.display()),
-            format!(
-                "more than the {} bytes that are accepted of a picture",
-                limits::IMAGE_BYTES
-            ),
+            format!("a picture has at most {} bytes", limits::IMAGE_BYTES),
         ));
     }
     let failed = || DatasetError::io("read", path);
@@ -154,7 +151,10 @@ impl PackWriter {
         let length = u32::try_from(bytes.len()).map_err(|_| {
             DatasetError::request(
                 &self.folder.join(&path),
-                format!("a picture of {} bytes", bytes.len()),
+                format!(
+                    "a picture of {} bytes, expected less than 2^32",
+                    bytes.len()
+                ),
             )
         })?;
         let span = Span {

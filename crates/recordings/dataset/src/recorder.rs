@@ -164,7 +164,7 @@ impl Recorder {
         let lock = unclosed_folder(path)?;
         let nothing = || DatasetError::NoDataset {
             path: path.to_owned(),
-            problem: "it has no recording to resume".to_owned(),
+            problem: "the folder has no recording to resume".to_owned(),
         };
         if !journal_path.exists() {
             return Err(nothing());

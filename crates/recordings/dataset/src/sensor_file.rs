@@ -74,7 +74,7 @@ impl SensorFile {
             (Some(footprint), depth) => {
                 if depth.is_some() && footprint.depth_max_mm.is_some() {
                     return Err(wrong(
-                        "`depth_max_mm` is given twice: in [footprint] and outside",
+                        "`depth_max_mm` is both inside and outside [footprint]: remove one",
                     ));
                 }
                 let whole = Footprint {
@@ -83,7 +83,7 @@ impl SensorFile {
                 };
                 Some(whole.to_core().map_err(|problem| wrong(&problem))?)
             }
-            (None, Some(_)) => return Err(wrong("`depth_max_mm` without a [footprint]")),
+            (None, Some(_)) => return Err(wrong("`depth_max_mm` needs a table [footprint]")),
             (None, None) => None,
         };
         if written.frame_size.is_some_and(|size| size.contains(&0)) {
@@ -129,7 +129,7 @@ mod tests {
             assert_eq!(depth, Some(Nanometre(3_500_000)));
         }
         let twice = read(&format!("depth_max_mm = 1.0\n{disc}depth_max_mm = 3.5\n"));
-        assert!(twice.expect_err("twice").contains("given twice"));
+        assert!(twice.expect_err("twice").contains("remove one"));
     }
 
     #[test]
@@ -146,7 +146,7 @@ mod tests {
                 "`radius_mm` is 1000000000",
             ),
             ("[footprint]\nshape = \"oval\"", "oval"),
-            ("depth_max_mm = 1.0", "without a [footprint]"),
+            ("depth_max_mm = 1.0", "needs a table [footprint]"),
             ("frame_size = [640, 0]", "has no pixel"),
         ] {
             let error = read(text).expect_err(text);

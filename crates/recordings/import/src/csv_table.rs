@@ -244,7 +244,7 @@ impl CsvTable {
     fn check_names(&self) -> Result<(), ImportError> {
         let problem = if self.names.len() > limits::TABLE_COLUMNS {
             format!(
-                "{} columns, more than the {} that are accepted",
+                "{} columns, expected at most {}",
                 self.names.len(),
                 limits::TABLE_COLUMNS
             )
@@ -289,7 +289,7 @@ fn as_text(path: &Path, mut bytes: Vec<u8>) -> Result<String, ImportError> {
     if text.contains('\r') && !text.contains('\n') {
         return Err(refused(
             1,
-            "lines end in CR alone; save them with LF or CRLF",
+            "lines end in CR without LF; save the table with LF or CRLF",
         ));
     }
     Ok(text)

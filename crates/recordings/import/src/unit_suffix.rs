@@ -240,7 +240,7 @@ impl UnitSuffix {
             ),
         };
         Some(format!(
-            "its name says `{}`, the map says `{}`: {remedy}",
+            "the unit is `{}` by its name, but `{}` in the map: {remedy}",
             self.written,
             unit.symbol()
         ))

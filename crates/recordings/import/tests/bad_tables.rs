@@ -87,7 +87,7 @@ fn tables_in_other_encodings_are_refused_in_words() {
     lab.write("source/labels.csv", b"");
     lab.is_refused_with(&["line 1: empty, expected a header"]);
     lab.write("source/labels.csv", b"a,\"b\nc,d\n");
-    lab.is_refused_with(&["a quote is opened and never closed"]);
+    lab.is_refused_with(&["a quotation mark is never closed"]);
     lab.write("source/labels.csv", b"a,b,a\n1,2,3\n");
     lab.is_refused_with(&["line 1: the column `a` occurs twice"]);
 }
@@ -202,7 +202,7 @@ fn a_map_whose_table_is_missing_or_matches_nothing_is_refused() {
         "map.toml",
         MAP.replace("labels.csv", "run_*/labels.csv").as_bytes(),
     );
-    lab.is_refused_with(&["`run_*/labels.csv`: matches nothing"]);
+    lab.is_refused_with(&["`run_*/labels.csv`: matches no file in"]);
 }
 
 #[test]

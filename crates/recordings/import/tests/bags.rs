@@ -217,7 +217,7 @@ fn the_key_of_a_cut_is_for_recordings_of_messages_alone() {
     let problem = ImportMap::parse("map.toml".as_ref(), map).expect_err("refused");
     let problem = problem.to_string();
     assert!(
-        problem.contains("`cut` is for recordings of messages alone"),
+        problem.contains("`cut` applies to recordings of messages only"),
         "{problem}"
     );
 }

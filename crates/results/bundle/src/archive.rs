@@ -19,7 +19,7 @@ use crate::name::{self, check_amount, check_case};
 /// First bytes of a packed file.
 const GZIP: [u8; 2] = [0x1f, 0x8b];
 /// Rule for the entries of a packed bundle.
-const ENTRIES: &str = "a packed bundle holds regular files alone";
+const ENTRIES: &str = "a packed bundle holds only regular files";
 /// Rule for the packed file as a whole.
 const WHOLE: &str = "a packed bundle is one complete .tar.gz";
 
@@ -84,7 +84,7 @@ pub(crate) fn unpack(path: &Path, into: &Path, most: u64) -> Result<(), BundleEr
         Fault::Read(_) if is_beyond.get() => damaged(
             ".",
             &format!(
-                "more than {allowed} bytes unpacked, which is beyond the limit for a file of {} bytes",
+                "more than {allowed} bytes unpacked, the limit for a file of {} bytes",
                 about.len()
             ),
         ),

@@ -39,7 +39,7 @@ impl FromStr for Author {
                 let orcid = orcid.strip_prefix("https://orcid.org/").unwrap_or(orcid);
                 if !is_orcid(orcid) {
                     return Err(format!(
-                        "`{}`: expected NAME <ORCID>, with an ORCID such as 0000-0002-1825-0097",
+                        "`{}`: expected NAME <ORCID>, such as Ada Lovelace <0000-0002-1825-0097>",
                         shown(text)
                     ));
                 }

@@ -10,8 +10,7 @@ use crate::yaml;
 /// Sentence on a bundle without a licence.
 pub(crate) const NO_LICENCE: &str = "No licence is stated, so nobody may copy these files.";
 /// Sentence on the meaning of a seal.
-pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. A bundle whose predictions, states and \
-     results were all changed alike cannot be distinguished from an honest one without the model or the truth from elsewhere.";
+pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. If predictions, states and results were all changed alike, only the model, or the truth from elsewhere, shows it.";
 
 /// Sentences on the columns of the claims.
 const COLUMNS: &str = "`bias` is the mean of truth − prediction. The last column names the files from which `taceva bundle` computed the number \

@@ -72,7 +72,8 @@ pub(crate) fn files(source: &Source, manifest: &Manifest) -> Result<Vec<Damage>,
         .keys()
         .filter(|name| !listed.contains(name.as_str()));
     for name in extra.take(MOST_DAMAGE) {
-        let problem = "bundle.json does not list it; remove it, or make the bundle again";
+        let problem =
+            "bundle.json does not list this file; remove the file, or make the bundle again";
         damage.push(Damage::new(name, "no file is added", problem));
     }
     Ok(damage)
@@ -131,7 +132,7 @@ pub(crate) fn form(
             let rule = "generated files are what bundle.json and results.json give";
             match source.text(name, MOST_TEXT) {
                 Ok(found) if found == expected => {}
-                Ok(_) => damage.push(Damage::new(name, rule, "it has another text")),
+                Ok(_) => damage.push(Damage::new(name, rule, "the text of the file differs")),
                 Err(own) => damage.push(own),
             }
         }
@@ -251,7 +252,7 @@ pub(crate) fn owners(manifest: &Manifest) -> Option<Damage> {
         )
     } else if let Some(position) = repeated(authors) {
         let number = position + 1;
-        format!("author {number}: the ORCID of an earlier author, expected each author once")
+        format!("author {number}: the ORCID of an earlier author again, expected each author once")
     } else if organization.is_some_and(|own| !own.is_right()) {
         format!(
             "organization: expected a printable name of 1 to {MOST_NAME} bytes, and the address of its page"

@@ -102,7 +102,7 @@ impl Inputs {
                 .to_string_lossy()
                 .into_owned();
             if !TEXTS.contains(&name.as_str()) {
-                let problem = format!("expected a file called {}", TEXTS.join(", "));
+                let problem = format!("expected a file with one of the names {}", TEXTS.join(", "));
                 return Err(BundleError::input(from, problem));
             }
             texts.insert(name, self::text(from)?);
@@ -126,13 +126,13 @@ fn studies(
     reports: &[EvaluationReport],
 ) -> Result<Vec<StudyInputs>, BundleError> {
     if request.adds_frames && request.withholds_predictions {
-        let problem = "pictures come with the labels of their recording, which --without predictions leaves out; name one of both options";
+        let problem = "--with frames adds the labels of the recording, but --without predictions leaves labels out; name one of both options";
         return Err(BundleError::input(path, problem));
     }
     let are_given = !request.states.is_empty() || request.tables.is_some();
     if are_given && reports.len() != 1 {
         let problem = format!(
-            "it has {} studies, and states and tables are given for one study: name the result of one study",
+            "the results have {} studies, but states and tables belong to one study: name the result of one study",
             reports.len()
         );
         return Err(BundleError::input(path, problem));
@@ -232,7 +232,7 @@ fn check_frames(path: &Path, studies: &[StudyInputs]) -> Result<(), BundleError>
         return Ok(());
     }
     let problem = format!(
-        "its pictures are {} of {bytes} bytes, expected at most {MOST_FRAMES} of {MOST_BYTES} bytes; leave --with frames out, and verify with --dataset",
+        "{} of {bytes} bytes, expected at most {MOST_FRAMES} pictures of {MOST_BYTES} bytes; leave --with frames out, and verify with --dataset",
         counted(count as u64, "file")
     );
     Err(BundleError::input(path, problem))
@@ -250,7 +250,7 @@ fn check_not_swapped(tables: &ScoredTables, report: &EvaluationReport) -> Result
     let is_swapped = stated("truth") == Some(&prediction) && stated("prediction") == Some(&truth);
     match is_swapped && truth != prediction {
         true => {
-            let problem = "the results have it as their predictions, so --truth and --pred are swapped; name the other table by --truth";
+            let problem = "this table holds the predictions of the results, so --truth and --pred are swapped; name the other table by --truth";
             Err(BundleError::input(&tables.truth, problem))
         }
         false => Ok(()),
@@ -287,9 +287,9 @@ fn models(
             models.entry(digest).or_insert_with(|| model.clone());
         } else if is_given {
             let problem = format!(
-                "its digest is {digest}, and the results name {}; give the file that `taceva evaluate --with` read, or evaluate with this file",
+                "the digest of this model is {digest}, but the results name {}; give the file that `taceva evaluate --with` read, or evaluate with this file",
                 match wanted.is_empty() {
-                    true => "no model file".to_owned(),
+                    true => "no model file is given".to_owned(),
                     false => wanted.join(", "),
                 }
             );
@@ -297,7 +297,7 @@ fn models(
         }
     }
     if models.is_empty() {
-        let problem = "no model file of these results: give it by --model FILE; `taceva fit` writes one, and `run` keeps its own if the \
+        let problem = "no model file is given of these results: give it by --model FILE; `taceva fit` writes one, and `run` keeps its own if the \
                        scene has `keep = [\"models\"]` under [report]";
         return Err(BundleError::input(path, problem));
     }

@@ -16,7 +16,7 @@ use crate::organization::Organization;
 pub const BUNDLE_SCHEMA: &str = "taceva.bundle/1";
 
 /// Content of every bundle.
-pub(crate) const ABOUT: &str = "Results of TacEva with what is needed to compute them again.";
+pub(crate) const ABOUT: &str = "Results of TacEva with the files that compute them again.";
 /// Sentence on a bundle without author or licence.
 const UNFINISHED: &str = "Draft: author or licence is missing.";
 

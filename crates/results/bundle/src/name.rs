@@ -34,7 +34,9 @@ pub(crate) fn fault(name: &str) -> Option<String> {
     }
     // Windows drops such a dot, so two names would be one.
     if parts.iter().any(|part| part.ends_with('.')) {
-        return Some("a part that ends in a dot, expected none".to_owned());
+        return Some(
+            "a folder or file name that ends in a dot, expected another ending".to_owned(),
+        );
     }
     (parts.len() > MOST_PARTS).then(|| {
         format!(
@@ -66,8 +68,8 @@ pub(crate) fn check_case<'a>(names: impl Iterator<Item = &'a String>) -> Result<
             let own = &name[..end];
             let other = known.insert(own.to_lowercase(), own);
             if let Some(other) = other.filter(|other| *other != own) {
-                let problem = format!("equal to `{other}` but for case");
-                let rule = "names differ in more than case";
+                let problem = format!("differs from `{other}` in upper and lower case only");
+                let rule = "names differ in more than upper and lower case";
                 return Err(BundleError::Damaged(Damage::new(own, rule, problem)));
             }
         }

@@ -266,7 +266,7 @@ impl StudyCheck<'_> {
             found.push(other("state".to_owned(), Verdict::Differs, reason));
         }
         if let Ok(PredictionCheck::Differs(reason)) = &self.again.model {
-            let reason = format!("the model does not give them: {reason}");
+            let reason = format!("the model gives other predictions: {reason}");
             found.push(other("predictions".to_owned(), Verdict::Differs, &reason));
         }
         let report = self.report;

@@ -47,9 +47,9 @@ impl Status {
             }
             Status::Forbidden => "this page answers only requests of its own origin\n",
             Status::Misdirected => "open the page with the address that the program printed\n",
-            Status::Conflict => "that question has been closed\n",
+            Status::Conflict => "this question is already answered\n",
             Status::Busy => "too many connections: close another window of this page\n",
-            Status::WrongMethod => "use GET to read, and POST for /stop and /answer\n",
+            Status::WrongMethod => "expected GET for pages, and POST for /stop and /answer\n",
             _ => "",
         }
     }

@@ -26,7 +26,7 @@ const DEPTH: &str = "Pz";
 pub fn depth_zero_figure(samples: &Samples, channel: &str) -> Result<Figure, String> {
     let labels = samples.channel(channel).filter(|_| channel == DEPTH);
     let labels = labels.ok_or_else(|| {
-        format!("the samples have no depths (`{DEPTH}`), which alone count from a zero")
+        format!("the samples have no depths (`{DEPTH}`), so there is no zero of depths")
     })?;
     let labelled = (0..samples.rows()).filter_map(|row| Some((row, labels.truth(row)?)));
     let labelled: Vec<(usize, f64)> = labelled.collect();

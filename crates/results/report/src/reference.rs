@@ -9,7 +9,7 @@ use taceva_metrology::budget::Certificate;
 /// use taceva_core::{Instrument, Traceability};
 /// let uncertified = [Traceability::new(Instrument::Force)];
 /// let absent = taceva_report::reference_certificate(&uncertified, "Fz", None);
-/// assert_eq!(absent.unwrap_err(), "the recording has none");
+/// assert_eq!(absent.unwrap_err(), "the recording has no certificate");
 /// ```
 ///
 /// # Errors
@@ -26,9 +26,9 @@ pub fn reference_certificate(
     });
     let mut certificates = Certificate::of_references(all, channel, recorded_on);
     match (certificates.next(), certificates.next()) {
-        (Some(_), None) if is_without => Err("some of the recordings have none"),
+        (Some(_), None) if is_without => Err("some of the recordings have no certificate"),
         (Some(only), None) => Ok(only),
-        (Some(_), Some(_)) => Err("the recordings have several"),
-        (None, _) => Err("the recording has none"),
+        (Some(_), Some(_)) => Err("the recordings have several certificates"),
+        (None, _) => Err("the recording has no certificate"),
     }
 }

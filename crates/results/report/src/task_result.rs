@@ -230,7 +230,7 @@ fn enter(scores: &mut Vec<Score>, task: &ResultTask, score: &ResultScore) {
         Some(whole) => whole.variants.push(variant),
         None => scores.push(Score {
             value: Value::Undefined(format!(
-                "this metric has variants alone, such as {}.{name}",
+                "this metric has only variants, such as {}.{name}",
                 own.metric
             )),
             interval: None,

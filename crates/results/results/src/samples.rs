@@ -86,7 +86,7 @@ pub enum SamplesError {
         found: String,
     },
     /// The column `sample` is missing.
-    #[error("samples: column `sample` with the names of the rows is missing")]
+    #[error("samples: no column `sample`, expected one with the names of the rows")]
     NoKey,
 }
 

@@ -82,7 +82,7 @@ pub(crate) fn remedy(fault: &CertificateFault) -> String {
             "correct `issued`, or the clock of this machine"
         }
         CertificateContradiction::Expired { .. } => {
-            "have it calibrated again and write the new certificate, or correct `valid_until`"
+            "have the instrument calibrated again and write the new certificate, or correct `valid_until`"
         }
         _ => "write the certificate of this device, or correct `serial`",
     };
@@ -182,7 +182,7 @@ driver = "lab/camera"
         let other = warned(&of_sensor, &read);
         assert_eq!(other.len(), 1, "{other:?}");
         assert!(
-            other[0].contains("of the sensor with serial number B3, the driver read D2"),
+            other[0].contains("of the sensor is for serial number B3, but the driver read D2"),
             "{other:?}"
         );
     }

@@ -232,7 +232,7 @@ impl Cache {
         let entry = self.entry(key);
         let removed = remove(&entry);
         self.note(format!(
-            "{}: {problem}; it is {} and computed again",
+            "{}: {problem}; this entry is {} and computed again",
             shown(&entry),
             match removed {
                 Ok(()) => "removed".to_owned(),

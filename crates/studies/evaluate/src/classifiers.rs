@@ -57,7 +57,7 @@ pub(crate) fn as_predictor(fit: FitRequest, task: &Task) -> Result<FitRequest, E
     if of_classes.copied().any(|classifier| classifier == model) {
         let usual = usual(task.kind);
         return Err(EvaluateError::Request(format!(
-            "task `{}`: {} predicts labels of the training part, and {labels} are numbers, expected another model, such as --model {usual}",
+            "task `{}`: {} predicts classes, but {labels} are numbers; choose another model, such as --model {usual}",
             shown(&task.name),
             shown(model)
         )));
@@ -73,7 +73,7 @@ fn as_classifier(fit: FitRequest, task: &Task) -> Result<FitRequest, EvaluateErr
     let model = fit.model.name();
     if !CLASSIFIERS.contains(&model) {
         return Err(EvaluateError::Request(format!(
-            "task `{}`: {} predicts numbers between the classes, expected a classifier: --model {}",
+            "task `{}`: {} predicts numbers, expected a classifier, such as --model {}",
             shown(&task.name),
             shown(model),
             CLASSIFIERS.join(" or --model ")
@@ -105,7 +105,7 @@ pub fn labelled_for(dataset: &Dataset, model: &Model) -> Result<Option<Dataset>,
     };
     if task.names != card.names {
         return Err(EvaluateError::Unsuited(format!(
-            "it predicts the classes {} of the task `{}`, and the dataset has {}: import the dataset with the same `names` in its map",
+            "the model predicts the classes {} of the task `{}`, but the dataset has {}: import the dataset with the same `names` in its map",
             card.names.join(", "),
             shown(&card.name),
             task.names.join(", ")

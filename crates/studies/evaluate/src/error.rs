@@ -47,7 +47,7 @@ pub enum EvaluateError {
     #[error("cannot score: {0}")]
     Scores(#[from] MetricError),
     /// The recording has no samples.
-    #[error("{}: no sample: the dataset has 0 rows", taceva_core::shown(path))]
+    #[error("{}: the dataset has 0 rows", taceva_core::shown(path))]
     NoSamples {
         /// Path of the dataset.
         path: PathBuf,

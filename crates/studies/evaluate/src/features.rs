@@ -23,9 +23,7 @@ pub(crate) use windows::{extract_as, rows_read};
 pub fn extractor(dataset: &Dataset, spec: FeatureSpec) -> Result<Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &spec)?;
     let sight = sight.map_err(|absent| {
-        EvaluateError::Request(format!(
-            "the model needs {absent}, and the dataset has none"
-        ))
+        EvaluateError::Request(format!("the model needs {absent}, which the dataset lacks"))
     })?;
     Ok(Extractor::new(spec, sight.info(), sight.reference())?)
 }

@@ -53,7 +53,7 @@ pub(crate) fn report_of(
             if known.is_some() {
                 return Err(EvaluateError::State {
                     path: path.clone(),
-                    problem: format!("it holds `{}`, as another state does", shown(metric)),
+                    problem: format!("`{}` is also in another state", shown(metric)),
                 });
             }
         }
@@ -64,7 +64,7 @@ pub(crate) fn report_of(
 }
 
 fn no_state() -> EvaluateError {
-    EvaluateError::Request("no state file is given: name at least one".to_owned())
+    EvaluateError::Request("no state file is given, expected one or more".to_owned())
 }
 
 /// Merges several states, and returns their common scores and the merged state.
@@ -119,7 +119,7 @@ fn merged<S: Borrow<ReadState>>(
         };
         if !file.plan.merges_with(&first.plan) {
             let problem =
-                "its plan differs: metrics, channels, sensor facts and settings must be equal";
+                "another plan: metrics, channels, sensor facts and settings must be equal";
             return Err(wrong(format!(
                 "{problem} to those of {}",
                 shown(first_path)

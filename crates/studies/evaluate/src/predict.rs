@@ -165,14 +165,12 @@ fn extractor_of(
 ) -> Result<Extractor, EvaluateError> {
     let sight = Sight::of(dataset, &model.card().features)?;
     let sight = sight.map_err(|absent| {
-        EvaluateError::Unsuited(format!(
-            "the model needs {absent}, and the dataset has none"
-        ))
+        EvaluateError::Unsuited(format!("the model needs {absent}, which the dataset lacks"))
     })?;
     let extractor = build(model, sight.info(), sight.reference());
     extractor.map_err(|error| match error {
         FeatureError::Kind { expected, found } => EvaluateError::Unsuited(format!(
-            "{} has frames of {found}, and the model was fitted on frames of {expected}; import pictures of the size and format of the model, or fit \
+            "{} has frames of {found}, but the model was fitted on frames of {expected}; import pictures of the size and format of the model, or fit \
              a model on these pictures",
             shown(&dataset.path())
         )),

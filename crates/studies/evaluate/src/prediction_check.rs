@@ -76,7 +76,7 @@ pub fn check_predictions(
         left_out: 0,
     });
     if target.rows.is_empty() {
-        let problem = "no sample of the table has a prediction of the model".to_owned();
+        let problem = "the model predicts no sample of the table".to_owned();
         return Ok(PredictionCheck::Differs(problem));
     }
     check_features(model.card().features.shape(), target.rows.len())?;
@@ -99,8 +99,7 @@ pub(crate) fn compiled_model(path: &Path) -> Result<Model, EvaluateError> {
             source: FormatError::NoPlugin { id, key },
             ..
         } => EvaluateError::Request(format!(
-            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for an untrusted model file; if you trust it, evaluate the \
-             recording with it by `taceva evaluate --with`",
+            "the model was fitted by `{}` of the plugin `{}`, and no plugin is loaded for an untrusted model file; if you trust the model, evaluate the recording by `taceva evaluate --with`",
             shown(&key),
             shown(&id)
         )),
@@ -116,8 +115,7 @@ fn check_features(shape: FeatureShape, rows: usize) -> Result<(), EvaluateError>
     match bytes <= MOST_FEATURES {
         true => Ok(()),
         false => Err(EvaluateError::Request(format!(
-            "the model reads {bytes} bytes of features of {}, expected at most {MOST_FEATURES}; if you trust it, evaluate the recording \
-             with it by `taceva evaluate --with`",
+            "the model reads {bytes} bytes of features of {}, expected at most {MOST_FEATURES}; if you trust the model, evaluate the recording by `taceva evaluate --with`",
             counted(rows, "sample")
         ))),
     }

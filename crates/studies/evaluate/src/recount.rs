@@ -110,10 +110,10 @@ fn covered(plan: &MetricPlan) -> (Vec<&'static Metric>, Vec<Skip>) {
         let lacking = fields.find(|field| !exact.contains(*field));
         let reason = match (reads_no_prediction(metric), lacking) {
             (true, _) => {
-                "it reads every row of the recording, but the table holds only the scored rows"
+                "this metric reads every row of the recording, but the table has only the scored rows"
             }
             (false, Some(_)) => {
-                "it reads frames, times or brightness, which the table does not hold"
+                "this metric reads frames, times or brightness, which the table lacks"
             }
             (false, None) => {
                 metrics.push(metric);

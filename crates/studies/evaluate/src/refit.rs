@@ -44,7 +44,7 @@ pub fn refit(
     let divided = divided.filter(|_| card.provenance.validation.is_none());
     let Some(divided) = divided else {
         return Err(EvaluateError::Request(
-            "the model was fitted on another recording, or on every sample after a cross-validation"
+            "the recording does not repeat the split of the model: the model was fitted on another recording, or on every sample"
                 .to_owned(),
         ));
     };

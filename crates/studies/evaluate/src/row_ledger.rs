@@ -139,7 +139,7 @@ impl AllTaken {
         let known = self.states.iter().find(|(_, known)| known == digest);
         if let Some((before, _)) = known.filter(|_| !is_empty) {
             return Err(format!(
-                "the same state as {}: its rows would count twice",
+                "the same state as {}, so its rows would count twice; name each state once",
                 before.display()
             ));
         }
@@ -147,7 +147,7 @@ impl AllTaken {
             for (before, old) in &self.taken {
                 if let Some((first, count)) = new.shared(old) {
                     return Err(format!(
-                        "{} of {} {} already in {}, from row {first} on: {} would count twice",
+                        "{} of {} {} already in {}, from row {first} on, so {} would count twice; name each state once",
                         counted(count, "row"),
                         old.input.split(' ').next().unwrap_or_default(),
                         by_count(count, "is", "are"),

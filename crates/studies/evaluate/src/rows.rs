@@ -225,8 +225,7 @@ impl Divided {
             return Ok(());
         }
         Err(EvaluateError::Request(
-            "split all: the model is fitted on every sample, so no test part is left; evaluate it on another recording, or score its \
-             training samples with --part train"
+            "split all: the model is fitted on every sample, so no test part is left; evaluate another recording, or score the training samples with --part train"
                 .to_owned(),
         ))
     }

@@ -165,7 +165,7 @@ impl ReadState {
             .map_err(|error| wrong(format!("not a state file of an evaluation: {error}")))?;
         if head.schema != STATE_SCHEMA {
             return Err(wrong(format!(
-                "its schema is `{}`, expected `{STATE_SCHEMA}`; run the command that wrote it again with this version",
+                "its schema is `{}`, expected `{STATE_SCHEMA}`; write the state again by the same command with this version",
                 shown(&head.schema)
             )));
         }
@@ -203,7 +203,7 @@ pub(crate) fn read_capped(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     file.take(LARGEST + 1).read_to_string(&mut text)?;
     if text.len() as u64 > LARGEST {
-        return Err(io::Error::other("larger than 1 GiB"));
+        return Err(io::Error::other("larger than 1 GiB, expected a state file"));
     }
     Ok(text)
 }

@@ -114,7 +114,7 @@ impl TaskStates {
             let numbers: Vec<String> = shards.numbers.iter().map(u32::to_string).collect();
             for task in &mut report.tasks {
                 task.notes.push(format!(
-                    "rows of shard {} of {} alone: merge the states of all shards for the scores of the tables",
+                    "only rows of shard {} of {}: merge the states of all shards for the scores of the tables",
                     numbers.join(", "),
                     shards.of
                 ));
@@ -140,7 +140,7 @@ impl TaskStates {
         let [ours, theirs] = [named(&self), named(&other)];
         if ours != theirs {
             return Err(format!(
-                "its tasks are {}, but those of the other state are {}; score both with the same --task",
+                "the tasks are {}, but {} in the other state; score both with the same --task",
                 shown(&theirs.join(", ")),
                 shown(&ours.join(", "))
             ));
@@ -150,7 +150,7 @@ impl TaskStates {
             self.shards = self.joined_shards(&other)?;
         } else if let Some(digest) = self.counted_twice(&other) {
             return Err(format!(
-                "its labels ({}) are also those of another state, so each row would count twice; name each state once",
+                "the labels ({}) are also in another state, so each row would count twice; name each state once",
                 shown(&digest)
             ));
         }
@@ -172,13 +172,12 @@ impl TaskStates {
     fn joined_shards(&self, other: &TaskStates) -> Result<Option<Shards>, String> {
         let (Some(ours), Some(theirs)) = (&self.shards, &other.shards) else {
             return Err(
-                "one of the states is a shard and another has whole tables; merge all shards of its tables first, with --state-out".to_owned(),
+                "one of the states is a shard and another has whole tables; merge all shards of one table first, with --state-out".to_owned(),
             );
         };
         if self.tables != other.tables || ours.of != theirs.of {
             return Err(format!(
-                "its shards are of {} and those of the other state of {}, or their tables differ; merge shards of the same two tables, written \
-                 with one number of shards",
+                "the states have {} and {} shards, or shards of other tables; merge shards of the same two tables, written with one number of shards",
                 theirs.of, ours.of
             ));
         }
@@ -277,6 +276,6 @@ pub fn merge_task_states(paths: &[PathBuf]) -> Result<TaskStates, EvaluateError>
         });
     }
     merged.ok_or_else(|| {
-        EvaluateError::Request("no state file is given: name at least one".to_owned())
+        EvaluateError::Request("no state file is given, expected one or more".to_owned())
     })
 }

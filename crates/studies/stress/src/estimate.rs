@@ -49,10 +49,10 @@ impl fmt::Display for Undefined {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Undefined::Empty => "no label",
-            Undefined::ZeroBaseline => "no error without the fault",
+            Undefined::ZeroBaseline => "the error without the fault is 0",
             Undefined::ConstantTruth => "all labels are equal",
             Undefined::NoExcess => "the fault adds no error",
-            Undefined::NoFreshReference => "no untouched picture from after the fault",
+            Undefined::NoFreshReference => "no untouched picture was taken after the fault",
             Undefined::NoClusters => "no contact points",
             Undefined::TooFewClusters => "fewer than five contact points",
             Undefined::NoInterval => "no interval",

@@ -84,8 +84,7 @@ impl Fault {
 
 /// Remark on faults of labels.
 pub(crate) const NO_STIMULUS: &str =
-    "it changes labels and no picture, so it has no stimulus; its severity is its parameter";
+    "the fault changes only labels, so its stimulus is undefined; its severity is its parameter";
 
 /// Remark on faults of a gel that are drawn at the same pixels of every picture.
-pub(crate) const LIES_STILL: &str = "it lies still in the picture; on a real gel it moves with the contact, so errors after a new untouched picture \
-                                     are lower bounds";
+pub(crate) const LIES_STILL: &str = "the fault lies still in the picture, but moves with the contact on a real gel: errors after a new untouched picture are lower bounds";

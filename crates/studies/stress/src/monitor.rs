@@ -167,7 +167,7 @@ impl Monitor {
             Err(EvaluateError::Request(format!("{path}: {words}")))
         };
         if !dataset.recordings().is_empty() {
-            return refused("several recordings: expected one, because each has its own reference");
+            return refused("several recordings, expected one, because each has its own reference");
         }
         dataset.require_view()?;
         let scale = Scale::of(dataset, &framed(dataset))?;

@@ -19,7 +19,7 @@ pub(crate) fn notes(
     let (names, seed) = (drawn.join(", "), request.seed);
     let of_draws = (!drawn.is_empty()).then(|| match request.draws {
         1 => format!(
-            "{names}: one draw of places, by seed {seed}; the interval does not include the variation between draws, so repeat with --draws 5."
+            "{names}: one draw of places, by seed {seed}; the interval excludes the variation between draws: repeat with --draws 5."
         ),
         draws => format!(
             "{names}: means over {draws} draws of places, by seed {seed}; the spread shows the variation between draws, which the interval does not include."

@@ -103,19 +103,17 @@ fn require_pictures(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
     let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
     if !dataset.recordings().is_empty() {
         return refused(
-            "several recordings: expected one, because each has its own untouched picture; test them one by one",
+            "several recordings, expected one, because each has its own untouched picture; test them one by one",
         );
     }
     if model.reads_features() && !model.reads_frames() {
         return refused(
-            "the model reads signals, expected a model that reads pictures: fit such a model by `taceva fit --set input=frame`",
+            "the model reads signals, expected a model that reads pictures: fit one by `taceva fit --set input=frame`",
         );
     }
     dataset.require_view()?;
     match dataset.header().frames {
         Some(_) => Ok(()),
-        None => refused(
-            "the recording has no pictures, expected a recording with pictures, which faults and wear change",
-        ),
+        None => refused("the recording has no pictures, expected a recording with pictures"),
     }
 }

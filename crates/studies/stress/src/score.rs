@@ -63,7 +63,7 @@ impl<'a> Scorer<'a> {
         let channels = Channels::new(channels).expect("some of distinct channels are distinct");
         if channels.is_empty() {
             return Err(EvaluateError::Request(
-                "the model predicts angles alone, and a fault is scored by other channels"
+                "the model predicts only angles, but faults are scored by other channels"
                     .to_owned(),
             ));
         }

@@ -178,7 +178,7 @@ fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
         return Ok(());
     }
     if dataset.views().is_empty() && dataset.header().frames.is_none() {
-        return refused("the recording has no pictures: stress cannot test it");
+        return refused("the recording has no pictures, expected a recording with pictures");
     }
     match taceva_evaluate::Divided::by_model(dataset, model)? {
         Some(divided) if divided.rows(DataPart::Test).is_empty() => refused(
@@ -240,7 +240,7 @@ pub fn stress_plan(
     plan.step(
         "predict",
         format!(
-            "{} without a fault and in {}, and with {} from after the fault as reference",
+            "{} without a fault and in {}; also with {} taken after the fault as reference",
             counted(scored, "sample"),
             counted(cells, "cell"),
             counted(fresh, "untouched picture")

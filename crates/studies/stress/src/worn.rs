@@ -89,7 +89,7 @@ impl NewGel<'_> {
                 skipped.push(SkippedFault {
                     fault: fault.id.clone(),
                     reason: format!(
-                        "severity {}: the worn gel lacks some of {samples}, because presses ended early",
+                        "severity {}: presses on the worn gel ended early, so some of {samples} are missing",
                         worn.severity
                     ),
                 });

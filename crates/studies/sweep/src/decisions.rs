@@ -152,14 +152,14 @@ mod tests {
             panic!("{found:?}");
         };
         assert_eq!((chosen.as_str(), against.as_str()), ("ridge", "cnn"));
-        assert_eq!(seeds, "2 of both (chosen 3, other 2)");
+        assert_eq!(seeds, "2 shared (chosen 3, other 2)");
         assert!(!answer.contains("no answer"), "{answer}");
         let whole = [0.1, 0.2, 0.3].map(result);
         let found = rows(&[first.clone(), group(&[1, 2, 3], &whole)]);
         assert_eq!(found[0][..3], ["cnn", "ridge", "3"]);
         let none = group(&[4], &whole[..1]);
         let found = rows(&[first, none]);
-        assert_eq!(found[0][2], "0 of both (chosen 3, other 1)");
+        assert_eq!(found[0][2], "0 shared (chosen 3, other 1)");
         assert_eq!(found[0][3], "no answer: no seed has a result on both sides");
     }
 

@@ -68,8 +68,7 @@ fn of_channels(list: &TaskList, loaded: &[Loaded<'_>]) -> Vec<PageSection> {
     let mut best = vec![PagePart::Table(choices::table(&groups, &choices))];
     if partial > 0 {
         best.push(PagePart::Words(format!(
-            "{partial} of {} configurations lack a result for some seed. A choice is made among configurations with results for the same \
-             seeds; the others are compared with it on the seeds of both.",
+            "{partial} of {} configurations lack a result for some seed. Choices are made among configurations with results for the same seeds. Other configurations are compared with the chosen one on shared seeds.",
             groups.len()
         )));
     }

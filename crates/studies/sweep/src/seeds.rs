@@ -40,7 +40,7 @@ fn range(text: &str) -> Result<Vec<u64>, String> {
     match last - first {
         span if span < MOST_TASKS => Ok((first..=last).collect()),
         span => Err(format!(
-            "the seeds alone make {} tasks for each model, at most {MOST_TASKS} are allowed",
+            "the seeds alone make {} tasks for each model, expected at most {MOST_TASKS}",
             span + 1
         )),
     }

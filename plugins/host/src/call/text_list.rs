@@ -55,7 +55,7 @@ impl Taken {
         // the plugin's guarantee, and lengths above 1 MiB were rejected.
         match unsafe { text.to_str() } {
             Ok(text) => self.texts.push(text.to_owned()),
-            Err(_) => self.fault = Some("a text that is not UTF-8"),
+            Err(_) => self.fault = Some("a string that is not UTF-8"),
         }
     }
 }

@@ -141,7 +141,7 @@ fn value(of_type: Type, written: &Spanned<Value>) -> Result<ArgValue, Refused> {
     };
     read.ok_or_else(|| {
         let expected = match of_type {
-            Type::Text | Type::Path | Type::Choice => "a text",
+            Type::Text | Type::Path | Type::Choice => "a string",
             Type::Whole => "a whole number",
             Type::Number => "a number",
             Type::Flag => "true or false",

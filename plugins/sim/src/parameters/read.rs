@@ -44,7 +44,7 @@ impl<'t> Document<'t> {
 
     /// Name of the sensor.
     pub(super) fn name(&self) -> Result<String, ParameterError> {
-        let expected = "the name of the sensor, a text";
+        let expected = "the name of the sensor, a string";
         let value = self
             .root
             .get("name")

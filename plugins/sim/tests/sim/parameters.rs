@@ -30,7 +30,7 @@ fn an_empty_table_says_what_is_missing() {
     let error = Parameters::parse("").expect_err("empty").to_string();
     assert_eq!(
         error,
-        "line 1: `name`: missing, expected the name of the sensor, a text"
+        "line 1: `name`: missing, expected the name of the sensor, a string"
     );
 }
 
@@ -119,7 +119,7 @@ fn a_value_of_another_type_is_refused() {
         "{message}"
     );
     let message = refused("name = \"GelSight\"", "name = 3");
-    assert!(message.ends_with("`name`: found 3, expected the name of the sensor, a text"));
+    assert!(message.ends_with("`name`: found 3, expected the name of the sensor, a string"));
     let bare = refused(
         "thickness_mm = { value = 4.25, unit = \"mm\", origin = \"geometric\" }",
         "thickness_mm = 4.25",

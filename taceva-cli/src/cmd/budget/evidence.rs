@@ -60,7 +60,7 @@ impl Measured {
         }
         measured.lacks(
             "certificate",
-            &without_certificate("the recording has none"),
+            &without_certificate("the recording has no certificate"),
         );
         measured
     }

@@ -16,7 +16,7 @@ pub(super) fn run(name: &str, args: &Evaluate, context: &Context) -> anyhow::Res
     let dataset = open_seen(&args.datasets, &args.view, None)?;
     let usual = usual_model(&dataset, name);
     let model = args.model.name.as_deref().unwrap_or_else(|| {
-        context.say(format_args!("model: {usual}, as --model is not given"));
+        context.say(format_args!("model: {usual}, because --model is not given"));
         usual
     });
     let settings = args.window.on(&args.model.settings);

@@ -35,7 +35,7 @@ pub(super) fn write(
         if text != draft.text() {
             output::write(Some(&path), |out| out.write_all(text.as_bytes()))?;
             interview.say(&format!(
-                "the answers so far are in {}: fill in the rest there, or begin again with --force",
+                "{} has the answers so far: fill in the rest there, or begin again with --force",
                 quoted(&path)
             ));
         }

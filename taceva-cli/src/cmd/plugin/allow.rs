@@ -27,7 +27,7 @@ pub(super) fn allow(args: &PluginAllow, context: &Context) -> anyhow::Result<u8>
             asked => asked.join(", "),
         };
         let problem = format!(
-            "`{need}`: the plugin `{}` does not request it, it requests {asks}",
+            "`{need}`: the plugin `{}` does not request this access; it requests {asks}",
             args.id
         );
         return Err(Usage::error(problem));
@@ -58,8 +58,7 @@ fn change(
     id: &PluginId,
     change: impl FnOnce(&mut BTreeSet<Need>) -> anyhow::Result<()>,
 ) -> anyhow::Result<u8> {
-    let path = user_config_file()
-        .context("no folder for settings: neither XDG_CONFIG_HOME nor HOME is set")?;
+    let path = user_config_file().context("no folder for settings: set HOME or XDG_CONFIG_HOME")?;
     let text = match fs::read_to_string(&path) {
         Ok(text) => text,
         Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),

@@ -63,7 +63,7 @@ pub(super) fn run(args: &PluginInstall, context: &Context) -> anyhow::Result<u8>
 pub(super) fn folder_of_user() -> anyhow::Result<PathBuf> {
     let search = SearchPath::of_process();
     let user = search.folders().find(|(place, _)| *place == Place::User);
-    let (_, user) = user.context("no folder for plugins: neither XDG_DATA_HOME nor HOME is set")?;
+    let (_, user) = user.context("no folder for plugins: set HOME or XDG_DATA_HOME")?;
     Ok(user.to_owned())
 }
 

@@ -34,7 +34,7 @@ pub(super) fn run(args: &PluginUninstall) -> anyhow::Result<u8> {
         match is_allowed {
             true => writeln!(
                 out,
-                "its permissions are kept for another version; revoke them: taceva plugin deny {id}"
+                "its permissions are kept for another version; to revoke them: taceva plugin deny {id}"
             ),
             false => Ok(()),
         }

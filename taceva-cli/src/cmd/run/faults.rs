@@ -93,7 +93,7 @@ pub(in crate::cmd) fn print_cost(planned: &PlannedScene, context: &Context) -> a
             Some(pictures) => {
                 let again = gels.len() * request.severities.len() * tested(study).len();
                 let again = match again {
-                    0 => "nothing is pressed or fitted for them".to_owned(),
+                    0 => "no press and no fit is needed".to_owned(),
                     count => format!(
                         "{} again on worn gels, for {}; nothing is fitted",
                         counted(count, "press"),
@@ -289,7 +289,7 @@ pub(in crate::cmd) fn plugin_faults(
         };
         if is_taken(name) {
             let words = format!(
-                "`{}`: a fault of the program has this name, expected another",
+                "`{}`: a built-in fault has this name, choose another",
                 shown(name)
             );
             return Err(refused(fault.name.at(), words));
@@ -320,7 +320,7 @@ fn press_worn(
     let mut skipped = Vec::new();
     for &severity in severities {
         let worn = study.worn(fault.name(), severity, presses, run.workshop.drivers);
-        let worn = worn.context("a sensor that is not simulated has no fault of its gel")?;
+        let worn = worn.context("faults of the gel need a simulated sensor")?;
         let path = folder.join(format!("{}-{severity}", fault.name()));
         progress.begin("press", Some(worn.plan.presses.len() as u64));
         let dataset = worn.acquire(&path, run.workshop, &Cancel::new());

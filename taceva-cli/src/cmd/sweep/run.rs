@@ -15,7 +15,7 @@ use crate::{exit, output};
 
 pub(super) fn run(args: &SweepRun, context: &Context) -> anyhow::Result<u8> {
     let Some(path) = &args.file else {
-        return Err(Usage::error("the file of the sweep is missing"));
+        return Err(Usage::error("expected `taceva sweep FILE`"));
     };
     let file = SweepFile::read(path)?;
     let only = args.only.as_deref().map(Condition::parse).transpose()?;

@@ -26,7 +26,7 @@ pub(super) fn latest(
     if named.is_file() && !list.is_of(named) {
         let named = taceva_core::shown(named);
         context.say(format_args!(
-            "{named} has changed since its tasks were listed; these are the earlier tasks: taceva sweep {named} --dry-run lists the present tasks"
+            "{named} has changed since its tasks were listed, so these are the earlier tasks; taceva sweep {named} --dry-run lists the present tasks"
         ));
     }
     Ok(list)

@@ -213,14 +213,14 @@ fn a_result_gives_the_certificate_of_its_recordings_unless_it_has_two_or_holds_f
     bench.refused(
         "budget budget.toml --results r.json",
         3,
-        "line 6, `from`: `certificate` is not measured here: the recordings have several",
+        "line 6, `from`: `certificate` is not measured here: the recordings have several certificates",
     );
     let in_part = [stated("D-K-1").as_str(), r#"{"instrument": "force"}"#].join(", ");
     bench.write("r.json", &result(&in_part));
     bench.refused(
         "budget budget.toml --results r.json",
         3,
-        "line 6, `from`: `certificate` is not measured here: some of the recordings have none",
+        "line 6, `from`: `certificate` is not measured here: some of the recordings have no certificate",
     );
     bench.ok("budget budget.toml --results r.json --certificate cert.toml --mc 0");
 }
@@ -233,7 +233,7 @@ fn the_day_of_a_result_is_that_on_which_a_certificate_must_be_valid() {
     bench.write("r.json", &sealed);
     let words = "budget budget.toml --results r.json --certificate cert.toml --mc 0";
     let late = bench.ok(words);
-    assert!(late.contains("the recording is of 2027-06-01"), "{late}");
+    assert!(late.contains("was made on 2027-06-01"), "{late}");
     let stated = bench.ok(&format!("{words} --date 2027-01-02"));
     assert!(!stated.contains("was valid until"), "{stated}");
 }
@@ -245,7 +245,7 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     bench.refused(
         "budget budget.toml",
         3,
-        "budget.toml: line 6, `from`: `certificate` is not measured here: the recording has none; add --certificate",
+        "budget.toml: line 6, `from`: `certificate` is not measured here: the recording has no certificate; add --certificate",
     );
     bench.refused(
         &format!("{words} --at 60N"),
@@ -254,8 +254,7 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     );
     for format in FORMATS {
         let late = bench.ok(&format!("{words} --date 2027-06-01 --format {format}"));
-        let warning =
-            "certificate D-K-1 was valid until 2027-05-12, the recording is of 2027-06-01";
+        let warning = "certificate D-K-1 was valid until 2027-05-12, but the recording was made on 2027-06-01";
         assert!(late.contains(warning), "{format}: {late}");
     }
     let text = bench.ok(words);
@@ -299,7 +298,7 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     bench.refused(
         words,
         3,
-        "cert.toml: `certificate`: no certificate of a reference with `U`",
+        "cert.toml: `certificate`: no certificate of a reference states `U`",
     );
     let other =
         "[[traceability]]\ninstrument = \"force\"\nserial = \"43\"\n[traceability.certificate]\n";
@@ -307,6 +306,6 @@ fn a_certificate_that_does_not_hold_is_refused_and_an_expired_one_is_named_in_ev
     bench.refused(
         words,
         3,
-        "budget.toml: line 6, `from`: the certificate is of serial `42`, the instrument has serial `43`",
+        "budget.toml: line 6, `from`: the certificate is for serial number `42`, but the instrument has `43`",
     );
 }

@@ -132,7 +132,7 @@ fn pictures_in_a_bundle_are_predicted_again_without_the_recording() {
         "no recording with pictures: name it by --dataset",
     );
     let shut = format!("{words} --dataset data --without predictions");
-    bench.refused(&shut, 3, "come with the labels of their recording");
+    bench.refused(&shut, 3, "--with frames adds the labels of the recording");
     let said = bench.run(&format!("{words} --dataset data"));
     assert_eq!(said.code, 0, "{}", said.err);
     assert!(said.err.contains("frames/ has "), "{}", said.err);
@@ -187,7 +187,7 @@ fn a_model_of_other_results_is_refused_when_a_bundle_is_made_and_when_it_is_veri
     let bench = bench();
     bench.ok("fit data --model ridge --set size=4 --split random --out other.taceva -q");
     let words = format!("{BUNDLE} --model other.taceva");
-    bench.refused(&words, 3, "and the results name sha256:");
+    bench.refused(&words, 3, "but the results name sha256:");
     assert!(!bench.path("b").exists());
     bench.refused(
         &format!("{BUNDLE} --with model"),

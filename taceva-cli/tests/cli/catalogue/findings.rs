@@ -167,7 +167,7 @@ fn a_licence_that_is_no_spdx_identifier_and_a_draft_are_found() {
     );
     let bench = catalogue();
     forge(&bench, "foo", |manifest| manifest["draft"] = true.into());
-    has(&findings(&bench), &["bundles/", "a draft: expected"]);
+    has(&findings(&bench), &["bundles/", "a draft, expected"]);
 }
 
 #[test]
@@ -264,7 +264,7 @@ fn names_alike_are_refused_and_found() {
 fn a_name_with_blanks_at_its_ends_is_refused_and_found() {
     let bench = Bench::new();
     bundle(&bench, "one", " Foo ", 0.01);
-    let rule = "without blanks at its ends";
+    let rule = "no blanks at the ends";
     bench.refused("catalogue add one --to c", 3, rule);
     assert!(!bench.path("c").exists(), "a refusal leaves no folder");
     let bench = catalogue();

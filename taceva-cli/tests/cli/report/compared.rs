@@ -190,18 +190,18 @@ fn names_of_metrics_and_of_margins_that_no_result_has_are_refused_with_the_neare
     bench.refused(
         "compare ViTacTip GelSight --margin mae.Fq=0.01",
         2,
-        "--margin mae.Fq: no result has such a score; expected mae or one of mae.Fxy, mae.Fz, ",
+        "--margin mae.Fq: no result has this score, expected mae or one of mae.Fxy, mae.Fz, ",
     );
     bench.refused(
         "compare ViTacTip GelSight --margin drift=0.01",
         2,
-        "--margin drift: no result has such a score; they have ",
+        "--margin drift: no result has this score, expected one of ",
     );
     let ran = bench.run("compare ViTacTip GelSight --metrics mae,drift --format csv");
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(
         ran.err
-            .contains("--metrics drift: no result has such a score; they have "),
+            .contains("--metrics drift: no result has this score, expected one of "),
         "{}",
         ran.err
     );
@@ -222,24 +222,24 @@ fn one_result_by_two_names_is_no_comparison() {
     bench.refused(
         "compare GelSight gelsight",
         2,
-        "gelsight: given twice, first as GelSight; expected different results",
+        "gelsight is named twice, first as GelSight, expected different results",
     );
     bench.refused(
         "compare DIGIT DIGIT",
         2,
-        "DIGIT: given twice; expected different results",
+        "DIGIT is named twice, expected different results",
     );
     fs::create_dir(bench.path("run")).expect("a folder");
     bench.write("run/results.json", "{}");
     bench.refused(
         "compare run run/results.json",
         2,
-        "run/results.json: given twice, first as run; expected different results",
+        "run/results.json is named twice, first as run, expected different results",
     );
     bench.refused(
         "choose --need shear --results run --results run",
         2,
-        "run: given twice; expected different results",
+        "run is named twice, expected different results",
     );
 }
 

@@ -171,12 +171,12 @@ fn a_fault_of_a_plugin_that_is_not_installed_is_refused_before_any_press() {
         bench.refused(
             &words,
             3,
-            "line 13: `org.example.fogged-lens/fog`: no estimator of a plugin",
+            "line 13: `org.example.fogged-lens/fog`: no plugin has this estimator",
         );
     }
     let named = scene(STRESS) + &fault.replace("fog\"\np", "dust\"\np");
     bench.write("named.toml", &named);
-    bench.refused("run named.toml", 3, "a fault of the program has this name");
+    bench.refused("run named.toml", 3, "a built-in fault has this name");
     assert!(!bench.path("runs").exists());
 }
 

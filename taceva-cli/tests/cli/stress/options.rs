@@ -91,7 +91,7 @@ fn one_picture_of_each_cell_is_kept_with_its_digest_beside_equal_results() {
     bench.refused(
         &format!("{words} --keep-frames kept"),
         2,
-        "--keep-frames kept: it exists already",
+        "--keep-frames kept: exists already",
     );
 }
 

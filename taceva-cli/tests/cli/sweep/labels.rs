@@ -110,7 +110,7 @@ fn metrics_of_channels_and_of_tasks_are_refused_in_one_sweep_with_what_to_write(
     bench.refused(
         "sweep which.toml",
         3,
-        "line 5: `metrics`: mae is of channels, and `task` scores labels: write scores of tasks",
+        "line 5: `metrics`: mae applies to channels only, but `task` scores labels: write scores of tasks",
     );
     bench.write("which.toml", &with("\"kapa\""));
     bench.refused("sweep which.toml", 3, "did you mean `kappa`?");
@@ -122,11 +122,7 @@ fn metrics_of_channels_and_of_tasks_are_refused_in_one_sweep_with_what_to_write(
         "line 4: `metrics`: f1 is a score of tasks, and this sweep scores channels: write `task = \"NAME\"`",
     );
     bench.write("which.toml", &format!("{SLIP}sensor = \"sensor.toml\"\n"));
-    bench.refused(
-        "sweep which.toml",
-        3,
-        "`sensor` cannot be combined with `task`",
-    );
+    bench.refused("sweep which.toml", 3, "`sensor` applies to channels only");
     assert!(!bench.path("which.sweep").exists());
 }
 
@@ -172,7 +168,7 @@ fn a_model_that_predicts_no_class_fails_alone_with_the_models_that_do() {
     assert_eq!(ran.code, 1, "{}", ran.err);
     let table = text(&bench, "which.sweep/table.csv");
     assert!(
-        table.contains("expected a classifier: --model lda"),
+        table.contains("expected a classifier, such as --model lda"),
         "{table}"
     );
     let failed = rows(&table).into_iter().filter(|row| row[2] == "failed");

@@ -32,7 +32,7 @@ fn a_result_of_another_version_or_one_that_was_changed_is_refused_by_name() {
     bench.refused(
         "sweep collect which.toml",
         3,
-        "it was written by TacEva 0.0.9",
+        "the file was written by TacEva 0.0.9",
     );
     fs::remove_file(&first).expect("removed");
     bench.ok("sweep which.toml -q");
@@ -64,7 +64,7 @@ fn a_flipped_bit_of_the_list_of_tasks_or_of_an_evaluation_is_noticed() {
     bench.refused(
         "sweep collect which.toml",
         3,
-        "it has changed since the task wrote it",
+        "the file has changed since the task wrote it",
     );
     // The remedy of the message.
     let name = path.file_name().expect("a name").to_owned();

@@ -136,7 +136,7 @@ fn a_scene_that_changed_is_not_taken_for_the_one_that_was_acquired() {
     bench.refused(
         "sweep which.toml",
         3,
-        "which.toml, line 2: `tiny.toml`: which.sweep/scenes/tiny: the run in it has a different plan",
+        "which.toml, line 2: `tiny.toml`: which.sweep/scenes/tiny: the run in this folder has a different plan",
     );
     // The remedy of the message.
     fs::remove_dir_all(bench.path("which.sweep/scenes/tiny")).expect("removed");

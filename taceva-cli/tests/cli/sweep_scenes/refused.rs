@@ -82,7 +82,7 @@ fn a_scene_of_a_real_rig_or_of_a_recording_is_left_to_a_run() {
     bench.refused(
         "sweep which.toml",
         3,
-        "line 2: `real.toml`: study `real`: it uses a real rig, which a person must supervise; a sweep acquires only scenes of the simulated bench: run the scene with `taceva run`, and name its recordings under `datasets`",
+        "line 2: `real.toml`: study `real` uses a real rig, which a person must supervise; a sweep acquires only scenes of the simulated bench: run the scene with `taceva run`, and name its recordings under `datasets`",
     );
     bench.record("monday", 24);
     let driver = "driver = \"sim/vitactip:reduction=16\"";
@@ -93,7 +93,7 @@ fn a_scene_of_a_real_rig_or_of_a_recording_is_left_to_a_run() {
     bench.refused(
         "sweep which.toml",
         3,
-        "`recorded.toml`: study `tiny`: it uses a recording and acquires no data",
+        "`recorded.toml`: study `tiny` uses a recording and acquires no data",
     );
     assert!(!bench.path("which.sweep").exists());
 }

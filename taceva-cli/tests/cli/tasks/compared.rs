@@ -138,7 +138,7 @@ fn models_of_other_labels_are_compared_by_their_intervals() {
         (&f1["paired"], &f1["winner"]),
         (&Value::Bool(false), &Value::from("a"))
     );
-    assert!(comparison["notes"].to_string().contains("other labels"));
+    assert!(comparison["notes"].to_string().contains("different labels"));
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn results_of_channels_single_results_and_options_of_channels_are_refused() {
         2,
         "--metrics mae: no result has this score",
     );
-    bench.refused("compare a.json a.json", 2, "given twice");
+    bench.refused("compare a.json a.json", 2, "named twice");
 }
 
 #[test]
@@ -260,6 +260,6 @@ fn limits_reach_variants_and_a_missing_task_is_named() {
     bench.refused(
         "accept --template a.json",
         2,
-        "--template is for scores of channels",
+        "--template writes limits of channels",
     );
 }

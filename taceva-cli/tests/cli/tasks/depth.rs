@@ -278,7 +278,7 @@ fn depth_maps_are_no_labels_of_a_classifier_and_of_a_model_file() {
     bench.refused(
         "evaluate set --task shape --model lda --no-cache",
         2,
-        "depth maps are numbers, expected another model, such as --model cnn",
+        "depth maps are numbers; choose another model, such as --model cnn",
     );
 }
 

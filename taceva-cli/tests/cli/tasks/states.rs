@@ -186,7 +186,7 @@ fn any_number_of_shards_merges_to_the_bytes_of_one_pass() {
     bench.refused("merge 1.state whole.state", 3, "has whole tables");
     let part = bench.json("merge 1.state 3.state");
     assert!(
-        part.to_string().contains("rows of shard 1, 3 of 9 alone"),
+        part.to_string().contains("only rows of shard 1, 3 of 9"),
         "{part:#}"
     );
     bench.ok(&format!("{score} --shard 2/8 --state-out other.state -q"));
@@ -212,10 +212,10 @@ fn a_sweep_of_shards_of_tasks_ends_in_the_bytes_of_one_pass() {
     bench.refused("sweep show which.toml", 2, "score.json");
     let metrics = format!("metrics = [\"mae\"]\n{}", sweep(2));
     bench.write("which.toml", &metrics);
-    bench.refused("sweep which.toml", 3, "`metrics` is of channels");
+    bench.refused("sweep which.toml", 3, "`metrics` applies to channels only");
     let without_task = sweep(2).replace("task = \"slip=event:positive=slip\"\n", "");
     bench.write("which.toml", &without_task);
-    bench.refused("sweep which.toml", 3, "`cluster` is of tasks: write `task");
+    bench.refused("sweep which.toml", 3, "`cluster` is for tasks: write `task");
     bench.write("which.toml", &sweep(2).replace("event", "evnt"));
     bench.refused("sweep which.toml", 3, "did you mean event?");
 }

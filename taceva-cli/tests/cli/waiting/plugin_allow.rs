@@ -185,7 +185,7 @@ fn what_a_manifest_does_not_ask_for_is_not_allowed_and_settings_stay_as_they_are
     bench.refused(
         &format!("{allow} serial:/dev/ttyS0"),
         2,
-        "does not request it",
+        "does not request this access",
     );
     bench.refused(
         "plugin allow org.example.my-eyes usb --plugin-dir my-eye",

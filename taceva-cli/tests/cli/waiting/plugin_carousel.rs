@@ -203,7 +203,7 @@ fn a_carousel_changes_what_an_emulated_bench_presses_with_and_its_failures_lose_
         (Mood::Stuck, "the motor is hot"),
         (
             Mood::BringsAnother,
-            "it reports that `sphere of radius 2 mm` is in place, expected `line grating of ",
+            "the changer reports `sphere of radius 2 mm` in place, expected `line grating of ",
         ),
         (Mood::Silent, "it has not arrived"),
         (Mood::Gone, "it closed the connection"),

@@ -34,12 +34,12 @@ fn a_check_of_a_rig_compares_certificates_with_the_device_the_day_and_their_file
     assert_eq!(ran.code, 1, "{}{}", ran.out, ran.err);
     let serial = emulated.serial();
     let other = format!(
-        "problem the certificate D-K-1 is of the force transducer with serial number FT12345, the driver read {serial}: write the certificate of this device"
+        "problem the certificate D-K-1 of the force transducer is for serial number FT12345, but the driver read {serial}: write the certificate of this device"
     );
     for part in [
         "force   problem: ",
         &other,
-        "warning the certificate D-K-1 of the force transducer was valid until 2021-05-12, the measurement is of ",
+        "warning the certificate D-K-1 of the force transducer was valid until 2021-05-12, but the measurement was made on ",
         "warning [force.certificate]: `file` is `certificate.pdf`, expected a file beside the rig file: certificate.pdf: no such file",
     ] {
         assert!(ran.out.contains(part), "no `{part}` in {}", ran.out);
@@ -71,7 +71,7 @@ fn a_capture_warns_of_a_certificate_of_another_transducer() {
     let ran = bench.run("capture out --rig hand.toml --frames 12");
     assert_eq!(ran.code, 0, "{}", ran.err);
     for part in [
-        "warning: the certificate D-K-1 is of the force transducer with serial number FT12345",
+        "warning: the certificate D-K-1 of the force transducer is for serial number FT12345",
         "warning: the certificate D-K-1 of the force transducer was valid until 2021-05-12",
     ] {
         assert_eq!(ran.err.matches(part).count(), 1, "{part}: {}", ran.err);

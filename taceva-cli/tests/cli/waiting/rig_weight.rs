@@ -92,10 +92,10 @@ fn weighed(
         .spawn()
         .expect("the program starts");
     person.answer("take every load off the force transducer");
-    person.wait_for("on the force transducer, or lay it on");
+    person.wait_for("on the force transducer, or lay the weight on it");
     let mut code = None;
     emulated.press(robot, [0.0, 0.0], DEPTH_MM, || {
-        person.answer("on the force transducer, or lay it on");
+        person.answer("on the force transducer, or lay the weight on it");
         code = Some(end_of(&mut child));
     });
     let mut out = String::new();

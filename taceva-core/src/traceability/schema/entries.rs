@@ -47,7 +47,7 @@ const REQUIRED: usize = 4;
 impl Kind {
     const fn expected(self) -> &'static str {
         match self {
-            Kind::Text => "a text in quotes",
+            Kind::Text => "a string in quotes",
             Kind::Day => "a day such as 2026-05-12",
             Kind::Number => "a number such as 2.0",
             Kind::Amounts => "amounts by channel, such as { Fz = \"3.0 mN\" }",

@@ -185,11 +185,11 @@ impl Setup {
     pub(super) fn warnings(&self) -> Vec<String> {
         let unread = self.unread.iter();
         let mut warnings: Vec<String> = unread
-            .map(|problem| format!("{problem}; it is neither checked nor recorded: compare the settings on the pages of the box"))
+            .map(|problem| format!("{problem}; this setting is not checked or recorded: compare the settings on the pages of the box"))
             .collect();
         if self.tool.is_none() {
             warnings.push(format!(
-                "{PAGE} has no `cfgtfx`, so a turned tool frame would not be noticed: compare the axes with a weight"
+                "{PAGE} has no `cfgtfx`, so a turned tool frame is not detected: compare the axes with a weight"
             ));
         }
         if let Some(filter) = self.filter.filter(|filter| is_set(*filter)) {

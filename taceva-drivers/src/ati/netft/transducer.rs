@@ -101,7 +101,7 @@ impl Transducer {
 
     fn next(&mut self, patience: Duration) -> Result<Seen<Counted>, DriverError> {
         if !self.is_running {
-            let why = "it is not started";
+            let why = "the transducer is not started";
             return Err(failed(ErrorKind::InvalidArgument, READ, why));
         }
         let found = self.records.next(self.last, patience);
@@ -197,7 +197,7 @@ impl ForceTransducer for Transducer {
         let mut warnings = self.setup.warnings();
         if self.is_latched {
             warnings.push(
-                "a threshold of the box was exceeded and is latched (status 0x80010000); readings stay valid: reset it on the Thresholding page of the box"
+                "a threshold of the box was exceeded and is latched (status 0x80010000); readings stay valid: reset the threshold on the Thresholding page of the box"
                     .to_owned(),
             );
         }

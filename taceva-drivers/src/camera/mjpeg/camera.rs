@@ -99,7 +99,7 @@ impl Camera {
 /// Stamp of an image by the clock of its server, s.
 fn stamped_s(picture: &Picture) -> Result<f64, DriverError> {
     picture.stamped_s.ok_or_else(|| {
-        let why = "the picture has no `X-Timestamp` in seconds, expected by `clock=server`: omit `clock`, or make the server write it";
+        let why = "the picture has no `X-Timestamp` in seconds, expected by `clock=server`: omit `clock`, or make the server write this header";
         failed(ErrorKind::Protocol, CAPTURE, why)
     })
 }
@@ -152,7 +152,7 @@ impl Sensor for Camera {
             return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
         }
         if !self.is_running {
-            let why = "it is not started";
+            let why = "the camera is not started";
             return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
         }
         let seen = next(&self.pictures, self.last, deadline.remaining())?;
@@ -172,7 +172,7 @@ impl Sensor for Camera {
             Some(clock) => {
                 let placed = clock.place(stamped_s(&seen.what)?, seen.what.began);
                 placed.ok_or_else(|| {
-                    let why = "the clock of the server stepped by more than 10 s, expected one that never steps: start this command again";
+                    let why = "the clock of the server stepped by more than 10 s, expected a steady clock: start this command again";
                     failed(ErrorKind::DeviceFault, CAPTURE, why)
                 })?
             }

@@ -198,7 +198,7 @@ impl Sensor for LocalCamera {
             return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
         }
         if self.reader.is_none() {
-            let why = "it is not started";
+            let why = "the camera is not started";
             return Err(failed(ErrorKind::InvalidArgument, CAPTURE, why));
         }
         let seen = self.next(deadline.remaining())?;

@@ -122,7 +122,8 @@ impl Machine {
                 State::Slowing | State::Running if monotonic() < until => {}
                 State::Alarm => return Err(alarm(doing)),
                 _ => {
-                    let why = format!("it does not come to rest; its state is still {state:?}");
+                    let why =
+                        format!("the machine does not come to rest; its state is still {state:?}");
                     return Err(failed(ErrorKind::DeviceFault, doing, why));
                 }
             }

@@ -96,8 +96,9 @@ impl Machine {
                 }
                 State::Alarm => return Err(alarm(MOVE)),
                 state if !self.stop.is_halted() => {
-                    let why =
-                        format!("a person or another program stopped it; its state is {state:?}");
+                    let why = format!(
+                        "a person or another program stopped the machine, which is in state {state:?}"
+                    );
                     return Err(failed(ErrorKind::DeviceFault, MOVE, why));
                 }
                 _ => {}

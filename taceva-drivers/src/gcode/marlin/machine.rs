@@ -145,14 +145,15 @@ impl Printer {
                 Some(asked) if asked == number.wrapping_add(1) => self.line = Some(number),
                 Some(asked) => {
                     let why = format!(
-                        "the printer expects line {asked} instead of {number}, as after a restart, which loses its position"
+                        "the printer expects line {asked} instead of {number}, as after a restart: home the printer again, because it has lost its position"
                     );
                     return Err(refused(CommandError::Fault(why)));
                 }
             }
         }
         let command = command.to_owned();
-        let why = format!("it arrived damaged {SENT} times: check the cable and its length");
+        let why =
+            format!("the command arrived damaged {SENT} times: check the cable and its length");
         Err(refused(CommandError::Refused { command, why }))
     }
 

@@ -38,11 +38,11 @@ impl Weight {
 /// Reason why a report has no valid weight.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
 pub(super) enum WeightError {
-    #[error("the scale reports a fault")]
+    #[error("the scale reports a fault: switch it off and on")]
     Fault,
-    #[error("the scale is overloaded: beyond its range, forces are clipped")]
+    #[error("the scale is overloaded and clips forces: reduce the load")]
     Overloaded,
-    #[error("the scale must be calibrated")]
+    #[error("the scale needs calibration: calibrate it as its manual describes")]
     Uncalibrated,
     #[error("the scale has lost its zero: unload it, then press its zero key")]
     ZeroLost,

@@ -68,7 +68,7 @@ impl Transducer {
             return Err(failed(
                 ErrorKind::InvalidArgument,
                 READ,
-                "it is not started",
+                "the scale is not started",
             ));
         }
         let seen = self.weights.next(self.last, patience).map_err(|none| {

@@ -135,7 +135,7 @@ impl Transducer {
 
     fn next(&mut self, patience: Duration) -> Result<Seen<Counted>, DriverError> {
         if !self.is_running {
-            let why = "it is not started";
+            let why = "the transducer is not started";
             return Err(failed(ErrorKind::InvalidArgument, READ, why));
         }
         let found = self.link.readings().next(self.last, patience);

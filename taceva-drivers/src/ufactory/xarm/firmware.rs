@@ -61,7 +61,7 @@ fn leading_number(text: &str) -> Option<u32> {
 
 /// Error for an answer without a version.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
-#[error("it reports the version `{}`, expected a text with a version such as `v2.7.0`", shown(.text))]
+#[error("it reports the version `{}`, expected a version such as `v2.7.0`", shown(.text))]
 pub(super) struct UnknownVersion {
     text: String,
 }

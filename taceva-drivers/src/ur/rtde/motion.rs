@@ -62,7 +62,7 @@ impl Arm {
         }
         let first = self.after_every_stop(until)?;
         if first.what.runtime != STOPPED {
-            let why = "the controller runs another program, expected none";
+            let why = "the controller runs another program, expected none: stop that program";
             return Err(failed(ErrorKind::DeviceFault, DOING, why));
         }
         Ok(first)
@@ -89,7 +89,7 @@ impl Arm {
                 return Err(halted());
             }
             if left().is_zero() {
-                let why = "the controller did not confirm the last stop within the deadline";
+                let why = "the controller did not confirm the last stop within the deadline: check the link, then end the halt";
                 return Err(failed(ErrorKind::Timeout, DOING, why));
             }
             seen = self.look(Some(seen.number), left())?;

@@ -12,7 +12,7 @@ fn scenes_without_a_reference_or_without_another_have_no_robustness() {
     let reference = [lit(0, "normal", 100.0, 0.1)];
     assert_eq!(
         score_said(&evaluate(&["r_light"], &reference), "r_light", "Fz"),
-        "no scene but the reference scene"
+        "only the reference scene"
     );
     let other = [lit(0, "S1", 100.0, 0.1)];
     assert_eq!(
@@ -22,7 +22,7 @@ fn scenes_without_a_reference_or_without_another_have_no_robustness() {
     let same = [lit(0, "normal", 100.0, 0.5), lit(0, "S1", 100.0, 0.5)];
     assert_eq!(
         score_said(&evaluate(&["r_light"], &same), "r_light", "Fz"),
-        "neither light nor error changed"
+        "light and error did not change"
     );
 }
 

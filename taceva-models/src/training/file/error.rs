@@ -14,13 +14,13 @@ pub enum FormatError {
     #[error("the file ends before its header")]
     Short,
     /// The file is too large.
-    #[error("{length} bytes, a model has at most {FILE_MAX}")]
+    #[error("{length} bytes, expected a model of at most {FILE_MAX}")]
     FileSize {
         /// Length found, in bytes.
         length: u64,
     },
     /// The header is too large.
-    #[error("a header of {length} bytes, a model has at most {HEADER_MAX}")]
+    #[error("a header of {length} bytes, expected at most {HEADER_MAX}")]
     HeaderSize {
         /// Length found, in bytes.
         length: u64,

@@ -284,7 +284,7 @@ fn a_transducer_that_stays_silent_leaves_the_tip_where_it_is() {
     assert_eq!(error.left, Left::InPlace);
     assert!(bench.shared.world().halted, "nobody moves blind");
     assert!(
-        error.to_string().contains("the tip stays in place"),
+        error.to_string().contains("the tip stays where it is"),
         "{error}"
     );
 }

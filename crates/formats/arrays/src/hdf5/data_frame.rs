@@ -211,7 +211,7 @@ impl DataFrames {
         let block = self.hdf5.read(own.array, 0..1)?.values;
         let ArrayValues::Bytes(mut block) = block else {
             return Err(Problem::unsupported(
-                "a block of texts with an unexpected type",
+                "a block of strings with an unexpected type",
                 REMEDY,
             ));
         };
@@ -221,7 +221,7 @@ impl DataFrames {
             let reason = pickle.refused().first().map(|(_, reason)| reason.again());
             return Err(reason.unwrap_or_else(|| {
                 Problem::unsupported(
-                    "a block of the data frame holds objects that are not texts",
+                    "a block of the data frame holds objects that are not strings",
                     REMEDY,
                 )
             }));
@@ -233,16 +233,16 @@ impl DataFrames {
                 Some(texts) => Ok(ArrayValues::Text(texts.to_vec())),
                 None => Err(Problem::damaged(
                     0,
-                    format!("a block of the data frame with {} texts", texts.len()),
+                    format!("a block of the data frame with {} strings", texts.len()),
                     format!("at least {}", rows.end),
                 )),
             },
             other => Err(Problem::unsupported(
                 format!(
-                    "a block of the data frame holds {} objects that are not texts",
+                    "a block of the data frame holds {} objects that are not strings",
                     other.len()
                 ),
-                "convert them to texts by `df.astype(str)`, and write the file again",
+                "convert the objects to strings by `df.astype(str)`, and write the file again",
             )),
         }
     }

@@ -214,6 +214,6 @@ fn kind_name(datatype: &Datatype) -> &'static str {
 fn refused(what: &str) -> Problem {
     Problem::unsupported(
         what,
-        "write numbers of 8 to 64 bits, texts, records of them, or bytes of variable length (`h5py.vlen_dtype(np.uint8)`)",
+        "write numbers of 8 to 64 bits, strings, records of both, or bytes of variable length (`h5py.vlen_dtype(np.uint8)`)",
     )
 }

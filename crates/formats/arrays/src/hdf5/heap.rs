@@ -80,8 +80,8 @@ impl GlobalHeap {
             let text = std::str::from_utf8(&bytes[..end]).map(str::to_owned);
             text.map_err(|_| {
                 Problem::unsupported(
-                    format!("element {place} of these rows is not valid Unicode text"),
-                    "write texts as UTF-8",
+                    format!("element {place} of these rows is not UTF-8"),
+                    "write strings as UTF-8",
                 )
             })
         });

@@ -113,7 +113,7 @@ impl Hdf5Writer {
         {
             return Err(unsupported(
                 "an attribute longer than 1 MiB",
-                "write an array of texts",
+                "write an array of strings",
             ));
         }
         // Elements are aligned to their size.

@@ -116,7 +116,7 @@ pub(crate) fn text(source: &dyn ByteSource, matrix: &Matrix) -> Result<Variable,
 fn letters(source: &dyn ByteSource, matrix: &Matrix) -> Result<Vec<char>, Problem> {
     let tag = tag(source, matrix.content)?;
     let bytes = content(source, &tag)?;
-    let wrong = || Problem::unsupported("a text that is not Unicode", "save it as UTF-8");
+    let wrong = || Problem::unsupported("a string that is not Unicode", "save strings as UTF-8");
     if tag.kind == TYPE_UTF_8 {
         return Ok(std::str::from_utf8(&bytes)
             .map_err(|_| wrong())?

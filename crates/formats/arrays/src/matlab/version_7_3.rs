@@ -170,7 +170,7 @@ impl Store for Matlab73 {
 
 /// Converts character codes to lines of text.
 fn lines(codes: ArrayValues, count: u64) -> Result<ArrayValues, Problem> {
-    let wrong = || Problem::unsupported("a text that is not Unicode", "save it as UTF-8");
+    let wrong = || Problem::unsupported("a string that is not Unicode", "save strings as UTF-8");
     let ArrayValues::U16(codes) = codes else {
         return Err(wrong());
     };

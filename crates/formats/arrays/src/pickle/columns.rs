@@ -327,8 +327,8 @@ impl<'a> Values<'a> {
                 Value::Bytes(_) => Element::Bytes,
                 _ => {
                     return Err(Problem::unsupported(
-                        "values other than numbers, texts or bytes",
-                        "write numbers, texts, bytes or arrays",
+                        "values other than numbers, strings or bytes",
+                        "write numbers, strings, bytes or arrays",
                     ));
                 }
             };

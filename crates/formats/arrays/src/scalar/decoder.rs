@@ -136,8 +136,8 @@ impl Scalar {
             let bytes = &raw[place * self.bytes..(place + 1) * self.bytes];
             read(bytes).ok_or_else(|| {
                 Problem::unsupported(
-                    format!("element {place} of these rows is not valid Unicode text"),
-                    "write texts as UTF-8",
+                    format!("element {place} of these rows is not UTF-8"),
+                    "write strings as UTF-8",
                 )
             })
         };

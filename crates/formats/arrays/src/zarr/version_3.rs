@@ -108,7 +108,7 @@ fn scalar(data_type: &Value, is_big_endian: bool) -> Result<Scalar, Problem> {
                 _ => {
                     return Err(Problem::unsupported(
                         format!("elements of type {data_type}"),
-                        "write numbers of 8 to 64 bits, or texts of fixed length",
+                        "write numbers of 8 to 64 bits, or strings of fixed length",
                     ));
                 }
             };
@@ -127,7 +127,7 @@ fn scalar(data_type: &Value, is_big_endian: bool) -> Result<Scalar, Problem> {
         .ok_or_else(|| {
             Problem::unsupported(
                 format!("elements of type {data_type}"),
-                "write numbers of 8 to 64 bits, or texts of fixed length",
+                "write numbers of 8 to 64 bits, or strings of fixed length",
             )
         })
 }

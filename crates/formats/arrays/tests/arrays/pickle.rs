@@ -66,7 +66,7 @@ fn lists_that_are_no_column_say_why() {
     for (name, expected) in [
         ("ragged", "different lengths"),
         ("mixed", "different kinds"),
-        ("set", "other than numbers, texts"),
+        ("set", "other than numbers, strings"),
     ] {
         let message = file.read(name, 0..1).expect_err(name).to_string();
         assert!(message.contains(expected), "{message}");

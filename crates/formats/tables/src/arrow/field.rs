@@ -209,7 +209,7 @@ impl Made {
                     14 => "a union of types",
                     22 => "run-length encoded cells",
                     23 | 24 => {
-                        "views of texts or bytes, as polars writes them (avoid them with `df.write_ipc(path, \
+                        "views of strings or bytes, as polars writes them (avoid views with `df.write_ipc(path, \
                          compat_level=pl.CompatLevel.oldest())`)"
                     }
                     25 | 26 => "views of lists",

@@ -90,7 +90,7 @@ impl<'t> Reader<'t> {
                         (true, false) => Cell::Bytes(own.to_vec()),
                         (true, true) => match std::str::from_utf8(own) {
                             Ok(text) => Cell::Text(text.to_owned()),
-                            Err(_) => return Err(self.damaged("a text is not UTF-8")),
+                            Err(_) => return Err(self.damaged("a string is not UTF-8")),
                         },
                     });
                 }

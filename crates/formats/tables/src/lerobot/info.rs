@@ -52,7 +52,7 @@ pub(super) fn parse(source: &Source, json: &Value) -> Result<Info, TableError> {
     let wrong = |name: &str, problem: String| source.damaged(Place::of(name), problem);
     let text = |name: &str| {
         let found = json.get(name).and_then(Value::as_str);
-        found.ok_or_else(|| wrong(name, "expected a text".to_owned()))
+        found.ok_or_else(|| wrong(name, "expected a string".to_owned()))
     };
     let layout = match text("codebase_version")? {
         // tlabel writes its own name before the version.

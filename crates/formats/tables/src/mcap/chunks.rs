@@ -136,7 +136,7 @@ impl<'a> Chunks<'a> {
         match head.crc == 0 || head.crc == formed {
             true => Ok(bytes),
             false => Err(damaged(format!(
-                "its checksum is {formed:08x}, expected {:08x}: it was changed after writing",
+                "its checksum is {formed:08x}, expected {:08x}: the file was changed after writing",
                 head.crc
             ))),
         }

@@ -97,7 +97,7 @@ fn check_data(source: &Source, chunks: &mut Chunks<'_>, data_end: u64) -> Result
         return Ok(());
     };
     let Ok((code::DATA_END, 4)) = chunks.head(at) else {
-        let problem = "the data end record is not at the position in the footer";
+        let problem = "the data end record is not where the footer states";
         return Err(source.damaged(Place::byte(at), problem));
     };
     let fields = chunks.fields(at, code::DATA_END, 4)?;
@@ -152,7 +152,7 @@ fn summary(
         let read = match record::next(&mut bytes) {
             Some((code::CHUNK_INDEX, fields)) => match record::chunk_index(fields) {
                 Some(index) if index.end().is_none_or(|end| end > begin) => {
-                    Err("a chunk is not before the summary")
+                    Err("a chunk begins after the summary")
                 }
                 Some(index) => {
                     contents.chunks.push(index);

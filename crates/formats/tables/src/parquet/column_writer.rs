@@ -174,9 +174,9 @@ impl fmt::Display for WrittenKind {
         match self {
             WrittenKind::Integer => f.write_str("an integer of 64 bits"),
             WrittenKind::Number | WrittenKind::Single => f.write_str("a number"),
-            WrittenKind::Text => f.write_str("a text"),
+            WrittenKind::Text => f.write_str("a string"),
             WrittenKind::Numbers(length) | WrittenKind::Singles(length) => several(f, length),
-            WrittenKind::Texts => f.write_str("a list of texts"),
+            WrittenKind::Texts => f.write_str("a list of strings"),
             WrittenKind::Picture => f.write_str("`bytes` and `path` of a picture"),
         }
     }

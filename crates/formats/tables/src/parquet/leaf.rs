@@ -226,7 +226,7 @@ impl Leaf {
         Ok(match self.form {
             LeafForm::Text => match std::str::from_utf8(bytes) {
                 Ok(text) => Cell::Text(text.to_owned()),
-                Err(_) => return Err(self.damaged("a text is not UTF-8")),
+                Err(_) => return Err(self.damaged("a string is not UTF-8")),
             },
             LeafForm::Decimal { scale } => match bytes.len() {
                 0 => Cell::Null,

@@ -178,7 +178,7 @@ impl Pages {
             None => Ok(()),
             Some(crc) => {
                 let problem = format!(
-                    "the checksum of the page is {formed:08x}, expected {crc:08x}: it was changed after it was written"
+                    "the checksum of the page is {formed:08x}, expected {crc:08x}: the file was changed after writing"
                 );
                 Err(self.damaged(begin, problem))
             }

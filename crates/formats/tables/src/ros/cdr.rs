@@ -243,7 +243,7 @@ impl<'a> Cdr<'a> {
         let bytes = self.text_bytes()?;
         // The length includes a zero at the end.
         let text = bytes.strip_suffix(&[0]).unwrap_or(bytes);
-        std::str::from_utf8(text).map_err(|_| "a text is not UTF-8".to_owned())
+        std::str::from_utf8(text).map_err(|_| "a string is not UTF-8".to_owned())
     }
 
     /// Next number as little-endian bytes.

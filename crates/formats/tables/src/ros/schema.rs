@@ -286,7 +286,7 @@ fn kind(
         "float32" => Kind::F32,
         "float64" => Kind::F64,
         "string" => Kind::Text,
-        "wstring" => return Err("texts of wide characters are not supported".to_owned()),
+        "wstring" => return Err("strings of wide characters are not supported".to_owned()),
         name => {
             let package = within.split('/').next().unwrap_or("");
             let full = match name.contains('/') {

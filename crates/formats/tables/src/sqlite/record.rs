@@ -143,7 +143,7 @@ impl<'p, 'd> Record<'p, 'd> {
             kind if kind % 2 == 0 => Value::Blob(range),
             _ => match std::str::from_utf8(bytes) {
                 Ok(text) => Value::Text(text.to_owned()),
-                Err(_) => return Err(self.pages.damaged(self.page, "a text is not UTF-8")),
+                Err(_) => return Err(self.pages.damaged(self.page, "a string is not UTF-8")),
             },
         })
     }
@@ -154,7 +154,7 @@ impl<'p, 'd> Record<'p, 'd> {
             Value::Text(text) => Ok(text),
             Value::Null => Ok(String::new()),
             other => {
-                let problem = format!("{other:?}, expected a text");
+                let problem = format!("{other:?}, expected a string");
                 Err(self.pages.damaged(self.page, problem))
             }
         }
@@ -205,7 +205,7 @@ impl<'p, 'd> Record<'p, 'd> {
         let usable = self.pages.database.usable as usize;
         while self.read.len() < self.length {
             if !seen.insert(self.next) {
-                return Err(self.pages.damaged(self.next, "a row uses it twice"));
+                return Err(self.pages.damaged(self.next, "a row uses this page twice"));
             }
             let page = self.pages.read(self.next)?;
             let Some((next, bytes)) = page

@@ -65,7 +65,7 @@ pub(super) fn walk(
     let mut open = vec![(table.root, 0)];
     while let Some((number, depth)) = open.pop() {
         if !seen.insert(number) || depth > DEPTH {
-            return Err(pages.damaged(number, "its B-tree leads to it twice"));
+            return Err(pages.damaged(number, "the B-tree of the table leads to this page twice"));
         }
         if pages.is_beyond_cut(number) {
             continue;

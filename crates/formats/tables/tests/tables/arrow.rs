@@ -134,7 +134,7 @@ fn bytes_are_handed_over_row_by_row_across_batches_and_nulls() {
 fn types_that_are_not_read_are_refused_by_their_column_with_the_way_to_write_another() {
     for (name, words) in [
         ("dictionary.arrow", "a dictionary"),
-        ("view.arrow", "views of texts"),
+        ("view.arrow", "views of strings"),
         ("union.arrow", "a union"),
     ] {
         let error = ArrowTable::open(&file(name)).expect_err(name);

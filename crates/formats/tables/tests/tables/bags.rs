@@ -244,7 +244,11 @@ fn bags_of_other_versions_and_forms_are_refused_with_what_mends_them() {
     open[place + 10..place + 18].fill(0);
     refused(
         &at("open.bag", &open),
-        &["did not close it", "rosbag reindex", "16 complete messages"],
+        &[
+            "not close the bag",
+            "rosbag reindex",
+            "16 complete messages",
+        ],
     );
 }
 
@@ -296,7 +300,7 @@ fn pages_that_lead_to_one_another_are_refused() {
     }
     assert!(changed > 0);
     fs::write(&path, &bytes).expect("written");
-    refused(&path, &["leads to it twice"]);
+    refused(&path, &["leads to this page twice"]);
 }
 
 #[test]

@@ -30,7 +30,7 @@ impl Index {
             .chunks_exact(8)
             .take(usize::try_from(count).unwrap_or(usize::MAX));
         if listed.len() as u64 != count {
-            return Err(wrong(format!("{count} entries do not fit into it")));
+            return Err(wrong(format!("{count} entries do not fit into the index")));
         }
         for (at, entry) in (chunk.body + 24..).step_by(8).zip(listed) {
             let offset = base.checked_add(number(&entry[..4]));
@@ -97,7 +97,7 @@ fn check_entry(source: &Source, at: u64, listed: Packet, found: Packet) -> Resul
         return Ok(());
     }
     let problem = format!(
-        "it lists {} bytes at {}, but the file has {} bytes at {}",
+        "the index lists {} bytes at {}, but the file has {} bytes at {}",
         listed.size, listed.offset, found.size, found.offset
     );
     Err(broken(source, at, problem))
@@ -110,7 +110,7 @@ fn check_count(source: &Source, at: u64, listed: usize, found: usize) -> Result<
     Err(broken(
         source,
         at,
-        format!("it lists {listed} frames, but the file has {found}"),
+        format!("the index lists {listed} frames, but the file has {found}"),
     ))
 }
 

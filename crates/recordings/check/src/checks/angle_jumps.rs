@@ -8,10 +8,8 @@ use crate::finding::{Check, Found, Severity};
 pub(super) static CHECK: Check = Check {
     code: "TAC042",
     name: "angle-jumps",
-    looks_for: "angles that jump by more than half a turn between neighbouring samples and are declared neither periodic nor part of a \
-        rotation",
-    hint: "add `period = 360` to the channel in the map, or 6.283185307179586 in rad, if the angle wraps around, or `rotation = [\"Rx\", \"Ry\", \"Rz\"]` if it is a \
-        component of a rotation vector",
+    looks_for: "angles that jump by more than half a turn between neighbouring samples, without `period` or `rotation` in the map",
+    hint: "for an angle that wraps around, add `period = 360` (6.283185307179586 in rad) to the channel in the map; for a component of a rotation vector, add `rotation = [\"Rx\", \"Ry\", \"Rz\"]`",
     reads: None,
     find,
 };

@@ -77,8 +77,7 @@ fn of_channel(evidence: &Evidence<'_>, position: usize, channel: &Channel) -> Op
         return None;
     }
     let message = format!(
-        "{channel} has at most 256 values, {count:.3} N apart, and jumps by more than {JUMP} steps of this size between {} of neighbouring samples, first \
-         in row {}: forces beyond one byte may be stored without their upper byte",
+        "{channel} has at most 256 values, {count:.3} N apart, but jumps by more than {JUMP} such steps between {} of neighbours, first in row {}: forces beyond one byte may lack their upper byte",
         counted(behind.len(), "pair"),
         first + 1
     );

@@ -10,7 +10,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC028",
     name: "certificates",
     looks_for: "instruments whose calibration certificate is missing, expired, issued after the recording, or for another serial number",
-    hint: "state the certificate of each instrument in the rig file or in the map, such as [force.certificate], and record or import again",
+    hint: "state the certificate of each instrument in the rig file or the map, such as [force.certificate]; then record or import again",
     reads: None,
     find,
 };

@@ -10,8 +10,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC017",
     name: "clipped-taxel",
     looks_for: "taxels clipped at their greatest or least number, which occurs in 1 % of the samples and three times as often as the next number",
-    hint: "press with less force, or lower the gain of the converter: the signal beyond the limit is lost, and models learn a constant \
-        there; if the number means that nothing was measured, list it as `placeholders` in [signals] of the map",
+    hint: "press with less force, or lower the gain of the converter: the signal beyond the limit is lost, and models learn a constant there; if the number marks a missing value, list it as `placeholders` in [signals] of the map",
     reads: Some(Field::Signals),
     find,
 };

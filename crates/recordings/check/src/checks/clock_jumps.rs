@@ -12,8 +12,7 @@ use crate::stamps::{Step, Stream, by_clock};
 pub(super) static CHECK: Check = Check {
     code: "TAC024",
     name: "clock-jumps",
-    looks_for: "a clock that was set during a contact (without contact points: during an otherwise regular stream), local times at the end \
-        of summer time, stamps of two clocks in one column, and times impossible for the stated clock",
+    looks_for: "a clock that was set during a contact (without contact points: within a regular stream), local times at the end of summer time, two clocks in one column, and impossible times",
     hint: "stamp with a monotonic clock; import data of two clocks as two tables, joined with their lag",
     reads: None,
     find,
@@ -134,8 +133,7 @@ fn jumped(evidence: &Evidence<'_>, stream: &Stream, jumps: &[Step], place: &str)
     let steps = counted(rows.len(), "step");
     let [are, the_longest] = by_count(rows.len(), ["is", ""], ["are", "the longest "]);
     let message = format!(
-        "{steps} {place} {are} over {JUMP_STEPS} times the usual step of {:.4} s, {the_longest}{longest:.3} s: the clock was set, or the recording \
-         paused",
+        "{steps} {place} {are} over {JUMP_STEPS} times the usual step of {:.4} s, {the_longest}{longest:.3} s: the clock was set or the recording paused",
         stream.usual_s
     );
     Some(evidence.found(Severity::Warning, message, &rows))

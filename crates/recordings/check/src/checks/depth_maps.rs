@@ -11,7 +11,7 @@ pub(crate) static CHECK: Check = Check {
     code: "TAC033",
     name: "depth-maps",
     looks_for: "depth maps of a task without a valid pixel, of several sizes, or deeper than 50 mm",
-    hint: "state `invalid`, `unit` and `scale` of [task.NAME] as the program that wrote the maps means them, and import maps of one size",
+    hint: "state `invalid`, `unit` and `scale` of [task.NAME] as in the program that wrote the maps, and import maps of one size",
     reads: None,
     find,
 };

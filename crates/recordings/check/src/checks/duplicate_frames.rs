@@ -9,7 +9,7 @@ pub(crate) static CHECK: Check = Check {
     code: "TAC002",
     name: "duplicate-frames",
     looks_for: "frames that are byte-identical files",
-    hint: "a camera that repeats frames is slower than it reports; copies with other labels are contradictory training data",
+    hint: "record at the true rate of the camera if it repeats frames; drop copies with other labels, which are contradictory training data",
     reads: None,
     find,
 };

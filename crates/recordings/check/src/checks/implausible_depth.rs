@@ -39,11 +39,11 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let usual = depths[depths.len() / 2];
     let message = if usual > DEEPEST_MM {
         format!(
-            "the median of Pz is {usual} mm, more than the thickness of any gel: it may be the distance to the camera"
+            "the median of Pz is {usual} mm, more than the thickness of any gel: Pz may be the distance to the camera"
         )
     } else if least > NEVER_BELOW * greatest && least > DISTANCE_MM {
         format!(
-            "Pz is between {least} mm and {greatest} mm, never near 0: it may be a distance instead of an indentation"
+            "Pz is between {least} mm and {greatest} mm, never near 0: Pz may be a distance instead of an indentation"
         )
     } else {
         return Vec::new();

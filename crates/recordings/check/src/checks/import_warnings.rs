@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC043",
     name: "import-warnings",
     looks_for: "warnings of the import or of the devices, from the header of the recording",
-    hint: "correct the map or the device as the warning says, and import or record again; an import without warnings clears them",
+    hint: "correct the map or the device as the warning says, and import or record again; an import without warnings clears this finding",
     reads: None,
     find,
 };

@@ -83,7 +83,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             ),
         };
         let message = format!(
-            "{name} is about {:.0} ms ({}) {later} than the pictures: their correlation is {:.2} with this shift and {:.2} \
+            "{name} is about {:.0} ms ({}) {later} than the pictures: the correlation is {:.2} with this shift and {:.2} \
              without, n {}{}{cause}",
             1e3 * lag.seconds.abs(),
             counted(steps.unsigned_abs(), "step"),

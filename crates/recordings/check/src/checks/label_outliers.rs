@@ -9,8 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC013",
     name: "label-outliers",
     looks_for: "isolated labels more than 3 interquartile ranges beyond a quartile",
-    hint: "look at these samples: a transducer that was overloaded or read during motion gives such labels; leave them out by [drop] of \
-        the map, or state why they are right",
+    hint: "look at these samples, whose transducer may have been overloaded or read during motion; drop them by [drop] of the map, or state why they are right",
     reads: None,
     find,
 };

@@ -7,7 +7,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC011",
     name: "missing",
     looks_for: "samples that lack a label or a frame that other samples have",
-    hint: "such samples are left out and counted where the missing part is needed; drop them in the map if they are useless",
+    hint: "drop these samples in the map if they are useless; commands that need the missing part skip and count them",
     reads: None,
     find,
 };

@@ -9,8 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC009",
     name: "stuck-channel",
     looks_for: "channels that never change; forces and torques that are constant over a tenth of the samples while pictures change, or clipped in 5 % of the samples",
-    hint: "remove a constant channel from the map: its R² is undefined and its error is meaningless; drop samples in which a transducer \
-        was frozen or at its limit",
+    hint: "remove a constant channel from the map, because its R² is undefined; drop samples in which a transducer was frozen or at its limit",
     reads: None,
     find,
 };
@@ -88,7 +87,7 @@ fn still(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) ->
     }
     let rows: Vec<usize> = longest.iter().map(|(row, _)| *row).collect();
     let message = format!(
-        "{channel} is {} {} in {} of {} samples in succession, although their pictures differ; elsewhere it changes",
+        "{channel} is {} {} in {} of {} samples in succession, although their pictures differ; {channel} changes elsewhere",
         longest[0].1,
         channel.unit(),
         rows.len(),
@@ -118,7 +117,7 @@ fn cut(evidence: &Evidence<'_>, channel: &Channel, labels: &[(usize, f64)]) -> O
         .filter(|_| values.len() >= VALUES)?;
     let rows: Vec<usize> = end.iter().map(|(row, _)| *row).collect();
     let message = format!(
-        "{channel} ends at {} {} in {} of {} samples, over {TIMES} times as many as for any other value: it is clipped there",
+        "{channel} ends at {} {} in {} of {} samples, over {TIMES} times as many as at any other value: {channel} is clipped there",
         end[0].1,
         channel.unit(),
         rows.len(),

@@ -9,7 +9,7 @@ pub(super) static CHECK: Check = Check {
     code: "TAC016",
     name: "stuck-taxel",
     looks_for: "taxels with the same number in every sample",
-    hint: "check its wire and its address; a model gives it no weight, so contact there is not seen",
+    hint: "check the wire and the address of the taxel; a model gives a constant no weight, so contact there is not seen",
     reads: Some(Field::Signals),
     find,
 };

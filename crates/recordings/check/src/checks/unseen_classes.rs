@@ -12,8 +12,7 @@ pub(crate) static CHECK: Check = Check {
     code: "TAC030",
     name: "unseen-classes",
     looks_for: "classes of a task without a sample in the training, the validation or the test part",
-    hint: "divide so that each part has every class, or record more trajectories of it: a model cannot learn a class that it never sees, and \
-        a score over classes omits a class that is never tested",
+    hint: "divide so that each part has every class, or record more trajectories of the missing class: a model cannot learn an unseen class, and scores omit an untested class",
     reads: None,
     find,
 };

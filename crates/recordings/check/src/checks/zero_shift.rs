@@ -11,8 +11,7 @@ pub(super) static CHECK: Check = Check {
     name: "zero-shift",
     looks_for: "forces and torques of pictures without contact that step or drift over the recording: a transducer that was zeroed again, \
         warms up or creeps",
-    hint: "subtract the zero of samples without contact with [zero] in the map, zero the transducer before every press, or import each \
-        section as a separate recording",
+    hint: "subtract the zero by [zero] of the map, zero the transducer before every press, or import each section as a separate recording",
     reads: Some(Field::Frame),
     find,
 };

@@ -65,7 +65,7 @@ fn a_certificate_that_had_expired_on_the_day_of_the_recording_is_warned_of() {
     assert_eq!(codes(&report), [("TAC028", Severity::Warning)]);
     assert_eq!(
         message(&report, "TAC028"),
-        "the certificate D-K-1 of the force transducer was valid until 2027-05-12, the measurement is of 2027-05-13"
+        "the certificate D-K-1 of the force transducer was valid until 2027-05-12, but the measurement was made on 2027-05-13"
     );
 }
 
@@ -76,7 +76,7 @@ fn a_certificate_that_was_issued_after_the_recording_is_warned_of() {
     assert_eq!(codes(&report), [("TAC028", Severity::Warning)]);
     assert_eq!(
         message(&report, "TAC028"),
-        "the certificate D-K-1 of the force transducer was issued on 2026-11-30, the measurement is of 2026-11-29"
+        "the certificate D-K-1 of the force transducer was issued on 2026-11-30, but the measurement was made on 2026-11-29"
     );
     let same_day = CERTIFICATE.replace("issued = 2026-05-12", "issued = 2026-11-29");
     let report = checked(&[0.5, 1.5], VALID_S, &same_day);
@@ -90,7 +90,7 @@ fn a_certificate_of_another_serial_number_is_an_error() {
     assert_eq!(codes(&report), [("TAC028", Severity::Error)]);
     assert_eq!(
         message(&report, "TAC028"),
-        "the certificate D-K-1 is of the force transducer with serial number 42, the driver read 43"
+        "the certificate D-K-1 of the force transducer is for serial number 42, but the driver read 43"
     );
 }
 

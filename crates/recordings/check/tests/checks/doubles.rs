@@ -102,7 +102,7 @@ fn a_distance_to_the_camera_is_no_depth() {
     let far = depth(&|row| 20.0 + 0.05 * f64::from(row));
     assert_eq!(
         message(&far, "TAC041"),
-        "the median of Pz is 20.75 mm, more than the thickness of any gel: it may be the distance to the camera"
+        "the median of Pz is 20.75 mm, more than the thickness of any gel: Pz may be the distance to the camera"
     );
     let height = depth(&|row| 8.0 + 0.05 * f64::from(row));
     assert!(message(&height, "TAC041").contains("never near 0"));

@@ -33,7 +33,7 @@ fn a_force_that_stands_still_in_half_of_the_samples_while_pictures_change_is_stu
     let report = with_forces(stuck, |_| {});
     assert_eq!(
         message(&report, "TAC009"),
-        "Fz is 1.255 N in 100 of 200 samples in succession, although their pictures differ; elsewhere it changes"
+        "Fz is 1.255 N in 100 of 200 samples in succession, although their pictures differ; Fz changes elsewhere"
     );
     says_nothing(&with_forces(forces, |_| {}), "TAC009");
 }
@@ -58,7 +58,7 @@ fn a_force_that_is_cut_in_a_third_of_the_samples_is_stuck_at_its_limit() {
     let report = with_forces(|number| forces(number).min(2.305), |_| {});
     assert_eq!(
         message(&report, "TAC009"),
-        "Fz ends at 2.305 N in 69 of 200 samples, over 3 times as many as for any other value: it is clipped there"
+        "Fz ends at 2.305 N in 69 of 200 samples, over 3 times as many as at any other value: Fz is clipped there"
     );
     let pulled = with_forces(|number| -forces(number).min(2.305), |_| {});
     assert!(message(&pulled, "TAC009").starts_with("Fz ends at -2.305 N in 69 of 200"));
@@ -123,8 +123,8 @@ fn a_slow_force_that_begins_anew_above_one_byte_is_named_with_its_row() {
     let unsigned = in_counts(|row| 3 * row % 256, false);
     assert_eq!(
         message(&unsigned, "TAC045"),
-        "Fz has at most 256 values, 0.100 N apart, and jumps by more than 200 steps of this size between 1 pair of neighbouring samples, first in row \
-         87: forces beyond one byte may be stored without their upper byte"
+        "Fz has at most 256 values, 0.100 N apart, but jumps by more than 200 such steps between 1 pair of neighbours, first in row 87: forces \
+         beyond one byte may lack their upper byte"
     );
     let signed = in_counts(|row| (3 * row + 128) % 256 - 128, false);
     assert!(message(&signed, "TAC045").contains("first in row 44"));

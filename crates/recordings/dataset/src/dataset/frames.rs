@@ -142,7 +142,7 @@ impl Dataset {
         frames.find(is_first).ok_or_else(|| {
             DatasetError::damaged(
                 &self.path().join(&entry.path),
-                "no row names the first frame of this pack, from which its other frames are stored as differences",
+                "no row names the first frame of this pack, which all other frames of the pack need",
             )
         })
     }
@@ -177,7 +177,7 @@ impl Dataset {
         }
         Err(DatasetError::request(
             self.path(),
-            format!("no row {row}, there are {}", self.table.rows()),
+            format!("no row {row}, expected below {}", self.table.rows()),
         ))
     }
 }

@@ -152,7 +152,7 @@ impl Dataset {
             return Err(DatasetError::request(
                 self.path(),
                 format!(
-                    "the task `{}` has {} labels, expected one of its classes or poses or none for each of {} rows of a single recording",
+                    "the task `{}` has {} labels, expected {}, one per row of a single recording: a class, a pose or none",
                     shown(&task.name),
                     labels.len(),
                     self.table.rows()

@@ -157,9 +157,9 @@ fn check_distinct(recordings: &[Dataset]) -> Result<(), DatasetError> {
                 theirs.any(|other| other == *stage)
             });
             let problem = match shared {
-                _ if is_same_place => "they are the same folder".to_owned(),
+                _ if is_same_place => "both paths name one folder".to_owned(),
                 Some((digest, rows)) => {
-                    format!("they hold the same {} ({digest})", counted(rows, "sample"))
+                    format!("both have the same {} ({digest})", counted(rows, "sample"))
                 }
                 None => continue,
             };

@@ -63,7 +63,7 @@ impl Dataset {
             let promised = self.header.table.rows;
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{}, the header says {promised}", counted(rows, "row")),
+                format!("{}, expected {promised}", counted(rows, "row")),
             ));
         }
         let digest = self.table.digest();
@@ -93,7 +93,7 @@ impl Dataset {
         if count != promised {
             return Err(damaged(
                 layout::SAMPLES,
-                format!("{}, the header says {promised}", counted(count, "frame")),
+                format!("{}, expected {promised}", counted(count, "frame")),
             ));
         }
         for (view, own) in self.header.views.iter().zip(self.table.views()) {
@@ -102,7 +102,7 @@ impl Dataset {
                 return Err(damaged(
                     layout::SAMPLES,
                     format!(
-                        "{} of the view `{}`, the header says {}",
+                        "{} of the view `{}`, expected {}",
                         counted(count, "frame"),
                         view.name,
                         view.frames.count

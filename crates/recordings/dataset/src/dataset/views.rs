@@ -123,7 +123,8 @@ impl Dataset {
     fn beside(&self, frames: &[Frame]) -> Result<Frame, DatasetError> {
         let damaged = |problem: String| DatasetError::damaged(self.path(), problem);
         let info = self.header.frames.as_ref().map(|frames| frames.info);
-        let info = info.ok_or_else(|| damaged("no frames side by side".to_owned()))?;
+        let info =
+            info.ok_or_else(|| damaged("no view is named for frames side by side".to_owned()))?;
         let height = info.height.max(1) as usize;
         let mut bytes = Vec::with_capacity(frames.iter().map(|frame| frame.bytes().len()).sum());
         for row in 0..height {

@@ -25,7 +25,7 @@ pub(super) fn decode(bytes: &[u8]) -> Result<(FrameInfo, Vec<u8>), String> {
     let (width, height) = decoder.dimensions().map_err(text)?;
     if width > limits::IMAGE_SIDE || height > limits::IMAGE_SIDE {
         return Err(format!(
-            "{width}×{height}, more than the {} pixels a side that are accepted",
+            "{width}×{height}, expected sides of at most {} pixels",
             limits::IMAGE_SIDE
         ));
     }

@@ -128,8 +128,7 @@ impl RecordingFacts {
         });
         Some(match before == now {
             true => format!(
-                "the existing recording has another certificate of an instrument, or none; end it as it is with `taceva capture {} --close`, or \
-                 record into a new folder",
+                "the existing recording has another certificate of an instrument, or none; close that recording with `taceva capture {} --close`, or record into a new folder",
                 taceva_core::shown(path)
             ),
             false => "the existing recording has another serial number or driver of an instrument; record into a new folder".to_owned(),

@@ -30,7 +30,7 @@ impl Huffman {
         for (length, count) in (1_u32..).zip(counts) {
             let count = u32::from(*count);
             if code + count > 1 << length {
-                return Err("a Huffman table with more codes than are possible".to_owned());
+                return Err("a Huffman table has too many codes".to_owned());
             }
             let place = length as usize;
             table.offset[place] = first as i64 - i64::from(code);

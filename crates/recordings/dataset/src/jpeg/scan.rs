@@ -48,7 +48,7 @@ impl Scan {
                 .components
                 .iter()
                 .position(|component| component.id == *id);
-            let place = place.ok_or("a scan of a component that the frame lacks")?;
+            let place = place.ok_or("a scan has a component that the frame lacks")?;
             let tables = [usize::from(tables >> 4), usize::from(tables & 15)];
             if tables.iter().any(|table| *table > 3)
                 || components.iter().any(|(of, _)| *of == place)
@@ -69,7 +69,7 @@ impl Scan {
 
     /// Records the bits that the scan codes. Rejects bits that do not continue the earlier scans.
     fn note_bits(&self, frame: &mut Frame) -> Result<(), String> {
-        let wrong = || Err("a scan that codes bits out of order".to_owned());
+        let wrong = || Err("a scan has its bits out of order".to_owned());
         let [first, last] = self.band;
         let is_interleaved = self.components.len() > 1;
         let fits = match frame.is_progressive {
@@ -304,7 +304,7 @@ impl State {
     ) -> Result<(), String> {
         let size = u32::from(table.decode(bits)?);
         if size > 11 {
-            return Err("a DC coefficient of more bits than a picture has".to_owned());
+            return Err("a DC coefficient has too many bits".to_owned());
         }
         let value = i64::from(bits.take(size)?);
         // The upper half of the numbers of a size is positive, the lower half negative.
@@ -313,7 +313,7 @@ impl State {
         let previous = &mut self.previous[coder.place.min(3)];
         *previous += difference;
         if (*previous << later).abs() > GREATEST / coder.quantiser.max(1) + 2 {
-            return Err("a block brighter or darker than any picture".to_owned());
+            return Err("a block is beyond the range of pixel values".to_owned());
         }
         Ok(())
     }
@@ -374,7 +374,7 @@ fn restarted(bytes: &[u8], position: usize, number: u8) -> Result<usize, String>
     match rest.get(fills) {
         Some(kind) if fills > 0 && *kind == 0xD0 + number => Ok(position + fills + 1),
         _ => Err(format!(
-            "restart marker {number} is missing or out of turn at byte {position}"
+            "restart marker {number} is missing or out of order at byte {position}"
         )),
     }
 }

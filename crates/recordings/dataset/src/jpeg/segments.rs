@@ -93,7 +93,8 @@ impl<'a> Reader<'a> {
             let (kind, number) = (usize::from(place >> 4), usize::from(place & 15));
             let of_kind = self.tables.huffman.get_mut(kind);
             let slot = of_kind.and_then(|tables| tables.get_mut(number));
-            *slot.ok_or("a Huffman table of wrong number")? = Some(Huffman::new(counts, symbols)?);
+            *slot.ok_or("a Huffman table has an invalid number")? =
+                Some(Huffman::new(counts, symbols)?);
             body = &rest[total..];
         }
         Ok(())
@@ -106,7 +107,8 @@ impl<'a> Reader<'a> {
             let width = if place >> 4 == 0 { 1 } else { 2 };
             let table = rest.get(..64 * width).ok_or(cut)?;
             let slot = self.tables.quantisers.get_mut(usize::from(place & 15));
-            *slot.ok_or("a quantisation table above number 3")? = Some(big_endian(&table[..width]));
+            *slot.ok_or("a quantisation table has a number above 3")? =
+                Some(big_endian(&table[..width]));
             body = &rest[64 * width..];
         }
         Ok(())

@@ -14,7 +14,7 @@ impl Recorder {
         let (values, channels) = (sample.truth.as_slice(), self.table.channels());
         if values.len() > channels.len() {
             return Err(refused(format!(
-                "{} values for {} channels",
+                "{} values, expected at most {}, one per channel",
                 values.len(),
                 channels.len()
             )));
@@ -35,7 +35,7 @@ impl Recorder {
                 None => "no signals".to_owned(),
             };
             return Err(refused(format!(
-                "{}, expected {} as the recording has",
+                "{}, expected {} as in the recording",
                 named(found),
                 named(expected)
             )));

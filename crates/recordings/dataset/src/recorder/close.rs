@@ -66,7 +66,7 @@ impl Recorder {
         let read = read.map_err(damaged)?;
         if read != self.table {
             return Err(damaged(
-                "it reads back differently from what was written".to_owned(),
+                "the file reads back differently from what was written: check the disk".to_owned(),
             ));
         }
         Ok(())

@@ -250,7 +250,9 @@ impl WrittenSample {
             .keys()
             .find(|name| channels.position(name).is_none());
         if let Some(name) = stranger {
-            return Err(format!("`{name}` is not a channel of this recording"));
+            return Err(format!(
+                "`{name}` is not a channel of this recording: correct the name"
+            ));
         }
         if self
             .truth
@@ -260,7 +262,7 @@ impl WrittenSample {
             .chain(&self.zero_u_mm)
             .any(|number| !taceva_core::is_scorable(*number))
         {
-            return Err("a number that is not finite, or too large to be scored".to_owned());
+            return Err("a number is infinite, NaN or too large to be scored".to_owned());
         }
         if let Some(frame) = &self.frame {
             check_relative(&frame.path)?;

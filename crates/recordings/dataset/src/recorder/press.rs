@@ -112,7 +112,7 @@ impl Recorder {
             let found = sample.frame.as_ref().map(Frame::info);
             match (expected, found) {
                 (Some(expected), Some(found)) if expected != found => {
-                    let problem = format!("a frame of {found}, expected {expected} as the first");
+                    let problem = format!("a frame of {found}, expected {expected} like the first");
                     return refused(&sample.id, problem);
                 }
                 _ => expected = expected.or(found),

@@ -34,7 +34,7 @@ pub(super) fn read(file: File) -> Result<BTreeMap<String, Stored>, ParquetError>
     let rows = metadata.file_metadata().num_rows();
     let rows = u64::try_from(rows).map_err(|_| general("a negative number of rows"))?;
     if rows > limits::ROWS {
-        return Err(general("more rows than are accepted"));
+        return Err(general("more rows than a dataset may have"));
     }
     if metadata.num_row_groups() != 1 {
         return Err(general("expected one row group"));
@@ -87,7 +87,7 @@ fn read_values<T: DataType, V>(
                 _ => {
                     let value = values.next().and_then(&convert);
                     Some(value.ok_or_else(|| {
-                        ParquetError::General("a value is missing or not a text".to_owned())
+                        ParquetError::General("a value is missing or not a string".to_owned())
                     })?)
                 }
             };

@@ -61,7 +61,7 @@ impl Columns {
             Some(Stored::Count(cells)) => cells[row]
                 .map(u32::try_from)
                 .transpose()
-                .map_err(|_| format!("column `{name}`, row {row}: out of range")),
+                .map_err(|_| format!("column `{name}`, row {row}: expected a count below 2^32")),
             Some(_) => Err(format!("column `{name}` holds no counts")),
         }
     }
@@ -167,9 +167,9 @@ pub(super) fn assemble(
             depth_step: columns.count("depth_step", row)?,
             repeat: columns.count("repeat", row)?,
             phase: known(columns.text("phase", row)?, Phase::from_name)
-                .ok_or_else(|| format!("row {row}: no such phase"))?,
+                .ok_or_else(|| format!("row {row}: column `phase` has an unknown word"))?,
             limited_by: known(columns.text("limited_by", row)?, Limit::from_name)
-                .ok_or_else(|| format!("row {row}: no such limit"))?,
+                .ok_or_else(|| format!("row {row}: column `limited_by` has an unknown word"))?,
             zero_u_mm: columns.number("zero_u_mm", row)?,
             source_table: columns.text("source_table", row)?,
             source_row: columns.count("source_row", row)?,
@@ -177,7 +177,7 @@ pub(super) fn assemble(
             part: columns.text("part", row)?,
             t_s: columns.number("t_s", row)?,
             kind: known(columns.text("kind", row)?, GratingKind::from_name)
-                .ok_or_else(|| format!("row {row}: no such kind of grating"))?,
+                .ok_or_else(|| format!("row {row}: column `kind` has an unknown word"))?,
             spacing: columns
                 .number("spacing_mm", row)?
                 .map(|length| {

@@ -137,7 +137,7 @@ fn starts(
         .clone()
         .all(|column| column.max_def_level() == 0 && column.max_rep_level() == 0);
     if !is_flat || !names.eq(info.spec.column_names()) {
-        return Err("its columns differ from those in the header".to_owned());
+        return Err("its columns differ from the columns in the header".to_owned());
     }
     let length = info.spec.info.len();
     let mut starts = vec![0];
@@ -153,7 +153,9 @@ fn starts(
     }
     match sum == rows {
         true => Ok(starts),
-        false => Err(format!("{sum} rows of signals, the header says {rows}")),
+        false => Err(format!(
+            "{sum} rows of signals, expected {rows} by the header"
+        )),
     }
 }
 

@@ -64,7 +64,7 @@ impl CsvParts {
         if found.quotes % 2 == 1 {
             return Err(ImportError::table(
                 path,
-                "a quote is opened and never closed".to_owned(),
+                "a quotation mark is never closed".to_owned(),
             ));
         }
         let (found, digest) = match found.quotes {
@@ -143,7 +143,7 @@ impl CsvParts {
         let expected = self.rows_of(part).end - self.rows_of(part).start;
         if table.rows() as u64 != expected {
             let problem = format!(
-                "{} rows from line {} on, but {expected} were counted before: the file has changed, or its lines end in CR alone",
+                "{} rows from line {} on, but {expected} were counted before: the file has changed, or its lines end in CR without LF",
                 table.rows(),
                 mark.line
             );
@@ -157,7 +157,7 @@ impl CsvParts {
         let length = bytes.end.saturating_sub(bytes.start);
         if length > limits::TABLE_BYTES {
             let problem = format!(
-                "{length} bytes of {PART_ROWS} rows, more than the {} that are accepted",
+                "{length} bytes of {PART_ROWS} rows, expected at most {}",
                 limits::TABLE_BYTES
             );
             return Err(ImportError::table(&self.path, problem));
@@ -205,7 +205,7 @@ impl CsvTable {
         }
         if text.len() as u64 > limits::TABLE_BYTES {
             let problem = format!(
-                "{} bytes as text, more than the {} that are accepted at once",
+                "{} bytes as text, expected at most {} at once",
                 text.len(),
                 limits::TABLE_BYTES
             );

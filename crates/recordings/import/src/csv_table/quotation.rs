@@ -10,7 +10,7 @@ use taceva_dataset::internal::limits;
 pub(super) fn read(path: &Path, text: &str, delimiter: u8) -> Result<CsvTable, ImportError> {
     let wrong = |line: u64, problem: String| ImportError::table(Place::line(path, line), problem);
     if text.bytes().filter(|byte| *byte == b'"').count() % 2 == 1 {
-        return Err(wrong(1, "a quote is opened and never closed".to_owned()));
+        return Err(wrong(1, "a quotation mark is never closed".to_owned()));
     }
     let mut reader = csv::ReaderBuilder::new()
         .delimiter(delimiter)

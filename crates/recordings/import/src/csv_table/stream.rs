@@ -166,7 +166,7 @@ fn fill(
 ) -> Result<bool, ImportError> {
     let had = bytes.len();
     if had > MOST_BYTES {
-        let problem = format!("rows of more than {MOST_BYTES} bytes");
+        let problem = format!("rows of {had} bytes or more, expected at most {MOST_BYTES}");
         return Err(wrong(path, 1, problem));
     }
     let read = file.take(AHEAD as u64).read_to_end(bytes);
@@ -177,7 +177,7 @@ fn fill(
         .iter()
         .fold(0, |any, byte| any | u8::from(*byte == b'"'));
     if quotes != 0 {
-        let problem = "a quoted cell, which only a read of the whole table accepts".to_owned();
+        let problem = "a quoted cell, expected none in a table that is read in parts".to_owned();
         return Err(wrong(path, 1, problem));
     }
     digest.fixed(new);

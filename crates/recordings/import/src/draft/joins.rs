@@ -80,7 +80,7 @@ fn beside(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<(String, Vec<St
         let written = format!("{:?}", other.group.parts.of_table());
         (
             written,
-            vec!["on = \"all\"   # its only row belongs to every row".to_owned()],
+            vec!["on = \"all\"   # the only row of this table belongs to every row".to_owned()],
         )
     })
 }
@@ -142,14 +142,15 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     };
     let (tolerance_ms, tolerance) = match rates {
         // Both neighbours of an instant must lie within the tolerance, and steps vary.
-        _ if pick.starts_with(LINEAR) => {
-            (2.0 * spacing_ms, "twice the time between two of its rows")
-        }
+        _ if pick.starts_with(LINEAR) => (
+            2.0 * spacing_ms,
+            "twice the time between two rows of this table",
+        ),
         Some((own, _)) if spacing_ms > PRESSES_MS => (
             (SHARE_OF_STEP * spacing_ms).min(1e3 / own),
-            "at most a tenth of the time between two of its rows: another press must not match",
+            "at most a tenth of the time between two rows of this table, so no other press matches",
         ),
-        _ => (spacing_ms, "the time between two of its rows"),
+        _ => (spacing_ms, "the time between two rows of this table"),
     };
     let mut lines = vec![
         format!(
@@ -165,12 +166,12 @@ fn by_time(main: &SeenTable<'_>, other: &SeenTable<'_>) -> Option<Vec<String>> {
     ];
     if rates.is_some_and(|(own, other)| is_slower(own, other) && is_of_presses(other)) {
         lines.push(format!(
-            "# or, if its rows are a slow stream instead of presses: {LINEAR} and tolerance_ms = {:.3}",
+            "# or, if this table is a slow stream and not one row per press: {LINEAR} and tolerance_ms = {:.3}",
             2.0 * spacing_ms
         ));
     }
     lines.extend([
-        "lag_ms = 0   # how far its clock is ahead: the files do not state it".to_owned(),
+        "lag_ms = 0   # lead of this table's clock in ms: not stated by the files".to_owned(),
         "unmatched = \"drop\"".to_owned(),
     ]);
     Some(lines)
@@ -231,13 +232,13 @@ fn pick_by_rates(own: f64, other: f64) -> String {
     let both = format!("{} against {} of the main table", in_hz(other), in_hz(own));
     match is_slower(own, other) {
         true if is_of_presses(other) => format!(
-            "pick = \"nearest\"   # {both}: its rows are single presses, and only rows at such a press are kept"
+            "pick = \"nearest\"   # {both}: this table has one row per press, and only rows at a press are kept"
         ),
         true => format!(
-            "{LINEAR}   # {both}: each of its rows would serve several, so numbers between two of its rows are interpolated"
+            "{LINEAR}   # {both}: this table is slower, so numbers between two of its rows are interpolated"
         ),
         false => format!(
-            "pick = \"nearest\"   # {both}: the nearest of its rows is at most {:.3} ms away",
+            "pick = \"nearest\"   # {both}: the nearest row of this table is at most {:.3} ms away",
             500.0 / other
         ),
     }
@@ -276,7 +277,7 @@ mod tests {
         let presses = pick_by_rates(16.0, 0.25);
         assert!(presses.starts_with("pick = \"nearest\"   # "), "{presses}");
         assert!(
-            presses.ends_with("only rows at such a press are kept"),
+            presses.ends_with("only rows at a press are kept"),
             "{presses}"
         );
     }

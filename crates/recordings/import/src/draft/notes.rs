@@ -34,7 +34,7 @@ pub(super) fn bare_clips(clips: &FileGroup) -> String {
 /// Note that a preset matches the folder.
 pub(super) fn known_layout(preset: &str) -> String {
     format!(
-        "This looks like the layout of `--preset {preset}`, which needs no map: `taceva import --presets` says what it reads."
+        "This looks like the layout of `--preset {preset}`, which needs no map: `taceva import --presets` lists the content that is read."
     )
 }
 

@@ -47,8 +47,7 @@ impl Exported<'_> {
             (header.stream.is_some(), "losses of the stream"),
             (
                 !header.extended.is_empty(),
-                "which rows were added later: an import of this export is another recording with new parts, so do not test a model of \
-                 this dataset on it",
+                "which rows were added later: an import of this export divides its samples anew, so do not test a model of this dataset on that import",
             ),
             (!header.left_out.is_empty(), "omissions of its own import"),
             (

@@ -174,11 +174,11 @@ fn check_text(
 ) -> Result<(), ImportError> {
     let problem = if text.len() > TEXT_BYTES {
         format!(
-            "`{name}` has {} bytes, but at most {TEXT_BYTES} are written: all texts of an array take as many bytes as the longest",
+            "`{name}` has {} bytes, expected at most {TEXT_BYTES}, since all strings of an HDF5 array are as long as the longest: use --format huggingface or csv",
             text.len()
         )
     } else if text.contains('\0') {
-        format!("`{name}` holds a NUL character, which ends a text of HDF5")
+        format!("`{name}` contains a NUL character, which ends a string in HDF5: remove it")
     } else {
         return Ok(());
     };

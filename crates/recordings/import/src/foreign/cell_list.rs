@@ -54,7 +54,7 @@ pub(crate) fn item<'a>(cell: &'a str, index: &[usize]) -> Result<&'a str, String
     let mut found = cell.trim();
     for (depth, position) in index.iter().enumerate() {
         if depth > 0 && !found.starts_with(['[', '(']) {
-            return Err(format!("`{found}` is one value, where a list is expected"));
+            return Err(format!("`{found}` is a single value, expected a list"));
         }
         let parts = parts(found)?;
         if parts.contains(&"...") {
@@ -205,7 +205,7 @@ fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, u
             ']' | ')' => {
                 depth = depth
                     .checked_sub(1)
-                    .ok_or("a bracket is closed that was not opened")?;
+                    .ok_or("a closing bracket has no opening bracket")?;
             }
             _ if depth == 0 && is_separator(letter) => found.push((at, letter.len_utf8())),
             _ => {}
@@ -216,7 +216,7 @@ fn ends(text: &str, is_separator: impl Fn(char) -> bool) -> Result<Vec<(usize, u
     }
     match depth {
         0 => Ok(found),
-        _ => Err("a bracket is opened and never closed".to_owned()),
+        _ => Err("an opening bracket has no closing bracket".to_owned()),
     }
 }
 
@@ -302,10 +302,10 @@ mod tests {
         for (cell, index, expected) in [
             ("[1, 2]", &[2][..], "no value [2] among the 2"),
             ("[1. 2. ... 8. 9.]", &[1], "`...` replaces values"),
-            ("[1, 2, 3]", &[1, 0], "`2` is one value"),
+            ("[1, 2, 3]", &[1, 0], "`2` is a single value"),
             ("", &[0], "no value [0] among the 0"),
-            ("[1, [2, 3]", &[0], "never closed"),
-            ("1]", &[0], "not opened"),
+            ("[1, [2, 3]", &[0], "no closing bracket"),
+            ("1]", &[0], "no opening bracket"),
             (&"[".repeat(40), &[0], "deep"),
         ] {
             let problem = item(cell, index).expect_err(cell);

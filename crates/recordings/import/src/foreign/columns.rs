@@ -250,7 +250,7 @@ impl ColumnTable {
         for (name, column) in names.into_iter().zip(columns) {
             if column.len() != self.rows() {
                 let problem = format!(
-                    "{} values of `{name}` for {} rows",
+                    "{} values of `{name}`, expected {}, one per row",
                     column.len(),
                     self.rows()
                 );

@@ -50,7 +50,7 @@ impl JsonRows {
             found = within.collect();
             if found.is_empty() {
                 return Err(wrong(format!(
-                    "nothing at `{}`, the path of the rows in the map",
+                    "no rows at `{}`: correct `rows` of the table in the map",
                     shown(&ways[..=depth].join("/*"))
                 )));
             }
@@ -77,7 +77,7 @@ impl JsonRows {
             };
             found = each.ok_or_else(|| {
                 wrong(format!(
-                    "`{}` is neither a list nor an object, so it has no members",
+                    "`{}` is a single value, expected a list or an object: correct `rows` of the table in the map",
                     shown(&ways[..=depth].join("/*"))
                 ))
             })?;

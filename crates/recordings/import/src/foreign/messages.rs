@@ -76,7 +76,7 @@ fn open(path: &Path, is_to_cut: bool) -> Result<Recording, String> {
     };
     opened.map_err(|error| match &error {
         TableError::Cut { messages: 1.., .. } => format!(
-            "{}; to import these messages alone, write `cut = \"keep\"` beside `rows` in the table of the map",
+            "{}; to import only these messages, write `cut = \"keep\"` beside `rows` in the table of the map",
             said(path, &error)
         ),
         _ => said(path, &error),
@@ -290,11 +290,11 @@ fn kept(picture: taceva_tables::Picture, order: ChannelOrder) -> Result<Picture,
         SampleForm::Mono16 => (PixelFormat::Gray16, ChannelOrder::Gray),
         SampleForm::Rgb8 => (PixelFormat::Rgb8, ChannelOrder::Rgb),
         SampleForm::Bgr8 => (PixelFormat::Rgb8, ChannelOrder::Bgr),
-        other => return Err(format!("pixels of type {other:?} are not kept")),
+        other => return Err(format!("pixels of type {other:?} are not supported")),
     };
     if stored != order {
         return Err(format!(
-            "the message says that its colours are `{}`, the map says `{}`",
+            "the message states the colours `{}`, the map `{}`: correct `channel_order`",
             stored.name(),
             order.name()
         ));

@@ -40,12 +40,12 @@ pub(crate) enum TarError {
     Kind { name: String, kind: char },
     #[error("`{name}`: {problem}")]
     Name { name: String, problem: &'static str },
-    #[error("a name of {0} bytes, more than the {NAME_BYTES} that are accepted")]
+    #[error("a name of {0} bytes, expected at most {NAME_BYTES}")]
     LongName(u64),
-    #[error("more than the {MEMBERS} members that are accepted")]
+    #[error("more than {MEMBERS} members: unpack the archive and import its folder")]
     Members,
     #[error(
-        "more than the {EMPTY_MEMBERS} empty files and folders that are accepted: leave them out, or unpack the archive and import its folder"
+        "more than {EMPTY_MEMBERS} empty files and folders: leave them out, or unpack the archive and import its folder"
     )]
     EmptyMembers,
     #[error("the archive holds `{0}` twice")]

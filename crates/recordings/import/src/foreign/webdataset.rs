@@ -98,13 +98,13 @@ impl Shard {
         let file = file.map_err(|error| wrong(error.problem.to_string()))?;
         let info = file
             .info("value")
-            .ok_or_else(|| wrong("no array of numbers".to_owned()))?;
+            .ok_or_else(|| wrong("not an array of numbers".to_owned()))?;
         let shape = info.shape.clone();
         let rows = shape.first().copied().unwrap_or(1);
         let read = file.read("value", 0..rows);
         let read = read.map_err(|error| wrong(error.problem.to_string()))?;
         let numbers = read.values.to_f64();
-        let numbers = numbers.ok_or_else(|| wrong("no array of numbers".to_owned()))?;
+        let numbers = numbers.ok_or_else(|| wrong("not an array of numbers".to_owned()))?;
         Ok(nested(&shape, &numbers))
     }
 

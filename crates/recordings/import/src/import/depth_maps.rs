@@ -67,7 +67,7 @@ impl PlannedMaps {
                 if number >= array.count() {
                     return Err(table_error!(
                         rows.place(row),
-                        "[task.{}] has {} depth maps in its array, and the table has more rows",
+                        "[task.{}] has {} depth maps in its array, but the table has more rows",
                         self.name,
                         array.count()
                     ));
@@ -154,7 +154,7 @@ impl PlannedMaps {
                 expected if expected == found => {}
                 [rows, columns] => {
                     let problem = format!(
-                        "a map of {} x {} pixels, expected {rows} x {columns} as the first map",
+                        "a map of {} x {} pixels, expected {rows} x {columns} as in the first map",
                         found[0], found[1]
                     );
                     return Err(self.wrong(place, &problem));

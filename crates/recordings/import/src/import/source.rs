@@ -35,7 +35,7 @@ pub(crate) fn matching_files(
         return Err(ImportError::path(
             pattern,
             format!(
-                "matches nothing in {}",
+                "matches no file in {}: correct the pattern",
                 shown(&folder.path().to_string_lossy())
             ),
         ));

@@ -174,7 +174,7 @@ fn touchd(text: &str, folder: &SourceFolder) -> Result<String, ImportError> {
     let (sensor, rows) = sensors
         .iter()
         .next()
-        .ok_or_else(|| wrong("no sensor in it"))?;
+        .ok_or_else(|| wrong("the file has no sensor"))?;
     let number = rows
         .pointer("/0/0")
         .map(ToString::to_string)

@@ -87,7 +87,7 @@ fn a_map_contradicts_a_name_of_the_same_quantity_in_another_unit_and_counts_with
         ("p_bar", "kPa"),
     ] {
         let problem = of(name, map).unwrap_or_default();
-        assert!(problem.contains("its name says `"), "{name}: {problem}");
+        assert!(problem.contains("` by its name"), "{name}: {problem}");
     }
     for (name, map) in [
         ("Fz [mN]", "mN"),

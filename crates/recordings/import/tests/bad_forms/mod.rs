@@ -180,7 +180,7 @@ fn a_pattern_that_matches_nothing_or_one_file_twice_is_refused() {
     refused(
         folder.path(),
         &map("c*.csv"),
-        &["c*.csv", "matches nothing"],
+        &["c*.csv", "matches no file in"],
     );
     refused(
         folder.path(),

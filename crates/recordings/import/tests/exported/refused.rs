@@ -225,7 +225,7 @@ fn texts_that_a_form_cannot_hold_are_named() {
     let refused = export(&dataset, (ExportForm::Hdf5, &target), &SilentProgress);
     let message = refused.expect_err("a zero").to_string();
     assert!(
-        message.contains("`sample` holds a NUL character"),
+        message.contains("`sample` contains a NUL character"),
         "{message}"
     );
     let (_, report) = exported(&dataset, ExportForm::Csv);

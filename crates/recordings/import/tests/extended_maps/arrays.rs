@@ -127,7 +127,7 @@ fn what_is_no_array_of_frames_is_refused_in_words() {
             in_file,
             "no frame 1: there are 1, counted from 0",
         ),
-        (npy("|u1", "(2, 1, 0)", &[]), in_file, "not accepted"),
+        (npy("|u1", "(2, 1, 0)", &[]), in_file, "expected sides"),
         (npy("|u1", "(2, 2, 2)", &[0; 7]), in_file, "frames.npy"),
         (
             npy("|u1", "(2, 1, 1, 3)", &[0; 6]),
@@ -160,15 +160,15 @@ fn keys_of_frames_that_do_not_go_together_name_their_line() {
     for (frame, expected) in [
         (
             "array = { file = \"frames.npy\" }\nrange = [0, 1]",
-            "`bits` is 8 or 16",
+            "invalid `range` or `bits`",
         ),
         (
             "array = { file = \"frames.npy\" }\nrange = [1, 1]\nbits = 8",
-            "`bits` is 8 or 16",
+            "invalid `range` or `bits`",
         ),
         (
             "array = { file = \"frames.npy\" }\nrange = [0, 1]\nbits = 12",
-            "`bits` is 8 or 16",
+            "invalid `range` or `bits`",
         ),
         (
             "column = \"value\"\nlayout = \"nchw\"",
@@ -184,7 +184,7 @@ fn keys_of_frames_that_do_not_go_together_name_their_line() {
         ),
         (
             "array = { file = \"../frames.npy\" }",
-            "`..` is not followed",
+            "contains `..`, expected a path inside the folder",
         ),
     ] {
         let text = format!("map_version = 2\n{}\n{FACTS}", map(frame));

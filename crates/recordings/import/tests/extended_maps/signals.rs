@@ -178,7 +178,7 @@ order = "place-first""#;
         (
             "[\"a\", \"b\", \"c\", \"d\"]",
             "{ file = \"../x.npy\" }",
-            "`..` is not followed",
+            "contains `..`, expected a path inside the folder",
         ),
         (
             "place-first\"",

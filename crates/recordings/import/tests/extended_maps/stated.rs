@@ -29,8 +29,8 @@ fn a_unit_that_the_file_states_is_not_overruled_by_the_map_without_a_word() {
     let problem = planned(folder.path(), &map("unit = \"N\"")).expect_err("ten times a hundred");
     for word in [
         "run.h5, column `force`",
-        "its unit is `mN`",
-        "the map says `N`",
+        "is `mN` in the file",
+        "but `N` in the map",
     ] {
         assert!(problem.contains(word), "{word}: {problem}");
     }
@@ -48,7 +48,7 @@ fn a_unit_that_the_file_states_is_not_overruled_by_the_map_without_a_word() {
         .replace("from = \"force\"", "from = \"j.force\"")
         + "[[join]]\nname = \"j\"\ntable = \"run.h5\"\non = \"row\"\n";
     let problem = planned(folder.path(), &joined).expect_err("the same");
-    assert!(problem.contains("its unit is `mN`"), "{problem}");
+    assert!(problem.contains("is `mN` in the file"), "{problem}");
 }
 
 #[test]
@@ -102,7 +102,7 @@ fn a_unit_in_the_name_of_a_column_is_held_against_the_map_of_either_version() {
         )
     };
     let problem = planned(folder.path(), &map("N")).expect_err("a thousand times too much");
-    assert!(problem.contains("says `mN`, the map says `N`"), "{problem}");
+    assert!(problem.contains("is `mN` by its name"), "{problem}");
     planned(folder.path(), &map("mN")).expect("as it says");
 }
 
@@ -168,9 +168,9 @@ fn a_unit_that_an_array_of_taxels_states_is_not_overruled_by_the_map_without_a_w
     for word in [
         "skin.h5",
         "`/field`",
-        "its unit is `mT`",
-        "the map says `uT`",
-        "correct the one that is wrong",
+        "is `mT` in the file",
+        "but `uT` in the map",
+        "correct the wrong one",
     ] {
         assert!(problem.contains(word), "{word}: {problem}");
     }
@@ -180,7 +180,7 @@ fn a_unit_that_an_array_of_taxels_states_is_not_overruled_by_the_map_without_a_w
     let column = taxels_map("\"skin.field\"", "uT")
         + "[[join]]\nname = \"skin\"\ntable = \"skin.h5\"\non = \"row\"\n";
     let problem = planned(folder.path(), &column).expect_err("the same");
-    assert!(problem.contains("its unit is `mT`"), "{problem}");
+    assert!(problem.contains("is `mT` in the file"), "{problem}");
     assert!(!problem.contains("scale = 1"), "{problem}");
 }
 
@@ -227,9 +227,9 @@ fn a_unit_that_a_later_group_states_is_looked_at_as_that_of_the_first() {
             .replace("\"run.h5\"", "{ file = \"run.zarr\", rows = \"/data/*\" }")
     };
     let problem = planned(folder.path(), &groups("N")).expect_err("the second group");
-    assert!(problem.contains("its unit is `mN`"), "{problem}");
+    assert!(problem.contains("is `mN` in the file"), "{problem}");
     let problem = planned(folder.path(), &groups("mN")).expect_err("the first group");
-    assert!(problem.contains("its unit is `N`"), "{problem}");
+    assert!(problem.contains("is `N` in the file"), "{problem}");
     let (_, found) = imported_from(
         folder.path(),
         &groups("N").replace("unit = \"N\"", "unit = \"N\", scale = 1"),
@@ -263,7 +263,7 @@ fn a_unit_that_the_file_states_of_times_is_not_overruled_in_the_table_or_in_a_jo
     };
     for map in [own("s"), joined("s")] {
         let problem = planned(folder.path(), &map).expect_err("a thousand times");
-        for word in ["column `t`", "its unit is `ms`", "the map says `s`"] {
+        for word in ["column `t`", "is `ms` in the file", "`s` in the map"] {
             assert!(problem.contains(word), "{word}: {problem}");
         }
         assert!(!problem.contains("scale = 1"), "{problem}");

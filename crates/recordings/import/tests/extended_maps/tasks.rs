@@ -275,9 +275,9 @@ fn limits_that_do_not_ascend_and_keys_of_the_other_kind_are_refused() {
         &[("poses.csv", POSES)],
         &format!("{MOVED}names = [\"a\"]\n"),
     );
-    assert!(message.contains("a pose has `from = { t ="), "{message}");
+    assert!(message.contains("a pose needs `from = { t ="), "{message}");
     let message = refused_with("time = true", "over = 5");
-    assert!(message.contains("belong to `kind = \"pose\"`"), "{message}");
+    assert!(message.contains("`kind = \"pose\"` only"), "{message}");
 }
 
 #[test]

@@ -87,7 +87,7 @@ fn a_map_that_states_another_unit_of_typed_times_is_refused_naming_both() {
     let problem = planned(folder.path(), &map("stamp_us", "us")).expect_err("refused");
     for words in [
         "times.parquet, column `stamp_us`",
-        "are times in us",
+        "times in us",
         "`unit = \"us\"`",
         "write `unit = \"s\"`",
     ] {

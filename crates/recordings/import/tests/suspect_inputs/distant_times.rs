@@ -130,7 +130,7 @@ fn times_in_another_unit_that_match_nothing_are_refused_with_both_spans_and_the_
         let problem = problem.expect_err("refused");
         for words in [
             "times of `ft` are 1000000.000 to 1000004.900 s",
-            "the former are 1000 times the latter: correct a `unit`",
+            "times of rows are 1000 times those of the join: correct a `unit`",
         ] {
             assert!(problem.contains(words), "{words}: {problem}");
         }

@@ -69,8 +69,7 @@ fn a_join_of_single_presses_takes_no_row_of_another_press_and_offers_that_of_a_s
     assert!(text.contains("table = \"ft.csv\""), "{text}");
     let pick = line(&text, "pick = ");
     assert!(
-        pick.starts_with("pick = \"nearest\"")
-            && pick.ends_with("only rows at such a press are kept"),
+        pick.starts_with("pick = \"nearest\"") && pick.ends_with("only rows at a press are kept"),
         "{text}"
     );
     // A tenth of 2 s, or the time between two rows of the main table.
@@ -81,7 +80,7 @@ fn a_join_of_single_presses_takes_no_row_of_another_press_and_offers_that_of_a_s
     );
     // Only the lab knows that such rows are a slow stream.
     assert!(
-        text.contains("# or, if its rows are a slow stream instead of presses: pick = \"linear\" and tolerance_ms = 4000.000"),
+        text.contains("# or, if this table is a slow stream and not one row per press: pick = \"linear\" and tolerance_ms = 4000.000"),
         "{text}"
     );
 }

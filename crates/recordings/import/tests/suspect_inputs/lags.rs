@@ -69,7 +69,7 @@ fn a_file_without_a_lag_and_a_lag_that_is_no_number_are_refused() {
         ("\"lag\"", "empty, expected the lag of join `ft` in ms"),
         ("\"note\"", "`late`"),
         ("\"gone\"", "gone"),
-        ("{ \"run/1.csv\" = inf }", "`lag_ms` must be finite"),
+        ("{ \"run/1.csv\" = inf }", "a finite lag"),
     ] {
         let problem = planned(folder.path(), &map("\"run/*.csv\"", lag, "")).map(|_| ());
         let problem = problem.expect_err("refused");

@@ -30,7 +30,7 @@ fn a_row_of_units_comments_and_a_line_of_the_separator_are_read_by_a_key_that_th
     // The units row states mN, the map N.
     let contradicted = of("units-row", "units_row = true");
     let problem = planned(&folder, &contradicted).expect_err("refused");
-    assert!(problem.contains("its unit is `mN`"), "{problem}");
+    assert!(problem.contains("is `mN` in the file"), "{problem}");
     let right = contradicted.replace("unit = \"N\"", "unit = \"mN\"");
     assert_near(mean(&imported(&folder, &right, "Fz")), 1.99570e-3);
 }
@@ -113,7 +113,7 @@ fn keys_of_text_are_refused_of_other_tables_and_signs_that_are_none() {
     for (table, word) in [
         (
             "{ file = \"t.json\", decimal = \",\" }",
-            "for CSV and TSV alone",
+            "apply to CSV and TSV only",
         ),
         ("{ file = \"t.csv\", decimal = \";\" }", "`decimal"),
         (

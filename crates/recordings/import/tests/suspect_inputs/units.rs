@@ -115,7 +115,7 @@ fn a_unit_in_a_name_is_held_against_the_map_of_columns_cells_pointers_joins_path
             )
         };
         let problem = of(wrong).expect_err("refused");
-        assert!(problem.contains("its name says `"), "{table}: {problem}");
+        assert!(problem.contains("` by its name"), "{table}: {problem}");
         of(right).unwrap_or_else(|problem| panic!("{map}: {problem}"));
     }
 }

@@ -99,7 +99,7 @@ fn changed(
         }
     }
     if texts.is_empty() {
-        let problem = "this bundle is in the catalogue already; expected a new one";
+        let problem = "this bundle is already in the catalogue, expected a new bundle";
         return Err(CatalogueFolderError::refused(&request.bundle, problem));
     }
     Ok(texts)
@@ -124,7 +124,7 @@ fn check_new(
             serde_json::from_str(&text).map_err(|error| refused(error.to_string()))?;
         if file.path != own && results_digest(&known) == results {
             let problem = format!(
-                "its results are in the catalogue already, from {}; expected results that no other bundle has",
+                "its results are already in the catalogue, from {}; expected new results",
                 file.path
             );
             return Err(CatalogueFolderError::refused(&request.bundle, problem));

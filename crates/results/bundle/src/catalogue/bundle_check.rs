@@ -42,7 +42,7 @@ pub fn check_bundles(
         let path = manifest_path(&digest_of_bytes(text.as_bytes()));
         if !root.join(&path).is_file() {
             let problem = format!(
-                "its manifest is not in the catalogue: expected {path}; add it by `taceva catalogue add`"
+                "its manifest is not in the catalogue, expected {path}; add the bundle by `taceva catalogue add`"
             );
             findings.push(CatalogueFinding::new(&named, problem));
         }

@@ -14,7 +14,7 @@ const RESERVED: [&str; 2] = ["index", "measured"];
 /// Maximum length of a sensor name, bytes. Tables cut longer texts after 80 letters, including the origin, level and bundle after the name.
 const MOST_NAME: usize = 40;
 /// Names that [`is_name`] accepts, for messages.
-pub(super) const NAME_RULE: &str = "expected a name of at most 40 bytes with Latin letters or digits, without control characters, without blanks at its ends, other than `index` and `measured`";
+pub(super) const NAME_RULE: &str = "expected at most 40 bytes with Latin letters or digits, no control characters, no blanks at the ends, and neither `index` nor `measured`";
 
 /// File of an entry, with the text to which rows are appended.
 pub(super) struct EntryPlace {
@@ -75,7 +75,7 @@ impl EntryPlace {
         let slug = Sensor::slug_of(name);
         if let Some(other) = entries.iter().find(|entry| entry.path == entry_path(&slug)) {
             return refused(format!(
-                "the sensor `{}`: its file {} belongs to the sensor `{}`, because both names give one file name; expected another name",
+                "the sensors `{0}` and `{2}` would share the file {1}: choose another name",
                 shown(name),
                 other.path,
                 shown(&other.sensor.name)

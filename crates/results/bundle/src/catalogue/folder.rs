@@ -99,7 +99,7 @@ fn check_no_link(root: &Path, path: &str) -> Result<(), CatalogueFolderError> {
     match is_link {
         true => Err(CatalogueFolderError::refused(
             &target,
-            "a link, through which nothing is read or written; expected a file or a folder of the catalogue itself",
+            "a link, which is not followed; expected a file or a folder of the catalogue itself",
         )),
         false => Ok(()),
     }

@@ -209,7 +209,7 @@ fn name_faults(path: &str, sensor: &Sensor, built_in: &[Sensor]) -> Vec<Catalogu
     }
     if is_built_in && sensor.has_published() {
         let problem = format!(
-            "published facts of `{}`, which the built-in catalogue has: expected [[measured]], [[unknown]] and [[simulated]] alone",
+            "published facts of `{}`, which the built-in catalogue has: expected only [[measured]], [[unknown]] and [[simulated]]",
             sensor.name
         );
         faults.push(CatalogueFinding::new(path, problem));

@@ -64,7 +64,7 @@ impl Submission {
         let is_verified = found.bundle.as_ref().is_some_and(|own| own.seal == digest)
             && results_digest(&manifest) == Some(source.digest(RESULTS)?.as_str());
         if !is_verified {
-            let problem = "it was changed while it was read; run the command again when no program writes to the bundle";
+            let problem = "the bundle changed while it was read; run the command again when no program writes to the bundle";
             return Err(refused(problem.to_owned()));
         }
         if let Some(problem) = unfinished(&manifest) {
@@ -168,7 +168,7 @@ impl Submission {
         }
         match self.sensors.is_empty() {
             true => Err(refused(
-                "no number of a sensor: expected one or more".to_owned(),
+                "the bundle has no number of a sensor, expected one or more".to_owned(),
             )),
             false => Ok(()),
         }
@@ -193,7 +193,7 @@ pub(super) fn results_digest(manifest: &Manifest) -> Option<&str> {
 pub(super) fn unfinished(manifest: &Manifest) -> Option<String> {
     let licence = manifest.licence.as_deref().unwrap_or_default();
     if manifest.is_unfinished || manifest.authors.is_empty() || licence.is_empty() {
-        let problem = "a draft: expected a bundle with author and licence; make it again by `taceva bundle … --author \"NAME <ORCID>\" --licence SPDX`";
+        let problem = "a draft, expected a bundle with author and licence; make the bundle again by `taceva bundle … --author \"NAME <ORCID>\" --licence SPDX`";
         return Some(problem.to_owned());
     }
     if manifest.authors.iter().any(|author| !author.is_right()) {

@@ -35,7 +35,7 @@ impl<'de> Deserialize<'de> for Amount {
         impl Visitor<'_> for Either {
             type Value = Amount;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number, or a text such as \"10 mN\"")
+                f.write_str("a number, or a string such as \"10 mN\"")
             }
             fn visit_f64<E>(self, value: f64) -> Result<Amount, E> {
                 Ok(Amount::Number(value))

@@ -125,11 +125,11 @@ impl Certificate {
         let (number, until) = (&self.number, self.valid_until.as_ref()?);
         match &self.recorded_on {
             Some(on) if on > until => Some(format!(
-                "certificate {number} was valid until {until}, the recording is of {on}"
+                "certificate {number} was valid until {until}, but the recording was made on {on}"
             )),
             Some(_) => None,
             None => Some(format!(
-                "certificate {number} is valid until {until}, the day of the recording is unknown"
+                "certificate {number} is valid until {until}, but the day of the recording is unknown"
             )),
         }
     }

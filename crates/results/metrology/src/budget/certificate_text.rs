@@ -79,7 +79,7 @@ impl Certificate {
                 shown(&other.number)
             ))),
             (None, _) => Err(refused(format!(
-                "no certificate of a reference with `U` or `U_relative` of {channel}"
+                "no certificate of a reference states `U` or `U_relative` of {channel}"
             ))),
         }
     }

@@ -55,8 +55,10 @@ impl Correlations {
             let is_computed = inputs[place[0]].is_read_with(&inputs[place[1]]);
             if place[0] == place[1] || is_computed {
                 let reason = match is_computed {
-                    true => "the correlation is computed from their rows; remove it",
-                    false => "a correlation is between two sources",
+                    true => {
+                        "the correlation of these sources is computed from their rows; remove this entry"
+                    }
+                    false => "one source is named twice, expected two different sources",
                 };
                 return Err(text.error(pair, "between", BudgetProblem::Keys(reason.to_owned())));
             }

@@ -112,7 +112,7 @@ impl Reader<'_> {
         let name = written.get_ref();
         if self.text.written.expression.is_some() {
             let problem = BudgetProblem::Keys(
-                "the `expression` states how a source enters; remove `enters`".to_owned(),
+                "the `expression` already states how the source enters; remove `enters`".to_owned(),
             );
             return Err(self.text.error(written, "enters", problem));
         }

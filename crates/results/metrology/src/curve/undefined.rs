@@ -32,7 +32,7 @@ pub enum CurveUndefined {
         least: usize,
     },
     /// A row has a number that is not finite.
-    #[error("row {row} has a number that is not finite")]
+    #[error("row {row} has a number that is not finite, expected finite numbers")]
     NotFinite {
         /// Row, from 1.
         row: usize,

@@ -65,7 +65,7 @@ pub enum GaugeError {
     },
     /// A nested study in which operators have different numbers of parts.
     #[error(
-        "operator {operator}: {have} parts, expected {expected} as for most operators; leave out parts until all operators have equally many"
+        "operator {operator}: {have} parts, expected {expected} as for most operators; leave out parts until their numbers are equal"
     )]
     UnequalParts {
         /// Label of the operator.

@@ -119,7 +119,7 @@ impl LimitsFile {
             )));
         }
         if file.limits.is_empty() {
-            let problem = "no [[limit]]: expected at least one";
+            let problem = "no [[limit]], expected at least one";
             return Err(LimitsError::File(problem.to_owned()));
         }
         let is_by_rules = file.is_by_rules();

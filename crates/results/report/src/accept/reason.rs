@@ -119,7 +119,9 @@ fn undecided(limit: &Limit, decision: &Decision, interval: &LimitInterval) -> St
         ) => {
             let expanded = decision.expanded_uncertainty.map(numeral);
             let (expanded, unit) = (expanded.unwrap_or_default(), &limit.unit);
-            format!("U is {expanded} {unit}, above the {most_uncertainty} {unit} of the rule")
+            format!(
+                "U is {expanded} {unit}, expected at most {most_uncertainty} {unit} by the rule"
+            )
         }
         (Ok(_), _) => "without an uncertainty".to_owned(),
     }

@@ -38,7 +38,7 @@ impl<'a> Subject<'a> {
             return Ok(self.whole.clone());
         };
         let variant = self.whole.variant(name);
-        let variant = variant.ok_or_else(|| "there is no such variant".to_owned())?;
+        let variant = variant.ok_or_else(|| "this variant is missing".to_owned())?;
         Ok(Score {
             value: variant.value.clone(),
             unit: variant.unit,
@@ -53,8 +53,8 @@ fn no_such_score(study: &Study, metric: &str, channel: &str) -> String {
     let scores = study.scores.iter().filter(|score| score.metric == metric);
     let channels = scores.map(|score| score.channel.as_str());
     match nearest(channel, channels) {
-        Some(known) => format!("there is no such score; did you mean channel `{known}`?"),
-        None => "there is no such score".to_owned(),
+        Some(known) => format!("this score is missing; did you mean channel `{known}`?"),
+        None => "this score is missing".to_owned(),
     }
 }
 

@@ -62,7 +62,7 @@ fn what_is_unknown_meets_no_limit() {
     for (lines, expected) in [
         (
             "metric=\"drift\"\nchannel=\"Fz\"\nunit=\"N/h\"\nmost=1",
-            "there is no such score",
+            "this score is missing",
         ),
         (
             "metric=\"mae\"\nchannel=\"Fz\"\nunit=\"mm\"\nmost=1",

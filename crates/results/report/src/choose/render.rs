@@ -185,20 +185,20 @@ impl Choice {
             [] => "No sensor meets every need, as far as is known".to_owned(),
             [best] if !self.unplaced.is_empty() => {
                 format!(
-                    "{} alone is ranked; for others a number is unknown",
+                    "Only {} is ranked; for others a number is unknown",
                     best.name
                 )
             }
             [best] if !self.apart.is_empty() => {
                 format!(
-                    "{} alone is ranked; others were measured on other samples or with other faults",
+                    "Only {} is ranked; others were measured on other samples or with other faults",
                     best.name
                 )
             }
             [best] if !self.barred.is_empty() => {
-                format!("{} alone is ranked; others are excluded", best.name)
+                format!("Only {} is ranked; others are excluded", best.name)
             }
-            [best] => format!("{} alone meets every need, as far as is known", best.name),
+            [best] => format!("Only {} meets every need, as far as is known", best.name),
             several => self.leaders().unwrap_or_else(|| {
                 let names = several.iter().map(|candidate| candidate.name.clone());
                 let names: Vec<String> = names.collect();

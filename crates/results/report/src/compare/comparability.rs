@@ -30,7 +30,8 @@ pub(super) fn of_other_samples(scores: Sides<&Score>, studies: Sides<&Study>) ->
         return None;
     }
     if of_a != of_b {
-        let words = "they are of different samples, so they are shown side by side and not ranked";
+        let words =
+            "the scores are from different samples, so they are shown side by side and not ranked";
         return Some(words.to_owned());
     }
     let [own, other] = [scores.a, scores.b].map(|score| score.definition.as_str());

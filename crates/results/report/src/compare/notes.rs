@@ -50,7 +50,7 @@ fn unknown(studies: &[Study], request: &CompareRequest) -> Option<String> {
     let shared: Vec<String> = shared.map(|(metric, _)| metric.to_owned()).collect();
     (request.metrics.is_empty() && !shared.is_empty()).then(|| {
         format!(
-            "{} not compared: this version of taceva does not know which values are better",
+            "{} not compared: this version of TacEva does not know which values are better",
             listed(&shared)
         )
     })

@@ -369,7 +369,7 @@ fn untested(
         _ => {
             let undirected = match Better::of(metric) {
                 Some(_) => "the score is neither good nor bad by itself",
-                None => "this version of taceva does not know which values are better",
+                None => "this version of TacEva does not know which values are better",
             };
             let reason = reason.unwrap_or(undirected);
             format!("no winner: {reason}")

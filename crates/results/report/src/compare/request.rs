@@ -87,12 +87,12 @@ fn is_scored(metric: &str, studies: &[Study]) -> bool {
     studies.any(|study| study.of_metric(metric).next().is_some())
 }
 
-/// Message for a missing score: `drift: no result has such a score; they have mae, r2`.
+/// Message for a missing score: `drift: no result has this score, expected one of mae, r2`.
 fn no_score(metric: &str, studies: &[Study]) -> String {
     let scores = studies.iter().flat_map(|study| &study.scores);
     let metrics: BTreeSet<&str> = scores.map(|score| score.metric.as_str()).collect();
     format!(
-        "{}: no result has such a score; they have {}",
+        "{}: no result has this score, expected one of {}",
         shown(metric),
         listed(metrics.into_iter())
     )
@@ -122,7 +122,7 @@ fn check_margin(name: &str, studies: &[Study]) -> Result<(), RequestError> {
         return Ok(());
     }
     Err(RequestError::Margin(format!(
-        "{}: no result has such a score; expected {} or one of {}",
+        "{}: no result has this score, expected {} or one of {}",
         shown(name),
         shown(metric),
         listed(names.iter().map(String::as_str))

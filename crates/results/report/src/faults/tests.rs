@@ -56,7 +56,7 @@ fn a_page_has_a_section_on_faults_with_grid_hatching_and_unnoticed_faults() {
         "tear, severity 3: 40",
         "tear, severity 5: skipped",
         "stale_frames, severity 1: skipped",
-        "by fault, severity and channel: tear 3 Fz.",
+        "(fault, severity, channel): tear 3 Fz.",
         "skill of Fz is no longer shown at severity 3",
         "Skipped: stale_frames: no previous picture.",
     ] {

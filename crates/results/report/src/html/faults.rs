@@ -63,7 +63,7 @@ fn unnoticed(result: &FaultResult) -> Option<String> {
             "Every fault that at least doubles an error is found by a check of pictures.".to_owned()
         }
         false => format!(
-            "At least doubled, and not found by a check of pictures, by fault, severity and channel: {}.",
+            "Errors at least doubled by a fault that no check of pictures finds (fault, severity, channel): {}.",
             listed(&hidden)
         ),
     })

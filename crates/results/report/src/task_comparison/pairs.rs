@@ -17,7 +17,7 @@ pub(super) fn difference(subjects: Sides<Subject<'_>>, seed: u64) -> Result<Diff
     let labels = a.result.labels();
     if labels.is_empty() || labels != b.result.labels() {
         return Err(format!(
-            "{between} have other labels: compared by the intervals of both"
+            "{between} have different labels: compared by the intervals of both"
         ));
     }
     let parts = |side: Subject<'_>| {

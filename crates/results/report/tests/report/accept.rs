@@ -139,7 +139,7 @@ fn a_variant_is_held_by_its_own_value_unit_and_interval() {
         Some("the score is in deg, the limit in N")
     );
     let finding = held("mae.other", "Fz", "N", "most = 2.0");
-    assert_eq!(finding.reason.as_deref(), Some("there is no such variant"));
+    assert_eq!(finding.reason.as_deref(), Some("this variant is missing"));
 }
 
 #[test]
@@ -165,7 +165,7 @@ fn what_has_no_number_or_no_interval_keeps_to_nothing() {
     );
     assert_eq!(
         reason("mae", "Pz", "mm", "most = 9.0"),
-        "there is no such score"
+        "this score is missing"
     );
 }
 

@@ -28,13 +28,13 @@ impl LiveModel {
         };
         if !model.reads_features() {
             return Err(refused(format!(
-                "{} predicts a constant, so a picture has no effect: fit another model, such as --model ridge",
+                "{} predicts a constant for every picture: fit another model, such as --model ridge",
                 model.card().model
             )));
         }
         if let InputInfo::Signals(info) = model.card().input {
             return Err(refused(format!(
-                "it was fitted on signals of taxels, {info}, but a camera gives frames: fit a model on a recording with frames"
+                "the model was fitted on signals of taxels, {info}, but a camera gives frames: fit a model on a recording with frames"
             )));
         }
         let digest = model.digest().map_err(|error| refused(error.to_string()))?;
@@ -85,7 +85,7 @@ impl LiveModel {
     pub fn check(&self, found: FrameInfo) -> Result<(), AcquireError> {
         match self.model.card().input {
             InputInfo::Frame(expected) if expected != found => Err(self.refused(format!(
-                "it was fitted on frames of {expected}, but the camera gives {found}: set the camera to that format, or fit a model on a recording of this camera"
+                "the model was fitted on frames of {expected}, but the camera gives {found}: set the camera to {expected}, or fit a model on a recording of this camera"
             ))),
             _ => Ok(()),
         }

@@ -82,7 +82,7 @@ impl OpenChanger {
             return Ok(());
         }
         let why = format!(
-            "it reports that `{}` is in place, expected `{}`",
+            "the changer reports `{}` in place, expected `{}`",
             taceva_core::shown(&there),
             taceva_core::shown(name)
         );

@@ -256,7 +256,7 @@ mod tests {
                 assert_eq!(third.is_err(), is_refused, "{source}: {third:?}");
                 if let Err(error) = third {
                     assert_eq!(error.kind(), ErrorKind::DeviceFault);
-                    assert!(error.to_string().contains("its stamps jump"), "{error}");
+                    assert!(error.to_string().contains("the stamps jump"), "{error}");
                 }
             }
         }

@@ -15,11 +15,11 @@ impl PlannedScene {
         for study in &self.studies {
             let problem = match &study.source {
                 StudySource::Rig(rig) if rig.is_only_simulated(drivers) => continue,
-                StudySource::Rig(_) => "it uses a real rig, which a person must supervise",
-                StudySource::Recording(_) => "it uses a recording and acquires no data",
+                StudySource::Rig(_) => "uses a real rig, which a person must supervise",
+                StudySource::Recording(_) => "uses a recording and acquires no data",
             };
             let name = shown(&study.plan.name);
-            return Err(AcquireError::Request(format!("study `{name}`: {problem}")));
+            return Err(AcquireError::Request(format!("study `{name}` {problem}")));
         }
         Ok(())
     }

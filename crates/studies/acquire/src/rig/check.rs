@@ -173,7 +173,7 @@ impl RigCheck {
             let halted = self.halt_on_its_way(&mut *robot, switch.as_deref());
             self.of("robot", halted.map_err(without_answer));
         } else {
-            self.halt_left_out = Some("nobody permitted the robot to move".to_owned());
+            self.halt_left_out = Some("the operator did not permit motion".to_owned());
         }
     }
 
@@ -204,9 +204,9 @@ impl RigCheck {
         let is_misplaced =
             problems.any(|of| matches!(of, RigProblem::Untaught | RigProblem::InGel { .. }));
         match failed.as_slice() {
-            [] if is_misplaced => {
-                Some("nothing moves, because the place of the robot is wrong".to_owned())
-            }
+            [] if is_misplaced => Some(
+                "nothing moves, because `origin_mm` or `axes` of the robot are wrong".to_owned(),
+            ),
             [] => None,
             failed => Some(format!(
                 "nothing moves, because {} failed",

@@ -152,7 +152,7 @@ fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
     // Under a mistaken unit the noise is another one too.
     if of_noise_n > HIDDEN * expected_n.max(measured_n) {
         return Some(format!(
-            "{mass_g} g weigh {expected_n:.3} N, expected at least 10 times the noise and the step of the readings, {of_noise_n:.3} N: hang a heavier weight"
+            "{mass_g} g weigh {expected_n:.3} N, expected at least {of_noise_n:.3} N, 10 times the noise and step of the readings: hang a heavier weight"
         ));
     }
     if z_n.abs() < x_n.hypot(y_n) {
@@ -176,7 +176,7 @@ fn problem(weighing: &Weighing, [x_n, y_n, z_n]: [f64; 3]) -> Option<String> {
         Some(mistake) => format!(
             "{mistake}: set the unit of the device to N, or correct the arguments of its driver"
         ),
-        None => "check the mass, whatever touches the transducer, and its calibration".to_owned(),
+        None => "check the mass, the calibration, and contacts with the transducer".to_owned(),
     };
     Some(format!(
         "Fz changed by {measured_n:.4} N under {mass_g} g, expected {expected_n:.4} ± {tolerance_n:.4} N; the factor is {factor:.4}: {cause}"

@@ -212,7 +212,7 @@ impl GivenRows {
         let (rows, width) = (self.target.rows.len(), self.channels.len());
         if predictions.len() != rows * width {
             return Err(EvaluateError::Request(format!(
-                "{} predicted {} numbers, expected {rows} samples of {width} channels",
+                "{} predicted {} numbers, expected {rows} samples × {width} channels",
                 model.name,
                 predictions.len()
             )));

@@ -186,8 +186,7 @@ impl<'a> Folds<'a> {
         match request.part {
             None => Ok(()),
             Some(part) => Err(EvaluateError::Request(format!(
-                "part `{}`: {} scores every sample, with a model fitted without its {}; leave --part out, or name a --split that has a \
-                 test part, such as by-point",
+                "part `{}`: {} scores every sample, with a model fitted without its {}; omit --part, or name a --split with a test part, such as by-point",
                 part.name(),
                 self.words(),
                 match self.are_recordings {

@@ -15,7 +15,7 @@ pub(super) fn own_labels(dataset: &Dataset, name: &str) -> usize {
 pub(super) fn unscored(scored: u64, labelled: usize) -> Option<String> {
     (scored != labelled as u64).then(|| {
         format!(
-            "{scored} of {labelled} labelled rows are scored: the others were for training, or lack a picture or signals"
+            "{scored} of {labelled} labelled rows are scored; other rows were for training, or lack a picture or signals"
         )
     })
 }

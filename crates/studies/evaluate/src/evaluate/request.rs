@@ -52,8 +52,7 @@ impl EvaluateRequest {
         }
         match Resemblance::of(dataset, &dataset.all_rows()) {
             Resemblance::Alike(found) => Err(EvaluateError::Request(format!(
-                "--independent: {found}, so samples depend on each other, and intervals over samples would be too narrow; leave \
-                 --independent out, or import the rows in the order of pressing if they were sorted by their labels"
+                "--independent: {found}, so intervals over samples would be too narrow; omit --independent, or import the rows in the order of pressing if they were sorted by their labels"
             ))),
             Resemblance::Apart | Resemblance::Unknown => Ok(()),
         }

@@ -88,7 +88,7 @@ impl Sequences {
 fn required(window: FrameWindow, column: Option<&str>) -> Result<&str, EvaluateError> {
     column.ok_or_else(|| {
         EvaluateError::Request(format!(
-            "window={}: the frames before a sample are those of its cluster, and only a task states clusters: name the task by --task",
+            "window={}: a window needs the clusters of a task; name the task by --task",
             window.frames()
         ))
     })

@@ -112,7 +112,7 @@ impl fmt::Display for Note {
             ),
             Note::Seen(part) => write!(
                 f,
-                "scored on the part `{part}`, which the model was fitted on: this is not a test"
+                "scored on the part `{part}`, which the model was fitted on: these scores are not a test"
             ),
             Note::FittedElsewhere(digest) => write!(
                 f,
@@ -158,7 +158,7 @@ impl fmt::Display for Note {
             }
             Note::Dominant { channel, sample } => write!(
                 f,
-                "{channel}: {sample}: look at its data and its labels, then run `taceva check`"
+                "{channel}: {sample}: look at the picture and the labels of this sample, then run `taceva check`"
             ),
             Note::Chosen { fold: None, choice } => f.write_str(choice),
             Note::Chosen {
@@ -187,7 +187,7 @@ impl fmt::Display for Note {
             Note::States(count) => write!(f, "{} merged", counted(*count, "state")),
             Note::Shards([own, all]) => write!(
                 f,
-                "{own} of {all} rows: the others are in shards that were not merged"
+                "{own} of {all} rows: other rows are in shards that were not merged"
             ),
             Note::Shard {
                 shard,
@@ -222,7 +222,7 @@ impl fmt::Display for Note {
             Note::NotPlanned { what, reason } => write!(f, "{what}: {reason}"),
             Note::Untaken { count, of } => write!(
                 f,
-                "{count} of {of} planned samples were not recorded: their presses reached a limit of the gel, or missed it"
+                "{count} of {of} planned samples were not recorded: their presses reached a limit of the gel, or missed the gel"
             ),
             Note::MeasuredUnit { unit, metrics, of } => write!(
                 f,

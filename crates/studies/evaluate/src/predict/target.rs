@@ -12,7 +12,7 @@ fn check_view(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let fitted_on = model.card().provenance.view.as_deref();
     match (fitted_on, dataset.view()) {
         (Some(own), Some(seen)) if own != seen => Err(EvaluateError::Unsuited(format!(
-            "it was fitted on the view `{}`, but the pictures are of the view `{}`: leave --view out, or fit a model on that view",
+            "the model was fitted on the view `{}`, but the pictures are of the view `{}`: omit --view, or fit a model on the view of the pictures",
             shown(&own),
             shown(&seen)
         ))),

@@ -9,7 +9,7 @@ pub(super) fn of(header: &Header) -> impl Iterator<Item = String> + '_ {
         let unused = header.left_out.joined_rows.get(&join.name);
         let unused = unused
             .filter(|count| **count > 0)
-            .map(|count| format!("; no sample uses {} of it", counted(*count, "row")));
+            .map(|count| format!("; no sample uses {} of this table", counted(*count, "row")));
         format!("{}{}", words(join), unused.unwrap_or_default())
     })
 }

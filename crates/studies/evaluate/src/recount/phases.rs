@@ -21,12 +21,12 @@ const OF_RUNS: [Field; 4] = [
 ];
 
 /// Reason for a metric whose fields the table lacks.
-const LACKING: &str = "the table of samples lacks a field that it reads";
+const LACKING: &str = "the table of samples lacks a field of this metric";
 /// Reason for the metrics of a state that does not name a single phase of the table.
 const NO_PHASE: &str =
-    "its state and the table of samples do not name one phase of the protocol; run the scene again";
+    "the state and the table of samples share no single phase of the protocol; run the scene again";
 /// Reason for the metrics of a state whose sums differ from those of its phase.
-const OTHER_SUMS: &str = "the rows of its phase do not give the sums of the state";
+const OTHER_SUMS: &str = "the rows of this phase do not give the sums of the state";
 /// Greatest number of rows that are read for all states together.
 const MOST_READ: usize = 1 << 28;
 

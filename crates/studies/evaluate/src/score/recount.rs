@@ -51,7 +51,9 @@ pub fn recount_tables(
         let [expected, found] = [&file.provenance.tables, &found].map(tables::input_of);
         return Err(EvaluateError::State {
             path: path.clone(),
-            problem: format!("it was summed from other tables: {expected}, found {found}"),
+            problem: format!(
+                "the state was summed from other tables, {expected}, found {found}: name those tables"
+            ),
         });
     }
     let channels = metrics.channels().clone();

@@ -288,7 +288,7 @@ pub(super) fn comes_twice(name: &str, key: &str, places: Option<[Place; 2]>) -> 
         format!(", in lines {first} and {second}")
     });
     format!(
-        "{} `{}` occurs twice{lines}: rows are paired by it, so it must be unique; name another column with --key NAME, or use --key order",
+        "{} `{}` occurs twice{lines}: rows are paired by this key, which must be unique; name another column with --key NAME, or use --key order",
         in_words(name),
         shown(key)
     )

@@ -156,7 +156,7 @@ fn check_names(request: &TaskRequest) -> Result<(), EvaluateError> {
     let mut measured = request.tasks.iter().filter(|of| !of.kind.has_classes());
     if let Some(of) = measured.find(|of| request.rules.contains_key(&of.name)) {
         return Err(EvaluateError::Request(format!(
-            "a threshold or a debounce is given for `{}`, which is a {}: omit it",
+            "a threshold or a debounce is given for `{}`, which is a {}: omit this option",
             shown(&of.name),
             of.kind.name()
         )));

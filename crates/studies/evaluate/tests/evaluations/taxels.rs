@@ -175,7 +175,7 @@ fn what_is_of_frames_alone_is_refused_in_words() {
         let message = refused(&[word]);
         assert_eq!(
             message,
-            format!("`{word}` applies to frames, but the recording has signals alone")
+            format!("`{word}` applies to frames, but the recording has only signals")
         );
     }
     for words in [

@@ -54,7 +54,7 @@ fn fault(collected: &Collected, facts: &StudyFacts<'_>) -> Option<String> {
         let pressed = facts.is_recording() || collected.phases.contains(&metric.phase);
         match (absent, pressed) {
             (Some(field), _) => Some(format!(
-                "`{}` reads `{field}`, which the plan omits",
+                "`{}` reads `{field}`, which the plan does not record",
                 metric.id
             )),
             (None, false) => Some(format!(

@@ -32,7 +32,7 @@ pub enum ZeroUnknown {
         /// Number of readings.
         readings: usize,
     },
-    /// There is no reading without contact near the gel.
+    /// Every reading near the gel is in contact.
     NoneWithoutContact,
     /// The force does not increase with depth by more than its noise.
     NoRise,
@@ -71,7 +71,7 @@ impl fmt::Display for ZeroUnknown {
                 super::surface_fit::LEAST_READINGS
             ),
             ZeroUnknown::NoneWithoutContact => {
-                f.write_str("no reading without contact near the gel")
+                f.write_str("every reading near the gel is in contact")
             }
             ZeroUnknown::NoRise => f.write_str("the force does not rise with depth"),
         }

@@ -63,7 +63,9 @@ pub enum StopCause {
     )]
     FrozenFrame,
     /// A motion would leave the workspace. It was not started.
-    #[error("a motion to {place} would leave the workspace of the plan")]
+    #[error(
+        "a motion to {place} would leave the workspace of the plan: correct `origin_mm` and `axes` of [robot], or plan again"
+    )]
     Workspace {
         /// Target of the motion, in mm.
         place: String,
@@ -168,7 +170,7 @@ impl fmt::Display for RunError {
             )?;
         }
         if let Left::InPlace = self.left {
-            f.write_str("; the tip stays in place, perhaps in the gel")?;
+            f.write_str("; the tip stays where it is, perhaps in the gel")?;
         }
         match self.cause.fault() {
             Some(fault) => write!(

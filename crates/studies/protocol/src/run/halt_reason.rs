@@ -116,7 +116,7 @@ impl fmt::Display for Trip {
             } => {
                 write!(
                     f,
-                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene for a new run: above 5 times the noise that `taceva rig check` prints"
+                    "a force of {force_n:.3} N where no contact is expected; if nothing touches the tip, write a greater `threshold_N` under [protocol.contact] of the scene and start a new run: use above 5 times the noise that `taceva rig check` prints"
                 )
             }
             Trip::UnexpectedContact {
@@ -125,7 +125,7 @@ impl fmt::Display for Trip {
             } => {
                 write!(
                     f,
-                    "a force of {force_n:.3} N beyond the limit of the normal force, while the tip leaves the gel or the zero of the force is unknown"
+                    "a force of {force_n:.3} N beyond the limit of the normal force, while the tip leaves the gel or before the force is zeroed"
                 )
             }
             Trip::ForceRate { rate_n_s } => {
@@ -135,9 +135,9 @@ impl fmt::Display for Trip {
                 )
             }
             Trip::Saturated { force_n } => {
-                write!(f, "the force transducer is saturated at {force_n:.3} N")
+                write!(f, "the force transducer is saturated at {force_n:.3} N: press with less force")
             }
-            Trip::NotFinite => f.write_str("a reading is not a finite number"),
+            Trip::NotFinite => f.write_str("a force reading is not a finite number: check the transducer and its driver"),
             Trip::Frozen { readings } => {
                 write!(
                     f,
@@ -154,7 +154,7 @@ impl fmt::Display for Trip {
                 "the last pose reading is {:.0} ms old; on a busy machine, stop other programs, and run with `chrt -f 10 taceva run …` if you do not yet; a device with its own clock appears late on any machine",
                 age_s * 1e3
             ),
-            Trip::Released => f.write_str("the enabling switch is not held"),
+            Trip::Released => f.write_str("the enabling switch was released"),
             Trip::SwitchLost => f.write_str(
                 "the enabling switch can no longer be read: plug it in, and continue with `--resume`",
             ),

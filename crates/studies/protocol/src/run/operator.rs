@@ -110,16 +110,16 @@ impl fmt::Display for Question {
             ),
             Question::Hang { mass_g } => write!(
                 f,
-                "hang {mass_g} g on the force transducer, or lay it on, so that it pulls or presses along z only; let it rest, and touch nothing",
+                "hang {mass_g} g on the force transducer, or lay the weight on it, so that the weight acts along z only; let it rest, and touch nothing",
             ),
             Question::Jog(Spot::Middle) => f.write_str(
                 "jog the tip with the robot's own controls until it just touches the middle of the gel, then let go",
             ),
             Question::Jog(Spot::AlongX) => f.write_str(
-                "raise the tip slightly off the gel, then jog it 5 to 10 mm along x of the sensor only, within half a millimetre of the height of the middle",
+                "raise the tip off the gel by less than half a millimetre, then jog it 5 to 10 mm along x of the sensor only",
             ),
             Question::Jog(Spot::AlongY) => f.write_str(
-                "repeat this from the middle along y of the sensor, in the direction for which z points into the gel",
+                "return to the middle, then jog 5 to 10 mm along y of the sensor; choose the direction for which z points into the gel",
             ),
             Question::Resume(ChangedTouch {
                 height_mm,
@@ -147,17 +147,17 @@ impl fmt::Display for Question {
             }
             Question::Instead { of_changer, why } => write!(
                 f,
-                "the changer failed: {}; check that it has stopped and is out of the way, then by hand: {of_changer}",
+                "the changer failed: {}; check that the changer has stopped and is out of the way, then do by hand: {of_changer}",
                 taceva_core::shown(why)
             ),
             Question::Unit(unit) => write!(f, "put unit {} in place", taceva_core::shown(unit)),
             Question::GoOn => f.write_str(
-                "the skipped step stays undone: keep your hands clear, the robot continues with the other presses",
+                "the step is skipped: keep your hands clear, the robot continues with the other presses",
             ),
             Question::Light(light) => write!(f, "set the light `{}`", taceva_core::shown(light)),
             Question::Acknowledge(fault) => write!(
                 f,
-                "{fault}: inspect the rig, free the tip if necessary, and acknowledge the fault at the robot; the tip retreats once you confirm"
+                "{fault}: inspect the rig, free the tip if it is stuck, and acknowledge the fault at the robot; the tip retreats once you confirm"
             ),
         }
     }
@@ -192,7 +192,7 @@ mod tests {
                     of_changer: Box::new(Question::Mount(board)),
                     why: "it is stuck".to_owned(),
                 },
-                "it is stuck; check that it has stopped and is out of the way, then by hand: mount the dot",
+                "it is stuck; check that the changer has stopped and is out of the way, then do by hand: mount the dot",
             ),
             (Question::Light("S1".to_owned()), "`S1`"),
             (Question::Unload, "take every load off the force transducer"),

@@ -179,7 +179,7 @@ impl<'a> Run<'a> {
         let clearance_mm = self.tip.pace.clearance_mm;
         let way = match spec.mode {
             Mode::Acquire => format!(
-                "up to {clearance_mm} mm above the gel, there slowly over a few places, down for a gentle touch, then {}",
+                "up to {clearance_mm} mm above the gel, slowly over a few places, down for a gentle touch, then {}",
                 counted(presses.len() - report.resumed, "press")
             ),
             Mode::Rehearse { height } => format!(

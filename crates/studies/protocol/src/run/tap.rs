@@ -102,7 +102,7 @@ pub fn tap<'a>(
 impl Run<'_> {
     fn tap(&mut self, listener: &mut dyn TapListener) -> Result<Tapped, RunError> {
         let way = format!(
-            "up to {} mm above the gel, down for a gentle touch at its middle, then {} taps, with the specimen of the first press mounted",
+            "up to {} mm above the gel, down for a gentle touch at its middle, then {} taps; the specimen of the first press is mounted",
             self.tip.pace.clearance_mm,
             Tapped::TAPS
         );

@@ -77,7 +77,7 @@ pub enum SceneProblem {
         known: String,
     },
     /// A name occurs twice.
-    #[error("`{name}` is the name of two {what}", name = taceva_core::shown(name))]
+    #[error("`{name}` is the name of two {what}: give each its own name", name = taceva_core::shown(name))]
     Twice {
         /// Kind of item, such as a unit.
         what: &'static str,
@@ -205,7 +205,7 @@ pub enum SceneProblem {
     },
     /// The robot of a rig file found no contact in its descent to the gel.
     #[error(
-        "no contact down to {search_mm} mm below the height of `origin_mm`: correct `origin_mm` or `axes` of [robot], or press the force transducer with a finger and check that it responds"
+        "no contact down to {search_mm} mm below the height of `origin_mm`: correct `origin_mm` or `axes` of [robot], or check with a finger that the force transducer responds"
     )]
     NothingTouched {
         /// Depth of the search, in mm.

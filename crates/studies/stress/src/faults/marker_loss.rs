@@ -13,7 +13,7 @@ pub(super) static FAULT: Fault = Fault {
     table: [0.02, 0.05, 0.1, 0.25, 0.5],
     most: 1.0,
     note: Some(
-        "it finds markers by the untouched picture and paints over each to 0.35 of the marker spacing",
+        "markers are found in the untouched picture, and each is painted over to 0.35 of the marker spacing",
     ),
     effect: Effect::Markers(apply),
 };

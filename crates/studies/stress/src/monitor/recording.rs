@@ -73,7 +73,7 @@ pub fn watch(
         Err(EvaluateError::Request(format!("{path}: {words}")))
     };
     if !dataset.recordings().is_empty() {
-        return refused("several recordings: expected one; watch them one by one".to_owned());
+        return refused("several recordings, expected one; watch them one by one".to_owned());
     }
     dataset.require_view()?;
     let Some(touches) = touches(dataset, &framed(dataset)) else {

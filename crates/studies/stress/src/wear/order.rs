@@ -108,7 +108,7 @@ fn check_unit(recordings: &[Dataset]) -> Result<(), EvaluateError> {
         };
         if let Some(same) = recordings[..at].iter().find(has_state_of) {
             return refused(format!(
-                "{} and {} are the same recording or states of it, {expected}",
+                "{} and {} are one recording or states of one recording, {expected}",
                 shown(same.path()),
                 shown(other.path())
             ));

@@ -135,7 +135,7 @@ fn a_recording_without_pictures_is_refused() {
     recorder.close().expect("closed");
     let dataset = Dataset::open(&path).expect("a dataset");
     let said = refused(&dataset, &model, &StressRequest::default());
-    let expected = "the recording has no pictures: stress cannot test it";
+    let expected = "the recording has no pictures, expected a recording with pictures";
     assert!(said.ends_with(expected), "{said}");
 }
 
@@ -147,5 +147,5 @@ fn several_recordings_are_refused() {
     let other = record(&folder.path().join("other"), 4);
     let both = Dataset::joined(vec![one, other]).expect("joined");
     let said = refused(&both, &model, &StressRequest::default());
-    assert!(said.contains("several recordings: expected one"), "{said}");
+    assert!(said.contains("several recordings, expected one"), "{said}");
 }

@@ -306,7 +306,7 @@ fn noise_of_labels_of_force_grows_the_error_of_force_alone_and_has_no_stimulus()
     };
     let report = stress(&dataset, &model, &wanted, WORK).expect("tested");
     let noise = of(&report, "force_noise");
-    assert!(noise.note.as_ref().expect("a note").contains("no stimulus"));
+    assert!(noise.note.as_ref().expect("a note").contains("undefined"));
     let errors: Vec<f64> = noise
         .severities
         .iter()

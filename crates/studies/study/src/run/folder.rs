@@ -73,17 +73,18 @@ impl RunFolder {
             }
             Existing::Resume if !is_there => {
                 return Err(refused(
-                    "no run to resume: the folder does not exist".to_owned(),
+                    "no run to resume: the folder does not exist; start one without --resume"
+                        .to_owned(),
                 ));
             }
             Existing::Replace if is_run => fs::remove_dir_all(path).map_err(failed)?,
             _ if is_there && !is_empty(path).map_err(failed)? => {
                 return Err(refused(match existing {
                     Existing::Refuse => {
-                        "it exists already; use --resume to continue it, or --force to start again"
+                        "the folder exists already; use --resume to continue its run, or --force to start again"
                             .to_owned()
                     }
-                    _ => "it is not the folder of a run".to_owned(),
+                    _ => "the folder holds no run; name another".to_owned(),
                 }));
             }
             _ => {}
@@ -289,7 +290,7 @@ mod tests {
         assert!(
             refused
                 .to_string()
-                .contains("a different plan: seed was 1 and is 2; undo this change"),
+                .contains("a different plan: seed was 1 and is now 2; undo this change"),
             "{refused}"
         );
         RunFolder::open(&run, &other, Existing::Replace).expect("begun anew");

@@ -43,7 +43,7 @@ impl SharedSeeds {
         let Sides { a, b } = self.of;
         match a == self.count && b == self.count {
             true => self.count.to_string(),
-            false => format!("{} of both (chosen {a}, other {b})", self.count),
+            false => format!("{} shared (chosen {a}, other {b})", self.count),
         }
     }
 }

@@ -63,12 +63,12 @@ impl LabelsEntry {
                 None => Ok(None),
                 Some((key, _)) => Err(place.wrong(
                     key,
-                    format!("`{key}` is of tasks: write `task = \"NAME=KIND\"` beside it"),
+                    format!("`{key}` is for tasks: write `task = \"NAME=KIND\"` beside it"),
                 )),
             };
         }
         if !written.units.is_empty() {
-            let problem = "`units` is of channels, and `task` scores labels: omit it";
+            let problem = "`units` is for channels, but `task` scores labels: omit `units`";
             return Err(place.wrong("units", problem.to_owned()));
         }
         let texts = |key: &str, written: &BTreeMap<String, toml::Value>| {

@@ -84,7 +84,7 @@ fn settings(
         let text = word(value).ok_or_else(|| {
             place.wrong(
                 key,
-                format!("`{key}` of the model {name}: expected a text, a number, true or false"),
+                format!("`{key}` of the model {name}: expected a string, a number, true or false"),
             )
         })?;
         set.insert(key.clone(), text);

@@ -66,7 +66,7 @@ impl SweepFile {
             }
         }
         if !written.task.is_empty() && written.sensor.is_some() {
-            let problem = "`sensor` cannot be combined with `task`: its facts are for metrics of channels; omit it";
+            let problem = "`sensor` applies to channels only and cannot be combined with `task`: omit `sensor`";
             return Err(place.wrong("sensor", problem.to_owned()));
         }
         let (datasets, scenes) = (written.datasets.list(), written.scenes.list());

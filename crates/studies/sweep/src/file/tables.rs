@@ -102,9 +102,7 @@ pub(super) fn check_alone(written: &WrittenSweep, place: FilePlace<'_>) -> Resul
     match of_channels.iter().find(|(_, is_there)| *is_there) {
         Some((key, _)) if has_tasks => Err(place.wrong(
             key,
-            format!(
-                "`{key}` is of channels, and the `task` of `[score]` has all of its scores: omit it"
-            ),
+            format!("`{key}` applies to channels only, but `[score]` has a `task`: omit `{key}`"),
         )),
         _ => Ok(()),
     }

@@ -28,7 +28,7 @@ pub(super) fn vary(
             word(value).ok_or_else(|| {
                 place.wrong(
                     &key,
-                    format!("`{key}`: expected texts, numbers, true or false"),
+                    format!("`{key}`: expected strings, numbers, true or false"),
                 )
             })
         });

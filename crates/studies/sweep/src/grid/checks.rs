@@ -45,7 +45,7 @@ pub(super) fn size(file: &SweepFile, recordings: usize) -> Result<(), SweepError
             path: file.path.clone(),
             line: None,
             problem: format!(
-                "a grid of {count} tasks ({}), at most {MOST_TASKS} are allowed: vary fewer settings, or write several sweeps",
+                "a grid of {count} tasks ({}), expected at most {MOST_TASKS}: vary fewer settings, or write several sweeps",
                 parts.join(" × ")
             ),
         });
@@ -74,7 +74,7 @@ pub(super) fn metrics(file: &SweepFile) -> Result<(), SweepError> {
     };
     let problem = match catalogue::select([name.as_str()]) {
         Ok(_) => format!(
-            "`metrics`: {name} is of channels, and `task` scores labels: write scores of tasks, such as `metrics = [\"f1_macro\"]`, and score \
+            "`metrics`: {name} applies to channels only, but `task` scores labels: write scores of tasks, such as `metrics = [\"f1_macro\"]`, and score \
              channels by a second file without `task`"
         ),
         Err(_) => format!(

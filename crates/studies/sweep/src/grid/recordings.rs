@@ -110,8 +110,7 @@ pub(super) fn open(file: &SweepFile, all: &[Named]) -> Result<Vec<Recording>, Sw
         let alike = recordings.iter().find(|other| other.digest == digest);
         if let Some(other) = alike {
             let problem = format!(
-                "`{}` and `{}` are the same recording: their headers are equal; name it once, or, for two sensor units, give each its own \
-                 serial number",
+                "`{}` and `{}` are the same recording by their headers: name one of them; for two sensor units, give each its own serial number",
                 shown(&other.name),
                 shown(&one.name)
             );

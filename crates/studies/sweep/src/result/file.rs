@@ -40,14 +40,14 @@ impl TaskResult {
         }
         if result.taceva != env!("CARGO_PKG_VERSION") {
             return Err(wrong(format!(
-                "it was written by TacEva {}, but this is {}",
+                "the file was written by TacEva {}, but this is {}",
                 result.taceva,
                 env!("CARGO_PKG_VERSION")
             )));
         }
         if &result.key != key {
             return Err(wrong(format!(
-                "it holds the result of another task, {}",
+                "the file holds the result of another task, {}",
                 result.key
             )));
         }
@@ -62,8 +62,7 @@ impl TaskResult {
             true => Ok(text),
             false => Err(SweepError::Kept {
                 path,
-                problem: "it has changed since the task wrote it; remove it and the file of the same name in `results` to run the task \
-                    again".to_owned(),
+                problem: "the file has changed since the task wrote it; remove it and the file of the same name in `results` to run the task again".to_owned(),
             }),
         }
     }

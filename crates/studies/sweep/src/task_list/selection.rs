@@ -37,7 +37,7 @@ impl TaskList {
         match matching.is_empty() {
             true => Err(SweepError::Condition {
                 text: only.text().to_owned(),
-                problem: format!("it selects none of the {} tasks", self.tasks.len()),
+                problem: format!("this selects none of the {} tasks", self.tasks.len()),
             }),
             false => Ok(matching),
         }

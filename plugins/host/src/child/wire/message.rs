@@ -100,7 +100,7 @@ impl FirstWord {
     /// Error message for a host with wire version `wire`.
     pub(crate) fn refusal(wire: u32) -> String {
         format!(
-            "it speaks version {WIRE} of the wire, its host version {wire}: install the package `taceva` of the version of the program ({} here), or run the program `taceva` of this package",
+            "the plugin process speaks wire version {WIRE}, the program {wire}: install the package `taceva` of the program's version ({} here), or run the program `taceva` of this package",
             env!("CARGO_PKG_VERSION")
         )
     }
@@ -240,7 +240,7 @@ mod tests {
             assert_eq!(read, Ok((9, FirstWord::OfOtherWire(WIRE + 1))));
         }
         let said = FirstWord::refusal(WIRE + 1);
-        let versions = format!("version {WIRE} of the wire, its host version {}", WIRE + 1);
+        let versions = format!("wire version {WIRE}, the program {}", WIRE + 1);
         assert!(said.contains(&versions), "{said}");
         assert!(said.contains("install the package `taceva`"), "{said}");
     }

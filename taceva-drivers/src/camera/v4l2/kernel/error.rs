@@ -28,7 +28,7 @@ pub enum V4l2Error {
         why: String,
     },
     /// The camera does not support the requested format.
-    #[error("the camera does not support {wanted}; it offers {offered}")]
+    #[error("the camera does not support {wanted}, expected one of {offered}")]
     Format {
         /// Requested format.
         wanted: PictureFormat,

@@ -52,7 +52,7 @@ fn a_line_that_arrives_damaged_is_sent_again_and_no_more_than_four_times() {
     setup.emulator.damage(100);
     let refused = printer.move_to(home, speed(20.0), PATIENCE);
     let said = refused.expect_err("a broken cable").to_string();
-    assert!(said.contains("it arrived damaged 4 times"), "{said}");
+    assert!(said.contains("arrived damaged 4 times"), "{said}");
     assert!(!setup.bench.truth().is_moving);
     setup.emulator.damage(0);
     let arrived = printer.move_to(home, speed(20.0), PATIENCE);

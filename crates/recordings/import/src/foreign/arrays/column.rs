@@ -73,7 +73,9 @@ impl ArrayRows {
         if self.is_whole {
             return self.whole_cell(&path, info).map(|cell| vec![cell]);
         }
-        let across = info.row_elements().ok_or("larger than any memory")?;
+        let across = info
+            .row_elements()
+            .ok_or("its rows exceed the address space")?;
         if across.saturating_mul(info.rows()) > COLUMN_BYTES / 8 {
             return Err(format!(
                 "{} rows of {across} values are too many for labels: `[frame] array = \"{name}\"` reads frames",

@@ -113,7 +113,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
     let bytes = info_of_frame.byte_len().map(|bytes| bytes as u64);
     if !is_accepted || bytes.is_none_or(|bytes| bytes > limits::DECODED_BYTES) {
         return Err(format!(
-            "frames of {info_of_frame} are not accepted: a side has 1 to {} pixels, a frame at most {} bytes",
+            "frames of {info_of_frame}, expected sides of 1 to {} pixels and at most {} bytes per frame",
             limits::IMAGE_SIDE,
             limits::DECODED_BYTES
         ));
@@ -132,7 +132,7 @@ pub(super) fn form_of(info: &ArrayInfo, names: &FrameNames) -> Result<(Form, u64
         is_planar,
         range,
     };
-    Ok((form, row_bytes.ok_or("larger than any memory")?))
+    Ok((form, row_bytes.ok_or("its rows exceed the address space")?))
 }
 
 /// Height, width and number of colours of the frames of an array. The last value is true if the colours are planar.
@@ -163,7 +163,7 @@ fn sides(shape: &[u64], layout: Option<ArrayLayout>) -> Result<(u32, u32, u64, b
             ));
         }
     };
-    let side = |side: u64| u32::try_from(side).map_err(|_| format!("{} is not accepted", said()));
+    let side = |side: u64| u32::try_from(side).map_err(|_| format!("{}: side too long", said()));
     Ok((side(height)?, side(width)?, colours, is_planar))
 }
 
@@ -175,7 +175,7 @@ impl Form {
                 return Ok(Picture::Encoded(all[at].clone()));
             }
             (Form::Encoded, _) => {
-                return Err("a text, where bytes of a picture are expected".to_owned());
+                return Err("a string, expected the bytes of a picture".to_owned());
             }
             (
                 Form::Pixels {
@@ -196,14 +196,14 @@ impl Form {
         };
         let bytes = match (values, range) {
             (ArrayValues::U8(all), None) => {
-                let row = all.get(own).ok_or("fewer values than the shape states")?;
+                let row = all.get(own).ok_or("fewer values than its shape states")?;
                 match is_planar {
                     false => row.to_vec(),
                     true => (0..row.len()).map(|sample| row[place(sample)]).collect(),
                 }
             }
             (ArrayValues::U16(all), None) => {
-                let row = all.get(own).ok_or("fewer values than the shape states")?;
+                let row = all.get(own).ok_or("fewer values than its shape states")?;
                 (0..row.len())
                     .flat_map(|sample| row[place(sample)].to_le_bytes())
                     .collect()
@@ -253,6 +253,6 @@ fn numbers(values: &ArrayValues, own: Range<usize>) -> Result<Vec<f64>, String> 
         _ => None,
     };
     numbers.ok_or_else(|| {
-        "the array holds integers of 64 bits, which are not read as pixels, or fewer values than its shape states".to_owned()
+        "expected numbers of up to 32 bits or floats, as many as the shape states".to_owned()
     })
 }

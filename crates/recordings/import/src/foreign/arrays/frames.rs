@@ -82,9 +82,7 @@ impl ArrayPictures {
                 row_bytes,
                 form,
             });
-            first = first
-                .checked_add(rows)
-                .ok_or("more frames than can be counted")?;
+            first = first.checked_add(rows).ok_or("more than 2^64 frames")?;
         }
         Ok(ArrayPictures {
             path: path.to_owned(),

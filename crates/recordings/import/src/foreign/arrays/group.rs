@@ -48,10 +48,9 @@ pub(super) fn rows_of(file: &ArrayFile, group: &str) -> Result<usize, String> {
         .iter()
         .max_by_key(|(length, count)| (**count, **length));
     match most {
-        Some((length, _)) if *length > limits::ROWS => Err(format!(
-            "{length} rows, more than the {} that are accepted",
-            limits::ROWS
-        )),
+        Some((length, _)) if *length > limits::ROWS => {
+            Err(format!("{length} rows, expected at most {}", limits::ROWS))
+        }
         Some((length, _)) => usize::try_from(*length).map_err(|error| error.to_string()),
         // An unread item explains the missing arrays.
         None if unread(file, group).is_some() => Err(unread(file, group).unwrap_or_default()),

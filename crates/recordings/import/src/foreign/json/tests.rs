@@ -64,7 +64,7 @@ fn what_is_no_json_names_its_line_and_deep_lists_are_refused() {
     assert!(error.to_string().contains("recursion limit"), "{error}");
     let nowhere = file("{}");
     let error = JsonRows::read(nowhere.path(), Some("/data/*")).expect_err("nothing");
-    assert!(error.to_string().contains("nothing at `/data`"), "{error}");
+    assert!(error.to_string().contains("no rows at `/data`"), "{error}");
 }
 
 #[test]

@@ -72,9 +72,7 @@ pub(super) fn samples(path: &Path) -> Result<Vec<Sample>, TarError> {
 pub(super) fn bytes_at(file: &mut File, extent: Extent, cap: u64) -> Result<Vec<u8>, String> {
     let Extent { at, size } = extent;
     if size > cap {
-        return Err(format!(
-            "{size} bytes, more than the {cap} that are accepted here"
-        ));
+        return Err(format!("{size} bytes, expected at most {cap}"));
     }
     let mut bytes = Vec::new();
     let read = file
@@ -83,6 +81,6 @@ pub(super) fn bytes_at(file: &mut File, extent: Extent, cap: u64) -> Result<Vec<
     read.map_err(|error| error.to_string())?;
     match bytes.len() as u64 == size {
         true => Ok(bytes),
-        false => Err("the file of the shard shrank while it was read".to_owned()),
+        false => Err("the file of the shard shrank while it was read: import it again when nothing writes to it".to_owned()),
     }
 }

@@ -260,7 +260,7 @@ fn copy_reference(
     if copied.info != expected {
         return Err(ImportError::image(
             &reference.named(),
-            format!("{}, expected {expected} as the other frames", copied.info),
+            format!("{}, expected {expected} as in the others", copied.info),
         ));
     }
     Ok(ReferenceInfo::new(copied.entry.path, copied.entry.digest))
@@ -279,7 +279,7 @@ fn check_alike(
     Err(ImportError::image(
         planned.from.path(),
         format!(
-            "{} {}, expected {} {} as the first frame",
+            "{} {}, expected {} {} as in the first frame",
             found.kind.extension(),
             found.info,
             expected.kind.extension(),

@@ -290,7 +290,7 @@ impl Check<'_> {
         range.map(Some).ok_or_else(|| {
             self.at(
                 offset,
-                "`range` needs the values of black and of full, and `bits` is 8 or 16, such as range = [0, 1] and bits = 8",
+                "invalid `range` or `bits`, expected the values of black and of full, and 8 or 16, such as range = [0, 1] and bits = 8",
             )
         })
     }

@@ -62,7 +62,9 @@ impl PathPattern {
                 .iter()
                 .any(|piece| matches!(piece, Piece::Named { name: known, .. } if *known == name))
             {
-                return Err(format!("`{name}` is in the pattern twice"));
+                return Err(format!(
+                    "`{name}` occurs twice in the pattern, expected once"
+                ));
             }
             pieces.push(Piece::Text(before.to_owned()));
             pieces.push(Piece::Named { name, kind });
@@ -73,7 +75,7 @@ impl PathPattern {
         match pattern.names().count() {
             0 => Err("names no part of the path, such as {object}".to_owned()),
             count if count > NAMES_MAX => {
-                Err(format!("{count} named parts, more than {NAMES_MAX}"))
+                Err(format!("{count} named parts, expected at most {NAMES_MAX}"))
             }
             _ => Ok(pattern),
         }

@@ -158,7 +158,7 @@ impl Check<'_> {
                     let columns = columns.into_iter();
                     JoinBy::Columns(columns.map(|(own, other)| (own, other.into_name())).collect())
                 }
-                _ => return Err(self.at(offset, "`on` is { column = \"column of the joined table\" }, \"row\" or \"all\"")),
+                _ => return Err(self.at(offset, "invalid `on`, expected { column = \"column of the joined table\" }, \"row\" or \"all\"")),
             },
             (None, Some(time), (pick, Some(tolerance_ms), Some(lag))) => {
                 let numbers: Vec<f64> = match &lag {
@@ -168,7 +168,7 @@ impl Check<'_> {
                 };
                 let is_finite = numbers.iter().all(|lag| lag.is_finite());
                 if !(tolerance_ms >= 0.0 && tolerance_ms.is_finite() && is_finite) {
-                    return Err(self.at(offset, "`tolerance_ms` must be at least 0, and `lag_ms` must be finite"));
+                    return Err(self.at(offset, "invalid `tolerance_ms` or `lag_ms`, expected a tolerance from 0 and a finite lag"));
                 }
                 JoinBy::Time(TimeJoin {
                     time: self.time_of(time.column, &time.unit, time.zone.as_ref())?,
@@ -211,7 +211,9 @@ impl Check<'_> {
         let is_rotation = match &written.kind {
             None => false,
             Some(kind) if kind.get_ref() == "rotation" => true,
-            Some(kind) => return Err(self.at(kind.span().start, "the only kind is \"rotation\"")),
+            Some(kind) => {
+                return Err(self.at(kind.span().start, "unknown `kind`, expected \"rotation\""));
+            }
         };
         // The order in the file is that of the matrix rows.
         let mut gives: Vec<_> = written.gives.iter().collect();
@@ -245,7 +247,12 @@ impl Check<'_> {
             is_rotation,
         };
         if map.offset.len() != map.from.len() {
-            return Err(self.at(offset, "`offset` has one number for each column of `from`"));
+            let problem = format!(
+                "`offset` has {} numbers, expected {}, one for each column of `from`",
+                map.offset.len(),
+                map.from.len()
+            );
+            return Err(self.at(offset, &problem));
         }
         if let MatrixRows::Written(rows) = &map.by
             && let Some(problem) = map.problem(rows)
@@ -265,7 +272,7 @@ impl Check<'_> {
             let mut sorted: Vec<&String> = class.names.iter().collect();
             sorted.sort_unstable();
             if sorted.is_empty() || sorted.windows(2).any(|pair| pair[0] == pair[1]) {
-                return Err(self.at(offset, "`names` lists every class, each once"));
+                return Err(self.at(offset, "`names` needs every class, each once"));
             }
             let map = ClassMap {
                 from: class.from.clone().into_name(),

@@ -137,7 +137,7 @@ impl Check<'_> {
             return Err(self.at(
                 from_at,
                 &format!(
-                    "{} columns for {info}, which are {} numbers",
+                    "{} columns for {info}, expected one or {}",
                     columns.len(),
                     info.len()
                 ),

@@ -211,7 +211,7 @@ impl Check<'_> {
         if described.has_text_keys() && !matches!(form, TableForm::Delimited(_)) {
             return Err(self.at(
                 offset,
-                "`decimal`, `thousands`, `comment`, `skip_lines` and `units_row` are for CSV and TSV alone",
+                "`decimal`, `thousands`, `comment`, `skip_lines` and `units_row` apply to CSV and TSV only",
             ));
         }
         let form = match (form, described.header, &described.rows) {
@@ -235,11 +235,11 @@ impl Check<'_> {
                 is_whole,
             },
             (form, None, None) => form,
-            (_, Some(_), _) => return Err(self.at(offset, "`header` is for CSV and TSV alone")),
+            (_, Some(_), _) => return Err(self.at(offset, "`header` applies to CSV and TSV only")),
             (_, _, Some(_)) => {
                 return Err(self.at(
                     offset,
-                    "`rows` is for JSON, files of arrays and recordings of messages",
+                    "`rows` applies to JSON, files of arrays and recordings of messages only",
                 ));
             }
         };
@@ -267,7 +267,7 @@ impl Check<'_> {
             )),
             _ => Err(self.at(
                 offset,
-                "`cut` is for recordings of messages alone (.mcap, .db3, .bag)",
+                "`cut` applies to recordings of messages only (.mcap, .db3, .bag)",
             )),
         }
     }

@@ -167,7 +167,7 @@ impl Check<'_> {
         }
         if written.time && !context.has_time {
             let problem = format!(
-                "[task.{name}] has `time = true`, but [time] has no `column`: name the column of the times, or leave the line out"
+                "[task.{name}] has `time = true`, but [time] has no `column`: name the column of the times, or remove `time`"
             );
             return Err(self.at(offset, &problem));
         }
@@ -177,7 +177,8 @@ impl Check<'_> {
         task.is_timed = written.time;
         task.rule.clone_from(&written.rule);
         if kind != TaskKind::Depth && written.is_of_maps() {
-            let problem = "`array`, `scale`, `pixel_mm` and `invalid` belong to `kind = \"depth\"`";
+            let problem =
+                "`array`, `scale`, `pixel_mm` and `invalid` apply to `kind = \"depth\"` only";
             return Err(self.at(offset, problem));
         }
         if kind != TaskKind::Depth && written.from.is_none() {
@@ -256,7 +257,7 @@ impl Check<'_> {
         let from = match written.from {
             Some(WrittenFrom::Column(column)) if !is_pose => column.into_name(),
             _ => {
-                let problem = "`from` with `t` and `q`, `unit`, `over`, `frame` and `thresholds` belong to `kind = \"pose\"`";
+                let problem = "`from` with `t` and `q`, `unit`, `over`, `frame` and `thresholds` apply to `kind = \"pose\"` only";
                 return Err(self.at(offset, problem));
             }
         };
@@ -324,8 +325,7 @@ impl Check<'_> {
                 t.into_iter().chain(m).collect()
             }
             _ => {
-                let problem = "a pose has `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`, and neither `names` nor \
-                    `positive`";
+                let problem = "a pose needs `from = { t = [\"x\", \"y\", \"z\"], q = [\"qx\", \"qy\", \"qz\", \"qw\"] }`; remove `names` and `positive`";
                 return Err(self.at(offset, problem));
             }
         };
@@ -373,7 +373,7 @@ impl Check<'_> {
         if symbols.len() != 3 {
             return Err(self.at(
                 at,
-                "`unit` is one unit of length, or one for each of x, y and z",
+                "invalid `unit`, expected one unit of length, or one for each of x, y and z",
             ));
         }
         let units = symbols.into_iter();

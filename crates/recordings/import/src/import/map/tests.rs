@@ -101,7 +101,7 @@ fn each_mistake_names_its_line_and_what_is_accepted() {
         (
             "\"labels.csv\"",
             "\"../labels.csv\"",
-            "line 2: `../labels.csv`: `..` is not followed",
+            "line 2: `../labels.csv`: contains `..`, expected a path inside the folder",
         ),
         ("Rx =", "phase =", "line 9: `phase` is the name of an id"),
         (

@@ -48,8 +48,7 @@ impl Reading<'_> {
             file,
             format!(
                 "the pictures of `{key}` already belong to the rows of {}, and each of the {each} would start again at the first picture: \
-                 set `index = \"COLUMN\"` to a column that numbers the pictures of all of them, or put `{{path.NAME}}` in `{key}` to name \
-                 a file for each",
+                 set `index = \"COLUMN\"` to a column that numbers the pictures of all tables, or put `{{path.NAME}}` in `{key}` to name a file for each",
                 shown(&self.folder.inside(first, ""))
             ),
         ))
@@ -115,7 +114,7 @@ impl Reading<'_> {
                 &inside,
                 format!(
                     "already the picture of a row of {}: `row` in `pattern` starts anew in each of the {} tables; \
-                     replace it by a column that numbers the pictures of all of them, or put `{{path.NAME}}` before it",
+                     replace `row` by a column that numbers the pictures of all tables, or put `{{path.NAME}}` before it",
                     shown(&self.folder.inside(first, "")),
                     self.count
                 ),

@@ -142,7 +142,7 @@ fn nested(cell: &str) -> Result<Vec<u64>, String> {
         } else if matches!(letter, ']' | ')') {
             let members = open
                 .pop()
-                .ok_or("a closing bracket without an opening one")?;
+                .ok_or("a closing bracket has no opening bracket")?;
             if sides.len() <= open.len() {
                 sides.resize(open.len() + 1, None);
             }
@@ -160,7 +160,7 @@ fn nested(cell: &str) -> Result<Vec<u64>, String> {
     let is_whole = open.is_empty();
     sides
         .filter(|_| is_whole)
-        .ok_or_else(|| "an opening bracket without a closing one".to_owned())
+        .ok_or_else(|| "an opening bracket has no closing bracket".to_owned())
 }
 
 /// Numbers in one cell, ignoring its list structure.
@@ -211,7 +211,7 @@ mod tests {
         }
         for (cell, word) in [
             ("[[1, 2], [3]]", "lists of 2 and of 1"),
-            ("[1, 2", "without a closing one"),
+            ("[1, 2", "no closing bracket"),
             ("[1] 2", "outside"),
         ] {
             assert!(nested(cell).expect_err("refused").contains(word), "{cell}");

@@ -23,8 +23,7 @@ pub(super) fn check(
         "s" => Ok(()),
         stated => Err(table_error!(
             Place::file(table.path()).in_column(name),
-            "the file states that these are times in {counted}, which are converted to seconds; the map says `unit = \"{stated}\"`: \
-                 write `unit = \"s\"`"
+            "the file states times in {counted}, which are converted to seconds, but the map has `unit = \"{stated}\"`: write `unit = \"s\"`"
         )),
     }
 }
@@ -58,7 +57,7 @@ impl TextTimes {
         };
         if map.unit.symbol() != "s" {
             let problem = format!(
-                "times as text are converted to seconds, but the map says `unit = \"{}\"`: write `unit = \"s\"`",
+                "times as text are converted to seconds, but the map has `unit = \"{}\"`: write `unit = \"s\"`",
                 map.unit.symbol()
             );
             return Err((0, problem));

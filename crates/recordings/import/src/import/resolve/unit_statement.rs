@@ -98,8 +98,7 @@ fn problem(stated: &Stated, unit: &SourceUnit, of: Of) -> Option<String> {
             ),
         };
         return Some(format!(
-            "the file says that its numbers are packed (`scale_factor` {factor}, `add_offset` {added}), and the map does not unpack them: \
-             {remedy}"
+            "the numbers of the file are packed (`scale_factor` {factor}, `add_offset` {added}), but the map does not unpack them: {remedy}"
         ));
     }
     contradicted(stated.unit.as_deref()?, unit).map(|own| {
@@ -108,7 +107,7 @@ fn problem(stated: &Stated, unit: &SourceUnit, of: Of) -> Option<String> {
             Of::Others => "",
         };
         format!(
-            "the file says that its unit is `{own}`, the map says `{}`: correct the one that is wrong{remedy}",
+            "the unit is `{own}` in the file, but `{}` in the map: correct the wrong one{remedy}",
             unit.symbol()
         )
     })

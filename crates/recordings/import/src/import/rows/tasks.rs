@@ -116,7 +116,7 @@ impl MappedTable<'_> {
             let turned = turned.ok_or_else(|| {
                 table_error!(
                     self.place(row),
-                    "the matrix of [task.{}] is no rotation, expected perpendicular rows of length 1 ± 0.000001 and the determinant 1: name its \
+                    "the matrix of [task.{}] is not a rotation, expected perpendicular rows of length 1 ± 0.000001 and the determinant 1: name its \
                      columns row by row, now {}",
                     map.task.name,
                     listed(&map.task.from[3..])
@@ -133,8 +133,7 @@ impl MappedTable<'_> {
         if (norm - 1.0).abs() > TaskLabel::NORM_TOLERANCE {
             return Err(table_error!(
                 self.place(row),
-                "the quaternion of [task.{}] has the norm {norm}, expected 1 ± 0.000001: divide it by its norm in the file, with \
-                 seven decimals or more, or name its columns in the order x, y, z, w, now {}",
+                "the quaternion of [task.{}] has the norm {norm}, expected 1 ± 0.000001: normalise it in the file, with seven decimals or more; or name its columns in the order x, y, z, w, now {}",
                 map.task.name,
                 listed(&map.task.from[3..])
             ));

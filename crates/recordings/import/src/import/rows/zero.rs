@@ -144,7 +144,7 @@ impl MappedTable<'_> {
             let at_zero: Vec<f64> = pairs.filter_map(|(_, labels)| labels[*position]).collect();
             if at_zero.is_empty() {
                 return Err(refused(format!(
-                    "`{channel}` has no value in the rows of {whose} that [zero] averages: leave it out by `channels` of [zero]"
+                    "`{channel}` has no value in the rows of {whose} that [zero] averages: leave this channel out by `channels` of [zero]"
                 )));
             }
             means.push(at_zero.iter().sum::<f64>() / at_zero.len() as f64);

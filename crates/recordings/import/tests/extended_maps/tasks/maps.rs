@@ -218,7 +218,7 @@ fn maps_of_another_size_without_a_unit_or_fewer_than_rows_are_refused() {
     let message = refused(lab.path(), FILES);
     assert!(
         message.contains("labels.csv, line 4")
-            && message.contains("a map of 2 x 1 pixels, expected 1 x 2 as the first map"),
+            && message.contains("a map of 2 x 1 pixels, expected 1 x 2 as in the first map"),
         "{message}"
     );
     let message = refused(lab.path(), &ARRAY.replace("unit = \"um\"\n", ""));
@@ -244,12 +244,12 @@ fn maps_of_another_size_without_a_unit_or_fewer_than_rows_are_refused() {
     assert!(message.contains("column 1, row 0 is inf"), "{message}");
     let message = refused(lab.path(), &format!("{ARRAY}names = [\"a\", \"b\"]\n"));
     assert!(
-        message.contains("has the maps of all rows in `array"),
+        message.contains("with the maps of all rows, or `from`"),
         "{message}"
     );
     let message = refused(lab.path(), &FILES.replace("\"depth\"", "\"pose\""));
     assert!(
-        message.contains("belong to `kind = \"depth\"`"),
+        message.contains("apply to `kind = \"depth\"` only"),
         "{message}"
     );
 }
@@ -333,7 +333,7 @@ fn poses_may_have_a_rotation_matrix_and_reflections_are_refused_by_row() {
     let mirror = table.replace("-1,0,0,0,-1,0,0,0,1", "1,0,0,0,1,0,0,0,-1");
     fs::write(lab.path().join("labels.csv"), mirror).expect("written");
     let message = planned(lab.path(), map).expect_err("a reflection");
-    for words in ["labels.csv, line 2", "is no rotation", "the determinant 1"] {
+    for words in ["labels.csv, line 2", "not a rotation", "the determinant 1"] {
         assert!(message.contains(words), "{message}");
     }
 }

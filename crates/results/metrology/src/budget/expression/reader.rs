@@ -89,7 +89,7 @@ impl Reader<'_> {
     fn deepen(&mut self) -> Result<(), ExpressionError> {
         self.depth += 1;
         match self.depth > DEEPEST {
-            true => Err(self.error(format!("nested deeper than {DEEPEST}"))),
+            true => Err(self.error(format!("nested deeper than {DEEPEST} levels"))),
             false => Ok(()),
         }
     }

@@ -87,7 +87,7 @@ impl Reader<'_> {
         let other = certificate.instrument_serial.as_ref();
         if let Some(serial) = other.filter(|serial| **serial != certificate.serial) {
             return Err(error(BudgetProblem::Certificate(format!(
-                "the certificate is of serial `{own}`, the instrument has serial `{}`",
+                "the certificate is for serial number `{own}`, but the instrument has `{}`",
                 shown(serial)
             ))));
         }

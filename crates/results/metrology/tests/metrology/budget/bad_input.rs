@@ -167,7 +167,7 @@ fn a_correlation_with_an_unknown_source_names_the_nearest_one() {
         correlations(&pair("one", "tow", "0.1")),
         "line 14, `between`: `tow` is not a source; did you mean `two`?"
     );
-    assert!(correlations(&pair("one", "one", "0.1")).contains("between two sources"));
+    assert!(correlations(&pair("one", "one", "0.1")).contains("expected two different sources"));
     let twice = [pair("one", "two", "0.1"), pair("two", "one", "0.1")].concat();
     assert!(correlations(&twice).contains("is used twice, here and in line 14"));
 }
@@ -200,7 +200,7 @@ fn a_certificate_of_another_serial_is_refused() {
     other.instrument_serial = Some("43".to_owned());
     assert_eq!(
         certified(other),
-        "line 6, `from`: the certificate is of serial `42`, the instrument has serial `43`"
+        "line 6, `from`: the certificate is for serial number `42`, but the instrument has `43`"
     );
 }
 
@@ -215,7 +215,8 @@ fn an_expired_certificate_is_warned_of_in_every_output() {
         .budgets(&Evidence::default().with_certificate(old), None)
         .expect("values")
         .remove(0);
-    let said = "certificate D-K-1 was valid until 2027-05-12, the recording is of 2027-05-13";
+    let said =
+        "certificate D-K-1 was valid until 2027-05-12, but the recording was made on 2027-05-13";
     assert_eq!(budget.warnings, [said]);
     assert!(budget.to_string().contains(said));
     assert!(serde_json::to_string(&budget).expect("JSON").contains(said));

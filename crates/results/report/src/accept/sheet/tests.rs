@@ -110,7 +110,7 @@ fn each_row_has_the_limit_what_was_found_and_why_it_is_not_enough() {
             "N",
             "0",
             "FAIL",
-            "there is no such score",
+            "this score is missing",
         ],
     ];
     let rows: Vec<Vec<String>> = table.rows.iter().map(Row::plain).collect();
@@ -200,7 +200,7 @@ fn a_page_says_its_verdict_in_words_and_counts_what_is_broken() {
     let findings = held(&study, &[KEPT, BROKEN, MISSING]);
     let page = sheet(&study, &findings).page();
     assert!(page.contains("<p class=\"fail\">FAIL: 2 of 3 limits are not met.</p>"));
-    assert!(!page.contains("PASS") && page.contains("there is no such score"));
+    assert!(!page.contains("PASS") && page.contains("this score is missing"));
 }
 
 #[test]

@@ -35,7 +35,7 @@ pub(super) fn statistics(studies: &[Study], table: &ScoreTable) -> String {
             .map(|(test, count)| format!("{test}: {}", counted(count, "pair")))
             .collect();
         out += &format!(
-            " Sensors were compared pair by pair ({}), with p values adjusted by Holm's method over all pairs and channels of a metric and a level of 5 %.",
+            " Sensors were compared pair by pair ({}) at a level of 5 %. Holm's method adjusts the p values over all pairs and channels of a metric.",
             tests.join("; ")
         );
     }

@@ -146,7 +146,7 @@ fn a_limit_may_have_a_rule_of_its_own() {
         (check.verdict, check.reason.expect("a reason"))
     };
     assert_eq!(shared(0.02).0, Word::Pass);
-    let great = "U is 0.0164 N, above the 0.01 N of the rule".to_owned();
+    let great = "U is 0.0164 N, expected at most 0.01 N by the rule".to_owned();
     assert_eq!(shared(0.01), (Word::Undecided, great));
     // An uncertainty is agreed in the unit of each limit.
     let all = "[decision]\nrule = \"shared\"";
@@ -177,9 +177,9 @@ fn a_score_that_takes_no_part_in_verdicts_is_undecided_and_so_is_a_missing_one()
     );
     let missing = held_on("Fq", GUARDED, "most = 9.0");
     assert_eq!((missing.verdict, missing.is_kept), (Word::Undecided, false));
-    assert_eq!(missing.reason.as_deref(), Some("there is no such score"));
+    assert_eq!(missing.reason.as_deref(), Some("this score is missing"));
     let reason = held_on("fx", GUARDED, "most = 9.0").reason;
-    let expected = "there is no such score; did you mean channel `Fx`?";
+    let expected = "this score is missing; did you mean channel `Fx`?";
     assert_eq!(reason.as_deref(), Some(expected));
 }
 

@@ -86,5 +86,5 @@ fn an_unknown_score_of_a_unit_is_named_by_its_number() {
     units[1].scores.clear();
     add_process_risks(&mut findings, &study, &units, None);
     let process = findings.remove(0).process.expect("asked for");
-    assert_eq!(process, Err("unit 2: there is no such score".to_owned()));
+    assert_eq!(process, Err("unit 2: this score is missing".to_owned()));
 }

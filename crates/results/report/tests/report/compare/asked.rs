@@ -51,7 +51,7 @@ fn markdown_has_the_answers_of_the_overview_above_every_pair() {
 fn a_metric_of_another_version_is_named_and_no_verdict_is_given_on_it() {
     let every = compare(&two(), &CompareRequest::default());
     let note =
-        "shininess not compared: this version of taceva does not know which values are better";
+        "shininess not compared: this version of TacEva does not know which values are better";
     assert!(
         every.notes.iter().any(|own| own == note),
         "{:?}",
@@ -67,7 +67,7 @@ fn a_metric_of_another_version_is_named_and_no_verdict_is_given_on_it() {
     assert_eq!(decisions[0].winner, None);
     assert_eq!(
         decisions[0].words,
-        "no winner: this version of taceva does not know which values are better"
+        "no winner: this version of TacEva does not know which values are better"
     );
 }
 
@@ -86,7 +86,7 @@ fn a_group_means_its_metrics_that_have_scores_and_all_of_them_where_none_has() {
     assert_eq!(request.metrics, ["mae", "r2", "smape"]);
     assert_eq!(
         request.absent(&other)[0],
-        "mae: no result has such a score; they have drift"
+        "mae: no result has this score, expected one of drift"
     );
     let request = asked("shininess").resolved(&studies).expect("a score");
     assert_eq!(request.metrics, ["shininess"]);
@@ -105,12 +105,12 @@ fn a_margin_of_no_score_is_refused_with_the_scores_that_there_are() {
     let error = refused("mae.Fq").expect_err("no such channel");
     assert_eq!(
         error,
-        "mae.Fq: no result has such a score; expected mae or one of mae.Fz"
+        "mae.Fq: no result has this score, expected mae or one of mae.Fz"
     );
     let error = refused("drift").expect_err("not scored");
     assert_eq!(
         error,
-        "drift: no result has such a score; they have mae, r2, rmse, shininess"
+        "drift: no result has this score, expected one of mae, r2, rmse, shininess"
     );
     let error = refused("mea").expect_err("no metric");
     assert!(error.contains("did you mean `mae`?"), "{error}");

@@ -64,11 +64,11 @@ fn words(halted: &Halted, cause: Cause, policy: &str) -> String {
     let [queued_ms, ran_ms] = [spent.queued_s, spent.ran_s].map(|seconds| seconds * 1e3);
     match cause {
         Cause::Kernel => format!(
-            "{head}; its thread ({policy}) was without a processor for {queued_ms:.0} ms: {}",
+            "{head}; its thread ({policy}) waited {queued_ms:.0} ms for a processor: {}",
             remedy(policy)
         ),
         Cause::Program => format!(
-            "{head}, {ran_ms:.0} ms of them work of the driver: report this line with the driver of the robot"
+            "{head}, of which the driver worked {ran_ms:.0} ms: report this line with the driver of the robot"
         ),
         Cause::Device => {
             let delay = match (halted.moved_on(), halted.rest_s) {
@@ -88,7 +88,7 @@ fn words(halted: &Halted, cause: Cause, policy: &str) -> String {
             )
         }
         Cause::Unknown => format!(
-            "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
+            "{head}; this kernel does not state how long its thread ({policy}) waited for a processor: {}",
             remedy(policy)
         ),
     }

@@ -95,7 +95,7 @@ impl Listeners<'_> {
     /// Informs an operator who is being asked a question that the force is lost.
     fn lose(&self, error: &DriverError) {
         let words = format!(
-            "the force is lost: {error}; the robot stays halted: stop here, check cable and power of the transducer, and continue with `--resume`"
+            "the force is lost: {error}; the robot stays halted: stop, check cable and power of the transducer, and continue with `--resume`"
         );
         self.progress.remark(&words);
         if let Some(viewer) = self.viewer {

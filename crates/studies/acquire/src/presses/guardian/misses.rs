@@ -43,14 +43,14 @@ impl Misses {
         let head = format!("late: the guard of the {signal} took {took_ms:.0} ms for a reading");
         let words = match late.cause {
             Cause::Kernel => format!(
-                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms: {}",
+                "{head}; its thread ({policy}) waited {kernel_ms:.0} ms for a processor: {}",
                 remedy(policy)
             ),
             Cause::Program | Cause::Device => format!(
-                "{head}; its thread ({policy}) was without a processor for {kernel_ms:.0} ms only, so the work of TacEva or of a driver took the rest: report this line with the drivers of the rig"
+                "{head}; its thread ({policy}) waited only {kernel_ms:.0} ms for a processor; TacEva or a driver used the rest: report this line with the drivers of the rig"
             ),
             Cause::Unknown => format!(
-                "{head}; this kernel does not state how long its thread ({policy}) was without a processor: {}",
+                "{head}; this kernel does not state how long its thread ({policy}) waited for a processor: {}",
                 remedy(policy)
             ),
         };
@@ -73,7 +73,7 @@ impl Misses {
             .stale
             .take_if(|stale| now_s - stale.found_s > SETTLED_S)?;
         let words = format!(
-            "late: the newest reading was from {:.0} ms ago, although its guard was in time: its device, link or driver delayed it; check cable, network and rate of the device",
+            "late: the newest reading is {:.0} ms old, although the guard was in time: the device, its link or its driver is late; check cable, network and rate of the device",
             stale.age_s * 1e3
         );
         self.count(Cause::Device, words)

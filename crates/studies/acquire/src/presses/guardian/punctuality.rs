@@ -145,7 +145,7 @@ mod tests {
             panic!("{remarks:?}");
         };
         assert!(late.starts_with("late: the guard of the force took 90 ms"));
-        assert!(stale.starts_with("late: the newest reading was from 60 ms ago"));
+        assert!(stale.starts_with("late: the newest reading is 60 ms old"));
         assert!(counts.contains("1 by the kernel, 0 by TacEva or a driver, 1 by a device"));
     }
 

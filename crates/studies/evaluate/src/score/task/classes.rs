@@ -209,8 +209,7 @@ fn check_threshold(threshold: f64, rows: &[ClassRow<'_>], positive: u32) -> Resu
     match are_probabilities && !range.contains(&threshold) {
         false => Ok(()),
         true => Err(format!(
-            "the threshold {threshold} is outside 0 to 1, but all scores of the positive class are within 0 to 1, so every row would get \
-             the same class: state a threshold from 0 to 1"
+            "the threshold {threshold} is outside 0 to 1, but all scores of the positive class lie inside: every row would get the same class; state a threshold from 0 to 1"
         )),
     }
 }

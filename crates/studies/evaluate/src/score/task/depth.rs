@@ -22,7 +22,7 @@ use crate::task_state_file::TaskStates;
 pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates, EvaluateError> {
     if request.tasks.len() > 1 {
         return Err(EvaluateError::Request(format!(
-            "`{}` has depth maps, whose truth is a dataset: score it without other tasks",
+            "`{}` has depth maps, whose truth is a dataset: score this task without others",
             shown(&of.name)
         )));
     }
@@ -34,7 +34,7 @@ pub(super) fn states(request: &TaskRequest, of: &TaskSpec) -> Result<TaskStates,
     }
     if request.tables.key.is_some() {
         return Err(EvaluateError::Request(format!(
-            "a key is given for the depth maps `{}`, which are paired in the order of the samples of the dataset: omit it",
+            "a key is given for the depth maps `{}`, which are paired in the order of the samples of the dataset: omit the key",
             shown(&of.name)
         )));
     }

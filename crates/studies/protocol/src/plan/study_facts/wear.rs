@@ -38,7 +38,7 @@ impl Gather<'_> {
             axes.is_some_and(|axes| axes.contains(Axis::Fx) && axes.contains(Axis::Fy));
         if !shows_shear {
             let problem = format!(
-                "the load `{load}` moves sideways in contact, but no transducer measures Fx and Fy, so their limit cannot hold: expected such a transducer, or load = \"compression\""
+                "the load `{load}` moves sideways in contact, but no transducer measures Fx and Fy, so shear has no limit: use such a transducer, or load = \"compression\""
             );
             return Err(self.refusal(spec.load.at(), SceneProblem::Contradiction(problem)));
         }

@@ -55,7 +55,7 @@ pub enum TapError {
     /// A device does not show the tap clearly. Its signal in the air varies by at least half of its change.
     #[error(
         "tap {tap}: the {device} signal does not show the tap clearly: in the air the signal varies by {in_air:.2} of its change, expected below \
-         {EDGE}; check its mounting, its light or its noise"
+         {EDGE}; check the mounting, the light and the noise of the device"
     )]
     Unclear {
         /// Number of the tap, counted from 1.
@@ -67,7 +67,7 @@ pub enum TapError {
     },
     /// The signal of a device still changes long after the tip came to rest.
     #[error(
-        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: its latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
+        "tap {tap}: the {device} signal still changes after the tip has rested for 0.4 s: the latency is too long for a tap, or the gel creeps; run the command again, lower the buffering of the device, or measure its `latency_ms` in another way and write it into the rig file"
     )]
     Late {
         /// Number of the tap, counted from 1.

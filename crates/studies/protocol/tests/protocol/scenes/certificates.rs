@@ -71,7 +71,7 @@ fn an_uncertainty_without_k_and_p_is_refused_and_so_are_both() {
         "{message}"
     );
     let message = refused("k = 2.0", "k = 2.0\np = 0.95");
-    assert!(message.contains("`k` is stated beside `p`"), "{message}");
+    assert!(message.contains("`k` is stated with `p`"), "{message}");
 }
 
 #[test]
@@ -174,7 +174,7 @@ fn a_wrong_value_is_named_by_its_line_its_key_and_the_expectation() {
         (
             "laboratory = \"a laboratory\"",
             "laboratory = 7",
-            "lab.toml, line 7: [force.certificate]: `laboratory` is `7`, expected a text in quotes",
+            "lab.toml, line 7: [force.certificate]: `laboratory` is `7`, expected a string in quotes",
         ),
         (
             "\"2027-05-12\"",

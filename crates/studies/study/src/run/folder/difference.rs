@@ -26,14 +26,14 @@ pub(super) fn of_scenes(before: &str, now: &str) -> Option<String> {
                 None => "missing".to_owned(),
             };
             format!(
-                "line {number} of the scene was {} and is {}",
+                "line {number} of the scene was {} and is now {}",
                 line(before),
                 line(now)
             )
         })
 }
 
-/// First value that differs between two texts of plans: `studies.0.seed was 1 and is 2`.
+/// First value that differs between two texts of plans: `studies.0.seed was 1 and is now 2`.
 pub(super) fn of_plans(before: &str, now: &str) -> Option<String> {
     let read = |text: &str| serde_json::from_str::<Value>(text).ok();
     of_values("", &read(before)?, &read(now)?)
@@ -68,7 +68,7 @@ fn of_values(path: &str, before: &Value, now: &Value) -> Option<String> {
         // The plan has the digest of the rig file alone.
         _ if path == "rig" => Some("the rig file changed".to_owned()),
         (before, now) => Some(format!(
-            "{path} was {} and is {}",
+            "{path} was {} and is now {}",
             shortened(&before.to_string()),
             shortened(&now.to_string())
         )),
@@ -96,11 +96,11 @@ mod tests {
         assert_eq!(of_scenes(scene, scene), None);
         assert_eq!(
             of_scenes(scene, &scene.replace("20", "15")).as_deref(),
-            Some("line 3 of the scene was `Fz_max_N = 20` and is `Fz_max_N = 15`")
+            Some("line 3 of the scene was `Fz_max_N = 20` and is now `Fz_max_N = 15`")
         );
         assert_eq!(
             of_scenes(scene, "name = \"a\"\n").as_deref(),
-            Some("line 2 of the scene was `[limits]` and is missing")
+            Some("line 2 of the scene was `[limits]` and is now missing")
         );
     }
 
@@ -116,11 +116,11 @@ mod tests {
         assert_eq!(found(&before), "");
         assert_eq!(
             found(&plan(15, "null", "sha256:1")),
-            "studies.0.limits.Fz was 20 and is 15"
+            "studies.0.limits.Fz was 20 and is now 15"
         );
         assert_eq!(
             found(&plan(20, "0.5", "sha256:1")),
-            "studies.0.presses.0.shear was null and is 0.5"
+            "studies.0.presses.0.shear was null and is now 0.5"
         );
         assert_eq!(found(&plan(20, "null", "sha256:2")), "the rig file changed");
         let fewer = before.replace(r#"{"shear": null}"#, "");

@@ -44,11 +44,11 @@ impl RunFolder {
         let differences = [line, difference::of_plans(before, now)];
         let differences: Vec<String> = differences.into_iter().flatten().collect();
         let differences = match differences.as_slice() {
-            [] => "its scene, seed or rig differs".to_owned(),
+            [] => "the scene, seed or rig differs".to_owned(),
             differences => differences.join("; "),
         };
         format!(
-            "the run in it has a different plan: {differences}; undo this change and use --resume, or choose another folder for the new plan"
+            "the run in this folder has a different plan: {differences}; undo this change and use --resume, or choose another folder for the new plan"
         )
     }
 

@@ -213,7 +213,7 @@ fn a_changer_that_fails_ends_an_unattended_run_with_everything_recorded_and_the_
         (Misfortune::Vanishes, "turn"),
         (
             Misfortune::BringsAnother,
-            "`sphere of radius 1 mm` is in place, expected `sphere of radius 2 mm`",
+            "`sphere of radius 1 mm` in place, expected `sphere of radius 2 mm`",
         ),
     ] {
         let (world, folder) = (World::new(), tempfile::tempdir().expect("a folder"));

@@ -127,7 +127,7 @@ fn nothing_moves_in_a_check_whose_rig_file_has_the_tip_in_the_gel_or_was_never_t
     let check = check_rig(&untaught(), &drivers(&world), Some(&mut Nobody)).expect("a file");
     assert!(check.problems.contains(&RigProblem::Untaught));
     assert!(check.halt.is_none() && world.state().motions == 0);
-    let why = "nothing moves, because the place of the robot is wrong";
+    let why = "nothing moves, because `origin_mm` or `axes` of the robot are wrong";
     assert_eq!(check.halt_left_out.as_deref(), Some(why));
 }
 
@@ -150,7 +150,7 @@ fn nothing_moves_in_a_check_if_the_tip_was_jogged_into_the_gel_before_somebody_l
     let is_deep = problems.any(|problem| matches!(problem, RigProblem::InGel { .. }));
     assert!(is_deep, "{:?}", check.problems);
     assert!(check.halt.is_none() && world.state().motions == 1);
-    let why = "nothing moves, because the place of the robot is wrong";
+    let why = "nothing moves, because `origin_mm` or `axes` of the robot are wrong";
     assert_eq!(check.halt_left_out.as_deref(), Some(why));
 }
 

@@ -65,8 +65,7 @@ impl Check<'_> {
             (None, Some(array)) if !is_other => (Vec::new(), Some(self.map_array(array)?)),
             _ => {
                 let problem = format!(
-                    "[task.{name}] has the maps of all rows in `array = \"FILE\"`, or `from`, a column that names a .png or .npy for each row, and \
-                     neither `names`, `positive`, `over` nor `thresholds`"
+                    "[task.{name}] needs `array = \"FILE\"` with the maps of all rows, or `from`, a column that names a .png or .npy for each row; remove `names`, `positive`, `over` and `thresholds`"
                 );
                 return Err(self.at(offset, &problem));
             }
@@ -75,7 +74,8 @@ impl Check<'_> {
             Some(unit) => match unit.get_ref() {
                 WrittenUnits::One(symbol) => (symbol.as_str(), unit.span().start),
                 WrittenUnits::Several(_) => {
-                    let problem = "`unit` of depth maps is one unit of length, such as \"mm\"";
+                    let problem =
+                        "invalid `unit` of depth maps, expected one unit of length, such as \"mm\"";
                     return Err(self.at(unit.span().start, problem));
                 }
             },
@@ -92,7 +92,7 @@ impl Check<'_> {
         if let Some(pixel) = &written.pixel_mm {
             let sides = *pixel.get_ref();
             if !sides.iter().all(|side| (1e-9..=1e9).contains(side)) {
-                let problem = "`pixel_mm` is the distance of columns and of rows, two numbers from 1e-9 to 1e9 mm";
+                let problem = "invalid `pixel_mm`, expected the distances of columns and of rows, two numbers from 1e-9 to 1e9 mm";
                 return Err(self.at(pixel.span().start, problem));
             }
             facts.pixel_mm = Some(sides);
@@ -103,7 +103,7 @@ impl Check<'_> {
                 Invalid::Number(number) if number.is_nan() => None,
                 Invalid::Number(number) if number.is_finite() => Some(*number),
                 _ => {
-                    let problem = "`invalid` is \"nan\", or the number of an invalid pixel";
+                    let problem = "unknown value of `invalid`, expected \"nan\", or the number of an invalid pixel";
                     return Err(self.at(invalid.span().start, problem));
                 }
             };

@@ -17,7 +17,7 @@ impl Check<'_> {
         let columns = match written.from {
             Some(WrittenFrom::Place(columns)) if !is_other => columns.t,
             _ => {
-                let problem = "a place has `from = { t = [\"x\", \"y\", \"z\"] }`, and neither `names`, `positive`, `over` nor `thresholds`";
+                let problem = "a place needs `from = { t = [\"x\", \"y\", \"z\"] }`; remove `names`, `positive`, `over` and `thresholds`";
                 return Err(self.at(offset, problem));
             }
         };

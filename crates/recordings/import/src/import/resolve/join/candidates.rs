@@ -165,8 +165,7 @@ impl Candidates {
                 if let Some([_, (_, row)]) = back.as_deref() {
                     return Err(table_error!(
                         table.place(*row, &join.time.column),
-                        "the time of join `{}` decreases here, so rows cannot be matched by it: split the table where its clock was \
-                             set",
+                        "the time of join `{}` decreases here, so rows cannot be matched by time: split the table where its clock was set",
                         map.name
                     ));
                 }

@@ -146,10 +146,10 @@ impl Timing {
         let smaller = factors.iter().find(|factor| is_near(ratio * *factor));
         let unit = match (larger, smaller) {
             (Some(factor), _) => {
-                format!("; the former are {factor} times the latter: correct a `unit`")
+                format!("; times of rows are {factor} times those of the join: correct a `unit`")
             }
             (None, Some(factor)) => {
-                format!("; the latter are {factor} times the former: correct a `unit`")
+                format!("; times of the join are {factor} times those of rows: correct a `unit`")
             }
             (None, None) => String::new(),
         };
