@@ -19,6 +19,10 @@ pub(crate) struct SceneArgs {
     /// names an enabling switch, an operator holds it while the robot moves; see docs/rig.md
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
+    /// A finished run of this scene, or of a pilot of it with fewer points: predicts the widths of intervals that the scene names
+    /// (`want_width` under [metrics]), and the points and the time that they need
+    #[arg(long, value_name = "RUN")]
+    pub(crate) from: Option<PathBuf>,
 }
 
 /// The folder of the run contains `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`

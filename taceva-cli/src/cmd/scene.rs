@@ -16,8 +16,10 @@ use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
 use crate::disk_space::{self, Need};
 
-/// Least number of contact points for intervals, because the test part has a tenth of the points.
-const ENOUGH_POINTS: usize = 10 * LEAST_CLUSTERS;
+/// Number of contact points for each point of the test part, which has a tenth of them.
+pub(super) const POINTS_OF_A_TESTED_POINT: usize = 10;
+/// Least number of contact points for intervals.
+const ENOUGH_POINTS: usize = POINTS_OF_A_TESTED_POINT * LEAST_CLUSTERS;
 
 /// Plans the scene of `args` with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {

@@ -1,0 +1,222 @@
+//! Widths of intervals that a scene wants: expected before the first press, and reached by a run.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+use taceva_acquire::{PlannedScene, PlannedStudy};
+use taceva_core::{Field, counted, shown};
+use taceva_drivers::Drivers;
+use taceva_metrics::LEAST_CLUSTERS;
+use taceva_protocol::{PhaseKind, Plan, WantedWidth};
+use taceva_results::EvaluationReport;
+use taceva_study::{ScoredWidth, TestedPoints};
+
+use super::{Context, Usage, results, scene};
+
+/// Prints the expected width of each wanted interval, and the points and the time that the wanted width needs. Predicts them from the results `from`.
+///
+/// # Errors
+/// If the scene wants no width, or `from` cannot be read or has other studies.
+pub(super) fn print_expected(
+    planned: &PlannedScene,
+    from: Option<&Path>,
+    drivers: &Drivers,
+    context: &Context,
+) -> anyhow::Result<()> {
+    let wanted = planned.scene.metrics.wanted_widths();
+    let reports = from
+        .map(|path| reports(path, planned, &wanted))
+        .transpose()?;
+    for (number, study) in planned.studies.iter().enumerate() {
+        let outlook = Outlook {
+            planned,
+            number,
+            pilot: reports.as_ref().map(|reports| &reports[number]),
+            drivers,
+        };
+        for wanted in wanted.iter().filter(|wanted| study.plan.scores(wanted)) {
+            context.say(format_args!(
+                "width: {}: {wanted}: {}",
+                shown(&study.plan.name),
+                outlook.words(wanted)
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Prints the reached width of each wanted interval, and adds it to the notes of its report.
+pub(super) fn note_reached(
+    planned: &PlannedScene,
+    reports: &mut [EvaluationReport],
+    context: &Context,
+) {
+    let wanted = planned.scene.metrics.wanted_widths();
+    for (study, report) in planned.studies.iter().zip(reports) {
+        for wanted in wanted.iter().filter(|wanted| study.plan.scores(wanted)) {
+            let reached = match ScoredWidth::of(report, wanted) {
+                Ok(scored) => format!(
+                    "{} reached with {}",
+                    percent(scored.width()),
+                    counted(scored.tested().points, "tested contact point")
+                ),
+                Err(error) => format!("none reached: {error}"),
+            };
+            let note = format!(
+                "width of the interval of {wanted}: {} wanted, {reached}; one look at the results, which did not change the number of points",
+                percent(wanted.width)
+            );
+            context.say(format_args!("{}: {note}", shown(&study.plan.name)));
+            report.provenance.notes.push(note);
+        }
+    }
+}
+
+/// Results of `path`, one for each study of `planned`.
+fn reports(
+    path: &Path,
+    planned: &PlannedScene,
+    wanted: &[WantedWidth],
+) -> anyhow::Result<Vec<EvaluationReport>> {
+    let named = shown(path);
+    if wanted.is_empty() {
+        return Err(Usage::error(format!(
+            "--from {named}: the scene names no `want_width` under [metrics], so there is no width to predict"
+        )));
+    }
+    let reports = results::reports(path)?.reports;
+    let [found, expected] = [reports.len(), planned.studies.len()];
+    if found != expected {
+        return Err(Usage::error(format!(
+            "--from {named}: {}, and the scene has {expected}: expected a run of this scene, or of a pilot of it with fewer points",
+            counted(found, "sensor")
+        )));
+    }
+    Ok(reports)
+}
+
+/// Study whose widths are predicted.
+struct Outlook<'a> {
+    planned: &'a PlannedScene,
+    number: usize,
+    /// Results of the same study in an earlier run.
+    pilot: Option<&'a EvaluationReport>,
+    drivers: &'a Drivers,
+}
+
+impl Outlook<'_> {
+    /// Expected width of `wanted` and its cost in words.
+    fn words(&self, wanted: &WantedWidth) -> String {
+        let PlannedStudy { plan, .. } = &self.planned.studies[self.number];
+        let width = percent(wanted.width);
+        let Some(tested) = tested(plan) else {
+            return format!("{width} wanted, of a recording whose points are fixed");
+        };
+        let points = counted(tested.points, "tested contact point");
+        let Some(pilot) = self.pilot else {
+            return match tested.points < LEAST_CLUSTERS {
+                true => format!(
+                    "{width} cannot be reached with {points}: an interval needs {LEAST_CLUSTERS}"
+                ),
+                false => format!(
+                    "{width} wanted; `--from RUN` predicts the width from a run of this scene, or of a pilot of it with fewer points"
+                ),
+            };
+        };
+        let scored = match ScoredWidth::of(pilot, wanted) {
+            Ok(scored) => scored,
+            Err(error) => return format!("{width} wanted; the earlier run predicts none: {error}"),
+        };
+        let expected = scored.expected(tested);
+        let begin = match expected {
+            Some(expected) => format!("{} expected with {points}", percent(expected)),
+            None => format!("no interval with {points}"),
+        };
+        let end = match expected {
+            Some(expected) if expected <= wanted.width => String::new(),
+            _ => self.remedy(wanted, &scored, tested),
+        };
+        format!(
+            "{begin}, {width} wanted{end}; predicted from {} {}{}",
+            counted(scored.tested().points, "point"),
+            shown(&pilot.subject.source),
+            model_of(pilot)
+        )
+    }
+
+    /// Points and time that the wanted width needs, or the width that can be reached.
+    fn remedy(&self, wanted: &WantedWidth, scored: &ScoredWidth, tested: TestedPoints) -> String {
+        let plan = &self.planned.studies[self.number].plan;
+        let share = match has_test_part(plan) {
+            true => scene::POINTS_OF_A_TESTED_POINT,
+            false => 1,
+        };
+        let calibration = &self.planned.scene.protocol.calibration;
+        let most = calibration.points_max.value.max(calibration.points.value);
+        let most_tested = usize::try_from(most).unwrap_or(usize::MAX) / share;
+        let Some(needed) = scored.needed(wanted.width, tested.samples, most_tested) else {
+            let best = scored.expected(TestedPoints {
+                points: most_tested,
+                ..tested
+            });
+            let best = best.map_or_else(|| "no interval".to_owned(), percent);
+            return format!(
+                ": it cannot be reached with `points_max = {most}`, which gives {best}"
+            );
+        };
+        let points = u32::try_from(needed * share).unwrap_or(most);
+        let cost = match self.planned.plans_with(points, self.drivers) {
+            Ok(plans) => format!(
+                "{:.0} min of motion in place of {:.0}",
+                plans[self.number].cost.minutes.ceil(),
+                plan.cost.minutes.ceil()
+            ),
+            Err(error) => format!("which cannot be planned: {error}"),
+        };
+        let endless = scored.expected(TestedPoints {
+            samples: f64::INFINITY,
+            ..tested
+        });
+        let places = endless.filter(|endless| *endless > wanted.width);
+        let places = places.map_or_else(String::new, |endless| {
+            format!(
+                "; further presses at the same places end at {}",
+                percent(endless)
+            )
+        });
+        format!(": it needs `points = {points}`, {cost}{places}")
+    }
+}
+
+/// Scored contact points of `plan`; `None` if it presses none.
+fn tested(plan: &Plan) -> Option<TestedPoints> {
+    let presses = match has_test_part(plan) {
+        true => scene::tested_presses(plan)?,
+        false => plan.presses_of(PhaseKind::Calibration).collect(),
+    };
+    let samples = presses.iter().map(|planned| planned.press.samples());
+    let samples: usize = samples.sum();
+    let points = presses.iter().map(|planned| planned.press.point_id());
+    let points = points.collect::<BTreeSet<String>>().len();
+    (points > 0).then(|| TestedPoints {
+        points,
+        samples: samples as f64 / points as f64,
+    })
+}
+
+/// True if one model is fitted and scored on its test part alone.
+fn has_test_part(plan: &Plan) -> bool {
+    let mut fits = plan.fits.iter();
+    fits.any(|fit| fit.field == Field::Prediction && fit.folds.is_none())
+}
+
+/// Model behind `report` in words.
+fn model_of(report: &EvaluationReport) -> String {
+    let model = report.provenance.model.as_ref();
+    model.map_or_else(String::new, |model| format!(" with {}", shown(&model.name)))
+}
+
+/// Width as a percentage.
+fn percent(width: f64) -> String {
+    format!("{:.1} %", 100.0 * width)
+}
