@@ -7,7 +7,7 @@ use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_core::{Field, counted, shown};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
-use taceva_protocol::{PhaseKind, Plan, WantedWidth};
+use taceva_protocol::{PhaseKind, Plan, PlannedPress, WantedWidth};
 use taceva_results::EvaluationReport;
 use taceva_study::{ScoredWidth, TestedPoints};
 
@@ -137,9 +137,11 @@ impl Outlook<'_> {
             _ => self.remedy(wanted, &scored, tested),
         };
         format!(
-            "{begin}, {width} wanted{end}; predicted from {} {}{}",
-            counted(scored.tested().points, "point"),
-            shown(&pilot.subject.source),
+            "{begin}, {width} wanted{end}; predicted from {}{}",
+            counted(
+                scored.tested().points,
+                &format!("{} point", shown(&pilot.subject.source))
+            ),
             model_of(pilot)
         )
     }
@@ -190,17 +192,20 @@ impl Outlook<'_> {
 
 /// Scored contact points of `plan`; `None` if it presses none.
 fn tested(plan: &Plan) -> Option<TestedPoints> {
-    let presses = match has_test_part(plan) {
-        true => scene::tested_presses(plan)?,
-        false => plan.presses_of(PhaseKind::Calibration).collect(),
-    };
-    let samples = presses.iter().map(|planned| planned.press.samples());
+    let all: Vec<&PlannedPress> = plan.presses_of(PhaseKind::Calibration).collect();
+    let samples = all.iter().map(|planned| planned.press.samples());
     let samples: usize = samples.sum();
-    let points = presses.iter().map(|planned| planned.press.point_id());
-    let points = points.collect::<BTreeSet<String>>().len();
-    (points > 0).then(|| TestedPoints {
-        points,
-        samples: samples as f64 / points as f64,
+    let count = |presses: &[&PlannedPress]| {
+        let points = presses.iter().map(|planned| planned.press.point_id());
+        points.collect::<BTreeSet<String>>().len()
+    };
+    (!all.is_empty()).then(|| TestedPoints {
+        points: match has_test_part(plan) {
+            // Too few points to divide leave no test part.
+            true => count(&scene::tested_presses(plan).unwrap_or_default()),
+            false => count(&all),
+        },
+        samples: samples as f64 / count(&all) as f64,
     })
 }
 
