@@ -74,12 +74,10 @@ fn a_plan_predicts_the_width_of_its_points_from_a_run_of_the_scene() {
     let (bench, results, _) = with_pilot();
     let width = printed_width(&results);
     let said = planned(&bench, "small.toml --from r");
-    assert!(
-        said.contains(&format!(
-            "small: mae.Fz: {width:.1} % expected with 16 tested contact points, 20.0 % wanted: it needs `points = "
-        )),
-        "{said}"
-    );
+    let words = "expected with 16 tested contact points, 20.0 % wanted: it needs `points = ";
+    // A press that ends early has fewer samples than planned.
+    let expected = percent_before(&said, words);
+    assert!((expected / width - 1.0).abs() < 0.1, "{said}\n{width}");
     assert!(
         said.contains("predicted from 16 simulated points with ridge"),
         "{said}"
