@@ -45,7 +45,7 @@ fn scored(report: &EvaluationReport) -> ScoredWidth {
 }
 
 #[test]
-fn the_reached_width_is_that_of_the_printed_interval() {
+fn the_reached_width_is_that_of_the_interval_in_the_result() {
     let report = report(40, 4, 0.8, 1);
     for metric in WantedWidth::METRICS {
         let found = ScoredWidth::of(&report, &wanted(metric, "Fz")).expect("a width");
