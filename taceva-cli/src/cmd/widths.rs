@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::path::Path;
+use std::time::Duration;
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
 use taceva_core::{Field, counted, shown};
@@ -12,6 +13,7 @@ use taceva_results::EvaluationReport;
 use taceva_study::{ScoredWidth, TestedPoints};
 
 use super::{Context, Usage, results, scene};
+use crate::progress::spoken;
 
 /// Prints the expected width of each wanted interval, and the points and the time that the wanted width needs. Predicts them from the results `from`.
 ///
@@ -169,9 +171,9 @@ impl Outlook<'_> {
         let points = u32::try_from(needed * share).unwrap_or(most);
         let cost = match self.planned.plans_with(points, self.drivers) {
             Ok(plans) => format!(
-                "{:.0} min of motion in place of {:.0}",
-                plans[self.number].cost.minutes.ceil(),
-                plan.cost.minutes.ceil()
+                "{} of motion on a rig in place of {}",
+                motion(&plans[self.number]),
+                motion(plan)
             ),
             Err(error) => format!("which cannot be planned: {error}"),
         };
@@ -188,6 +190,11 @@ impl Outlook<'_> {
         });
         format!(": it needs `points = {points}`, {cost}{places}")
     }
+}
+
+/// Time of motion of `plan` in words.
+fn motion(plan: &Plan) -> String {
+    spoken(Duration::from_secs_f64(60.0 * plan.cost.minutes))
 }
 
 /// Scored contact points of `plan`; `None` if it presses none.
