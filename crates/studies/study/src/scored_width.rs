@@ -53,8 +53,8 @@ pub enum NoWidth {
     /// The lower end of the interval is 0, so it has no relative width.
     #[error("the interval of `{0}` reaches 0")]
     ReachesZero(String),
-    /// The samples of the result were not found.
-    #[error("no samples beside the result")]
+    /// The samples of the result were not found, or name no contact points.
+    #[error("no samples with contact points beside the result")]
     NoSamples,
 }
 
@@ -64,24 +64,9 @@ impl ScoredWidth {
     /// # Errors
     /// [`NoWidth`] without the score, its interval or its samples.
     pub fn of(report: &EvaluationReport, wanted: &WantedWidth) -> Result<ScoredWidth, NoWidth> {
-        let score = report.score(&wanted.metric, &wanted.channel);
-        let score = score.ok_or_else(|| NoWidth::NoScore(wanted.to_string()))?;
-        let absent = |reason: &str| NoWidth::NoInterval {
-            score: wanted.to_string(),
-            reason: reason.to_owned(),
-        };
-        let ([low, high], freedom) = match &score.interval {
-            Some(Interval::Ends {
-                ends,
-                degrees_of_freedom: Some(freedom),
-                ..
-            }) => (*ends, *freedom),
-            Some(Interval::Absent(reason)) => return Err(absent(reason)),
-            _ => return Err(absent("the result states no degrees of freedom")),
-        };
-        if !(low > 0.0 && high.is_finite()) {
-            return Err(NoWidth::ReachesZero(wanted.to_string()));
-        }
+        let (ratio, freedom) = ratio(report, wanted)?;
+        let freedom = freedom
+            .ok_or_else(|| no_interval(wanted, "the result states no degrees of freedom"))?;
         let samples = report.samples.as_ref().ok_or(NoWidth::NoSamples)?;
         let axes = axes(samples, &wanted.channel);
         let errors = errors(samples, &axes, &wanted.metric);
@@ -100,11 +85,19 @@ impl ScoredWidth {
                 points: errors.len(),
                 samples: readings as f64 / of_sample / errors.len() as f64,
             },
-            ratio: high / low,
+            ratio,
             freedom,
             between,
             within: within / of_sample,
         })
+    }
+
+    /// Width of the score of `wanted` in `report`, also without its samples.
+    ///
+    /// # Errors
+    /// [`NoWidth`] without the score or its interval.
+    pub fn reached(report: &EvaluationReport, wanted: &WantedWidth) -> Result<f64, NoWidth> {
+        ratio(report, wanted).map(|(ratio, _)| ratio - 1.0)
     }
 
     /// Points behind the score.
@@ -121,17 +114,16 @@ impl ScoredWidth {
     /// width that further presses at the same places cannot go below.
     ///
     /// The interval is symmetric on a logarithm. Its standard error is that of a mean of points with variance s_b² + s_w²/m, for m samples of
-    /// each. Its degrees of freedom grow with the points, to the number of clusters minus one.
+    /// each. Unequal clusters leave ν < g − 1 degrees of freedom of g clusters: 1/ν − 1/(g − 1) is inversely proportional to the points.
     pub fn expected(&self, tested: TestedPoints) -> Option<f64> {
         if tested.points < LEAST_CLUSTERS {
             return None;
         }
-        let clusters = match tested.points {
-            named @ ..=NAMED_CLUSTERS => named,
-            _ => HASHED_CLUSTERS,
-        };
         let growth = tested.points as f64 / self.tested.points as f64;
-        let freedom = (self.freedom * growth).clamp(LEAST_FREEDOM, clusters as f64 - 1.0);
+        let [least, own] =
+            [tested, self.tested].map(|tested| 1.0 / (clusters(tested.points) as f64 - 1.0));
+        let excess = (1.0 / self.freedom - own).max(0.0);
+        let freedom = (1.0 / (least + excess / growth)).max(LEAST_FREEDOM);
         let variance = |samples: f64| self.between + self.within / samples;
         let share = match variance(self.tested.samples) {
             own if own > 0.0 => variance(tested.samples) / own,
@@ -153,6 +145,37 @@ impl ScoredWidth {
         let hashed = NAMED_CLUSTERS + 1..most + 1;
         let mut ranges = [named, hashed].into_iter();
         ranges.find_map(|range| first(range, reaches))
+    }
+}
+
+/// Upper end / lower end of the interval of `wanted` in `report`, and its degrees of freedom if stated.
+fn ratio(report: &EvaluationReport, wanted: &WantedWidth) -> Result<(f64, Option<f64>), NoWidth> {
+    let score = report.score(&wanted.metric, &wanted.channel);
+    let score = score.ok_or_else(|| NoWidth::NoScore(wanted.to_string()))?;
+    match &score.interval {
+        Some(Interval::Ends {
+            ends: [low, high],
+            degrees_of_freedom,
+            ..
+        }) if *low > 0.0 && high.is_finite() => Ok((high / low, *degrees_of_freedom)),
+        Some(Interval::Ends { .. }) => Err(NoWidth::ReachesZero(wanted.to_string())),
+        Some(Interval::Absent(reason)) => Err(no_interval(wanted, reason)),
+        None => Err(no_interval(wanted, "the result states none")),
+    }
+}
+
+fn no_interval(wanted: &WantedWidth, reason: &str) -> NoWidth {
+    NoWidth::NoInterval {
+        score: wanted.to_string(),
+        reason: reason.to_owned(),
+    }
+}
+
+/// Number of clusters of `points` contact points.
+fn clusters(points: usize) -> usize {
+    match points {
+        ..=NAMED_CLUSTERS => points,
+        _ => HASHED_CLUSTERS,
     }
 }
 
