@@ -19,8 +19,7 @@ pub(crate) struct SceneArgs {
     /// names an enabling switch, an operator holds it while the robot moves; see docs/rig.md
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
-    /// A finished run of this scene, or of a pilot of it with fewer points: predicts the widths of intervals that the scene names
-    /// (`want_width` under [metrics]), and the points and the time that they need
+    /// A finished run of this scene, or of a pilot with fewer points, that predicts the widths of intervals under `want_width` of the scene
     #[arg(long, value_name = "RUN")]
     pub(crate) from: Option<PathBuf>,
 }
@@ -43,7 +42,7 @@ pub(crate) struct Run {
     pub(crate) seeds: Option<Seeds>,
     /// Visit every place in the air, 10 mm above the height of travel, with the guard of a run: nothing is pressed or recorded. Recommended
     /// on a real rig before the first press
-    #[arg(long, conflicts_with_all = ["resume", "force", "folder"])]
+    #[arg(long, conflicts_with_all = ["resume", "force", "folder", "from"])]
     pub(crate) air: bool,
     /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
     #[arg(long = "out", value_name = "FOLDER")]

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::time::Duration;
 
 use taceva_acquire::{PlannedScene, PlannedStudy};
-use taceva_core::{Field, counted, shown};
+use taceva_core::{counted, shown, whole_size};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_protocol::{PhaseKind, Plan, PlannedPress, WantedWidth};
@@ -56,12 +56,8 @@ pub(super) fn note_reached(
     let wanted = planned.scene.metrics.wanted_widths();
     for (study, report) in planned.studies.iter().zip(reports) {
         for wanted in wanted.iter().filter(|wanted| study.plan.scores(wanted)) {
-            let reached = match ScoredWidth::of(report, wanted) {
-                Ok(scored) => format!(
-                    "{} reached with {}",
-                    percent(scored.width()),
-                    counted(scored.tested().points, "tested contact point")
-                ),
+            let reached = match ScoredWidth::reached(report, wanted) {
+                Ok(width) => format!("{} reached{}", percent(width), points_of(report, wanted)),
                 Err(error) => format!("none reached: {error}"),
             };
             let note = format!(
@@ -72,6 +68,15 @@ pub(super) fn note_reached(
             report.provenance.notes.push(note);
         }
     }
+}
+
+/// Number of points behind the score of `wanted` in words; empty for samples without contact points.
+fn points_of(report: &EvaluationReport, wanted: &WantedWidth) -> String {
+    let scored = ScoredWidth::of(report, wanted).ok();
+    let points = scored.map(|scored| scored.tested().points);
+    points.map_or_else(String::new, |points| {
+        format!(" with {}", counted(points, "tested contact point"))
+    })
 }
 
 /// Results of `path`, one for each study of `planned`.
@@ -109,9 +114,8 @@ struct Outlook<'a> {
 impl Outlook<'_> {
     /// Expected width of `wanted` and its cost in words.
     fn words(&self, wanted: &WantedWidth) -> String {
-        let PlannedStudy { plan, .. } = &self.planned.studies[self.number];
         let width = percent(wanted.width);
-        let Some(tested) = tested(plan) else {
+        let Some(tested) = tested(&self.planned.studies[self.number]) else {
             return format!("{width} wanted, of a recording whose points are fixed");
         };
         let points = counted(tested.points, "tested contact point");
@@ -150,14 +154,10 @@ impl Outlook<'_> {
 
     /// Points and time that the wanted width needs, or the width that can be reached.
     fn remedy(&self, wanted: &WantedWidth, scored: &ScoredWidth, tested: TestedPoints) -> String {
-        let plan = &self.planned.studies[self.number].plan;
-        let share = match has_test_part(plan) {
-            true => scene::POINTS_OF_A_TESTED_POINT,
-            false => 1,
-        };
+        let study = &self.planned.studies[self.number];
         let calibration = &self.planned.scene.protocol.calibration;
         let most = calibration.points_max.value.max(calibration.points.value);
-        let most_tested = usize::try_from(most).unwrap_or(usize::MAX) / share;
+        let most_tested = whole_size(f64::from(most) * scene::test_share(study) + 1e-9);
         let Some(needed) = scored.needed(wanted.width, tested.samples, most_tested) else {
             let best = scored.expected(TestedPoints {
                 points: most_tested,
@@ -168,12 +168,13 @@ impl Outlook<'_> {
                 ": it cannot be reached with `points_max = {most}`, which gives {best}"
             );
         };
-        let points = u32::try_from(needed * share).unwrap_or(most);
+        let points = scene::points_for(needed, study);
+        let points = u32::try_from(points).unwrap_or(most);
         let cost = match self.planned.plans_with(points, self.drivers) {
             Ok(plans) => format!(
                 "{} of motion on a rig in place of {}",
                 motion(&plans[self.number]),
-                motion(plan)
+                motion(&study.plan)
             ),
             Err(error) => format!("which cannot be planned: {error}"),
         };
@@ -197,9 +198,9 @@ fn motion(plan: &Plan) -> String {
     spoken(Duration::from_secs_f64(60.0 * plan.cost.minutes))
 }
 
-/// Scored contact points of `plan`; `None` if it presses none.
-fn tested(plan: &Plan) -> Option<TestedPoints> {
-    let all: Vec<&PlannedPress> = plan.presses_of(PhaseKind::Calibration).collect();
+/// Scored contact points of `study`; `None` if it presses none.
+fn tested(study: &PlannedStudy) -> Option<TestedPoints> {
+    let all: Vec<&PlannedPress> = study.plan.presses_of(PhaseKind::Calibration).collect();
     let samples = all.iter().map(|planned| planned.press.samples());
     let samples: usize = samples.sum();
     let count = |presses: &[&PlannedPress]| {
@@ -207,19 +208,13 @@ fn tested(plan: &Plan) -> Option<TestedPoints> {
         points.collect::<BTreeSet<String>>().len()
     };
     (!all.is_empty()).then(|| TestedPoints {
-        points: match has_test_part(plan) {
+        points: match scene::has_test_part(&study.plan) {
             // Too few points to divide leave no test part.
-            true => count(&scene::tested_presses(plan).unwrap_or_default()),
+            true => count(&scene::tested_presses(study).unwrap_or_default()),
             false => count(&all),
         },
         samples: samples as f64 / count(&all) as f64,
     })
-}
-
-/// True if one model is fitted and scored on its test part alone.
-fn has_test_part(plan: &Plan) -> bool {
-    let mut fits = plan.fits.iter();
-    fits.any(|fit| fit.field == Field::Prediction && fit.folds.is_none())
 }
 
 /// Model behind `report` in words.

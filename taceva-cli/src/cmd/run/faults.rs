@@ -133,7 +133,7 @@ fn pictures(study: &PlannedStudy) -> Option<String> {
 
 /// Planned presses of the test part; empty if they are not known before the run.
 fn tested(study: &PlannedStudy) -> Vec<&PlannedPress> {
-    tested_presses(&study.plan).unwrap_or_default()
+    tested_presses(study).unwrap_or_default()
 }
 
 /// Faults of a scene.

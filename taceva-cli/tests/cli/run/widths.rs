@@ -133,8 +133,8 @@ fn a_width_that_a_constant_model_cannot_reach_is_said_before_a_press_with_the_on
 #[test]
 fn one_place_has_no_width_and_this_is_said_before_a_press() {
     let (bench, _, _) = with_pilot();
-    let scene = wanting("points = 1", "20 %").replace(", folds = 3", "");
-    bench.write("one.toml", &scene);
+    let of_points = |points: &str| wanting(points, "20 %").replace(", folds = 3", "");
+    bench.write("one.toml", &of_points("points = 1"));
     let said = planned(&bench, "one.toml");
     assert!(
         said.contains("20.0 % cannot be reached with ") && said.contains("an interval needs 5"),
@@ -142,7 +142,14 @@ fn one_place_has_no_width_and_this_is_said_before_a_press() {
     );
     let said = planned(&bench, "one.toml --from r");
     assert!(said.contains("no interval with "), "{said}");
-    assert!(number_after(&said, "it needs `points = ") >= 50, "{said}");
+    // The test part has a tenth of the points.
+    let points = number_after(&said, "it needs `points = ");
+    assert!(points >= 50, "{said}");
+    bench.write("enough.toml", &of_points(&format!("points = {points}")));
+    let enough = planned(&bench, "enough.toml --from r");
+    let tested = format!("expected with {} tested contact points", points / 10);
+    assert!(enough.contains(&tested), "{enough}");
+    assert!(percent_before(&enough, "expected") <= 20.0, "{enough}");
 }
 
 #[test]
