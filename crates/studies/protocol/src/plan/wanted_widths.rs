@@ -17,9 +17,17 @@ pub(super) fn check(scene: &Scene, plans: &[Plan]) -> Result<(), SceneError> {
         if plans.iter().any(|plan| plan.scores(&wanted)) {
             continue;
         }
-        let subject = Subject::Metric(wanted.metric);
+        let axes = plane_axes(&wanted.channel);
+        let is_cause = |subject: &Subject| match subject {
+            Subject::Metric(id) => *id == wanted.metric,
+            Subject::Channel(name) => match axes {
+                Some(axes) => axes.contains(&name.as_str()),
+                None => *name == wanted.channel,
+            },
+            _ => false,
+        };
         let mut skips = plans.iter().flat_map(|plan| &plan.skipped);
-        let reason = skips.find(|skip| skip.subject == subject);
+        let reason = skips.find(|skip| is_cause(&skip.subject));
         let absent = PlanReason::Skip(SkipReason::ChannelAbsent(wanted.channel));
         let problem = SceneProblem::NeverApplies {
             metric: score.clone(),

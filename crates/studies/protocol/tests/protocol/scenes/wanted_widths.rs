@@ -75,7 +75,7 @@ fn a_width_of_a_score_that_no_study_computes_is_refused_with_the_reason() {
     let absent = planned(&format!("{model}\n{}", wanted("mae.Fxy", "10 %")), normal);
     assert_eq!(
         absent,
-        "s.toml, line 12: `mae.Fxy` can never apply: channel `Fxy` is not scored"
+        "s.toml, line 12: `mae.Fxy` can never apply: needs `Fx` ← needs a force transducer that measures it: the transducer of the scene does not"
     );
 }
 
