@@ -50,6 +50,7 @@ pub(crate) mod sweep;
 mod task_scores;
 pub(crate) mod watch;
 pub(crate) mod wear;
+mod widths;
 
 use std::path::{Path, PathBuf};
 

@@ -19,6 +19,9 @@ pub(crate) struct SceneArgs {
     /// names an enabling switch, an operator holds it while the robot moves; see docs/rig.md
     #[arg(long, value_name = "FILE")]
     pub(crate) rig: Option<PathBuf>,
+    /// A finished run of this scene, or of a pilot with fewer points, that predicts the widths of intervals under `want_width` of the scene
+    #[arg(long, value_name = "RUN")]
+    pub(crate) from: Option<PathBuf>,
 }
 
 /// The folder of the run contains `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`
@@ -39,7 +42,7 @@ pub(crate) struct Run {
     pub(crate) seeds: Option<Seeds>,
     /// Visit every place in the air, 10 mm above the height of travel, with the guard of a run: nothing is pressed or recorded. Recommended
     /// on a real rig before the first press
-    #[arg(long, conflicts_with_all = ["resume", "force", "folder"])]
+    #[arg(long, conflicts_with_all = ["resume", "force", "folder", "from"])]
     pub(crate) air: bool,
     /// The folder of the run [default: runs/SCENE-NUMBER, a new one]
     #[arg(long = "out", value_name = "FOLDER")]

@@ -7,7 +7,7 @@ use taceva_acquire::PlannedScene;
 use taceva_drivers::{Drivers, Selector};
 use taceva_host::PluginHost;
 
-use super::{Context, run, scene};
+use super::{Context, run, scene, widths};
 use crate::args::PlanArgs;
 use crate::{exit, output, report, stderr};
 
@@ -23,6 +23,7 @@ pub(crate) fn run(args: &PlanArgs, context: &Context) -> anyhow::Result<u8> {
     run::faults::print_cost(&planned, context)?;
     scene::print_rigs(&planned, &drivers, context);
     scene::warn_of_few_points(&planned, context);
+    widths::print_expected(&planned, args.scene.from.as_deref(), &drivers, context)?;
     output::write_as(to.format, to.path.as_deref(), |out| {
         report::plan::write(&planned, to.format, out)
     })?;

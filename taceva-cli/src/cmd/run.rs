@@ -15,7 +15,7 @@ use taceva_results::EvaluationReport;
 use taceva_study::{Existing, RunFolder, RunSetup, check_models, run_scene};
 
 use super::attendance::Attended;
-use super::{Context, Usage, cache, scene};
+use super::{Context, Usage, cache, scene, widths};
 use crate::args::{Format, Run, TableScores};
 use crate::{exit, output, progress, report};
 
@@ -66,6 +66,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     faults::print_cost(&planned, context)?;
     scene::print_rigs(&planned, &drivers, context);
     scene::warn_of_few_points(&planned, context);
+    widths::print_expected(&planned, args.scene.from.as_deref(), &drivers, context)?;
     let _held = planned.hold_rigs()?;
     let folder = RunFolder::open(&path, &planned, existing)?;
     match (args.resume, &args.folder) {
@@ -129,6 +130,7 @@ pub(crate) fn run(args: &Run, context: &Context) -> anyhow::Result<u8> {
     reports
         .iter_mut()
         .try_for_each(super::attachments::note_samples)?;
+    widths::note_reached(&planned, &mut reports, context);
     write_files(&planned, &folder, &reports, &formats)?;
     let drawn = report::page::Page::of(&planned.scene.name, &reports)?;
     let drawn = drawn.with_faults(tested.faults);

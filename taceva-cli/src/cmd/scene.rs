@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 
 use taceva_acquire::{Overrides, PlannedScene, PlannedStudy, SceneText};
-use taceva_core::{Field, SkipReason, by_count, counted, shown};
+use taceva_core::{Field, SkipReason, by_count, counted, shown, whole_size};
 use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
@@ -15,9 +15,6 @@ use taceva_protocol::{
 use super::{Context, Usage};
 use crate::args::{Run, SceneArgs};
 use crate::disk_space::{self, Need};
-
-/// Least number of contact points for intervals, because the test part has a tenth of the points.
-const ENOUGH_POINTS: usize = 10 * LEAST_CLUSTERS;
 
 /// Plans the scene of `args` with `drivers`.
 pub(super) fn planned(args: &SceneArgs, drivers: &Drivers) -> anyhow::Result<PlannedScene> {
@@ -178,8 +175,9 @@ pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
         let Some(points) = tested_points(study).filter(|points| *points < LEAST_CLUSTERS) else {
             continue;
         };
+        let enough = points_for(LEAST_CLUSTERS, study);
         context.say(format_args!(
-            "{}: the test part has {}, and intervals need {LEAST_CLUSTERS}: raise `points` under [protocol.calibration] to {ENOUGH_POINTS}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_CLUSTERS})",
+            "{}: the test part has {}, and intervals need {LEAST_CLUSTERS}: raise `points` under [protocol.calibration] to {enough}, or score every point of the recording afterwards (taceva evaluate, --split cv:{LEAST_CLUSTERS})",
             shown(&study.plan.name),
             counted(points, "contact point")
         ));
@@ -189,10 +187,8 @@ pub(super) fn warn_of_few_points(planned: &PlannedScene, context: &Context) {
 /// Number of contact points in the test part of the fit; `None` if no metric uses predictions of the test part, or if folds test every point.
 fn tested_points(study: &PlannedStudy) -> Option<usize> {
     let plan = &study.plan;
-    let mut fits = plan.fits.iter();
-    let is_fitted = fits.any(|fit| fit.field == Field::Prediction && fit.folds.is_none());
     let mut metrics = plan.metrics.iter();
-    if !is_fitted || !metrics.any(|metric| metric.phase == PhaseKind::Calibration) {
+    if !has_test_part(plan) || !metrics.any(|metric| metric.phase == PhaseKind::Calibration) {
         return None;
     }
     let presses = tested_presses(study)?;
@@ -212,12 +208,36 @@ pub(super) fn tested_presses(study: &PlannedStudy) -> Option<Vec<&PlannedPress>>
         ..SplitInput::default()
     };
     // A run refuses what cannot be divided.
-    let model = study.study.model.as_ref();
-    let split = model.and_then(|model| model.split.as_ref());
-    let split = split.map_or("by-point", |split| &split.value);
-    let split = split.parse::<SplitSpec>().ok()?;
-    let split = split.assign(&input, 0).ok()?;
+    let split = split_of(study)?.assign(&input, 0).ok()?;
     Some(split.test.iter().map(|row| presses[*row]).collect())
+}
+
+/// Split of the contact points for the model of `study`; `None` without a model.
+fn split_of(study: &PlannedStudy) -> Option<SplitSpec> {
+    let model = study.study.model.as_ref()?;
+    let split = model.split.as_ref();
+    split.map_or("by-point", |split| &split.value).parse().ok()
+}
+
+/// True if one model is fitted and scored on its test part alone.
+pub(super) fn has_test_part(plan: &Plan) -> bool {
+    let mut fits = plan.fits.iter();
+    fits.any(|fit| fit.field == Field::Prediction && fit.folds.is_none())
+}
+
+/// Share of the contact points that are scored: that of the test part, or 1 without one.
+pub(super) fn test_share(study: &PlannedStudy) -> f64 {
+    let split = split_of(study).filter(|_| has_test_part(&study.plan));
+    split.map_or(1.0, |split| {
+        let [_, _, test] = split.fractions.shares();
+        test
+    })
+}
+
+/// Number of contact points of `study` of which `tested` are scored.
+pub(super) fn points_for(tested: usize, study: &PlannedStudy) -> usize {
+    // A share in binary64 is rounded.
+    whole_size((tested as f64 / test_share(study) - 1e-9).ceil())
 }
 
 /// Text of the scene `named`. A file with this name has priority over a built-in scene.

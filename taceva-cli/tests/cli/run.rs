@@ -10,6 +10,7 @@ mod reduced;
 mod resume;
 mod slip;
 mod tasks;
+mod widths;
 
 use std::fs;
 use std::path::Path;

@@ -13,7 +13,8 @@ use taceva_core::FieldSet;
 use taceva_dataset::{Dataset, FramesInfo, Known};
 use taceva_drivers::Drivers;
 use taceva_protocol::{
-    GratingClassifier, Plan, RecordingInfo, Scene, SceneProblem, SourceInfo, Study, plan,
+    GratingClassifier, Plan, RecordingInfo, Scene, SceneError, SceneProblem, Setting, SourceInfo,
+    Study, plan,
 };
 
 use crate::error::AcquireError;
@@ -108,14 +109,8 @@ impl PlannedScene {
         if let Some(rig) = &rig {
             rig::check_changers(rig, drivers)?;
         }
-        let mut sources = Vec::new();
-        for study in &scene.studies {
-            sources.push(Source::of(study, &scene, &text, drivers)?);
-        }
-        let mut infos = sources.iter().map(|source| source.info.clone());
-        let plans = plan(&scene, |_| {
-            infos.next().expect("a source was made for each study")
-        })?;
+        let sources = Source::of_all(&scene, &text, drivers)?;
+        let plans = plan_from(&sources, &scene)?;
         let studies = scene.studies.iter().zip(plans).zip(sources);
         let studies = studies.map(|((study, plan), source)| PlannedStudy {
             source: match source.source {
@@ -133,6 +128,25 @@ impl PlannedScene {
             is_model_typed: overrides.model.is_some() || !overrides.set.is_empty(),
         })
     }
+
+    /// Plans of the studies with `points` calibration points instead of those of the scene.
+    ///
+    /// # Errors
+    /// [`AcquireError::Scene`] if these presses cannot be planned.
+    pub fn plans_with(&self, points: u32, drivers: &Drivers) -> Result<Vec<Plan>, AcquireError> {
+        let mut scene = self.scene.clone();
+        scene.protocol.calibration.points = Setting::default_of(points);
+        let sources = Source::of_all(&scene, &self.text, drivers)?;
+        Ok(plan_from(&sources, &scene)?)
+    }
+}
+
+/// Plans of the studies of `scene`, each with its source.
+fn plan_from(sources: &[Source], scene: &Scene) -> Result<Vec<Plan>, SceneError> {
+    let mut infos = sources.iter().map(|source| source.info.clone());
+    plan(scene, |_| {
+        infos.next().expect("a source was made for each study")
+    })
 }
 
 /// Source of the samples of a study, for the planner and the run.
@@ -142,6 +156,17 @@ struct Source {
 }
 
 impl Source {
+    /// Source of each study of `scene`, in order.
+    fn of_all(
+        scene: &Scene,
+        text: &SceneText,
+        drivers: &Drivers,
+    ) -> Result<Vec<Source>, AcquireError> {
+        let studies = scene.studies.iter();
+        let sources = studies.map(|study| Source::of(study, scene, text, drivers));
+        sources.collect()
+    }
+
     fn of(
         study: &Study,
         scene: &Scene,

@@ -44,7 +44,8 @@ pub use scene::{
     BuiltinScene, Calibration, Contact, DepthOrigin, DeviceSpec, GratingClassifier, Gratings,
     Hysteresis, Idle, LightSweep, LightingSpec, MetricSettings, MetricsSpec, ModelSpec,
     PluginFaultSpec, PosePairs, Protocol, Repeatability, ReportSpec, Scene, SensorSpec,
-    ShapePresses, Slip, Spatial, StressSpec, Study, SurfaceMap, WearLoad, WearSpec, WearStage,
+    ShapePresses, Slip, Spatial, StressSpec, Study, SurfaceMap, WantedWidth, WearLoad, WearSpec,
+    WearStage,
 };
 pub use source::{RecordingInfo, RigInfo, SourceInfo};
 pub use taceva_core::Specimen;

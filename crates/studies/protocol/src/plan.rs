@@ -14,6 +14,7 @@ mod resolve;
 mod study_facts;
 #[cfg(test)]
 pub(crate) mod tests;
+mod wanted_widths;
 mod wear;
 
 pub use collect::{Fit, PlannedMetric, PlannedPress};
@@ -166,7 +167,7 @@ impl Plan {
 ///
 /// - a limit is loosened or missing, or a depth exceeds its limit;
 /// - two statements contradict each other, or there are too many presses;
-/// - a metric requested by name applies to no study of the scene.
+/// - a metric requested by name, or a score with a wanted width, applies to no study of the scene.
 pub fn plan(
     scene: &Scene,
     mut source: impl FnMut(&Study) -> SourceInfo,
@@ -178,6 +179,7 @@ pub fn plan(
         .map(|study| plan_study(scene, study, &source(study), &needs))
         .collect::<Result<_, _>>()?;
     refuse_the_impossible(scene, &plans)?;
+    wanted_widths::check(scene, &plans)?;
     Ok(plans)
 }
 

@@ -11,6 +11,7 @@ mod metrics;
 mod stress;
 mod study;
 mod task_metrics;
+mod wanted_width;
 mod wear;
 
 pub use builtin::BuiltinScene;
@@ -24,6 +25,7 @@ pub use devices::{DeviceSpec, LightingSpec, ModelSpec, SensorSpec};
 pub use metrics::{MetricSettings, MetricsSpec, ReportSpec};
 pub use stress::{PluginFaultSpec, StressSpec};
 pub use study::Study;
+pub use wanted_width::WantedWidth;
 pub use wear::{WearLoad, WearSpec, WearStage};
 
 pub(crate) use boards::{spacing_of, spacings};

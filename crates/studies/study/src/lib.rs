@@ -6,6 +6,7 @@ mod error;
 mod finished;
 mod models;
 mod run;
+mod scored_width;
 mod settings;
 mod stage;
 
@@ -13,3 +14,4 @@ pub use error::StudyError;
 pub use finished::{FinishedStudy, FittedStudy};
 pub use models::check_models;
 pub use run::{Existing, RunFolder, RunSetup, acquire_scene, run_scene};
+pub use scored_width::{NoWidth, ScoredWidth, TestedPoints};

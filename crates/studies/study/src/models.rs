@@ -88,6 +88,13 @@ fn check_split(
             shown(&split.value)
         )));
     }
+    let [.., test] = spec.fractions.shares();
+    if test <= 0.0 {
+        return Err(refused(format!(
+            "`split` is `{}`, which leaves nothing to score: expected a test share above 0, such as `by-point 40/10/50`",
+            shown(&split.value)
+        )));
+    }
     if planned.study.sensor.dataset.is_none() && spec.kind != SplitKind::ByPoint {
         return Err(refused(format!(
             "`split` is `{}`, but presses at one contact point must be in one part: expected `by-point`, with shares such as `by-point 40/10/50`",

@@ -6,6 +6,7 @@ mod recording;
 mod stress;
 mod study;
 mod wear;
+mod widths;
 
 use taceva_core::shown;
 
@@ -37,6 +38,7 @@ pub(super) fn checked(text: Text, named_by: NamedBy) -> Result<Scene, SceneError
     check.version(&written)?;
     check.limits(&written.limits)?;
     check.metrics(&written.metrics)?;
+    check.widths(&written.metrics)?;
     check.protocol(&written.protocol)?;
     check.tasks(&written.metrics, &written.protocol)?;
     check.report(&written.report)?;

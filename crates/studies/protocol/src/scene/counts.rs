@@ -90,6 +90,8 @@ table! {
     Calibration {
         /// Number of points.
         points: u32 = 800,
+        /// Greatest number of points to propose for a wanted width.
+        points_max: u32 = 10_000,
         /// Number of depths at each point.
         indentations: u32 = 4,
         /// Least depth, in mm.

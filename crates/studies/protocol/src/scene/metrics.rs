@@ -1,5 +1,6 @@
 //! Metrics and reports of a scene.
 
+use std::collections::BTreeMap;
 use std::fmt;
 
 use serde::de::value::MapAccessDeserializer;
@@ -8,6 +9,7 @@ use serde::{Deserialize, Deserializer};
 use taceva_core::{Nanometre, Newton};
 use taceva_metrics::Settings;
 
+use super::wanted_width::WantedWidth;
 use crate::text::Setting;
 
 /// The metrics of a scene.
@@ -16,8 +18,19 @@ use crate::text::Setting;
 pub struct MetricsSpec {
     /// Names of metrics or groups; the default is all that apply. A metric that is named individually must apply to a sensor of the scene.
     pub want: Option<Vec<Setting<String>>>,
+    /// Greatest widths of intervals by score: `"10 %"` for `mae.Fz`.
+    pub want_width: BTreeMap<String, Setting<String>>,
     /// Settings of the metrics.
     pub settings: MetricSettings,
+}
+
+impl MetricsSpec {
+    /// Wanted widths of intervals, by the names of their scores.
+    pub fn wanted_widths(&self) -> Vec<WantedWidth> {
+        let widths = self.want_width.iter();
+        let widths = widths.filter_map(|(score, width)| WantedWidth::parse(score, &width.value));
+        widths.collect()
+    }
 }
 
 // A derived implementation would accept a list as fields in order, and then expect a list in its first element.

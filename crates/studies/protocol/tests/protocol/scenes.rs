@@ -4,6 +4,7 @@ mod certificates;
 mod on_a_rig;
 mod planning;
 mod reading;
+mod wanted_widths;
 mod wear;
 
 use taceva_core::{

@@ -41,6 +41,10 @@ impl Check<'_> {
         ] {
             self.count(key, count, 1, GREATEST_COUNT)?;
         }
+        if calibration.points_max.at().is_some() {
+            let least = u64::from(calibration.points.value);
+            self.count("points_max", &calibration.points_max, least, GREATEST_COUNT)?;
+        }
         self.count("indentations", &calibration.indentations, 1, 1_000)?;
         // A single trial repeats nothing, and a single frame has no rate.
         self.count("trials", &repeatability.trials, 2, GREATEST_COUNT)?;
