@@ -1,0 +1,42 @@
+//! Tests of drafts for recordings whose contact points only coordinates name.
+
+use super::drafts::{drafted, filled, wave, waves};
+use super::{lab, line, planned};
+
+#[test]
+fn coordinates_that_repeat_exactly_are_drafted_as_the_contact_point() {
+    let place = |row: usize| format!("{}.5,{}.25", row % 4, row % 8 / 4);
+    let draft = drafted("x_mm,y_mm,Fz_N", |row| {
+        format!("{},{}", place(row), wave(row))
+    });
+    let said = line(&draft, "point_id = ");
+    assert!(
+        said.starts_with(
+            "point_id = [\"x_mm\", \"y_mm\"]   # a guess: 40 rows have 8 places that repeat exactly"
+        ),
+        "{draft}"
+    );
+    let rows: Vec<String> = (0..40)
+        .map(|row| format!("{},{}\n", place(row), wave(row)))
+        .collect();
+    let table = format!("x_mm,y_mm,Fz_N\n{}", rows.concat());
+    let folder = lab(&[("labels.csv", &table)]);
+    planned(folder.path(), &filled(&draft)).expect("an import");
+}
+
+#[test]
+fn coordinates_that_rarely_repeat_or_have_a_column_of_points_beside_them_name_no_contact_point() {
+    let moving = drafted("x_mm,y_mm,Fz_N", |row| waves(row, 3));
+    assert!(!moving.contains("point_id"), "{moving}");
+    let still = drafted("x_mm,y_mm,Fz_N", |row| format!("1.5,2.5,{}", wave(row)));
+    assert!(!still.contains("point_id"), "{still}");
+    let named = drafted("x_mm,y_mm,Fz_N,location", |row| {
+        let at = row % 8;
+        format!("{at}.5,{at}.25,{},p{at}", wave(row))
+    });
+    assert!(
+        line(&named, "# point_id = ").contains("\"location\""),
+        "{named}"
+    );
+    assert!(!named.contains("\npoint_id"), "{named}");
+}
