@@ -130,10 +130,11 @@ impl fmt::Display for Note {
             ),
             Note::LeftOut { part, count } => write!(
                 f,
-                "{} of the part {part} {} a label or a frame and {} left out",
+                "{} of the part {part} {} a label or a frame and {} left out: `taceva check` names {} (TAC011)",
                 counted(*count, "sample"),
                 by_count(*count, "lacks", "lack"),
-                by_count(*count, "was", "were")
+                by_count(*count, "was", "were"),
+                by_count(*count, "it", "them")
             ),
             Note::Bounded(shares) => {
                 let shares: Vec<String> = shares
@@ -342,11 +343,11 @@ mod tests {
             ),
             (
                 left_out(1),
-                "1 sample of the part test lacks a label or a frame and was left out",
+                "1 sample of the part test lacks a label or a frame and was left out: `taceva check` names it (TAC011)",
             ),
             (
                 left_out(9),
-                "9 samples of the part test lack a label or a frame and were left out",
+                "9 samples of the part test lack a label or a frame and were left out: `taceva check` names them (TAC011)",
             ),
             (Note::States(1), "1 state merged"),
         ] {
