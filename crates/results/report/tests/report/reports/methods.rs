@@ -211,6 +211,8 @@ fn methods_name_the_devices_of_a_measured_recording_and_invent_none() {
         "force_latency_u_ms": "0.3",
         "force_rate_hz": "500",
         "force_serial": "FT12345",
+        "laboratory": "Soft Robotics",
+        "operator": "A. Lovelace",
         "rig_file": "sha256:abc",
         "robot_firmware": "v2.7.0",
         "sensor_clock_drift_ppm": "41.30",
