@@ -217,6 +217,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     };
     let subject = match subject.source.as_str() {
         "unknown" => "Scores of two tables".to_owned(),
+        source if subject.sensor == "unknown" => format!("Unnamed sensor ({source} samples)"),
         source => format!("{} ({source} samples)", foreign(&subject.sensor)),
     };
     let standings: String = standings(&report.scores)

@@ -85,6 +85,13 @@ fn samples_in_the_gaps_between_blocks_are_counted_with_the_reason_and_the_remedy
     let words = "evaluate data --model ridge --metrics r2 --split by-block";
     let text = bench.ok(words);
     assert!(text.contains(said), "{text}");
+    // The map states neither serial number nor gel.
+    assert!(text.contains("lab gel   recorded\n"), "{text}");
+    let split = text.lines().find(|line| line.starts_with("split "));
+    assert!(
+        split.is_some_and(|line| line.contains(" left out ")),
+        "{text}"
+    );
     let report = bench.json(words);
     let unused = &report["provenance"]["samples"]["left_out"];
     let notes = report["provenance"]["notes"].to_string();
