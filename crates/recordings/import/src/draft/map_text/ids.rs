@@ -104,13 +104,14 @@ pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> 
             episode.name
         );
     }
-    let names_points = |column: &SeenColumn| has_word(column, &POINT) && several(&column);
-    if let Some(places) = repeated_places(main)
-        && !main.columns.iter().any(names_points)
-    {
+    let named = main
+        .columns
+        .iter()
+        .find(|column| has_word(column, &POINT) && several(column));
+    if let (None, Some(places)) = (named, repeated_places(main)) {
         return places;
     }
-    if let Some(column) = columns.find(several) {
+    if let Some(column) = named.or_else(|| columns.find(several)) {
         return format!(
             "# point_id = {:?}   # only if each of its values is one contact point, for intervals and --split by-point\n",
             column.name
