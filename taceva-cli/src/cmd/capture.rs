@@ -52,12 +52,19 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
     } = &args.live;
     let rig = args.live.rig.as_deref();
     let rig = rig.filter(|_| of_sensor.is_none() && of_force.is_none());
+    let stated = [
+        ("laboratory", &args.laboratory),
+        ("operator", &args.operator),
+    ];
+    let stated = stated.into_iter();
+    let stated = stated.filter_map(|(key, name)| Some((key.to_owned(), name.clone()?)));
     let request = CaptureRequest {
         rig: rig.map(read_rig).transpose()?,
         path: args.path.clone(),
         sensor,
         lasts: args.lasts,
         frames: args.frames,
+        stated: stated.collect(),
     };
     let has_force = live.measures(Axis::Fz);
     let page = match &model {

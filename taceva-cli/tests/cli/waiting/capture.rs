@@ -76,9 +76,13 @@ fn a_capture_shows_the_laboratory_and_the_operator_of_its_rig_file() {
     let operator = "[operator]\nname = \"A. Lovelace\"\n";
     bench.write("hand.toml", &format!("{rig}\n{operator}"));
     bench.ok("capture held --rig hand.toml --frames 12 -q");
-    let shown = bench.ok("show held");
-    for line in ["recorded  at Soft Robotics", "recorded  by A. Lovelace"] {
-        assert!(shown.lines().any(|own| own == line), "{shown}");
+    bench.ok("capture other --rig hand.toml --frames 12 --operator Grace -q");
+    for (name, person) in [("held", "A. Lovelace"), ("other", "Grace")] {
+        let shown = bench.ok(&format!("show {name}"));
+        let by = format!("recorded  by {person}");
+        for line in ["recorded  at Soft Robotics", by.as_str()] {
+            assert!(shown.lines().any(|own| own == line), "{shown}");
+        }
     }
 }
 
