@@ -163,7 +163,7 @@ fn divided(studies: &[Study]) -> String {
         out += &format!(" ({seeds})");
     }
     let all = studies.iter().flat_map(|study| &study.made.samples);
-    // Left-out samples belong to other parts of the protocol, for other metrics.
+    // Left-out samples of a protocol belong to its other parts, for other metrics.
     let all = all.filter(|(name, _)| name != "left_out");
     let names = distinct(all.map(|(name, _)| name.as_str()));
     let part = |name: &&str| {
@@ -176,6 +176,14 @@ fn divided(studies: &[Study]) -> String {
     let parts: Vec<String> = names.iter().filter_map(part).collect();
     if !parts.is_empty() {
         out += &format!(" into {} samples", listed(&parts));
+    }
+    let unused = |study: &Study| {
+        let mut samples = study.made.samples.iter();
+        let is_unused = |name: &str| name == "left_out" && study.made.presses == 0;
+        whole(samples.find(|(name, _)| is_unused(name))?.1)
+    };
+    if let Some(count) = span(studies, unused) {
+        out += &format!("; {count} were in no part");
     }
     out + "."
 }

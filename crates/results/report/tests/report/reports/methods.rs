@@ -127,6 +127,19 @@ fn methods_claim_no_unseen_places_where_a_recording_names_none() {
 }
 
 #[test]
+fn methods_count_the_samples_that_a_split_leaves_out_of_a_recording_without_protocol() {
+    let mut result = support::results("one", 1.0);
+    result["provenance"]["split"] = "by-block 70/20/10".into();
+    result["provenance"]["presses"] = serde_json::json!({});
+    result["provenance"]["samples"] =
+        serde_json::json!({"train": 150, "validation": 30, "test": 34, "left_out": 86});
+    let page = page(&[support::study(&result)]);
+    assert!(page.contains(" samples; 86 were in no part."), "{page}");
+    assert!(page.contains("left out 86"), "{page}");
+    assert!(!page.contains("of other parts of the protocol"), "{page}");
+}
+
+#[test]
 fn methods_state_how_a_fit_chose_its_setting() {
     let mut result = support::results("one", 1.0);
     let how = "strength with each training sample left out in turn";
