@@ -101,6 +101,11 @@ fn samples_in_the_gaps_between_blocks_are_counted_with_the_reason_and_the_remedy
         )),
         "{notes}"
     );
+    let table = bench.ok(&format!("{words} --format md"));
+    assert!(
+        table.contains(&format!(", with {unused} samples in no part.")),
+        "{table}"
+    );
     bench.ok(&format!("{words} --html page.html -q"));
     let page = fs::read_to_string(bench.path("page.html")).expect("written");
     assert!(
