@@ -21,7 +21,12 @@ fn coordinates_that_repeat_exactly_are_drafted_as_the_contact_point() {
         .collect();
     let table = format!("x_mm,y_mm,Fz_N\n{}", rows.concat());
     let folder = lab(&[("labels.csv", &table)]);
-    planned(folder.path(), &filled(&draft)).expect("an import");
+    let plan = planned(folder.path(), &filled(&draft)).expect("an import");
+    let summary = plan.summary().to_string();
+    assert!(
+        summary.contains("\npoints   8 contact points\n"),
+        "{summary}"
+    );
 }
 
 #[test]
