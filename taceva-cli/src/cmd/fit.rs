@@ -163,7 +163,7 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     if fitted.left_out > 0 {
         writeln!(
             out,
-            "left out {} without a label or a frame: `taceva check` names them (TAC011)",
+            "left out {} without a label or a frame: see `taceva check` (TAC011)",
             counted(fitted.left_out, "sample")
         )?;
     }
