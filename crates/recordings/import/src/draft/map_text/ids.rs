@@ -45,41 +45,52 @@ fn distinct<T: Ord>(mut values: Vec<T>) -> usize {
     values.len()
 }
 
-/// Column of a position that `main` states as one number per row; the most certain one.
-fn place_column<'t>(main: &'t SeenTable<'_>, channel: &str) -> Option<&'t SeenColumn> {
-    let columns = main.columns.iter().filter_map(|column| match &column.role {
-        Role::Channels(candidates) => {
-            let own = candidates.iter().find(|own| own.channel == channel)?;
-            (own.index.is_empty() && own.open.is_none()).then_some((own.reason, column))
-        }
-        _ => None,
-    });
-    columns
-        .min_by_key(|(reason, _)| *reason)
-        .map(|(_, column)| column)
+/// Column of `main` that the line of `channel` in the drafted `channels` names, if the line has no gap.
+fn place_column<'t>(
+    main: &'t SeenTable<'_>,
+    channels: &str,
+    channel: &str,
+) -> Option<&'t SeenColumn> {
+    main.columns.iter().find(|column| {
+        let drafted = format!("{channel} = {{ from = {:?}, ", column.name);
+        channels.lines().any(|line| line.starts_with(&drafted))
+    })
 }
 
-/// Line for contact points that their coordinates name, if coordinates repeat exactly.
-fn repeated_places(main: &SeenTable<'_>) -> Option<String> {
-    let [x, y] = ["Px", "Py"].map(|channel| place_column(main, channel));
+/// Line for contact points that their coordinates name, if most of these places repeat exactly. A sensor that rests and then moves has many places of
+/// one row.
+fn repeated_places(main: &SeenTable<'_>, channels: &str) -> Option<String> {
+    let [x, y] = ["Px", "Py"].map(|channel| place_column(main, channels, channel));
     let (x, y) = (x?, y?);
     let places = x.cells.iter().zip(&y.cells);
-    let places: Vec<_> = places
+    let mut places: Vec<_> = places
         .filter(|(x, y)| !x.is_empty() && !y.is_empty())
         .collect();
-    let filled = places.len();
-    let points = distinct(places);
-    (points > 1 && points * 2 <= filled).then(|| {
+    places.sort_unstable();
+    let rows = places.chunk_by(|one, other| one == other).map(<[_]>::len);
+    let rows: Vec<usize> = rows.collect();
+    let points = rows.len();
+    let repeated = rows.iter().filter(|rows| **rows > 1).count();
+    let seen = x.cells.len();
+    let first = match seen < main.rows {
+        true => "the first ",
+        false => "",
+    };
+    (points > 1 && points * 2 <= places.len() && repeated * 2 > points).then(|| {
         format!(
-            "point_id = [{:?}, {:?}]   # a guess: {filled} rows have {points} places that repeat exactly, so a place names a contact point, \
-             for intervals and --split by-point\n",
+            "point_id = [{:?}, {:?}]   # a guess: {first}{seen} rows have {points} places that repeat exactly, so a place names a contact \
+             point, for intervals and --split by-point\n",
             x.name, y.name
         )
     })
 }
 
 /// Line for the contact point that repeats share: active for episodes and for coordinates that repeat exactly, otherwise commented out.
-pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
+pub(super) fn shared_points(
+    main: &SeenTable<'_>,
+    parts: Option<&PathParts>,
+    channels: &str,
+) -> String {
     let has_word = |column: &SeenColumn, known: &[&str]| {
         let words = words(&column.name);
         !matches!(column.role, Role::Channels(_))
@@ -108,7 +119,7 @@ pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> 
         .columns
         .iter()
         .find(|column| has_word(column, &POINT) && several(column));
-    if let (None, Some(places)) = (named, repeated_places(main)) {
+    if let (None, Some(places)) = (named, repeated_places(main, channels)) {
         return places;
     }
     if let Some(column) = named.or_else(|| columns.find(several)) {
