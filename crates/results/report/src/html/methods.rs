@@ -178,12 +178,12 @@ fn divided(studies: &[Study]) -> String {
         out += &format!(" into {} samples", listed(&parts));
     }
     let unused = |study: &Study| {
-        let mut samples = study.made.samples.iter();
-        let is_unused = |name: &str| name == "left_out" && study.made.presses == 0;
-        whole(samples.find(|(name, _)| is_unused(name))?.1)
+        let samples = study.made.samples.iter();
+        let mut samples = samples.filter(|_| study.made.presses == 0);
+        whole(samples.find(|(name, _)| name == "left_out")?.1)
     };
-    if let Some(count) = span(studies, unused) {
-        out += &format!("; {count} were in no part");
+    if let Some(unused) = counted_span(studies, "sample", unused) {
+        out += &format!(", with {unused} in no part");
     }
     out + "."
 }

@@ -134,7 +134,8 @@ fn methods_count_the_samples_that_a_split_leaves_out_of_a_recording_without_prot
     result["provenance"]["samples"] =
         serde_json::json!({"train": 150, "validation": 30, "test": 34, "left_out": 86});
     let page = page(&[support::study(&result)]);
-    assert!(page.contains(" samples; 86 were in no part."), "{page}");
+    let sentence = " samples, with 86 samples in no part.";
+    assert!(page.contains(sentence), "{page}");
     assert!(page.contains("left out 86"), "{page}");
     assert!(!page.contains("of other parts of the protocol"), "{page}");
 }
