@@ -58,7 +58,7 @@ pub struct CaptureRequest {
     pub frames: Option<u64>,
     /// Rig file of all devices, whose axes and latencies the recording stores; `None` if selectors name the devices.
     pub rig: Option<RigFile>,
-    /// `operator` and `laboratory` that the caller states, in the place of those of the rig file.
+    /// `operator` and `laboratory` as settings of the recording; they replace those of the rig file.
     pub stated: BTreeMap<String, String>,
 }
 

@@ -77,7 +77,15 @@ fn a_capture_shows_the_laboratory_and_the_operator_of_its_rig_file() {
     bench.write("hand.toml", &format!("{rig}\n{operator}"));
     bench.ok("capture held --rig hand.toml --frames 12 -q");
     bench.ok("capture other --rig hand.toml --frames 12 --operator Grace -q");
-    for (name, person) in [("held", "A. Lovelace"), ("other", "Grace")] {
+    let sensor = emulated.sensor();
+    bench.ok(&format!(
+        "capture named --rig hand.toml --sensor {sensor} --frames 12 -q"
+    ));
+    for (name, person) in [
+        ("held", "A. Lovelace"),
+        ("other", "Grace"),
+        ("named", "A. Lovelace"),
+    ] {
         let shown = bench.ok(&format!("show {name}"));
         let by = format!("recorded  by {person}");
         for line in ["recorded  at Soft Robotics", by.as_str()] {
