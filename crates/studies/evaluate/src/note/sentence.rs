@@ -130,11 +130,10 @@ impl fmt::Display for Note {
             ),
             Note::LeftOut { part, count } => write!(
                 f,
-                "{} of the part {part} {} a label or a frame and {} left out: `taceva check` names {} (TAC011)",
+                "{} of the part {part} {} a label or a frame and {} left out: see `taceva check` (TAC011)",
                 counted(*count, "sample"),
                 by_count(*count, "lacks", "lack"),
-                by_count(*count, "was", "were"),
-                by_count(*count, "it", "them")
+                by_count(*count, "was", "were")
             ),
             Note::Bounded(shares) => {
                 let shares: Vec<String> = shares
@@ -343,11 +342,11 @@ mod tests {
             ),
             (
                 left_out(1),
-                "1 sample of the part test lacks a label or a frame and was left out: `taceva check` names it (TAC011)",
+                "1 sample of the part test lacks a label or a frame and was left out: see `taceva check` (TAC011)",
             ),
             (
                 left_out(9),
-                "9 samples of the part test lack a label or a frame and were left out: `taceva check` names them (TAC011)",
+                "9 samples of the part test lack a label or a frame and were left out: see `taceva check` (TAC011)",
             ),
             (Note::States(1), "1 state merged"),
         ] {
