@@ -54,7 +54,7 @@ impl<'a> Folds<'a> {
         let unnamed = rows.len() - tested.len();
         if unnamed > 0 {
             note += &format!(
-                "; {unnamed} of {} {} left out: no group is named for {}; name it, or use --split 'cv:5 random'",
+                "; {unnamed} of {} {} left out: no group is named for {}; name one in the table, and import it again",
                 counted(rows.len(), "sample"),
                 by_count(unnamed, "is", "are"),
                 by_count(unnamed, "it", "them")
