@@ -14,7 +14,7 @@ use super::{
 /// Fit a model on the training part of a dataset and write it to a file
 ///
 /// The file holds the model, its split and the digest of the dataset. `taceva evaluate DATASET --with MODEL` scores the samples that the model has not
-/// seen, and `taceva predict` predicts. With --split all or cv:5 the model is fitted on every sample, so only another recording can test it; cv:5 also
+/// seen, and `taceva predict` predicts. With --split all or cv:5 the model is fitted on every sample, so only another recording can test it. cv:5 also
 /// stores the scores of its folds.
 ///
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
@@ -53,7 +53,7 @@ pub(crate) struct Fit {
 
 /// Fit a model, or use a fitted one, and score it on unseen samples
 ///
-/// Without --split, 5 to 999 groups of samples, such as contact points, are scored in five folds (cv:5): each sample is predicted once, by a model that
+/// Without --split, 5 to 999 groups of samples, such as contact points, are scored in five folds (cv:5). Each sample is predicted once, by a model that
 /// has not seen its group. Otherwise the model is fitted on the training part, its settings are chosen on the validation part, and the test part is
 /// scored. The default model is `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset
 /// only the unseen part is scored.
