@@ -279,7 +279,7 @@ def test_results_without_samples_are_compared_by_intervals_and_a_note_states_it(
         comparison = taceva.compare(result, other, metrics=["mae"])
         assert deciding_tests(comparison) == {"by the intervals of both"}
         for shown in (str(comparison), comparison._repr_html_()):
-            assert "no samples are kept with unknown 2: compared by the intervals of both" in " ".join(shown.split())
+            assert "no samples are kept with result 2: compared by the intervals of both" in " ".join(shown.split())
     with pytest.raises(ValueError, match="no samples are kept"):
         sums.compute().save_samples(tmp_path / "none.csv")
     result.save_samples(tmp_path / "scores.samples.csv")

@@ -139,49 +139,28 @@ pub(crate) struct Everywhere {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Write a first map, scene or rig file by questions with defaults
     Init(Init),
-    /// Turn a lab's folder of pictures and labels into a dataset
     Import(Import),
-    /// Show the content of a dataset and the devices that measured it, with certificates and latencies
     Show(Show),
-    /// Check a recording for defects, before any number is computed
     Check(Check),
-    /// Write a dataset in a form that other programs read
     Export(Export),
-    /// Fit a model on the training part of a dataset and write it to a file
     Fit(Fit),
-    /// Fit a model, or use a fitted one, and score it on unseen samples
     Evaluate(Evaluate),
-    /// Score a fitted model on pictures with faults: blur, dead pixels, lost light, wear, dust
     Stress(Stress),
-    /// Compare the errors of a fitted model over the life of a gel: recordings of one unit, by presses or by date
     Wear(Wear),
-    /// Watch a sensor in use, or a recording of it: changes of the camera, the light and the gel, with remedies
     Watch(Watch),
     /// Write a model's predictions as a table
     Predict(Predict),
-    /// Score the predictions of another program: no pictures, no model
     Score(Score),
-    /// Merge the states of shards; the scores equal those of one unsharded run, bit for bit
     Merge(Merge),
-    /// Pack results with the files that compute them again; verify and compare such bundles
     Bundle(Bundle),
-    /// Accept a deliberate edit of a sealed file, and record it with its reason in the file's history
     Reseal(Reseal),
-    /// Write the page, the figures and the tables of finished results again; nothing is acquired, fitted or scored
     Report(ReportArgs),
-    /// Compare sensors or models: which is better, by how much, and with what confidence
     Compare(Compare),
-    /// Find sensors for a task, with the numbers behind the ranking
     Choose(Choose),
-    /// Test a result against limits, and write its data sheet
     Accept(Accept),
-    /// Study a measuring system: shares of the variation of readings due to units, gels, days or persons
     Gauge(Gauge),
-    /// Fit a calibration curve: bands, the reference value of a reading, limits of detection
     Curve(Curve),
-    /// Combine measured and stated uncertainties into the uncertainty of a reading, and list effects without a source
     Budget(Budget),
     /// Published numbers of sensors, each with its source, and numbers of bundles in a folder
     Catalogue(CatalogueArgs),
@@ -189,13 +168,11 @@ pub(crate) enum Command {
     Cache(CacheCommand),
     /// Benchmarks: run time against error, with the Pareto front marked
     Bench(Bench),
-    /// Evaluate many combinations of recordings, models, settings, splits and seeds, here or on a cluster
     Sweep(Sweep),
     /// Record a sensor without a robot: frames, and the force of presses by hand
     Capture(Capture),
     /// Look at a sensor in a browser: live frames, force, focus and saturation; nothing is recorded
     Preview(Preview),
-    /// Plan, acquire, fit, evaluate and report a scene; without a scene, four sensors on the simulated bench
     Run(Run),
     /// Print the planned, kept and skipped steps of `run`, with reasons; opens no device
     Plan(PlanArgs),

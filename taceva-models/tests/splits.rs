@@ -171,7 +171,9 @@ fn assigned_values_go_where_they_are_sent_and_others_are_counted() {
     );
     assert_eq!(
         split.note.as_deref(),
-        Some("1 sample is left out: its `repeat` is assigned to no part")
+        Some(
+            "1 of 6 samples is left out: its `repeat` is assigned to no part; name a part for every value of `repeat` in --split"
+        )
     );
     let split = spec("by-column:repeat=train:1;test:2")
         .assign(&input, 0)
@@ -349,7 +351,7 @@ fn more_folds_than_groups_are_refused_with_both_numbers() {
 }
 
 #[test]
-fn blocks_of_different_parts_keep_a_gap_between_them() {
+fn blocks_of_different_parts_keep_a_gap_between_them_whose_samples_a_note_counts() {
     let names: Vec<String> = (0..100).map(|row| format!("block {}", row / 10)).collect();
     let places: Vec<usize> = (0..100).collect();
     let input = SplitInput {
@@ -379,6 +381,11 @@ fn blocks_of_different_parts_keep_a_gap_between_them() {
             assert!(!split.train.iter().any(|row| row.abs_diff(*held) <= 3));
         }
     }
+    let (unused, note) = (one.left_out.len(), one.note.unwrap_or_default());
+    let said = format!(
+        "{unused} of 100 samples are left out: they lie within 3 samples of a validation or test block, "
+    );
+    assert!(note.starts_with(&said), "{note}");
     let without = SplitInput {
         rows: 100,
         ..SplitInput::default()

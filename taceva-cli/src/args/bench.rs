@@ -16,14 +16,13 @@ pub(crate) struct Bench {
 /// Subject of a benchmark.
 #[derive(Debug, Subcommand)]
 pub(crate) enum BenchSubject {
-    /// Summation kernels: nanoseconds for each pair of values against correct digits
     Kernels(BenchKernels),
-    /// Models: times of the fit, of all predictions and of one prediction, against the error
     Models(BenchModels),
-    /// Whole studies: processor time of presses, fits and scores against the widths of the intervals
     Study(BenchStudy),
 }
 
+/// Summation kernels: nanoseconds for each pair of values against correct digits
+///
 /// Compares naive, two-pass, pairwise, Kahan, Neumaier and Welford sums with the sums of TacEva on every instruction set. The inputs are chosen
 /// to show differences. The time to read the columns is the lower limit. TACEVA_ISA=avx512|avx2|portable forces the path of every other command.
 #[derive(Debug, Args)]
@@ -42,6 +41,8 @@ pub(crate) struct BenchKernels {
     pub(crate) output: Output,
 }
 
+/// Models: times of the fit, of all predictions and of one prediction, against the error
+///
 /// Fits every model on the training part of one recording and scores it on the test part of the same split. The table has mean absolute errors with
 /// intervals by contact point, and the seconds to fit, to predict, and from one frame to its prediction. A model that cannot be fitted is listed with
 /// the reason, and the others continue.
@@ -68,6 +69,8 @@ pub(crate) struct BenchModels {
     pub(crate) output: Output,
 }
 
+/// Whole studies: processor time of presses, fits and scores against the widths of the intervals
+///
 /// Runs a study of the simulated bench for each combination of points, folds and models, without a cache. The table has the processor seconds of
 /// this process, without those of plugin processes. Mean absolute errors have 95 % intervals by contact point. The width of an interval is
 /// ln(upper end / lower end). A row is on the Pareto front if no other row has both less time and a lower mean width. With --seeds, the table

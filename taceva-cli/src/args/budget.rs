@@ -31,6 +31,8 @@ Sources:
 A file to start from, with every measured figure:
   taceva budget --template RESULT.json > budget.toml";
 
+/// Combine measured and stated uncertainties into the uncertainty of a reading, and list effects without a source
+///
 /// The law of propagation combines the sources, and Monte Carlo draws check it. If the draws contradict the law, the interval of the draws is used.
 /// Effects without a source are named. The exit code is 1 if an expanded uncertainty exceeds `--most-U`.
 #[derive(Debug, Args)]

@@ -7,6 +7,8 @@ use taceva_bundle::{Author, Level, MOST_BYTES, Organization, Redaction};
 
 use super::{ListFormat, Output, PageArgs};
 
+/// Pack results with the files that compute them again; verify and compare such bundles
+///
 /// A bundle holds results, the states and tables from which they were computed, and texts for readers; `taceva bundle verify` computes the
 /// numbers again. States come from `--state-out`. Tables are the inputs of `score`, or the samples beside a result (`--samples-out
 /// NAME.samples.csv`), which are found by their digest. A seal is a digest and no signature: it shows damage and careless edits, not fraud.

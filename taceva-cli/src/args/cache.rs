@@ -18,12 +18,12 @@ pub(crate) struct CacheCommand {
 /// Operation on the cache.
 #[derive(Debug, Subcommand)]
 pub(crate) enum CacheSubject {
-    /// List cache entries: kinds, sizes, ages, and the runs that use them
     List(CacheList),
-    /// Remove entries by age or total size; runs in progress are not affected
     Prune(CachePrune),
 }
 
+/// List cache entries: kinds, sizes, ages, and the runs that use them
+///
 /// Each run lists the cache entries it uses in stages.json. This command reads the runs in the folder `runs`, and those named by --run.
 #[derive(Debug, Args)]
 pub(crate) struct CacheList {
@@ -39,6 +39,8 @@ pub(crate) struct CacheList {
     pub(crate) output: Output,
 }
 
+/// Remove entries by age or total size; runs in progress are not affected
+///
 /// Removed entries are computed again when needed.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("what").required(true).multiple(true).args(["older_than", "keep"]))]

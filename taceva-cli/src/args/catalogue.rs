@@ -23,11 +23,9 @@ pub(crate) enum CatalogueSubject {
     Show(CatalogueShow),
     /// Write the catalogue as pages: a list to filter and sort, and one page for each sensor
     Site(CatalogueSite),
-    /// Verify a bundle as deep as its files allow, and add its numbers to the catalogue in a folder
     Add(CatalogueAdd),
     /// Check the catalogue in a folder without a network, and write its index; the exit code is 1 if there is a finding
     Check(CatalogueCheckArgs),
-    /// Write the catalogue in a folder in forms that other programs read
     Export(CatalogueExport),
 }
 
@@ -67,6 +65,8 @@ pub(crate) struct CatalogueSite {
     pub(crate) force: bool,
 }
 
+/// Verify a bundle as deep as its files allow, and add its numbers to the catalogue in a folder
+///
 /// The catalogue is a folder with `entries/`, one file for each sensor, and `bundles/`, the manifests. Numbers go into `[[measured]]` if their
 /// samples are recorded, into `[[simulated]]` if these are simulated or synthetic, else into `[[unknown]]`. Published numbers stay as they are.
 /// A draft is refused, and so is a bundle whose results the catalogue already has. The exit code is 1 for a bundle that is not verified, and 3
@@ -98,6 +98,8 @@ pub(crate) struct CatalogueCheckArgs {
     pub(crate) output: Output,
 }
 
+/// Write the catalogue in a folder in forms that other programs read
+///
 /// The files hold only numbers of bundles, not published numbers. Write them again after `taceva catalogue add`.
 #[derive(Debug, Args)]
 pub(crate) struct CatalogueExport {

@@ -8,7 +8,8 @@ use super::FigureArgs;
 
 /// Help for names of models, for both options that accept a model.
 const MODEL_HELP: &str = "\
-The model to fit: baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-process, knn, lda, random-forest, \
+The model to fit. Begin with ridge, which takes seconds, or fast, a small network for pictures. All: \
+baseline, ridge, pls, elastic-net, kernel-ridge, gaussian-process, knn, lda, random-forest, \
 gradient-boosting, cnn, resnet10, resnet18, resnet34, cnn-ensemble; fast: cnn with size=up-to-80x60 epochs=170 color=auto difference=in-color appearance=auto; \
 default: cnn with size=up-to-128x96 color=auto difference=in-color appearance=auto; \
 best: cnn-ensemble with size=up-to-128x96 color=auto difference=in-color appearance=auto, the mean of two cnn; \
@@ -85,7 +86,7 @@ pub(crate) struct SplitOutArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct PartArgs {
-    /// The part of the dataset [default: test, or all if the model was fitted on another dataset]
+    /// The part of the dataset [default: test, or all if the model was fitted on another dataset; folds score every sample]
     #[arg(id = "part", long, value_enum)]
     pub(crate) name: Option<PartArg>,
 }

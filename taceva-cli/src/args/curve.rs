@@ -6,6 +6,8 @@ use clap::Args;
 
 use super::Output;
 
+/// Fit a calibration curve: bands, the reference value of a reading, limits of detection
+///
 /// The table is CSV or Parquet: `--samples-out` of `evaluate` writes one. A polynomial is fitted by least squares to readings y over reference values x.
 /// Rows of one contact point are not independent. With five or more points, bands are also computed from fits that leave out one point
 /// each; the wider band is given.

@@ -6,14 +6,17 @@ use clap::{ArgGroup, Args};
 
 use super::{ExplainArgs, ListFormat, Output, SplitArgs};
 
-/// The map states, in TOML, the column and unit of each channel, and the location of the pictures.
+/// Turn a lab's folder of pictures and labels into a dataset
+///
+/// The map states, in TOML, the column and unit of each channel, and the location of the pictures. `taceva init recording FOLDER` writes it by
+/// questions, and --draft without questions. The layouts of --presets need no map. --explain prints what the import would read, and writes nothing.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("layout").args(["map", "preset", "draft", "presets"]))]
 pub(crate) struct Import {
     /// The folder with the table and the pictures, a file in it, or a tar of it (.tar, .tar.gz, .tgz)
     #[arg(required_unless_present = "presets")]
     pub(crate) source: Option<PathBuf>,
-    /// The map; see the documentation of taceva-import for its keys
+    /// The map, as `taceva init recording` writes it; docs/your-recording.md explains its keys
     #[arg(long, value_name = "MAP.toml")]
     pub(crate) map: Option<PathBuf>,
     /// A known layout, which needs no map: --presets lists them
@@ -31,7 +34,7 @@ pub(crate) struct Import {
     /// Write a first map for the folder, with reasons as comments and units left open; to the terminal, or to --out
     #[arg(long, conflicts_with = "explain")]
     pub(crate) draft: bool,
-    /// The dataset to write: a new folder
+    /// The dataset to write: a new folder; with --draft or --print the map
     #[arg(long, value_name = "DATASET", required_unless_present_any = ["explain", "draft", "extend", "presets", "print"])]
     pub(crate) out: Option<PathBuf>,
     /// Append the rows to this dataset, imported earlier with a map of the same sensor; earlier rows keep their part of every split
@@ -42,7 +45,7 @@ pub(crate) struct Import {
     pub(crate) new_certificate: bool,
     #[command(flatten)]
     pub(crate) explain: ExplainArgs,
-    /// Replace a dataset that exists already
+    /// Replace a dataset that exists already, or a map with --draft or --print
     #[arg(long)]
     pub(crate) force: bool,
     /// Compare the folder with a list of digests before it is read; a changed, missing or unlisted file is an error
@@ -53,6 +56,8 @@ pub(crate) struct Import {
     pub(crate) ffmpeg: Option<PathBuf>,
 }
 
+/// Write a dataset in a form that other programs read
+///
 /// Labels and signals are kept to the last bit, pictures to the last pixel, and their files byte for byte if the format contains files.
 /// `map.toml` beside them restores all of it: `taceva import FOLDER --map FOLDER/map.toml --out DATASET`. Data that no map can express
 /// (camera settings, ends of presses) is listed.
@@ -71,6 +76,8 @@ pub(crate) struct Export {
     pub(crate) format: Form,
 }
 
+/// Show the content of a dataset and the devices that measured it, with certificates and latencies
+///
 /// Prints one fact per line: content, origin and days, the instruments that measured the labels with their certificates, settings and latencies of the devices,
 /// sessions, warnings. No frame is decoded.
 #[derive(Debug, Args)]
@@ -86,7 +93,7 @@ pub(crate) enum Form {
     Csv,
     /// Parquet with the pictures in a column, as Hugging Face writes it
     Huggingface,
-    /// One HDF5 file: an array for each column with its unit, the pictures as an array of pixels
+    /// One HDF5 file, recording.h5: an array for each column with its unit, the pictures as an array of pixels
     Hdf5,
     /// LeRobot 3.0: an episode for each press, the pictures in the tables
     Lerobot,
@@ -103,6 +110,8 @@ impl From<Form> for taceva_import::ExportForm {
     }
 }
 
+/// Accept a deliberate edit of a sealed file, and record it with its reason in the file's history
+///
 /// Files that decide a number or a claim are sealed: dataset.toml, results, states and models. A changed file is rejected until the edit is
 /// accepted here; reports show the history. A model is not edited but fitted again.
 #[derive(Debug, Args)]
@@ -115,9 +124,11 @@ pub(crate) struct Reseal {
     pub(crate) reason: String,
 }
 
+/// Check a recording for defects, before any number is computed
+///
 /// Every finding has a stable code, from TAC001 to TAC045, and a hint. `--explain` lists the checks and their defects: units, copies,
 /// doubled and dropped frames, clocks that jump, lags, blank frames, saturation, leakage between parts, data that an import left out, and
-/// more. The exit code is 1 if a finding is an error.
+/// more. A hint names the remedy: a key of the map for an import, a command for a recording. The exit code is 1 if a finding is an error.
 #[derive(Debug, Args)]
 pub(crate) struct Check {
     /// The dataset to check; several recordings are checked one by one, and then for conflicts between them
@@ -126,7 +137,7 @@ pub(crate) struct Check {
     /// Compare this folder, or a tar of it, with the files that the dataset was imported from, and run no other check
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["only", "explain"])]
     pub(crate) source: Option<PathBuf>,
-    /// Run only the checks with these codes, separated by commas
+    /// Run only the checks with these codes or names, separated by commas: TAC013,leakage
     #[arg(long, value_name = "CODES", value_delimiter = ',')]
     pub(crate) only: Vec<String>,
     #[command(flatten)]

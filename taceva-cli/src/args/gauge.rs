@@ -6,6 +6,8 @@ use clap::{Args, ValueEnum};
 
 use super::Output;
 
+/// Study a measuring system: shares of the variation of readings due to units, gels, days or persons
+///
 /// A part is a contact condition, and a trial is a repeat. An operator is the factor that differs between the measurements of a part: unit, gel,
 /// day, person or laboratory. Every operator measures every part equally often, or with `--nested` its own parts. The table is CSV or Parquet:
 /// `--samples-out` of `evaluate` writes one, and tables of several units are joined below one header. A column `source` with words such as

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand};
 
+/// Write a first map, scene or rig file by questions with defaults
+///
 /// Each question is answered by one line; Enter takes the default in brackets. Answers may also come from a file or a pipe. Every file is
 /// checked by the rules of the command that reads it, and the next commands are printed.
 #[derive(Debug, Args)]

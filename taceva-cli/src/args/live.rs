@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use clap::builder::NonEmptyStringValueParser;
 use clap::{ArgGroup, Args};
 
 /// Devices of a capture or a preview.
@@ -65,6 +66,12 @@ pub(crate) struct Capture {
     /// The id of the gel
     #[arg(long, value_name = "TEXT")]
     pub(crate) gel: Option<String>,
+    /// The name of the person who presses, for reports [default: `name` under [operator] of the rig file]
+    #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) operator: Option<String>,
+    /// The name of the laboratory, for reports [default: `laboratory` of the rig file]
+    #[arg(long, value_name = "NAME", value_parser = NonEmptyStringValueParser::new())]
+    pub(crate) laboratory: Option<String>,
     /// A fitted model, as `taceva fit` writes it; predicts as many frames as time permits, on a page and into OUT/predictions.csv
     #[arg(long, value_name = "FILE")]
     pub(crate) model: Option<PathBuf>,
@@ -72,7 +79,7 @@ pub(crate) struct Capture {
     #[arg(long, value_name = "N", default_value_t = 0, requires = "model")]
     pub(crate) port: u16,
     /// Open no device: close a capture that was interrupted by a full disk, a power cut or a kill
-    #[arg(long, conflicts_with_all = ["sensor", "force", "rig", "lasts", "frames", "name", "serial", "gel", "model"])]
+    #[arg(long, conflicts_with_all = ["sensor", "force", "rig", "lasts", "frames", "name", "serial", "gel", "operator", "laboratory", "model"])]
     pub(crate) close: bool,
 }
 

@@ -11,6 +11,12 @@ use super::{
     SplitOutArgs, TableArgs, TaskArgs, ViewArgs, WindowArgs,
 };
 
+/// Fit a model on the training part of a dataset and write it to a file
+///
+/// The file holds the model, its split and the digest of the dataset. `taceva evaluate DATASET --with MODEL` scores the samples that the model has not
+/// seen, and `taceva predict` predicts. With --split all or cv:5 the model is fitted on every sample, so only another recording can test it. cv:5 also
+/// stores the scores of its folds.
+///
 /// During the training of a network, a checkpoint is written to the file MODEL.checkpoint every 30 s, and when the training is
 /// stopped. The same command resumes from the checkpoint, writes the same bytes as an uninterrupted training, and removes the checkpoint.
 #[derive(Debug, Args)]
@@ -45,8 +51,12 @@ pub(crate) struct Fit {
     pub(crate) force: bool,
 }
 
-/// The model is fitted on the training part, its settings are chosen on the validation part, and the test part is scored. The default model is
-/// `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset only the unseen part is scored.
+/// Fit a model, or use a fitted one, and score it on unseen samples
+///
+/// Without --split, 5 to 999 groups of samples, such as contact points, are scored in five folds (cv:5). Each sample is predicted once, by a model that
+/// has not seen its group. Otherwise the model is fitted on the training part, its settings are chosen on the validation part, and the test part is
+/// scored. The default model is `fast`, a small network, or `ridge` for signals of taxels. With --with, a fitted model is used: on its own dataset
+/// only the unseen part is scored.
 #[derive(Debug, Args)]
 #[command(group = ArgGroup::new("which").args(["with", "name"]))]
 pub(crate) struct Evaluate {
@@ -119,6 +129,8 @@ pub(crate) struct Predict {
     pub(crate) force: bool,
 }
 
+/// Score the predictions of another program: no pictures, no model
+///
 /// Both tables have a header with channel names. Rows are paired by `sample`, `id`, `sample_id` or `index` if both tables have it, else by
 /// order. Rows that disagree in another key, in `t_s`, `point_id` or `frame_sha256` are rejected.
 #[derive(Debug, Args)]
@@ -156,6 +168,8 @@ pub(crate) struct Score {
     pub(crate) output: Output,
 }
 
+/// Merge the states of shards; the scores equal those of one unsharded run, bit for bit
+///
 /// States are written by `evaluate` and `score` with --state-out, of channels or of tasks. They must have the same metrics, channels and settings, or
 /// the same tasks with the same classes, rules and cluster column.
 #[derive(Debug, Args)]

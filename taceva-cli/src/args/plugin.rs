@@ -33,19 +33,12 @@ pub(crate) enum Plugin {
     New(PluginNew),
     /// Write the headers for plugins in C and C++
     Headers(PluginHeaders),
-    /// Check a plugin against its interface, in separate processes with a time limit
     Check(PluginCheck),
-    /// Write plugin.toml from the data in the library
     Manifest(PluginManifest),
-    /// Pack a plugin into one file for distribution: its manifest, libraries, licences and their digests
     Pack(PluginPack),
-    /// Copy or unpack a plugin to the search path of every command: ~/.local/share/taceva/plugins
     Install(PluginInstall),
-    /// Remove an installed plugin
     Uninstall(PluginUninstall),
-    /// Grant a plugin access that its manifest requests: to a camera, a port, a machine, a file
     Allow(PluginAllow),
-    /// Revoke access of a plugin
     Deny(PluginDeny),
     /// Release a crashed plugin from quarantine
     Release(PluginRelease),
@@ -132,6 +125,8 @@ pub(crate) struct PluginHeaders {
     pub(crate) out: Option<PathBuf>,
 }
 
+/// Check a plugin against its interface, in separate processes with a time limit
+///
 /// Each check runs in a sandboxed process with the access that `taceva plugin allow` grants; with `--trust ID`, the process is not confined. A
 /// real device is opened at most three times for each check, and checks of a missing device are skipped. A common cause of several failures is
 /// reported once. The exit code is 1 if a check fails.
@@ -157,6 +152,8 @@ pub(crate) struct PluginCheck {
     pub(crate) output: Output<ListFormat>,
 }
 
+/// Copy or unpack a plugin to the search path of every command: ~/.local/share/taceva/plugins
+///
 /// Reads the manifest first, and loads the library in a sandboxed process: a library that differs from its manifest is not installed. The
 /// manifest, the library for this machine and the licences beside them are copied.
 ///
@@ -171,6 +168,8 @@ pub(crate) struct PluginInstall {
     pub(crate) force: bool,
 }
 
+/// Write plugin.toml from the data in the library
+///
 /// The library is loaded in a sandboxed process without any access, and asked for its id, its version, its drivers and its needs. Comments
 /// and the key `usb` are kept. Without --write the manifest is printed, and the exit code is 1 if the file differs.
 #[derive(Debug, Args)]
@@ -189,6 +188,8 @@ pub(crate) struct PluginManifest {
     pub(crate) write: bool,
 }
 
+/// Pack a plugin into one file for distribution: its manifest, libraries, licences and their digests
+///
 /// The library is loaded in a sandboxed process first: a library that differs from its manifest is not packed. Files that the manifest does
 /// not name are left out, except licences. The same plugin gives the same bytes.
 #[derive(Debug, Args)]
@@ -204,6 +205,8 @@ pub(crate) struct PluginPack {
     pub(crate) force: bool,
 }
 
+/// Grant a plugin access that its manifest requests: to a camera, a port, a machine, a file
+///
 /// A plugin runs in its own process, with access only to resources that its manifest lists under `needs` and the user allows. This command
 /// writes to the user's settings, `~/.config/taceva/config.toml`, and keeps everything else in that file.
 ///
@@ -224,6 +227,8 @@ pub(crate) struct PluginAllow {
     pub(crate) needs: Vec<Need>,
 }
 
+/// Remove an installed plugin
+///
 /// The granted access stays in the settings, for another version of the plugin.
 #[derive(Debug, Args)]
 pub(crate) struct PluginUninstall {
@@ -231,6 +236,8 @@ pub(crate) struct PluginUninstall {
     pub(crate) id: PluginId,
 }
 
+/// Revoke access of a plugin
+///
 /// Without NEED, all access is revoked.
 #[derive(Debug, Args)]
 pub(crate) struct PluginDeny {

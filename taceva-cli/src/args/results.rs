@@ -6,6 +6,8 @@ use clap::{ArgGroup, Args, ValueEnum};
 
 use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 
+/// Compare sensors or models: which is better, by how much, and with what confidence
+///
 /// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of
 /// runs (or their results.json), or names of the catalogue. If two results predict the same samples, their mean absolute errors are compared
 /// sample by sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a
@@ -41,6 +43,8 @@ pub(crate) struct Compare {
     pub(crate) output: Output,
 }
 
+/// Write the page, the figures and the tables of finished results again; nothing is acquired, fitted or scored
+///
 /// Results are the folder of a run, or the JSON of `run`, `evaluate` or `score`. The command writes `report.html`, every figure as SVG and PDF in
 /// `figures/`, and the tables `scores.csv`, `scores.md`, `scores.tex` and `scores-main.tex`. Figures of samples need the samples beside the
 /// results: `reports/` of a run, or `<name>.samples.csv` beside `<name>.json`.
@@ -77,6 +81,8 @@ pub(crate) enum Like {
     Taceva,
 }
 
+/// Find sensors for a task, with the numbers behind the ranking
+///
 /// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft
 /// needs rank the others. A sensor whose number is unknown stays open.
 #[derive(Debug, Args)]
@@ -143,6 +149,8 @@ pub(crate) enum Conditional {
     Pass,
 }
 
+/// Test a result against limits, and write its data sheet
+///
 /// The exit code is 0 if every verdict is a pass, else 1. A missing or undefined score meets no limit.
 #[derive(Debug, Args)]
 #[command(after_help = LIMITS_HELP)]

@@ -27,14 +27,13 @@ pub(crate) struct RigCommand {
 /// Operation on a rig.
 #[derive(Debug, Subcommand)]
 pub(crate) enum RigSubject {
-    /// Measure the position of its robot: you jog it to three places, and `origin_mm` and `axes` are written into the rig file
     Teach(RigTeachArgs),
-    /// Measure rates, gaps and noise of its devices, and halt its robot once on its way up to measure the stopping time
     Check(RigCheckArgs),
-    /// Tap the gel to measure the latency of each device: `latency_ms` is written into the rig file
     Tap(RigTapArgs),
 }
 
+/// Measure rates, gaps and noise of its devices, and halt its robot once on its way up to measure the stopping time
+///
 /// Every device is read for 2 seconds without motion: its rate, its longest gap, the age of its values, and their noise. Put
 /// the tip at least a centimetre above the gel before. You then permit motion by typing the name of the robot. The robot goes 5 mm straight
 /// up, away from the gel, and is halted on the way.
@@ -79,6 +78,8 @@ fn mass_g(text: &str) -> Result<f64, String> {
         .ok_or_else(|| "expected a mass in mg, g or kg, such as 100g, up to 100kg".to_owned())
 }
 
+/// Measure the position of its robot: you jog it to three places, and `origin_mm` and `axes` are written into the rig file
+///
 /// taceva does not move the robot. Jog it with its own pendant or program, to three places; taceva reads its position:
 ///
 /// 1. the tip just touches the middle of the untouched gel,
@@ -94,6 +95,8 @@ pub(crate) struct RigTeachArgs {
     pub(crate) rig: PathBuf,
 }
 
+/// Tap the gel to measure the latency of each device: `latency_ms` is written into the rig file
+///
 /// The robot taps the middle of the gel 20 times, fast and slowly in turn, with the specimen of the first press. Tip, force and picture
 /// change at the same moment, so a delay after the robot is a latency. A spread of more than half a frame between taps is rejected.
 ///

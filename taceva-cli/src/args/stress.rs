@@ -7,6 +7,8 @@ use taceva_stress::{FAULTS, Fault, RECORDING_FAULTS};
 
 use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
+/// Score a fitted model on pictures with faults: blur, dead pixels, lost light, wear, dust
+///
 /// Faults are applied to the pictures of the recording, and the model predicts them without being fitted again. Severities 1 to 5 change the
 /// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. If the model reads an untouched picture, a fault that is alike in
 /// all pictures has a second score: with an untouched picture that has the fault. A fitted model is scored on samples that it has not seen.

@@ -24,6 +24,8 @@ pub(crate) struct SceneArgs {
     pub(crate) from: Option<PathBuf>,
 }
 
+/// Plan, acquire, fit, evaluate and report a scene; without a scene, four sensors on the simulated bench
+///
 /// The folder of the run contains `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`
 /// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`.
 #[derive(Debug, Args)]

@@ -36,6 +36,8 @@ Predictions of another program, in shards, instead of recordings and models:
 
 The same command continues a stopped sweep. `taceva sweep show FILE --by model,size` prints results.";
 
+/// Evaluate many combinations of recordings, models, settings, splits and seeds, here or on a cluster
+///
 /// Every combination of recordings, models, settings, splits and seeds is a task; its result file is named by the digest of all its inputs.
 /// The table, its digest and the page depend neither on the number of workers nor on where tasks ran. The exit code is 1 if a task failed or a limit was missed.
 #[derive(Debug, Args)]

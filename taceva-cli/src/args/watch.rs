@@ -17,7 +17,9 @@ kind of change is printed once, with its remedy. Drift is a change: switch the s
 
 The exit code is 1 if a change was found, or if the untouched pictures are too few to decide, otherwise 0.";
 
-/// Watch a sensor in use. Untouched pictures are compared with those of the calibration, and pictures of contact with the training pictures of the
+/// Watch a sensor in use, or a recording of it: changes of the camera, the light and the gel, with remedies
+///
+/// Untouched pictures are compared with those of the calibration, and pictures of contact with the training pictures of the
 /// model. Each change is printed in one line, with its strength and its remedy. The strength is relative to the change by contact. For
 /// repeated pictures and for pictures of contact it is a share of the newest 30.
 #[derive(Debug, Args)]

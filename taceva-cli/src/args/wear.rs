@@ -6,6 +6,8 @@ use clap::{Args, ValueEnum};
 
 use super::{Output, ViewArgs};
 
+/// Compare the errors of a fitted model over the life of a gel: recordings of one unit, by presses or by date
+///
 /// Recordings of one unit are ordered by the presses on their gel, or by date. The model predicts each of them without being fitted again. For each
 /// gel the table has the error of each recording, and the change of its untouched picture. Notes state the growth of each error and where a limit is
 /// met. They name the earliest recording whose error is shown to differ from the error of the first recording.

@@ -50,14 +50,23 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
         force: of_force,
         ..
     } = &args.live;
-    let rig = args.live.rig.as_deref();
-    let rig = rig.filter(|_| of_sensor.is_none() && of_force.is_none());
+    let rig = args.live.rig.as_deref().map(read_rig).transpose()?;
+    let of_rig = rig.as_ref();
+    let laboratory = of_rig.and_then(|rig| rig.laboratory.clone());
+    let operator = of_rig.and_then(|rig| rig.operator_name.clone());
+    let stated = [
+        ("laboratory", args.laboratory.clone().or(laboratory)),
+        ("operator", args.operator.clone().or(operator)),
+    ];
+    let stated = stated.into_iter();
+    let stated = stated.filter_map(|(key, name)| Some((key.to_owned(), name?)));
     let request = CaptureRequest {
-        rig: rig.map(read_rig).transpose()?,
+        rig: rig.filter(|_| of_sensor.is_none() && of_force.is_none()),
         path: args.path.clone(),
         sensor,
         lasts: args.lasts,
         frames: args.frames,
+        stated: stated.collect(),
     };
     let has_force = live.measures(Axis::Fz);
     let page = match &model {

@@ -88,11 +88,18 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "settings {}", card.settings.join(" "))?;
     }
     let counts = &fitted.manifest.counts;
+    let unused = match counts.left_out {
+        0 => String::new(),
+        count => format!(", left out {count}"),
+    };
     writeln!(
         out,
-        "split    {}, seed {}: train {}, validation {}, test {}",
+        "split    {}, seed {}: train {}, validation {}, test {}{unused}",
         fitted.manifest.split, fitted.manifest.seed, counts.train, counts.validation, counts.test
     )?;
+    if let Some(note) = fitted.manifest.note.as_ref().filter(|_| !unused.is_empty()) {
+        writeln!(out, "note     {}", shown(note))?;
+    }
     if let Some(validation) = &card.provenance.validation {
         writeln!(
             out,
@@ -156,7 +163,7 @@ fn summary(fitted: &Fitted, args: &Fit, out: &mut dyn Write) -> io::Result<()> {
     if fitted.left_out > 0 {
         writeln!(
             out,
-            "left out {} without a label or a frame",
+            "left out {} without a label or a frame: see `taceva check` (TAC011)",
             counted(fitted.left_out, "sample")
         )?;
     }

@@ -34,7 +34,11 @@ pub(crate) fn write(dataset: &Dataset, out: &mut dyn Write) -> io::Result<()> {
         line("measured", "by instruments that the dataset does not state")?;
     }
     for (name, value) in &header.settings {
-        line("setting", &format!("{name} = {value}"))?;
+        match name.as_str() {
+            "laboratory" => line("recorded", &format!("at {value}"))?,
+            "operator" => line("recorded", &format!("by {value}"))?,
+            name => line("setting", &format!("{name} = {value}"))?,
+        }
     }
     if let Some(sessions) = RecordedSessions::of(dataset.path()) {
         line("sessions", &sessions.note)?;

@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::counted;
 use taceva_report::{
     Align, Cell, Column, Estimate, FormattedValue, Table, Words, escape_markdown, latex_symbol,
     short_digests,
@@ -204,7 +205,12 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     let model = provenance.model.as_ref();
     let model = model.map_or_else(String::new, |model| format!(" Model: {}.", model.name));
     let split = provenance.split.as_ref();
-    let split = split.map_or_else(String::new, |split| format!(" Split: {split}."));
+    // Left-out samples of a protocol belong to its other parts.
+    let unused = provenance.samples.get("left_out");
+    let unused = unused.filter(|_| provenance.presses.is_empty());
+    let unused = unused.map(|count| format!(", with {} in no part", counted(*count, "sample")));
+    let unused = unused.unwrap_or_default();
+    let split = split.map_or_else(String::new, |split| format!(" Split: {split}{unused}."));
     let neighbours = provenance.neighbours.as_ref();
     let neighbours = neighbours.map_or_else(String::new, |found| format!(" Note: {found}."));
     let recordings = provenance.recordings.iter();
@@ -217,6 +223,7 @@ fn caption_with(report: &EvaluationReport, foreign: impl Fn(&str) -> String) -> 
     };
     let subject = match subject.source.as_str() {
         "unknown" => "Scores of two tables".to_owned(),
+        source if subject.sensor == "unknown" => format!("Unnamed sensor ({source} samples)"),
         source => format!("{} ({source} samples)", foreign(&subject.sensor)),
     };
     let standings: String = standings(&report.scores)

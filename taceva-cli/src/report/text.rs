@@ -100,10 +100,16 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         writeln!(out, "Scores of two tables")?;
     } else {
         let gel = short_digests(&subject.gel);
-        let [sensor, serial, gel] =
-            [&subject.sensor, &subject.serial, &gel].map(|name| escape_terminal(name));
-        let source = &subject.source;
-        writeln!(out, "{sensor}   serial {serial}   gel {gel}   {source}")?;
+        let known = |words: &str, name: &str| match name {
+            "unknown" => String::new(),
+            name => format!("{words} {}   ", escape_terminal(name)),
+        };
+        let (serial, gel) = (known("serial", &subject.serial), known("gel", &gel));
+        let sensor = match subject.sensor.as_str() {
+            "unknown" => "unnamed sensor".to_owned(),
+            sensor => escape_terminal(sensor),
+        };
+        writeln!(out, "{sensor}   {serial}{gel}{}", subject.source)?;
     }
     if let Some(words) = not_measured([subject.source.as_str()]) {
         writeln!(out, "{words}")?;
@@ -120,7 +126,7 @@ fn heading(report: &EvaluationReport, out: &mut dyn Write) -> io::Result<()> {
         let parts: Vec<String> = provenance
             .samples
             .iter()
-            .map(|(part, count)| format!("{part} {count}"))
+            .map(|(part, count)| format!("{} {count}", part.replace('_', " ")))
             .collect();
         let seed = provenance
             .seed

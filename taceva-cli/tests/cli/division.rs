@@ -74,6 +74,47 @@ fn a_stream_that_is_divided_at_random_by_hand_is_marked_in_every_output() {
 }
 
 #[test]
+fn samples_in_the_gaps_between_blocks_are_counted_with_the_reason_and_the_remedy() {
+    let bench = stream(MAP);
+    let said = "of a validation or test block, and neighbours resemble each other; --split 'cv:5 by-block' tests every sample";
+    let fitted = bench.ok("fit data --model ridge --split by-block --out m.taceva");
+    let split = fitted.lines().find(|line| line.starts_with("split "));
+    let split = split.unwrap_or_else(|| panic!("{fitted}"));
+    assert!(split.contains(", left out "), "{fitted}");
+    assert!(fitted.contains(said), "{fitted}");
+    let words = "evaluate data --model ridge --metrics r2 --split by-block";
+    let text = bench.ok(words);
+    assert!(text.contains(said), "{text}");
+    // The map states neither serial number nor gel.
+    assert!(text.contains("lab gel   recorded\n"), "{text}");
+    let split = text.lines().find(|line| line.starts_with("split "));
+    assert!(
+        split.is_some_and(|line| line.contains(" left out ")),
+        "{text}"
+    );
+    let report = bench.json(words);
+    let unused = &report["provenance"]["samples"]["left_out"];
+    let notes = report["provenance"]["notes"].to_string();
+    assert!(
+        notes.contains(&format!(
+            "{unused} of 900 samples are left out: they lie within "
+        )),
+        "{notes}"
+    );
+    let table = bench.ok(&format!("{words} --format md"));
+    assert!(
+        table.contains(&format!(", with {unused} samples in no part.")),
+        "{table}"
+    );
+    bench.ok(&format!("{words} --html page.html -q"));
+    let page = fs::read_to_string(bench.path("page.html")).expect("written");
+    assert!(
+        page.contains("samples are left out: they lie within"),
+        "{page}"
+    );
+}
+
+#[test]
 fn few_points_are_each_tested_on_once_and_no_frame_is_decoded_twice() {
     let bench = Bench::new();
     bench.record("data", 32);

@@ -28,6 +28,23 @@ fn help_of_a_command_ends_with_examples() {
 }
 
 #[test]
+fn help_of_a_command_explains_it_beyond_its_first_line() {
+    let bench = Bench::new();
+    for (command, expected) in [
+        ("import", "`taceva init recording FOLDER` writes it"),
+        ("check", "Every finding has a stable code"),
+        ("export", "`datasets.load_dataset("),
+        ("fit", "a checkpoint is written"),
+        ("evaluate", "are scored in five folds (cv:5)"),
+        ("plugin allow", "only to resources that its manifest lists"),
+    ] {
+        let help = bench.ok(&format!("{command} --help"));
+        let words: Vec<&str> = help.split_whitespace().collect();
+        assert!(words.join(" ").contains(expected), "{command}: {help}");
+    }
+}
+
+#[test]
 fn manual_pages_are_written_for_every_command() {
     let bench = Bench::new();
     let page = bench.ok("man");

@@ -55,6 +55,7 @@ fn a_recording_without_answers_keeps_its_open_places_with_yes() {
     assert!(said.contains("fill in the 2 places"), "{said}");
     let contacts = "if several rows show one contact";
     assert!(said.contains(contacts), "{said}");
+    assert!(said.contains("  taceva check my-dataset\n"), "{said}");
     let map = read(&bench, "first.toml");
     assert!(map.contains("unit = \"?\""), "{map}");
     // The name of the sensor has a default.

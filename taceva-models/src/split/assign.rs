@@ -110,8 +110,11 @@ impl SplitSpec {
             SplitKind::ByBlock => {
                 let blocks = input.blocks.ok_or(SplitError::NoBlocks)?;
                 // Recordings share no blocks, so random draws can restart for each.
-                by_cluster(blocks.names, input, self.fractions, seed, "blocks")
-                    .map(|split| input.apart(split))
+                by_cluster(blocks.names, input, self.fractions, seed, "blocks").map(|split| {
+                    let mut split = input.apart(split);
+                    split.note = in_gaps(split.left_out.len(), input.rows, blocks.gap);
+                    split
+                })
             }
             SplitKind::LeaveOneRecordingOut | SplitKind::Folds(_) => Err(SplitError::ManyFolds {
                 split: self.to_string(),
@@ -211,6 +214,26 @@ fn parts_of_section(
     }
 }
 
+/// Note on `count` of `all` samples that are in no part.
+fn left_out(count: usize, all: usize, reason: &str, remedy: &str) -> String {
+    format!(
+        "{count} of {} {} left out: {reason}; {remedy}",
+        counted(all, "sample"),
+        by_count(count, "is", "are")
+    )
+}
+
+/// Note on `count` of `all` samples that lie in the gaps between blocks; `None` without such samples.
+fn in_gaps(count: usize, all: usize, gap: usize) -> Option<String> {
+    let reason = format!(
+        "{} within {} of a validation or test block, and neighbours resemble each other",
+        by_count(count, "it lies", "they lie"),
+        counted(gap, "sample")
+    );
+    let remedy = "--split 'cv:5 by-block' tests every sample";
+    (count > 0).then(|| left_out(count, all, &reason, remedy))
+}
+
 fn by_recording(
     input: &SplitInput<'_>,
     parts: &BTreeMap<String, Part>,
@@ -241,12 +264,12 @@ fn by_recording(
     let mut assigned = Split::of(recordings.iter().map(|name| parts.get(name).copied()));
     let count = assigned.left_out.len();
     if count > 0 {
-        assigned.note = Some(format!(
-            "{} {} left out: {} recording is assigned to no part",
-            counted(count, "sample"),
-            by_count(count, "is", "are"),
+        let reason = format!(
+            "{} recording is assigned to no part",
             by_count(count, "its", "their")
-        ));
+        );
+        let remedy = "name a part for every recording in --split";
+        assigned.note = Some(left_out(count, input.rows, &reason, remedy));
     }
     Ok(assigned)
 }
@@ -328,12 +351,12 @@ fn by_column(
     let mut assigned = Split::of(values.iter().map(|value| split.parts.get(value).copied()));
     let count = assigned.left_out.len();
     if count > 0 {
-        assigned.note = Some(format!(
-            "{} {} left out: {} `{name}` is assigned to no part",
-            counted(count, "sample"),
-            by_count(count, "is", "are"),
+        let reason = format!(
+            "{} `{name}` is assigned to no part",
             by_count(count, "its", "their")
-        ));
+        );
+        let remedy = format!("name a part for every value of `{name}` in --split");
+        assigned.note = Some(left_out(count, input.rows, &reason, &remedy));
     }
     Ok(assigned)
 }

@@ -44,6 +44,11 @@ pub struct Evidence<'a> {
 }
 
 impl Evidence<'_> {
+    /// True if this program recorded the samples: there is no map to change.
+    pub(crate) fn is_recording(&self) -> bool {
+        self.header.sources.is_none() && self.header.mapping().is_empty()
+    }
+
     /// Index of the load channel: the normal force, otherwise the depth. `None` if both are missing.
     pub(crate) fn load(&self) -> Option<usize> {
         let channels = self.table.channels();

@@ -53,8 +53,8 @@ pub(crate) struct Found {
     pub(crate) message: String,
     pub(crate) samples: Vec<String>,
     pub(crate) count: usize,
-    /// False if nothing needs to be fixed.
-    pub(crate) has_hint: bool,
+    /// Remedy in the place of the check's; empty if nothing needs to be fixed.
+    pub(crate) hint: Option<&'static str>,
 }
 
 impl Found {
@@ -68,14 +68,19 @@ impl Found {
             message,
             samples: Vec::new(),
             count: 0,
-            has_hint: true,
+            hint: None,
         }
     }
 
     /// The same finding without the remedy of its check.
     pub(crate) fn without_hint(self) -> Found {
+        self.with_hint("")
+    }
+
+    /// The same finding with the remedy `hint` in the place of its check's.
+    pub(crate) fn with_hint(self, hint: &'static str) -> Found {
         Found {
-            has_hint: false,
+            hint: Some(hint),
             ..self
         }
     }
@@ -92,7 +97,7 @@ impl Evidence<'_> {
                 .map(|&row| self.table.samples()[row].clone())
                 .collect(),
             count: rows.len(),
-            has_hint: true,
+            hint: None,
         }
     }
 }
@@ -125,7 +130,7 @@ impl Finding {
             message: found.message,
             samples: found.samples,
             count: found.count,
-            hint: if found.has_hint { check.hint } else { "" },
+            hint: found.hint.unwrap_or(check.hint),
         }
     }
 }

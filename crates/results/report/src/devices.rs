@@ -66,8 +66,8 @@ static KINDS: [DeviceKind; 3] = [
     },
 ];
 
-/// Setting with the path of the rig file. It is not a fact of a device.
-const RIG_FILE: &str = "rig_file";
+/// Settings that are not facts of a device: the digest of the rig file, the laboratory and the operator.
+const OF_NO_DEVICE: [&str; 3] = ["rig_file", "laboratory", "operator"];
 
 /// Devices of the measured recording of `study` that have a known fact. A simulated recording has no devices.
 pub(crate) fn devices(study: &Study) -> Vec<Device> {
@@ -118,7 +118,8 @@ impl DeviceKind {
         let mut own: BTreeMap<&str, &str> = BTreeMap::new();
         for (name, value) in &study.made.devices {
             let is_of_any = KINDS.iter().any(|kind| name.starts_with(kind.prefix));
-            let is_bare = self.instrument == Instrument::Sensor && !is_of_any && name != RIG_FILE;
+            let is_other = is_of_any || OF_NO_DEVICE.contains(&name.as_str());
+            let is_bare = self.instrument == Instrument::Sensor && !is_other;
             let bare = name.strip_prefix(self.prefix);
             if let Some(bare) = bare.or(is_bare.then_some(name.as_str())) {
                 own.insert(bare, value);

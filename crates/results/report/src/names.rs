@@ -3,13 +3,18 @@
 use crate::figure::short;
 use crate::results::Study;
 
-/// Names of the studies, made distinct if sensors share a name.
+/// Name of a sensor that a result or a map does not state.
+const UNKNOWN: &str = "unknown";
+
+/// Names of the studies, made distinct if sensors share a name. Several results without a sensor are `result 1`, `result 2`.
 pub fn names(studies: &[Study]) -> Vec<String> {
     let name = |(at, study): (usize, &Study)| {
         let same = |other: &&Study| other.sensor == study.sensor;
         let is_alone = studies.iter().filter(same).count() == 1;
         let sensor = match short(&study.sensor, 80) {
             sensor if sensor.trim().is_empty() => "unnamed".to_owned(),
+            sensor if sensor == UNKNOWN && is_alone => "unnamed sensor".to_owned(),
+            sensor if sensor == UNKNOWN => "result".to_owned(),
             sensor => sensor,
         };
         let before = studies[..at].iter();
@@ -36,5 +41,32 @@ pub(crate) fn listed(names: &[String]) -> String {
         [] => String::new(),
         [one] => one.clone(),
         [start @ .., last] => format!("{} and {last}", start.join(", ")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::names;
+    use crate::results::Study;
+
+    fn study(sensor: &str, model: Option<&str>) -> Study {
+        let model = model.map(|name| ("model".to_owned(), format!("name {name}, settings ")));
+        Study {
+            sensor: sensor.to_owned(),
+            provenance: model.into_iter().collect(),
+            ..Study::default()
+        }
+    }
+
+    #[test]
+    fn sensors_without_a_name_are_not_headed_unknown() {
+        let one = [study("unknown", None)];
+        assert_eq!(names(&one), ["unnamed sensor"]);
+        let several = [
+            study("unknown", Some("ridge")),
+            study("unknown", None),
+            study("DIGIT", None),
+        ];
+        assert_eq!(names(&several), ["result 1 (ridge)", "result 2", "DIGIT"]);
     }
 }

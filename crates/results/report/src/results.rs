@@ -28,6 +28,8 @@ use crate::faults::FaultResult;
 
 /// Text in the method of an interval that leaves out groups of the split.
 pub(crate) const BY_GROUP: &str = " by group";
+/// Text in the method of an interval that leaves out contact points, or clusters of many of them.
+pub(crate) const BY_POINT: &str = " by point_id";
 /// Definition of published numbers whose source states no definition.
 pub(crate) const PUBLISHED: &str = "published";
 

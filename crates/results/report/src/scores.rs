@@ -16,7 +16,7 @@ use taceva_metrics::{Standing, catalogue, plane_of};
 
 use crate::compare::{Answer, CompareRequest, compare};
 use crate::number::{FormattedValue, fixed};
-use crate::results::{BY_GROUP, Study};
+use crate::results::{BY_GROUP, BY_POINT, Study};
 use taceva_results::{Interval, ScoreLine};
 
 /// Scores of studies side by side.
@@ -63,6 +63,8 @@ pub struct ScoreCell {
     pub method: Option<String>,
     /// Number of groups of the split that the interval leaves out; `None` for an interval over contact points.
     pub groups: Option<usize>,
+    /// Number of clusters of contact points that the interval leaves out; `None` for an interval over groups or independent samples.
+    pub points: Option<usize>,
     /// Degrees of freedom of Student's t for the interval, if the result states them.
     pub degrees_of_freedom: Option<f64>,
     /// Number of samples.
@@ -169,15 +171,17 @@ fn enter(line: &ScoreLine<'_>, at: usize, studies: &[Study], rows: &mut Vec<Scor
         row.unit = line.unit;
     }
     let method = line.interval.and_then(Interval::method);
+    let clusters = |by: &str| {
+        let is_by = method.is_some_and(|method| method.contains(by));
+        line.interval.filter(|_| is_by).and_then(Interval::clusters)
+    };
     row.cells[at] = Some(ScoreCell {
         value: line.value.number(),
         formatted: FormattedValue::of(line.value, line.interval),
         ends: line.interval.and_then(Interval::ends),
         method: method.map(|method| studies[at].method_named(method)),
-        groups: line
-            .interval
-            .filter(|_| method.is_some_and(|method| method.contains(BY_GROUP)))
-            .and_then(Interval::clusters),
+        groups: clusters(BY_GROUP),
+        points: clusters(BY_POINT),
         degrees_of_freedom: line.interval.and_then(Interval::degrees_of_freedom),
         n: line.score.n,
         n_invalid: line.score.n_invalid,

@@ -17,6 +17,7 @@ mod streams;
 mod track;
 mod transducer;
 
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -57,6 +58,8 @@ pub struct CaptureRequest {
     pub frames: Option<u64>,
     /// Rig file of all devices, whose axes and latencies the recording stores; `None` if selectors name the devices.
     pub rig: Option<RigFile>,
+    /// `operator` and `laboratory` as settings of the recording; they replace those of the rig file.
+    pub stated: BTreeMap<String, String>,
 }
 
 /// Optional viewer and predictor of a capture. They never delay the capture.
@@ -159,6 +162,7 @@ pub fn capture(
     let source = source(live);
     let mut settings = live.settings();
     settings.extend(request.rig.as_ref().map(of_rig_file).unwrap_or_default());
+    settings.extend(request.stated.clone());
     let facts = RecordingFacts::new(source, Clock::Monotonic, request.sensor.clone())
         .with_traceability(kept(live.traceability(), source, &settings))
         .with_settings(settings)

@@ -4,6 +4,7 @@ mod axes;
 mod certificate;
 mod changers;
 mod latency;
+mod operator;
 mod registration;
 mod sensor;
 mod teach;
@@ -13,6 +14,7 @@ pub(crate) use axes::Along;
 pub use axes::SignedAxes;
 pub use changers::RigChangers;
 pub use latency::{Latency, RigLatencies};
+pub use operator::RigOperator;
 pub use registration::Registration;
 pub use sensor::RigSensor;
 pub use teach::{Jogged, Taught, TeachError};
@@ -24,6 +26,7 @@ use taceva_core::{Certificate, Instrument};
 use certificate::WrittenCertificate;
 use changers::WrittenChangers;
 use latency::{LATENCY, UNCERTAINTY};
+use operator::WrittenOperator;
 use sensor::WrittenSensor;
 
 use crate::content_id::ContentId;
@@ -32,9 +35,6 @@ use crate::text::{SceneError, SceneProblem, Setting, Text};
 
 /// Greatest coordinate of an origin, in mm.
 const GREATEST_PLACE_MM: f64 = 10_000.0;
-/// Default and greatest wait for a held enabling switch, in s.
-const USUAL_PATIENCE_S: f64 = 60.0;
-const GREATEST_PATIENCE_S: f64 = 86_400.0;
 /// Greatest accepted latency, in ms.
 const GREATEST_LATENCY_MS: f64 = 1_000.0;
 /// Greatest accepted limit, as in a scene, in mm, N or mm/s.
@@ -59,13 +59,17 @@ const GREATEST_LIMIT: f64 = 1_000.0;
 pub struct RigFile {
     /// True if the devices are emulated, so that recordings are not measurements.
     pub simulated: bool,
+    /// Laboratory of the rig, if stated.
+    pub laboratory: Option<String>,
+    /// Name of the person who operates the rig, if stated.
+    pub operator_name: Option<String>,
     /// Robot of the rig, if any.
     pub robot: Option<RigRobot>,
     /// Force transducer of the rig, if any.
     pub force: Option<RigForce>,
     /// Sensor of the rig, if any.
     pub sensor: Option<RigSensor>,
-    /// Enabling switch and its operator, if any.
+    /// Enabling switch, if any.
     pub operator: Option<RigOperator>,
     /// Devices that change specimen, unit or light automatically.
     pub changers: RigChangers,
@@ -122,21 +126,13 @@ pub struct RigForce {
     pub certificate: Option<Certificate>,
 }
 
-/// Operator of a rig, who holds the enabling switch.
-#[derive(Clone, Debug, PartialEq)]
-pub struct RigOperator {
-    /// Selector of the enabling switch. Releasing the switch halts the robot.
-    pub enable: Setting<String>,
-    /// Maximum wait for the switch to be held, in s.
-    pub patience_s: f64,
-}
-
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, expecting = "a rig file")]
 struct WrittenRig {
     rig_version: Setting<u32>,
     #[serde(default)]
     simulated: bool,
+    laboratory: Option<Setting<String>>,
     robot: Option<WrittenRobot>,
     force: Option<WrittenForce>,
     sensor: Option<WrittenSensor>,
@@ -172,13 +168,6 @@ struct WrittenForce {
     certificate: Option<WrittenCertificate>,
 }
 
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields, expecting = "a table with `enable`")]
-struct WrittenOperator {
-    enable: Setting<String>,
-    patience_s: Option<Setting<f64>>,
-}
-
 impl RigFile {
     /// Parses the rig file `text`; `source_name` is its name in errors.
     ///
@@ -188,16 +177,19 @@ impl RigFile {
     /// - invalid TOML, or an unknown key, with the most similar known key;
     /// - axes that form no right-handed frame;
     /// - a certificate of another instrument, or a certificate that contradicts itself;
+    /// - an `[operator]` without switch and name;
     /// - a place, latency, patience or limit out of range.
     pub fn parse(source_name: &str, text: &str) -> Result<RigFile, SceneError> {
         let text = Text::new(source_name, text)?;
         let written: WrittenRig = text.read()?;
         let check = Check { text: &text };
         check.version(&written.rig_version)?;
-        let operator = written
-            .operator
-            .map(|operator| check.operator(operator))
-            .transpose()?;
+        let laboratory = check.name("laboratory", written.laboratory)?;
+        let mut person = written.operator;
+        let operator_name = person.as_mut().and_then(|person| person.name.take());
+        let operator_name = check.name("name", operator_name)?;
+        let switch = person.map(|person| person.switch(&check, operator_name.is_some()));
+        let operator = switch.transpose()?.flatten();
         let changers = written.changers.check(&text)?;
         check.limits(&written.limits)?;
         let robot = written.robot.map(|robot| check.robot(robot)).transpose()?;
@@ -206,6 +198,8 @@ impl RigFile {
         let sensor = sensor.map(|sensor| sensor.check(&check)).transpose()?;
         Ok(RigFile {
             simulated: written.simulated,
+            laboratory,
+            operator_name,
             robot,
             force,
             sensor,
@@ -256,21 +250,14 @@ impl Check<'_> {
         }
     }
 
-    fn operator(&self, operator: WrittenOperator) -> Result<RigOperator, SceneError> {
-        let WrittenOperator { enable, patience_s } = operator;
-        if let Some(patience) = &patience_s
-            && !(patience.value > 0.0 && patience.value <= GREATEST_PATIENCE_S)
-        {
-            let problem = SceneProblem::Range {
-                key: "patience_s",
-                found: patience.value,
-                above: 0.0,
-                greatest: GREATEST_PATIENCE_S,
-            };
-            return Err(self.text.error(patience.at(), problem));
+    /// Name of a person or a laboratory, as reports print it.
+    fn name(&self, key: &str, name: Option<Setting<String>>) -> Result<Option<String>, SceneError> {
+        match name {
+            Some(name) if name.value.trim().is_empty() => {
+                self.refuse(name.at(), format!("`{key}` is empty, expected a name"))
+            }
+            name => Ok(name.map(|name| name.value)),
         }
-        let patience_s = patience_s.map_or(USUAL_PATIENCE_S, |patience| patience.value);
-        Ok(RigOperator { enable, patience_s })
     }
 
     fn limits(&self, limits: &LimitSpec) -> Result<(), SceneError> {

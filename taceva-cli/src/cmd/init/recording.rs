@@ -46,6 +46,7 @@ pub(super) fn write(
     let mut next = remarks(&text, &quoted(&path));
     next.push(format!("{import} --explain"));
     next.push(format!("{import} --out my-dataset"));
+    next.push("taceva check my-dataset".to_owned());
     next.push(match has_labels(&text) {
         true => "taceva evaluate my-dataset".to_owned(),
         false => "taceva predict my-dataset --with MODEL --out predictions.csv".to_owned(),

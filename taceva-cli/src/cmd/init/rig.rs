@@ -38,6 +38,7 @@ pub(super) fn write(
     let text = format!(
         "# The devices of one rig. taceva is not a safety function: emergency stop and guards must work without it (docs/rig.md).
 rig_version = 1
+# laboratory = \"my laboratory\"    # reports and data sheets name it
 
 [robot]
 driver = {robot:?}
@@ -62,8 +63,9 @@ Fz_max_N = {normal:?}
 Fxy_max_N = {shear:?}
 speed_max_mm_s = {speed:?}
 
-# An enabling switch that a person holds while the robot moves; `taceva devices` lists its arguments:
+# The person at the rig, and an enabling switch that the person holds while the robot moves; `taceva devices` lists its arguments:
 # [operator]
+# name = \"my name\"
 # enable = \"hid/pedal:usb=0c45:7403\"
 "
     );

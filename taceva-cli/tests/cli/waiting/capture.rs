@@ -68,6 +68,33 @@ fn presses_become_points_that_models_are_fitted_and_evaluated_on() {
 }
 
 #[test]
+fn a_capture_shows_the_laboratory_and_the_operator_of_its_rig_file() {
+    let emulated = Emulated::new();
+    let bench = Bench::new();
+    let stated = "rig_version = 1\nlaboratory = \"Soft Robotics\"";
+    let rig = emulated.rig().replacen("rig_version = 1", stated, 1);
+    let operator = "[operator]\nname = \"A. Lovelace\"\n";
+    bench.write("hand.toml", &format!("{rig}\n{operator}"));
+    bench.ok("capture held --rig hand.toml --frames 12 -q");
+    bench.ok("capture other --rig hand.toml --frames 12 --operator Grace -q");
+    let sensor = emulated.sensor();
+    bench.ok(&format!(
+        "capture named --rig hand.toml --sensor {sensor} --frames 12 -q"
+    ));
+    for (name, person) in [
+        ("held", "A. Lovelace"),
+        ("other", "Grace"),
+        ("named", "A. Lovelace"),
+    ] {
+        let shown = bench.ok(&format!("show {name}"));
+        let by = format!("recorded  by {person}");
+        for line in ["recorded  at Soft Robotics", by.as_str()] {
+            assert!(shown.lines().any(|own| own == line), "{shown}");
+        }
+    }
+}
+
+#[test]
 fn a_capture_keeps_the_certificate_of_its_rig_file() {
     let emulated = Emulated::new();
     let bench = Bench::new();

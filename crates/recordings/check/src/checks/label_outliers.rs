@@ -14,6 +14,10 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
+/// Remedy for a recording of this program, which has no map.
+const OF_RECORDING: &str = "look at these samples: a transducer that was overloaded or read during motion gives such labels; state why they are \
+    right, or write the recording with `taceva export`, and import it without them by [drop] of its map.toml";
+
 /// Distance of Tukey's outer fences from the quartiles, in interquartile ranges.
 const FENCE: f64 = 3.0;
 /// Minimum gap below the outliers, as a fraction of the distance from the quartile to the label below the gap.
@@ -47,7 +51,11 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
                 sign * outliers.next,
                 drop_line(evidence, &outliers.rows),
             );
-            found.push(evidence.found(Severity::Warning, message, &outliers.rows));
+            let warning = evidence.found(Severity::Warning, message, &outliers.rows);
+            found.push(match evidence.is_recording() {
+                true => warning.with_hint(OF_RECORDING),
+                false => warning,
+            });
         }
     }
     found

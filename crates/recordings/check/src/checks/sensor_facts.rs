@@ -14,6 +14,10 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
+/// Remedy for a recording of this program, which has no map.
+const OF_RECORDING: &str = "complete dataset.toml and accept the edit with `taceva reseal`; for the next recording, state `--serial` and `--gel` \
+    of `taceva capture`, or `units` and `opaque` of the scene";
+
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let header = evidence.header;
     let has_times = evidence.table.t_s().iter().any(Option::is_some);
@@ -36,8 +40,9 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     if unknown.is_empty() {
         return Vec::new();
     }
-    vec![Found::overall(
-        Severity::Note,
-        format!("unknown: {}", unknown.join(", ")),
-    )]
+    let found = Found::overall(Severity::Note, format!("unknown: {}", unknown.join(", ")));
+    vec![match evidence.is_recording() {
+        true => found.with_hint(OF_RECORDING),
+        false => found,
+    }]
 }

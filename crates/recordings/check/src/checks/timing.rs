@@ -18,6 +18,10 @@ pub(super) static CHECK: Check = Check {
     find,
 };
 
+/// Remedy for a recording of this program, whose devices and drivers stamped the frames.
+const OF_RECORDING: &str = "the device or its driver stamped these frames: check it with `taceva rig check`, end other programs on this machine, \
+    and record again";
+
 /// Minimum number of samples for computing a rate.
 const LEAST: usize = 10;
 /// Length above which a step is a gap, in usual steps, including a tolerance for rounding.
@@ -25,6 +29,9 @@ const GAP: f64 = 3.0;
 const ROUNDING: f64 = 1e-6;
 /// Maximum relative difference, in a regular stream, between the usual step and the mean of the steps without gaps.
 const ALIKE: f64 = 0.05;
+
+/// End of the text of a rate that shows nothing to fix.
+const WITHOUT_GAPS: &str = ", without gaps";
 
 fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let table = evidence.table;
@@ -53,7 +60,12 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
     let mut found = Vec::new();
     // There is no rate between presses.
     if !is_of_presses(evidence) && !steps.is_empty() {
-        found.push(rate(&steps, missing(evidence).as_ref()));
+        let rate = rate(&steps, missing(evidence).as_ref());
+        let is_whole = rate.message.ends_with(WITHOUT_GAPS);
+        found.push(match evidence.is_recording() && is_whole {
+            true => rate.without_hint(),
+            false => rate,
+        });
     }
     let rows_of = |is_so: fn(f64) -> bool| -> Vec<usize> {
         let steps = steps.iter().filter(|(_, seconds)| is_so(*seconds));
@@ -80,7 +92,7 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
         )
     };
     if let Some(sessions) = evidence.sessions {
-        found.push(Found::overall(Severity::Note, sessions.note.clone()));
+        found.push(Found::overall(Severity::Note, sessions.note.clone()).without_hint());
     }
     // The clock of a machine restarts with every boot.
     let boots = evidence.sessions.map_or(1, |sessions| sessions.boots);
@@ -101,6 +113,13 @@ fn find(evidence: &Evidence<'_>) -> Vec<Found> {
             Severity::Warning,
             "every time is a whole second".to_owned(),
         ));
+    }
+    if evidence.is_recording() {
+        let of_recording = |found: Found| match found.hint {
+            None => found.with_hint(OF_RECORDING),
+            Some(_) => found,
+        };
+        found = found.into_iter().map(of_recording).collect();
     }
     found
 }
@@ -171,7 +190,7 @@ fn rate(steps: &[(usize, f64)], missing: Option<&Missing>) -> Found {
         message += &format!("; {frames} {frames_seem} to be missing");
     }
     if is_alike && gaps == 0 && missing.is_none() {
-        message += ", without gaps";
+        message += WITHOUT_GAPS;
     }
     Found::overall(Severity::Note, message)
 }

@@ -9,6 +9,7 @@ mod lab;
 mod lag;
 mod local_times;
 mod neighbours;
+mod remedies;
 mod rest;
 mod single_files;
 mod stamps;

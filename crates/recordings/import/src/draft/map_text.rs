@@ -155,7 +155,7 @@ pub(super) fn of_table(
             &format!("name = {:?}\ntable = {}\n{lines}", join.name, join.written),
         );
     }
-    let shared = shared_points(main, parts);
+    let shared = shared_points(main, parts, &channels);
     let groups = group_points(main);
     add_section(&mut rest, "ids", &format!("{}{groups}{shared}", ids.0));
     add_section(&mut rest, "attributes", &attributes.0);

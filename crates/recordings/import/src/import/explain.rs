@@ -33,6 +33,9 @@ impl fmt::Display for ImportSummary {
             write!(f, "{separator}{} {count}", shown(reason))?;
         }
         writeln!(f)?;
+        if self.points > 0 {
+            writeln!(f, "points   {}", counted(self.points, "contact point"))?;
+        }
         for join in &self.joins {
             writeln!(f, "{join}")?;
         }

@@ -119,6 +119,9 @@ impl ImportPlan {
         if reading.summary.rows_kept == 0 {
             return Err(reading.no_row());
         }
+        let points = reading.table.point_id().iter().flatten();
+        let points: BTreeSet<&String> = points.collect();
+        reading.summary.points = points.len() as u64;
         reading.into_plan()
     }
 

@@ -38,6 +38,8 @@ pub struct ImportSummary {
     pub rows_read: u64,
     /// Number of rows that become samples of the dataset.
     pub rows_kept: u64,
+    /// Number of contact points that these rows name; 0 if the map names none.
+    pub points: u64,
     /// Number of rows dropped by each rule. Several rules may drop the same row.
     pub dropped: BTreeMap<String, u64>,
     /// Row matches of each join.

@@ -3,19 +3,19 @@
 use super::{case, draft, imported, lab, line, planned};
 
 /// Draft of a folder with one table of 40 rows, whose cells `row` writes.
-fn drafted(header: &str, row: impl Fn(usize) -> String) -> String {
+pub(super) fn drafted(header: &str, row: impl Fn(usize) -> String) -> String {
     let rows: Vec<String> = (0..40).map(row).collect();
     let folder = lab(&[("labels.csv", &format!("{header}\n{}\n", rows.join("\n")))]);
     draft(folder.path())
 }
 
 /// Number that does not count up with the row.
-fn wave(row: usize) -> f64 {
+pub(super) fn wave(row: usize) -> f64 {
     ((row * 37 % 40) as f64 * 0.13 - 2.0) * 1.01
 }
 
 /// Several numbers that do not count up with the row.
-fn waves(row: usize, count: usize) -> String {
+pub(super) fn waves(row: usize, count: usize) -> String {
     let cells: Vec<String> = (0..count).map(|at| wave(row + at).to_string()).collect();
     cells.join(",")
 }

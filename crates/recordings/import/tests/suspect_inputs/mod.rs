@@ -4,6 +4,7 @@ mod angles;
 #[cfg(target_os = "linux")]
 mod bounded;
 mod clips;
+mod contact_points;
 mod converters;
 mod coordinate_frames;
 mod distant_times;

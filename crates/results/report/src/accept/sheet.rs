@@ -239,7 +239,15 @@ impl Acceptance<'_> {
         if !ranges.is_empty() {
             entries.push(("ranges tried", ranges));
         }
-        let wanted = ["dataset", "split", "seed", "part", "taceva"];
+        let wanted = [
+            "laboratory",
+            "operator",
+            "dataset",
+            "split",
+            "seed",
+            "part",
+            "taceva",
+        ];
         let known = study
             .provenance
             .iter()

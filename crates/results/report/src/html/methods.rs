@@ -163,7 +163,7 @@ fn divided(studies: &[Study]) -> String {
         out += &format!(" ({seeds})");
     }
     let all = studies.iter().flat_map(|study| &study.made.samples);
-    // Left-out samples belong to other parts of the protocol, for other metrics.
+    // Left-out samples of a protocol belong to its other parts, for other metrics.
     let all = all.filter(|(name, _)| name != "left_out");
     let names = distinct(all.map(|(name, _)| name.as_str()));
     let part = |name: &&str| {
@@ -176,6 +176,14 @@ fn divided(studies: &[Study]) -> String {
     let parts: Vec<String> = names.iter().filter_map(part).collect();
     if !parts.is_empty() {
         out += &format!(" into {} samples", listed(&parts));
+    }
+    let unused = |study: &Study| {
+        let samples = study.made.samples.iter();
+        let mut samples = samples.filter(|_| study.made.presses == 0);
+        whole(samples.find(|(name, _)| name == "left_out")?.1)
+    };
+    if let Some(unused) = counted_span(studies, "sample", unused) {
+        out += &format!(", with {unused} in no part");
     }
     out + "."
 }

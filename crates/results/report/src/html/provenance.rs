@@ -18,7 +18,7 @@ pub(super) fn section(studies: &[Study], table: &ScoreTable) -> Markup {
             h3 { (name) } "\n"
             dl {
                 (terms([("sensor", &study.sensor), ("serial", &study.serial), ("gel", &study.gel), ("samples", &study.source)]))
-                (terms(study.provenance.iter().map(|(term, text)| (term, of_parts(term, text)))))
+                (terms(study.provenance.iter().map(|(term, text)| (term, of_parts(study, term, text)))))
             } "\n"
         }
         h3 { "Intervals" } "\n"
@@ -48,10 +48,14 @@ fn methods(table: &ScoreTable) -> Vec<String> {
     methods.into_iter().map(named).collect()
 }
 
-/// Text of a provenance entry, with left-out samples described as samples of other parts of the protocol.
-fn of_parts(term: &str, text: &str) -> String {
+/// Text of a provenance entry. Left-out samples of a protocol belong to its other parts.
+fn of_parts(study: &Study, term: &str, text: &str) -> String {
+    let left_out = match study.made.presses {
+        0 => "left out ",
+        _ => "of other parts of the protocol ",
+    };
     match term {
-        "samples" => text.replace("left_out ", "of other parts of the protocol "),
+        "samples" => text.replace("left_out ", left_out),
         _ => text.to_owned(),
     }
 }

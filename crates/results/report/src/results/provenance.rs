@@ -24,6 +24,7 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
         true => String::new(),
         false => traceability_line(provenance),
     };
+    let setting = |name: &str| provenance.devices.get(name).cloned().unwrap_or_default();
     let all = [
         ("taceva", provenance.taceva.clone()),
         ("dataset", text(&provenance.dataset)),
@@ -47,6 +48,8 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
         ),
         ("presses", joined(presses)),
         ("traceability", traceability),
+        ("laboratory", setting("laboratory")),
+        ("operator", setting("operator")),
         ("devices", equations(&provenance.devices)),
         (
             "recorded_on",
@@ -86,9 +89,11 @@ fn pairs<'a, K: Display + 'a, V: Display + 'a>(
     joined(pairs.map(|(name, value)| format!("{name} {value}")))
 }
 
-/// Settings as text: `force_filter = 8; force_rate_hz = 500`.
+/// Settings of devices as text: `force_filter = 8; force_rate_hz = 500`.
 fn equations(settings: &BTreeMap<String, String>) -> String {
     let settings = settings.iter();
+    let settings =
+        settings.filter(|(name, _)| !["laboratory", "operator"].contains(&name.as_str()));
     let texts = settings.map(|(name, value)| format!("{name} = {value}"));
     texts.collect::<Vec<_>>().join("; ")
 }

@@ -47,7 +47,7 @@ impl About {
 }
 
 impl ScoreTable {
-    /// Caption of the main table: `Accuracy of GelSight (ridge) on 20 simulated test samples, with 95 % intervals.`
+    /// Caption of the main table: `Accuracy of GelSight (ridge) on 80 simulated test samples in 20 clusters by contact point, with 95 % intervals.`
     pub fn caption(&self) -> String {
         let main = self.main();
         let what = match main.is_of_accuracy() {
@@ -134,7 +134,11 @@ impl ScoreTable {
             _ => String::new(),
         };
         let groups = self.groups();
-        format!(" on {many}{source}{part}{noun}{each}{groups}{recordings}{held_out}")
+        let points = match groups.is_empty() && n.is_some() {
+            true => self.points(),
+            false => String::new(),
+        };
+        format!(" on {many}{source}{part}{noun}{each}{groups}{recordings}{points}{held_out}")
     }
 
     /// Groups of the caption: ` of 5 groups by object`. Empty unless all intervals leave out the same number of groups of one split.
@@ -150,6 +154,18 @@ impl ScoreTable {
         match (groups.len(), counts.len(), counts.first()) {
             (1, 1, Some(Some(count))) if groups.first() != Some(&None) => {
                 format!(" of {}", one(*count))
+            }
+            _ => String::new(),
+        }
+    }
+
+    /// Clusters of the caption: ` in 20 clusters by contact point`. Empty unless all intervals leave out contact points, in the same number of clusters.
+    fn points(&self) -> String {
+        let with_interval = self.valued().filter(|cell| cell.ends.is_some());
+        let counts: BTreeSet<Option<usize>> = with_interval.map(|cell| cell.points).collect();
+        match (counts.len(), counts.first()) {
+            (1, Some(Some(count))) => {
+                format!(" in {} by contact point", counted(*count, "cluster"))
             }
             _ => String::new(),
         }

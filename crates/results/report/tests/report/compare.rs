@@ -145,14 +145,14 @@ fn the_finest_of_gratings_that_two_tell_equally_often_is_a_tie_whomever_else_the
 #[test]
 fn unknown_skill_is_said_of_those_it_is_unknown_of_and_of_no_other() {
     let known = study("known", &[("mae", "Fz", score(0.25, 0.01, "N"))], &["Fz"]);
-    let unknown = study("unknown", &[("mae", "Fz", score(0.75, 0.01, "N"))], &[]);
+    let unknown = study("untested", &[("mae", "Fz", score(0.75, 0.01, "N"))], &[]);
     let words = |studies: &[Study]| {
         let comparison = of_metric(studies, "mae");
         comparison.answers[0].words(&comparison.names)
     };
     let said = words(&[known.clone(), unknown.clone()]);
     assert!(
-        said.ends_with("; not tested against predicting the mean: unknown"),
+        said.ends_with("; not tested against predicting the mean: untested"),
         "{said}"
     );
     let other = Study {

@@ -56,12 +56,12 @@ fn assert_holds(text: &str, parts: &[&str]) {
 }
 
 #[test]
-fn one_result_has_a_row_a_channel_and_says_how_many_samples_were_scored() {
+fn one_result_has_a_row_a_channel_and_says_how_many_samples_and_clusters_were_scored() {
     let text = latex("one", &[support::study(&result("GelSight", &PLANES))]);
     assert_holds(
         &text,
         &[
-            "\\caption{Accuracy of GelSight (ridge) on 20 simulated test samples, with 95 \\% intervals.}",
+            "\\caption{Accuracy of GelSight (ridge) on 20 simulated test samples in 20 clusters by contact point, with 95 \\% intervals.}",
             "MAE $\\downarrow$ & $R^2$ $\\uparrow$ & sMAPE $\\downarrow$ \\\\",
             "$F_{xy}$ (N) & 0.0361 & 0.950 & 0.123 \\\\",
             "\\scriptsize [0.0336, 0.0375]",
@@ -243,7 +243,7 @@ fn a_caption_of_many_recordings_counts_them() {
     let text = latex("many recordings", &[support::study(&result)]);
     assert_holds(
         &text,
-        &["on 20 simulated test samples of 60 recordings, with"],
+        &["on 20 simulated test samples of 60 recordings in 20 clusters by contact point, with"],
     );
     assert!(!text.contains("monday"), "{text}");
 }
@@ -257,7 +257,8 @@ fn a_caption_of_folds_says_that_each_sample_was_held_out() {
     let caption = ScoreTable::of(std::slice::from_ref(&study)).caption();
     assert_eq!(
         caption,
-        "Accuracy of GelSight (ridge) on 20 simulated samples, each held out once (5-fold cross-validation by video), with 95 % intervals."
+        "Accuracy of GelSight (ridge) on 20 simulated samples in 20 clusters by contact point, each held out once (5-fold cross-validation by \
+         video), with 95 % intervals."
     );
     let page = taceva_report::report(&taceva_report::ReportPage {
         title: "folds",

@@ -53,9 +53,16 @@ pub(crate) fn sensor_driver(key: &str) -> (String, String) {
     ("sensor_driver".to_owned(), key.to_owned())
 }
 
-/// Facts of a rig file as settings of a recording: mounting and latencies of devices, driver of the sensor, and digest of the file.
+/// Facts of a rig file as settings of a recording: laboratory and operator, mounting and latencies of devices, driver of the sensor, and digest of the
+/// file.
 pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     let mut settings = BTreeMap::from([("rig_file".to_owned(), rig.digest().to_string())]);
+    for (key, name) in [
+        ("laboratory", &rig.laboratory),
+        ("operator", &rig.operator_name),
+    ] {
+        settings.extend(name.clone().map(|name| (key.to_owned(), name)));
+    }
     let axes = [
         ("robot_axes", rig.robot.as_ref().map(|robot| &robot.axes)),
         ("force_axes", rig.force.as_ref().map(|force| &force.axes)),
@@ -110,6 +117,16 @@ mod tests {
         let camera = "[sensor]\ndriver = \"camera/mjpeg:url=http://10.0.0.9/\"\n";
         let rig = RigFile::parse("lab.toml", &format!("{text}{camera}")).expect("a rig");
         assert_eq!(of_rig_file(&rig)["sensor_driver"], "camera/mjpeg");
+    }
+
+    #[test]
+    fn a_recording_keeps_the_laboratory_and_the_operator_of_its_rig_file() {
+        let text =
+            "rig_version = 1\nlaboratory = \"Soft Robotics\"\n[operator]\nname = \"A. Lovelace\"\n";
+        let rig = RigFile::parse("lab.toml", text).expect("a rig");
+        let settings = of_rig_file(&rig);
+        assert_eq!(settings["laboratory"], "Soft Robotics");
+        assert_eq!(settings["operator"], "A. Lovelace");
     }
 
     #[test]

@@ -130,7 +130,7 @@ impl fmt::Display for Note {
             ),
             Note::LeftOut { part, count } => write!(
                 f,
-                "{} of the part {part} {} a label or a frame and {} left out",
+                "{} of the part {part} {} a label or a frame and {} left out: see `taceva check` (TAC011)",
                 counted(*count, "sample"),
                 by_count(*count, "lacks", "lack"),
                 by_count(*count, "was", "were")
@@ -342,11 +342,11 @@ mod tests {
             ),
             (
                 left_out(1),
-                "1 sample of the part test lacks a label or a frame and was left out",
+                "1 sample of the part test lacks a label or a frame and was left out: see `taceva check` (TAC011)",
             ),
             (
                 left_out(9),
-                "9 samples of the part test lack a label or a frame and were left out",
+                "9 samples of the part test lack a label or a frame and were left out: see `taceva check` (TAC011)",
             ),
             (Note::States(1), "1 state merged"),
         ] {

@@ -49,3 +49,21 @@ fn named_parts_of_a_column_with_few_values_lead_to_contact_points() {
                   column as point_id";
     assert!(found.contains(remedy), "{found}");
 }
+
+#[test]
+fn folds_count_the_samples_for_which_no_group_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let partly = grouped(72, 12).enumerate().map(|(at, row)| Row {
+        point: None,
+        unit: row.unit.filter(|_| at % 12 != 5),
+        ..row
+    });
+    let dataset = record(&folder.path().join("data"), partly);
+    let found = said(&evaluated(
+        &dataset,
+        "ridge",
+        Some("cv:5 by-column:unit_id"),
+    ));
+    let counted = "; 6 of 72 samples are left out: no group is named for them; name one in the table, and import it again";
+    assert!(found.contains(counted), "{found}");
+}

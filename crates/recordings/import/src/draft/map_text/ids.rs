@@ -3,16 +3,19 @@
 use super::sections::Lines;
 use crate::draft::path_parts::PathParts;
 use crate::draft::roles::candidate::{Candidate, Named};
-use crate::draft::roles::words;
+use crate::draft::roles::{Role, words};
 use crate::draft::tables::{SeenColumn, SeenTable};
 use crate::import::whole_number;
 use taceva_dataset::internal::is_attribute_name;
 
 /// Words in names of columns in which equal values mark rows that belong together.
-const SHARED: [&str; 12] = [
+const SHARED: [&str; 14] = [
     "episode", "session", "trial", "object", "video", "clip", "take", "press", "run", "repeat",
-    "grasp", "sequence",
+    "grasp", "sequence", "point", "location",
 ];
+
+/// Words in names of columns that name the contact point, so coordinates need not name it.
+const POINT: [&str; 4] = ["press", "grasp", "point", "location"];
 
 /// Line for the groups of a file, each of which may be a contact.
 pub(super) fn group_points(main: &SeenTable<'_>) -> &'static str {
@@ -35,24 +38,74 @@ pub(super) fn repeat_column<'t>(main: &'t SeenTable<'_>) -> Option<&'t str> {
     Some(column.name.as_str())
 }
 
-/// Line for the contact point that repeats share: active for episodes, otherwise commented out.
-pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> String {
-    let is_shared = |name: &str| {
-        let words = words(name);
-        words.iter().any(|word| SHARED.contains(&word.as_str()))
+/// Number of different values.
+fn distinct<T: Ord>(mut values: Vec<T>) -> usize {
+    values.sort_unstable();
+    values.dedup();
+    values.len()
+}
+
+/// Column of `main` that the line of `channel` in the drafted `channels` names, if the line has no gap.
+fn place_column<'t>(
+    main: &'t SeenTable<'_>,
+    channels: &str,
+    channel: &str,
+) -> Option<&'t SeenColumn> {
+    main.columns.iter().find(|column| {
+        let drafted = format!("{channel} = {{ from = {:?}, ", column.name);
+        channels.lines().any(|line| line.starts_with(&drafted))
+    })
+}
+
+/// Line for contact points that their coordinates name, if most of these places repeat exactly. A sensor that rests and then moves has many places of
+/// one row.
+fn repeated_places(main: &SeenTable<'_>, channels: &str) -> Option<String> {
+    let [x, y] = ["Px", "Py"].map(|channel| place_column(main, channels, channel));
+    let (x, y) = (x?, y?);
+    let places = x.cells.iter().zip(&y.cells);
+    let mut places: Vec<_> = places
+        .filter(|(x, y)| !x.is_empty() && !y.is_empty())
+        .collect();
+    places.sort_unstable();
+    let rows = places.chunk_by(|one, other| one == other).map(<[_]>::len);
+    let rows: Vec<usize> = rows.collect();
+    let points = rows.len();
+    let repeated = rows.iter().filter(|rows| **rows > 1).count();
+    let seen = x.cells.len();
+    let first = match seen < main.rows {
+        true => "the first ",
+        false => "",
+    };
+    (points > 1 && points * 2 <= places.len() && repeated * 2 > points).then(|| {
+        format!(
+            "point_id = [{:?}, {:?}]   # a guess: {first}{seen} rows have {points} places that repeat exactly, so a place names a contact \
+             point, for intervals and --split by-point\n",
+            x.name, y.name
+        )
+    })
+}
+
+/// Line for the contact point that repeats share: active for episodes and for coordinates that repeat exactly, otherwise commented out.
+pub(super) fn shared_points(
+    main: &SeenTable<'_>,
+    parts: Option<&PathParts>,
+    channels: &str,
+) -> String {
+    let has_word = |column: &SeenColumn, known: &[&str]| {
+        let words = words(&column.name);
+        !matches!(column.role, Role::Channels(_))
+            && words.iter().any(|word| known.contains(&word.as_str()))
     };
     let several = |column: &&SeenColumn| {
-        let mut values: Vec<&String> = column
-            .cells
-            .iter()
-            .filter(|cell| !cell.is_empty())
-            .collect();
+        let filled = column.cells.iter().filter(|cell| !cell.is_empty());
+        let values: Vec<&String> = filled.collect();
         let filled = values.len();
-        values.sort_unstable();
-        values.dedup();
-        values.len() * 2 <= filled
+        distinct(values) * 2 <= filled
     };
-    let mut columns = main.columns.iter().filter(|column| is_shared(&column.name));
+    let mut columns = main
+        .columns
+        .iter()
+        .filter(|column| has_word(column, &SHARED));
     if let Some(episode) = columns
         .clone()
         .find(|column| column.name == "episode_index")
@@ -62,7 +115,14 @@ pub(super) fn shared_points(main: &SeenTable<'_>, parts: Option<&PathParts>) -> 
             episode.name
         );
     }
-    if let Some(column) = columns.find(several) {
+    let named = main
+        .columns
+        .iter()
+        .find(|column| has_word(column, &POINT) && several(column));
+    if let (None, Some(places)) = (named, repeated_places(main, channels)) {
+        return places;
+    }
+    if let Some(column) = named.or_else(|| columns.find(several)) {
         return format!(
             "# point_id = {:?}   # only if each of its values is one contact point, for intervals and --split by-point\n",
             column.name

@@ -250,3 +250,23 @@ fn of_several_serial_numbers_only_those_of_units_with_samples_are_named() {
         assert_eq!(json["subject"]["serial"], serial);
     }
 }
+
+#[test]
+fn sheet_and_provenance_name_the_laboratory_and_the_operator_of_the_recording() {
+    let studies = crate::results::unsealed(
+        r#"{"schema": "taceva.evaluation/1.0",
+            "subject": {"sensor": "drawn", "serial": "7", "gel": "B", "source": "recorded"},
+            "metrics": {"mae": {"Fz": {"value": 0.5, "unit": "N", "n": 80}}},
+            "provenance": {"devices": {"exposure_ms": "15", "laboratory": "Soft Robotics", "operator": "A. Lovelace"}}}"#,
+    );
+    let study = studies.expect("a result").remove(0);
+    let page = sheet(&study, &held(&study, &[KEPT])).page();
+    for entry in [
+        "<dt>laboratory</dt><dd>Soft Robotics</dd>",
+        "<dt>operator</dt><dd>A. Lovelace</dd>",
+    ] {
+        assert!(page.contains(entry), "{page}");
+    }
+    let devices = study.provenance.iter().find(|(name, _)| name == "devices");
+    assert_eq!(devices.expect("settings").1, "exposure_ms = 15");
+}

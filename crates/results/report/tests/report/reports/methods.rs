@@ -127,6 +127,20 @@ fn methods_claim_no_unseen_places_where_a_recording_names_none() {
 }
 
 #[test]
+fn methods_count_the_samples_that_a_split_leaves_out_of_a_recording_without_protocol() {
+    let mut result = support::results("one", 1.0);
+    result["provenance"]["split"] = "by-block 70/20/10".into();
+    result["provenance"]["presses"] = serde_json::json!({});
+    result["provenance"]["samples"] =
+        serde_json::json!({"train": 150, "validation": 30, "test": 34, "left_out": 86});
+    let page = page(&[support::study(&result)]);
+    let sentence = " samples, with 86 samples in no part.";
+    assert!(page.contains(sentence), "{page}");
+    assert!(page.contains("left out 86"), "{page}");
+    assert!(!page.contains("of other parts of the protocol"), "{page}");
+}
+
+#[test]
 fn methods_state_how_a_fit_chose_its_setting() {
     let mut result = support::results("one", 1.0);
     let how = "strength with each training sample left out in turn";
@@ -211,6 +225,8 @@ fn methods_name_the_devices_of_a_measured_recording_and_invent_none() {
         "force_latency_u_ms": "0.3",
         "force_rate_hz": "500",
         "force_serial": "FT12345",
+        "laboratory": "Soft Robotics",
+        "operator": "A. Lovelace",
         "rig_file": "sha256:abc",
         "robot_firmware": "v2.7.0",
         "sensor_clock_drift_ppm": "41.30",

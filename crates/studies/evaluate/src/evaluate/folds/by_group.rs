@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use taceva_core::{by_count, counted};
 use taceva_dataset::Dataset;
 use taceva_models::{FoldGroups, FoldSpec, Split, SplitKind, SplitSpec};
 
@@ -46,13 +47,23 @@ impl<'a> Folds<'a> {
         let among = |split: &Split| split.test.iter().map(|&at| rows[at]).collect();
         let tested_by_fold: Vec<Vec<usize>> = made.splits.iter().map(among).collect();
         let left_out = (0..all).filter(|row| tested.binary_search(row).is_err());
+        let mut note = format!(
+            "each sample was predicted once, by one of {count} models fitted without its group ({named} groups), whose settings were \
+             chosen on the groups of its fit; the baseline of skill is the mean of the truth, because these models share no constant"
+        );
+        let unnamed = rows.len() - tested.len();
+        if unnamed > 0 {
+            note += &format!(
+                "; {unnamed} of {} {} left out: no group is named for {}; name one in the table, and import it again",
+                counted(rows.len(), "sample"),
+                by_count(unnamed, "is", "are"),
+                by_count(unnamed, "it", "them")
+            );
+        }
         let whole = Split {
             left_out: left_out.collect(),
             test: tested,
-            note: Some(format!(
-                "each sample was predicted once, by one of {count} models fitted without its group ({named} groups), whose settings were \
-                 chosen on the groups of its fit; the baseline of skill is the mean of the truth, because these models share no constant"
-            )),
+            note: Some(note),
             ..Split::default()
         };
         let divided = |split| Divided {
