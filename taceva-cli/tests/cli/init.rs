@@ -307,6 +307,24 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
 }
 
 #[test]
+fn a_rig_of_addresses_on_this_machine_asks_if_its_devices_are_emulated() {
+    let bench = Bench::new();
+    let devices = "ufactory/xarm:host=127.0.0.1;port=40001\nindenter\nsri/m8128:host=127.0.0.1\ncamera/mjpeg:url=http://127.0.0.1:40003/\n";
+    for (answer, is_stated) in [("yes", true), ("no", false)] {
+        let answers = format!("{devices}\n{answer}\n1\n2\n1\n\n");
+        let ran = bench.answered("init rig --out wire.toml --force", &answers);
+        assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+        let question = "an address is on this machine: are the devices emulated";
+        assert!(ran.err.contains(question), "{}", ran.err);
+        // A robot of this file would move without a typed name.
+        assert!(ran.err.contains("an answer is needed here"), "{}", ran.err);
+        let rig = read(&bench, "wire.toml");
+        let line = "rig_version = 1\nsimulated = true ";
+        assert_eq!(rig.contains(line), is_stated, "{rig}");
+    }
+}
+
+#[test]
 fn without_a_subject_it_asks_which() {
     let bench = Bench::new();
     let ran = bench.answered("init", "scene\n\n\n\n\n\n\n\n\n");

@@ -1,5 +1,7 @@
 //! Writes a rig file: devices by their drivers, axes and limits.
 
+use std::net::Ipv4Addr;
+
 use taceva_core::{DriverKind, DriverSource};
 use taceva_dataset::internal::quoted;
 use taceva_drivers::{Devices, ListedDriver, devices};
@@ -28,6 +30,11 @@ pub(super) fn write(
         "camera of the sensor",
         interview,
     )?;
+    let mut selectors = [&robot, &force, &sensor].into_iter();
+    let simulated = match selectors.any(|selector| is_on_this_machine(selector)) {
+        true => emulation(interview)?,
+        false => "",
+    };
     interview.say("limits protect the gel: the robot halts when a limit is exceeded");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
@@ -38,7 +45,7 @@ pub(super) fn write(
     let text = format!(
         "# The devices of one rig. taceva is not a safety function: emergency stop and guards must work without it (docs/rig.md).
 rig_version = 1
-
+{simulated}
 [robot]
 driver = {robot:?}
 carries = {carries:?}
@@ -80,6 +87,36 @@ speed_max_mm_s = {speed:?}
             format!("taceva init scene; taceva plan scene.toml --rig {rig}"),
         ],
     )
+}
+
+/// Asks whether the devices are emulated, and returns the line of the rig file that states it. The question has no default,
+/// because this line lets a robot move without a typed name.
+fn emulation(interview: &mut Interview) -> anyhow::Result<&'static str> {
+    let question = "an address is on this machine: are the devices emulated, as by taceva-wire, so that nothing is measured";
+    let answer = interview.choose(question, &["yes", "no"], None)?;
+    Ok(match answer.as_str() {
+        "yes" => {
+            "simulated = true                 # nothing is measured: recordings and reports state this\n"
+        }
+        _ => "",
+    })
+}
+
+/// True if an argument of the device is an address of this machine, such as `host=127.0.0.1` or `url=http://localhost:8080/`, or a pseudo-terminal.
+fn is_on_this_machine(selector: &str) -> bool {
+    let (_, arguments) = selector.split_once(':').unwrap_or_default();
+    let values = arguments.split(';').filter_map(|one| one.split_once('='));
+    let mut values = values.map(|(_, value)| value);
+    values.any(|value| {
+        let address = value.split_once("://").map_or(value, |(_, rest)| rest);
+        let host = address.split(['/', ':']).next().unwrap_or_default();
+        host == "localhost"
+            || host
+                .parse::<Ipv4Addr>()
+                .is_ok_and(|address| address.is_loopback())
+            || address.starts_with("[::1]")
+            || value.starts_with("/dev/pts/")
+    })
 }
 
 /// Asks for a device and returns its selector: the driver and its required arguments.
@@ -140,4 +177,31 @@ fn device(
         true => answer,
         false => format!("{answer}:{}", arguments.join(";")),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_on_this_machine;
+
+    #[test]
+    fn loopback_addresses_and_pseudo_terminals_are_on_this_machine_and_no_others() {
+        for here in [
+            "ufactory/xarm:host=127.0.0.1;port=40001",
+            "sri/m8128:port=4008;host=localhost",
+            "camera/mjpeg:url=http://127.0.0.1:8080/?action=stream",
+            "camera/mjpeg:url=http://[::1]:8080/",
+            "gcode/grbl:port=/dev/pts/3",
+        ] {
+            assert!(is_on_this_machine(here), "{here}");
+        }
+        for elsewhere in [
+            "ufactory/xarm:host=192.168.1.200",
+            "camera/mjpeg:url=http://127.example.org/",
+            "camera/v4l2:device=/dev/video0",
+            "gcode/grbl:port=/dev/ttyUSB0",
+            "sri/m8128",
+        ] {
+            assert!(!is_on_this_machine(elsewhere), "{elsewhere}");
+        }
+    }
 }
