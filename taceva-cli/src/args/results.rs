@@ -9,8 +9,9 @@ use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 /// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of
 /// runs (or their results.json), or names of the catalogue. If two results predict the same samples, their mean absolute errors are compared
 /// sample by sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a
-/// run. Other scores are compared by the intervals of both, with Holm's adjustment. Results and states of tasks are compared cluster by cluster, if
-/// they have the same labels, and a state or `NAME.state` beside `NAME.json`.
+/// run. Other scores are compared by the intervals of both, with Holm's adjustment. Results of one dataset that were tested on different samples, such
+/// as by another --seed or --split, are shown side by side and not ranked. Results and states of tasks are compared cluster by cluster, if they have
+/// the same labels, and a state or `NAME.state` beside `NAME.json`.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
     /// The results to compare
