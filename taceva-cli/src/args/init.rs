@@ -19,7 +19,7 @@ pub(crate) enum InitSubject {
     Recording(InitRecording),
     /// A scene of the simulated bench, or of a real rig
     Scene(InitTarget),
-    /// A rig file: robot, force transducer, camera, limits
+    /// A rig file: robot or hand, force transducer, camera, limits
     Rig(InitTarget),
 }
 

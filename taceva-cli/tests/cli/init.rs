@@ -325,6 +325,32 @@ fn a_rig_of_addresses_on_this_machine_asks_if_its_devices_are_emulated() {
 }
 
 #[test]
+fn a_rig_of_a_hand_has_no_robot_and_no_limits_and_names_the_capture() {
+    let bench = Bench::new();
+    let answers =
+        "none\nnone\nsri/m8128:host=192.168.0.108\ncamera/mjpeg:url=http://192.168.1.20:8080/\n";
+    let ran = bench.answered("init rig --out hand.toml", answers);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    for words in [
+        "or `none` if a hand presses",
+        // A hand replaces no transducer.
+        "expected one of ",
+    ] {
+        assert!(ran.err.contains(words), "no `{words}` in {}", ran.err);
+    }
+    let rig = read(&bench, "hand.toml");
+    assert!(
+        rig.contains("[force]\ndriver = \"sri/m8128:host=192.168.0.108\""),
+        "{rig}"
+    );
+    for table in ["[robot]", "[limits]", "simulated"] {
+        assert!(!rig.contains(table), "{rig}");
+    }
+    let next = "taceva capture presses --rig hand.toml --for 5min";
+    assert!(ran.out.contains(next), "{}", ran.out);
+}
+
+#[test]
 fn without_a_subject_it_asks_which() {
     let bench = Bench::new();
     let ran = bench.answered("init", "scene\n\n\n\n\n\n\n\n\n");

@@ -1,6 +1,7 @@
 //! Writes a rig file: devices by their drivers, axes and limits.
 
 use std::net::Ipv4Addr;
+use std::path::Path;
 
 use taceva_core::{DriverKind, DriverSource};
 use taceva_dataset::internal::quoted;
@@ -10,6 +11,9 @@ use taceva_protocol::RigFile;
 use super::{Context, Interview, Usage, finish, target};
 use crate::args::InitTarget;
 
+/// Answer in place of the driver of a robot.
+const BY_HAND: &str = "none";
+
 pub(super) fn write(
     args: &InitTarget,
     interview: &mut Interview,
@@ -18,6 +22,9 @@ pub(super) fn write(
     let path = target(args, "rig.toml")?;
     let listed = devices(&context.drivers(None)?);
     let robot = device(&listed, DriverKind::Robot, "robot", interview)?;
+    if robot == BY_HAND {
+        return write_by_hand(&path, &listed, interview);
+    }
     let carries = interview.choose(
         "what does the robot carry",
         &["indenter", "sensor"],
@@ -30,11 +37,7 @@ pub(super) fn write(
         "camera of the sensor",
         interview,
     )?;
-    let mut selectors = [&robot, &force, &sensor].into_iter();
-    let simulated = match selectors.any(|selector| is_on_this_machine(selector)) {
-        true => emulation(interview)?,
-        false => "",
-    };
+    let simulated = emulation(&[&robot, &force, &sensor], interview)?;
     interview.say("limits protect the gel: the robot halts when a limit is exceeded");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
@@ -89,9 +92,51 @@ speed_max_mm_s = {speed:?}
     )
 }
 
-/// Asks whether the devices are emulated, and returns the line of the rig file that states it. The question has no default,
-/// because this line lets a robot move without a typed name.
-fn emulation(interview: &mut Interview) -> anyhow::Result<&'static str> {
+/// Writes the rig file of a hand that presses in place of a robot.
+fn write_by_hand(path: &Path, listed: &Devices, interview: &mut Interview) -> anyhow::Result<u8> {
+    let force = device(listed, DriverKind::Force, "force transducer", interview)?;
+    let sensor = device(
+        listed,
+        DriverKind::Sensor,
+        "camera of the sensor",
+        interview,
+    )?;
+    let simulated = emulation(&[&force, &sensor], interview)?;
+    let text = format!(
+        "# The devices of presses by hand, without a robot (docs/capture.md).
+rig_version = 1
+{simulated}
+[force]
+driver = {force:?}
+axes = [\"x\", \"y\", \"z\"]           # the transducer axis of x, y and z; a press straight down must raise Fz
+# latency_ms = 4.0               # delay from a measurement to its stamp, if known
+
+[sensor]
+driver = {sensor:?}
+# latency_ms = 38.0
+"
+    );
+    RigFile::parse(&path.display().to_string(), &text)?;
+    let rig = quoted(path);
+    finish(
+        path,
+        &text,
+        &[
+            format!(
+                "taceva preview --rig {rig}     press straight down: if Fz falls, change `axes` of [force]"
+            ),
+            format!("taceva capture presses --rig {rig} --for 5min"),
+        ],
+    )
+}
+
+/// Line of the rig file that states an emulation; empty for real devices. Asks if a device has an address of this machine. The question has no default, because
+/// this line lets a robot move without a typed name.
+fn emulation(selectors: &[&String], interview: &mut Interview) -> anyhow::Result<&'static str> {
+    let mut selectors = selectors.iter();
+    if !selectors.any(|selector| is_on_this_machine(selector)) {
+        return Ok("");
+    }
     let question = "an address is on this machine: are the devices emulated, as by taceva-wire, so that nothing is measured";
     let answer = interview.choose(question, &["yes", "no"], None)?;
     Ok(match answer.as_str() {
@@ -119,7 +164,7 @@ fn is_on_this_machine(selector: &str) -> bool {
     })
 }
 
-/// Asks for a device and returns its selector: the driver and its required arguments.
+/// Asks for a device and returns its selector: the driver and its required arguments; for a robot also [`BY_HAND`].
 fn device(
     listed: &Devices,
     kind: DriverKind,
@@ -146,19 +191,24 @@ fn device(
     for selector in &present {
         interview.say(&format!("  present: {selector}"));
     }
-    let check = |answer: &str| match is_of_kind(answer) {
+    let by_hand = match kind {
+        DriverKind::Robot => ", or `none` if a hand presses",
+        _ => "",
+    };
+    let is_by_hand = |answer: &str| kind == DriverKind::Robot && answer == BY_HAND;
+    let known = format!("{}{by_hand}", keys.join(", "));
+    let check = |answer: &str| match is_of_kind(answer) || is_by_hand(answer) {
         true => Ok(()),
-        false => Err(format!("expected one of {}", keys.join(", "))),
+        false => Err(format!("expected one of {known}")),
     };
     let answer = interview.ask(
         &format!(
-            "driver of the {what}, alone or with arguments such as KEY:host=…;port=… ({})",
-            keys.join(", ")
+            "driver of the {what}, alone or with arguments such as KEY:host=…;port=… ({known})"
         ),
         present.first().copied(),
         check,
     )?;
-    if answer.contains(':') {
+    if answer.contains(':') || is_by_hand(&answer) {
         return Ok(answer);
     }
     let driver = of_kind.into_iter().find(|driver| driver.key == answer);
