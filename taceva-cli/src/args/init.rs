@@ -37,7 +37,7 @@ pub(crate) struct InitTarget {
     /// The file to write [default: map.toml, scene.toml or rig.toml in the working folder]
     #[arg(long = "out", value_name = "FILE")]
     pub(crate) path: Option<PathBuf>,
-    /// Ask nothing and take every default; a map keeps places without a default open
+    /// Ask nothing and take every default; a map keeps places without a default open, and a rig file has no default for its devices
     #[arg(long, short)]
     pub(crate) yes: bool,
     /// Replace a file that exists already

@@ -14,7 +14,7 @@ use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 /// the same labels, and a state or `NAME.state` beside `NAME.json`.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
-    /// The results to compare
+    /// The results to compare; a run of several sensors alone is compared within itself
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
     /// The folder of a catalogue, whose sensors can be named too; numbers of its bundles state the level of their verification
@@ -79,7 +79,8 @@ pub(crate) enum Like {
 }
 
 /// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft
-/// needs rank the others. A sensor whose number is unknown stays open.
+/// needs rank the others. A sensor whose number is unknown stays open. Each sensor without a place names every need that it does not meet and
+/// every unknown number.
 #[derive(Debug, Args)]
 #[command(after_help = needs_help(), group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
@@ -89,7 +90,7 @@ pub(crate) struct Choose {
     /// A file with `needs = ["…", …]`
     #[arg(long, value_name = "NEEDS.toml")]
     pub(crate) needs: Option<PathBuf>,
-    /// Choose among these results instead of the catalogue; may be repeated
+    /// Choose among these results instead of the catalogue: the JSON of evaluate or score, or the folder of a run; may be repeated
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
     /// The folder of a catalogue, whose measured numbers are included; each states the level of its verification, and numbers of different

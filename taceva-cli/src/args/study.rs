@@ -22,7 +22,7 @@ pub(crate) struct SceneArgs {
 }
 
 /// The folder of the run contains `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`
-/// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`.
+/// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`. `taceva plan` prints the steps beforehand.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
     #[command(flatten)]

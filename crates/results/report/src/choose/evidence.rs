@@ -1,12 +1,12 @@
 //! Significance of the differences between ranked sensors. The ranking follows values, which may differ by chance.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_metrics::Better;
+use taceva_metrics::{Better, Sides};
 
-use super::{Choice, Need, Property, choose};
+use super::{Choice, Dropped, Need, Property, candidate, choose};
 use crate::catalogue::Sensor;
-use crate::compare::{Answer, CompareRequest, compare};
+use crate::compare::{Answer, CompareRequest, barred_by_split, compare};
 use crate::names::{listed, names};
 use crate::number::significant;
 use crate::results::Study;
@@ -43,7 +43,17 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
         sensor
     });
     let sensors: Vec<Sensor> = sensors.collect();
-    let mut choice = choose(&sensors, needs);
+    let apart = across_test_parts(studies, &names, needs);
+    let together = (0..)
+        .zip(&sensors)
+        .filter(|(at, _)| !apart.contains_key(at));
+    let together: Vec<Sensor> = together.map(|(_, sensor)| sensor.clone()).collect();
+    let mut choice = choose(&together, needs);
+    for (at, reason) in apart {
+        let sensor = &sensors[at];
+        choice.apart.push(Dropped::new(sensor, reason));
+        choice.others.push(candidate(sensor, &[sensor], needs));
+    }
     choice.evidence = Some(evidence(studies, needs, &choice));
     choice.spread = spread(studies, &names, &choice);
     choice.simulated = studies.iter().any(Study::is_simulated);
@@ -54,6 +64,34 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
         choice.limits_of_catalogue = known.map(|sensor| sensor.name.clone()).collect();
     }
     choice
+}
+
+/// Reasons why studies of one dataset cannot be ranked, by their positions: a ranking score was tested on different samples.
+fn across_test_parts(
+    studies: &[Study],
+    names: &[String],
+    needs: &[Need],
+) -> BTreeMap<usize, String> {
+    let ranks = needs.iter().flat_map(|need| &need.ranks);
+    let metrics: Vec<&str> = ranks.filter_map(|of| Some(of.score()?.0)).collect();
+    let mut found: BTreeMap<usize, String> = BTreeMap::new();
+    for (a, study) in studies.iter().enumerate() {
+        for (b, other) in studies.iter().enumerate().skip(a + 1) {
+            let of_studies = Sides { a: study, b: other };
+            let of_names = Sides {
+                a: names[a].as_str(),
+                b: &names[b],
+            };
+            let mut metrics = metrics.iter();
+            if let Some(reason) =
+                metrics.find_map(|metric| barred_by_split(metric, of_studies, of_names))
+            {
+                found.entry(a).or_insert_with(|| reason.clone());
+                found.entry(b).or_insert(reason);
+            }
+        }
+    }
+    found
 }
 
 fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence> {
@@ -190,5 +228,45 @@ impl Choice {
             true => alone,
             false => format!("{alone}; against these places, {}", listed(&against)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+
+    #[test]
+    fn results_on_different_test_parts_of_one_dataset_have_no_place() {
+        let study = |name: &str, dataset: &str, seed: &str| {
+            let entries = [
+                ("dataset", dataset),
+                ("split", "by-point 70/20/10"),
+                ("seed", seed),
+                ("part", "test"),
+            ];
+            Study {
+                sensor: name.to_owned(),
+                provenance: entries
+                    .map(|(key, text)| (key.to_owned(), text.to_owned()))
+                    .to_vec(),
+                ..catalogue::find("GelSight").expect("there").as_study()
+            }
+        };
+        let needs = Need::parse("normal force").expect("a need");
+        let one = || study("one", "sha256:1", "1");
+        let other = || study("other", "sha256:2", "1");
+        let choice = choose_results(&[one(), study("two", "sha256:1", "2"), other()], &needs);
+        let ranked: Vec<&str> = choice.ranked.iter().map(|of| of.name.as_str()).collect();
+        assert_eq!(ranked, ["other"]);
+        let apart: Vec<&str> = choice.apart.iter().map(|of| of.name.as_str()).collect();
+        assert_eq!(apart, ["one", "two"]);
+        for dropped in &choice.apart {
+            let expected = "the test parts differ: one was tested on part test, ";
+            assert!(dropped.reason.starts_with(expected), "{dropped:?}");
+        }
+        assert_eq!(choice.values().rows[1].plain()[..2], ["one", "not ranked"]);
+        let same = choose_results(&[one(), study("two", "sha256:1", "1"), other()], &needs);
+        assert_eq!((same.ranked.len(), same.apart.len()), (3, 0), "{same:?}");
     }
 }

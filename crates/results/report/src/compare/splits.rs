@@ -7,7 +7,7 @@ use taceva_results::kept_together;
 
 /// Reason why `metric` gives no verdict: the results of one dataset have splits that group samples differently, or were tested on different samples. Metrics
 /// without predictions do not depend on a split.
-pub(super) fn barred(metric: &str, studies: Sides<&Study>, names: Sides<&str>) -> Option<String> {
+pub(crate) fn barred(metric: &str, studies: Sides<&Study>, names: Sides<&str>) -> Option<String> {
     if catalogue::find(metric).is_some_and(|metric| !metric.reads_predictions()) {
         return None;
     }
