@@ -278,6 +278,15 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
         "{}",
         asked.err
     );
+    let next = [
+        "taceva plan stated.toml --rig rig.toml",
+        "taceva run stated.toml --rig rig.toml --air",
+        "taceva rig tap rig.toml",
+        "taceva run stated.toml --rig rig.toml\n",
+    ];
+    for line in next {
+        assert!(asked.out.contains(line), "no `{line}` in {}", asked.out);
+    }
     let stated = read(&bench, "stated.toml");
     let line = "footprint = { shape = \"rect\", half_x_mm = 16.0, half_y_mm = 18.0 }";
     assert!(stated.contains(line), "{stated}");
