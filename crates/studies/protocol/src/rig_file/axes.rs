@@ -83,6 +83,24 @@ impl SignedAxes {
         device
     }
 
+    /// Both frames with the opposite z: after half a turn about x, and about y.
+    ///
+    /// ```
+    /// use taceva_protocol::SignedAxes;
+    /// let [about_x, about_y] = SignedAxes::read(["x", "y", "z"])?.turned_over();
+    /// assert_eq!(about_x.to_string(), r#"["x", "-y", "-z"]"#);
+    /// assert_eq!(about_y.to_string(), r#"["-x", "y", "-z"]"#);
+    /// # Ok::<(), String>(())
+    /// ```
+    pub fn turned_over(self) -> [SignedAxes; 2] {
+        [1, 0].map(|beside: usize| {
+            let mut along = self.0;
+            along[beside].sign = -along[beside].sign;
+            along[2].sign = -along[2].sign;
+            SignedAxes(along)
+        })
+    }
+
     /// Components in the sensor frame that a transducer measures, if it measures the components `device` in its own frame.
     pub fn measured(self, device: Axes) -> Axes {
         let [forces, torques] = [
