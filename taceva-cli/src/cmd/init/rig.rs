@@ -38,7 +38,7 @@ pub(super) fn write(
         interview,
     )?;
     let simulated = emulation(&[&robot, &force, &sensor], interview)?;
-    interview.say("limits protect the gel: the robot halts when a limit is exceeded");
+    interview.say("limits protect the gel: the robot halts when a limit is exceeded; `taceva catalogue show NAME` prints tested depths and forces of a sensor");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
     let shear_question = "greatest shear force, in N";
