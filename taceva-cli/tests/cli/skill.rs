@@ -205,7 +205,8 @@ fn two_models_on_different_test_parts_stand_side_by_side_and_get_no_verdict() {
     for words in [
         "skill was measured on different test parts",
         "Tested on ",
-        "the test parts differ: one was tested on part test, split by-point 30/10/60, seed 1, and two on ",
+        "no winner: the test parts differ: ",
+        " was tested on part test, split by-point 30/10/60, seed 1, and ",
         "evaluate both with one --split, --seed and --part",
     ] {
         assert!(text.contains(words), "{words}: {text}");
