@@ -140,7 +140,7 @@ fn results_of_another_version_are_refused_in_words() {
         "run/results.json",
         r#"{"schema": "taceva.run/1.4", "studies": [{"provenance": {"taceva": "0.1.0"}}]}"#,
     );
-    let words = "schema `taceva.run/1.4`, written by TacEva 0.1.0: expected `taceva.run/1.0`; run `taceva run …` again";
+    let words = "schema `taceva.run/1.4`, written by TacEva 0.1.0: expected `taceva.run/1.0`; run `taceva run …` again with this version, or without new presses `taceva evaluate` on each of its recordings";
     bench.refused("report run", 3, words);
     bench.refused(
         "report nothing",
