@@ -17,9 +17,7 @@ pub enum ResultsError {
         found: String,
     },
     /// Another version of the program wrote the results.
-    #[error(
-        "schema `{found}`, written by TacEva {version}: expected `{expected}`; {remedy}"
-    )]
+    #[error("schema `{found}`, written by TacEva {version}: expected `{expected}`; {remedy}")]
     Version {
         /// Schema found.
         found: String,
