@@ -116,10 +116,10 @@ impl fmt::Display for Question {
                 "jog the tip with the robot's own controls until it just touches the middle of the gel, then let go",
             ),
             Question::Jog(Spot::AlongX) => f.write_str(
-                "raise the tip slightly off the gel, then jog it 5 to 10 mm along x of the sensor only, such as to the right of its picture, within half a millimetre of the height of the middle",
+                "raise the tip off the gel by less than half a millimetre, then jog it 5 to 10 mm along x of the sensor only, such as to the right of its picture",
             ),
             Question::Jog(Spot::AlongY) => f.write_str(
-                "go back to the middle and repeat this along y of the sensor: a quarter turn clockwise from x, as seen when looking at the gel from outside, so that z points into the gel",
+                "return to the middle, then jog 5 to 10 mm along y of the sensor: a quarter turn clockwise from x, as seen when looking at the gel from outside",
             ),
             Question::Resume(ChangedTouch {
                 height_mm,
