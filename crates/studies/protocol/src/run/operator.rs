@@ -197,6 +197,10 @@ mod tests {
             (Question::Light("S1".to_owned()), "`S1`"),
             (Question::Unload, "take every load off the force transducer"),
             (Question::Hang { mass_g: 100.0 }, "hang 100 g on the force"),
+            (
+                Question::Jog(Spot::AlongY),
+                "a quarter turn clockwise from x, as seen when looking at the gel",
+            ),
             (Question::GoOn, "keep your hands clear"),
             (Question::Acknowledge(Fault::Collision), "collision"),
             (
