@@ -37,7 +37,7 @@ pub struct Choice {
     pub barred: Vec<Dropped>,
     /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
-    /// Sensors that meet the hard needs but have no rank, because their samples, definitions or faults differ from those of other sensors.
+    /// Sensors that meet the hard needs but have no rank, because their samples, test parts, definitions or faults differ from those of other sensors.
     pub apart: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
@@ -124,6 +124,15 @@ impl Dropped {
 /// # Ok::<(), taceva_report::NeedError>(())
 /// ```
 pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
+    choose_together(sensors, needs, |_| Vec::new())
+}
+
+/// Same as [`choose`]. `take_apart` removes sensors that cannot be ranked together from the remaining sensors.
+fn choose_together(
+    sensors: &[Sensor],
+    needs: &[Need],
+    take_apart: impl FnOnce(&mut Vec<&Sensor>) -> Vec<Dropped>,
+) -> Choice {
     let mut choice = Choice::default();
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
@@ -155,6 +164,7 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choice
         .apart
         .extend(faults::take_apart(&mut remaining, needs));
+    choice.apart.extend(take_apart(&mut remaining));
     choice.ranked = remaining
         .iter()
         .map(|sensor| candidate(sensor, &remaining, needs))
@@ -177,7 +187,8 @@ fn other_currencies(sensors: &[Sensor], needs: &[Need]) -> BTreeMap<String, usiz
         let mut asked = asked.iter();
         asked.all(|currency| sensor.price_in(currency).is_none())
     };
-    let sensors = sensors.iter().filter(|_| !asked.is_empty());
+    let sensors = sensors.iter().filter(|entry| entry.kind == Kind::Sensor);
+    let sensors = sensors.filter(|_| !asked.is_empty());
     for sensor in sensors.filter(is_unpriced) {
         let prices = sensor.prices.iter().filter(|price| price.is_comparable());
         for currency in taceva_core::distinct(prices.map(|price| price.currency.clone())) {

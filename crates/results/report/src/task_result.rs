@@ -12,7 +12,7 @@ use crate::results::{Made, Study};
 
 /// Beginning of the schema of every version.
 const ANY_VERSION: &str = "taceva.tasks/";
-/// Command that computes a result again.
+/// Remedy for a result of another version.
 const AGAIN: &str = "run `taceva score --task …` again with this version";
 /// Roles of the tables with labels. A merged result numbers them.
 const OF_LABELS: [&str; 2] = ["truth", "dataset"];

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use taceva_metrics::{Better, Sides};
 
-use super::{Choice, Dropped, Need, Property, candidate, choose};
+use super::{Choice, Dropped, Need, Property, choose_together};
 use crate::catalogue::Sensor;
 use crate::compare::{Answer, CompareRequest, barred_by_split, compare};
 use crate::names::{listed, names};
@@ -25,7 +25,7 @@ pub struct Evidence {
     pub p: f64,
 }
 
-/// Chooses among the sensors of `studies` like [`choose`], and tests the differences of the numbers that rank them.
+/// Chooses among the sensors of `studies` like [`choose`](super::choose), and tests the differences of the numbers that rank them.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose_results};
@@ -43,17 +43,9 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
         sensor
     });
     let sensors: Vec<Sensor> = sensors.collect();
-    let apart = across_test_parts(studies, &names, needs);
-    let together = (0..)
-        .zip(&sensors)
-        .filter(|(at, _)| !apart.contains_key(at));
-    let together: Vec<Sensor> = together.map(|(_, sensor)| sensor.clone()).collect();
-    let mut choice = choose(&together, needs);
-    for (at, reason) in apart {
-        let sensor = &sensors[at];
-        choice.apart.push(Dropped::new(sensor, reason));
-        choice.others.push(candidate(sensor, &[sensor], needs));
-    }
+    let mut choice = choose_together(&sensors, needs, |remaining| {
+        take_test_parts_apart(remaining, studies, &names, needs)
+    });
     choice.evidence = Some(evidence(studies, needs, &choice));
     choice.spread = spread(studies, &names, &choice);
     choice.simulated = studies.iter().any(Study::is_simulated);
@@ -66,32 +58,47 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
     choice
 }
 
-/// Reasons why studies of one dataset cannot be ranked, by their positions: a ranking score was tested on different samples.
-fn across_test_parts(
+/// Removes sensors from `remaining` and returns them, if a need ranks by scores of different test parts of one dataset.
+fn take_test_parts_apart(
+    remaining: &mut Vec<&Sensor>,
     studies: &[Study],
     names: &[String],
     needs: &[Need],
-) -> BTreeMap<usize, String> {
+) -> Vec<Dropped> {
     let ranks = needs.iter().flat_map(|need| &need.ranks);
     let metrics: Vec<&str> = ranks.filter_map(|of| Some(of.score()?.0)).collect();
-    let mut found: BTreeMap<usize, String> = BTreeMap::new();
-    for (a, study) in studies.iter().enumerate() {
-        for (b, other) in studies.iter().enumerate().skip(a + 1) {
-            let of_studies = Sides { a: study, b: other };
+    let left = studies.iter().zip(names);
+    let left = left.filter(|(_, name)| remaining.iter().any(|sensor| sensor.name == **name));
+    let left: Vec<(&Study, &String)> = left.collect();
+    let mut reasons: BTreeMap<&str, String> = BTreeMap::new();
+    for (at, (study, name)) in left.iter().enumerate() {
+        for (other, other_name) in &left[at + 1..] {
+            let of_studies = Sides {
+                a: *study,
+                b: *other,
+            };
             let of_names = Sides {
-                a: names[a].as_str(),
-                b: &names[b],
+                a: name.as_str(),
+                b: other_name.as_str(),
             };
             let mut metrics = metrics.iter();
             if let Some(reason) =
                 metrics.find_map(|metric| barred_by_split(metric, of_studies, of_names))
             {
-                found.entry(a).or_insert_with(|| reason.clone());
-                found.entry(b).or_insert(reason);
+                reasons.entry(of_names.b).or_insert_with(|| reason.clone());
+                reasons.entry(of_names.a).or_insert(reason);
             }
         }
     }
-    found
+    let mut apart = Vec::new();
+    remaining.retain(|sensor| match reasons.remove(sensor.name.as_str()) {
+        Some(reason) => {
+            apart.push(Dropped::new(sensor, reason));
+            false
+        }
+        None => true,
+    });
+    apart
 }
 
 fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence> {
@@ -266,6 +273,10 @@ mod tests {
             assert!(dropped.reason.starts_with(expected), "{dropped:?}");
         }
         assert_eq!(choice.values().rows[1].plain()[..2], ["one", "not ranked"]);
+        let mut unscored = study("two", "sha256:1", "2");
+        unscored.scores.clear();
+        let alone = choose_results(&[one(), unscored], &needs);
+        assert_eq!((alone.ranked.len(), alone.apart.len()), (1, 0), "{alone:?}");
         let same = choose_results(&[one(), study("two", "sha256:1", "1"), other()], &needs);
         assert_eq!((same.ranked.len(), same.apart.len()), (3, 0), "{same:?}");
     }

@@ -35,10 +35,7 @@ pub(super) fn unmet(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
             false => "",
         };
         Some(match property {
-            Property::Opaque => format!(
-                "`{}` needs {CLOSED}, and the gel of this sensor does not",
-                need.words
-            ),
+            Property::Opaque => format!("`{}` needs {CLOSED}, and its gel does not", need.words),
             _ => format!("{}: its {property} is {value}{unsure}", asked(need, bound)),
         })
     });
@@ -52,9 +49,7 @@ pub(super) fn unproven(sensor: &Sensor, needs: &[Need]) -> Vec<String> {
         let reason = match property.of(sensor) {
             None if property == Property::Opaque => {
                 let words = &need.words;
-                return Some(format!(
-                    "`{words}` needs {CLOSED}, which is unknown for this sensor"
-                ));
+                return Some(format!("`{words}` needs {CLOSED}, which is unknown"));
             }
             None if property == Property::Bought => {
                 let words = &need.words;
@@ -96,8 +91,8 @@ fn bounds(needs: &[Need]) -> impl Iterator<Item = (&Need, &Bound)> {
     bounds.flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)))
 }
 
-/// Need as written, with its bound if the words do not state it: `` `firm contact` (greatest normal force ≥ 1.5 N) ``. A need such as `force <= 1 N` bounds
-/// from below, which its words do not state either.
+/// Need as written, with its bound if the words do not state it: `firm contact` with `greatest normal force ≥ 1.5 N`. A need such as `force <= 1 N` is a lower
+/// bound, which its words do not state either.
 fn asked(need: &Need, bound: &Bound) -> String {
     let has_number = need.words.contains(|letter: char| letter.is_ascii_digit());
     match has_number && !bound.property.is_reached() {

@@ -25,7 +25,9 @@ impl Study {
         if self.made.folds.is_some() || part == Some("all") {
             return Some("every sample".to_owned());
         }
-        let is_fixed = |split: &str| split.starts_with("chronological") || split.contains('=');
+        let is_fixed = |split: &str| {
+            split.starts_with("chronological") || split == "declared" || split.contains('=')
+        };
         let seed = self.stated("seed");
         let seed = seed.filter(|_| !split.is_some_and(is_fixed));
         let named = [("part", part), ("split", split), ("seed", seed)];

@@ -66,7 +66,12 @@ fn no_verdict_stands_across_test_parts_of_one_dataset_and_the_remedy_is_named() 
     assert_eq!(comparison.decisions()[0].winner, None);
     let overview = comparison.overview(None);
     assert!(overview.contains("the test parts differ (1)"), "{overview}");
-    for (seeds, split) in [(["1", "1"], drawn), (["1", "2"], "chronological 70/20/10")] {
+    for (seeds, split) in [
+        (["1", "1"], drawn),
+        (["1", "2"], "chronological 70/20/10"),
+        (["1", "2"], "by-column:object=train:a;test:b"),
+        (["1", "2"], "declared"),
+    ] {
         let same = of_seeds(seeds, split);
         assert_eq!(same.decisions()[0].winner, Some(1), "{split}");
     }
