@@ -225,7 +225,7 @@ fn causes(state: &CaptureState) -> String {
 /// Readings below this force, N, mean that the sign is wrong, because a hand does not pull a gel.
 const PULLED_N: f64 = -0.3;
 
-/// Remedy for a reversed Fz: the line for the rig file.
+/// Remedy for a reversed Fz: both lines for the rig file, and the check that decides between them.
 fn righted(spec: &LiveSpec) -> String {
     // Without a rig file the frame of the transducer is that of the sensor.
     let axes = spec.force_axes();
@@ -233,7 +233,7 @@ fn righted(spec: &LiveSpec) -> String {
     let lines = axes.into_iter().flat_map(SignedAxes::turned_over);
     let lines: Vec<String> = lines.map(|axes| format!("`axes = {axes}`")).collect();
     format!(
-        "write {}, for which a push to the right of the picture raises Fx",
+        "write {}: the line for which a push to the right of the picture raises Fx",
         lines.join(" or ")
     )
 }

@@ -234,7 +234,7 @@ fn presses_on_a_reversed_transducer_print_the_axes_to_write() {
     });
     running.interrupt();
     let ran = running.ended();
-    let lines = format!("write `{right}` or `axes = [\"-x\", \"y\", \"-z\"]`, for which");
+    let lines = format!("write `{right}` or `axes = [\"-x\", \"y\", \"-z\"]`: the line for which");
     assert!(ran.err.contains(&lines), "{}", ran.err);
 }
 
