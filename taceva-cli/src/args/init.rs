@@ -21,7 +21,7 @@ pub(crate) enum InitSubject {
     Recording(InitRecording),
     /// A scene of the simulated bench, or of a real rig
     Scene(InitTarget),
-    /// A rig file: robot, force transducer, camera, limits
+    /// A rig file: robot or hand, force transducer, camera, limits
     Rig(InitTarget),
 }
 
@@ -39,7 +39,7 @@ pub(crate) struct InitTarget {
     /// The file to write [default: map.toml, scene.toml or rig.toml in the working folder]
     #[arg(long = "out", value_name = "FILE")]
     pub(crate) path: Option<PathBuf>,
-    /// Ask nothing and take every default; a map keeps places without a default open
+    /// Ask nothing and take every default; a map keeps places without a default open, and a rig file has no default for its devices
     #[arg(long, short)]
     pub(crate) yes: bool,
     /// Replace a file that exists already

@@ -12,7 +12,7 @@ pub(crate) struct LiveArgs {
     /// The sensor, as `taceva devices` lists it: camera/mjpeg:url=http://192.168.1.20:8080/?action=stream
     #[arg(long, value_name = "DRIVER")]
     pub(crate) sensor: Option<String>,
-    /// The force transducer under the sensor or in the indenter: sri/m8128:host=192.168.0.108
+    /// The force transducer under the sensor or in the indenter: sri/m8128:host=192.168.0.108; without one, frames have no labels
     #[arg(long, value_name = "DRIVER")]
     pub(crate) force: Option<String>,
     /// A rig file with a sensor and optionally a transducer, instead of the two options; it also states the axis that presses into the gel

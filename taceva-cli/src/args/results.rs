@@ -11,11 +11,12 @@ use super::{FigureArgs, Format, Output, PageArgs, SeedArgs, TableArgs};
 /// Text and Markdown show the values side by side, then the comparable results. Results are JSON files of `evaluate` and `score`, folders of
 /// runs (or their results.json), or names of the catalogue. If two results predict the same samples, their mean absolute errors are compared
 /// sample by sample. The samples are read from `<name>.samples.csv` beside `<name>.json` (`--samples-out` writes it) and from `reports/` of a
-/// run. Other scores are compared by the intervals of both, with Holm's adjustment. Results and states of tasks are compared cluster by cluster, if
-/// they have the same labels, and a state or `NAME.state` beside `NAME.json`.
+/// run. Other scores are compared by the intervals of both, with Holm's adjustment. Results of one dataset that were tested on different samples, such
+/// as by another --seed or --split, are shown side by side and not ranked. Results and states of tasks are compared cluster by cluster, if they have
+/// the same labels, and a state or `NAME.state` beside `NAME.json`.
 #[derive(Debug, Args)]
 pub(crate) struct Compare {
-    /// The results to compare
+    /// The results to compare; a run of several sensors alone is compared within itself
     #[arg(required = true, value_name = "RESULT", num_args = 1..)]
     pub(crate) results: Vec<PathBuf>,
     /// The folder of a catalogue, whose sensors can be named too; numbers of its bundles state the level of their verification
@@ -84,7 +85,8 @@ pub(crate) enum Like {
 /// Find sensors for a task, with the numbers behind the ranking
 ///
 /// Needs are words, such as shear or ambient light, and numbers, such as rate >= 50 Hz; all are listed below. Hard needs exclude a sensor, soft
-/// needs rank the others. A sensor whose number is unknown stays open.
+/// needs rank the others. A sensor whose number is unknown stays open. Each sensor without a place names every need that it does not meet and
+/// every unknown number.
 #[derive(Debug, Args)]
 #[command(after_help = needs_help(), group = ArgGroup::new("asked").required(true).args(["need", "needs"]))]
 pub(crate) struct Choose {
@@ -94,7 +96,7 @@ pub(crate) struct Choose {
     /// A file with `needs = ["…", …]`
     #[arg(long, value_name = "NEEDS.toml")]
     pub(crate) needs: Option<PathBuf>,
-    /// Choose among these results instead of the catalogue; may be repeated
+    /// Choose among these results instead of the catalogue: the JSON of evaluate or score, or the folder of a run; may be repeated
     #[arg(long, value_name = "RESULT")]
     pub(crate) results: Vec<PathBuf>,
     /// The folder of a catalogue, whose measured numbers are included; each states the level of its verification, and numbers of different

@@ -84,7 +84,7 @@ fn mass_g(text: &str) -> Result<f64, String> {
 ///
 /// 1. the tip just touches the middle of the untouched gel,
 /// 2. a little up and 5 to 10 mm along x of the sensor,
-/// 3. from the middle, 5 to 10 mm along y of the sensor, so that z points into the gel.
+/// 3. from the middle, 5 to 10 mm along y of the sensor: a quarter turn clockwise from x, looking at the gel from outside.
 ///
 /// A step that ends more than 0.5 mm off an axis of the robot's base is rejected, and so is a turned tool. The file must contain both keys,
 /// with any values: origin_mm = [0.0, 0.0, 0.0] and axes = ["x", "y", "z"]. Everything else in it stays.

@@ -27,7 +27,7 @@ pub(crate) struct SceneArgs {
 /// Plan, acquire, fit, evaluate and report a scene; without a scene, four sensors on the simulated bench
 ///
 /// The folder of the run contains `report.html`, one file that needs no network; every figure as SVG and PDF in `figures/`; `results.json`
-/// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`.
+/// with every number; and the tables `scores.csv`, `scores.md` and `scores.tex`. `taceva plan` prints the steps beforehand.
 #[derive(Debug, Args)]
 pub(crate) struct Run {
     #[command(flatten)]

@@ -8,6 +8,7 @@ use taceva_acquire::{
 };
 use taceva_core::{Axis, by_count, counted, shown};
 use taceva_dataset::{Header, SensorFacts};
+use taceva_protocol::SignedAxes;
 
 use super::Context;
 use super::device_page::OnPage;
@@ -151,7 +152,7 @@ pub(crate) fn run(args: &Capture, context: &Context) -> anyhow::Result<u8> {
         stderr::say(format_args!("warning: {warning}"));
     }
     let Captured { state, header, .. } = done?;
-    summarise(&state, &header, has_force, &args.path, context);
+    summarise(&state, &header, &spec, has_force, &args.path, context);
     if let Some(predictions) = &header.predictions {
         context.say(format_args!(
             "{}/predictions.csv: {predictions}, {}; measured labels are only in samples.parquet",
@@ -233,9 +234,23 @@ fn causes(state: &CaptureState) -> String {
 /// Readings below this force, N, mean that the sign is wrong, because a hand does not pull a gel.
 const PULLED_N: f64 = -0.3;
 
+/// Remedy for a reversed Fz: both lines for the rig file, and the check that decides between them.
+fn righted(spec: &LiveSpec) -> String {
+    // Without a rig file the frame of the transducer is that of the sensor.
+    let axes = spec.force_axes();
+    let axes = axes.or_else(|| SignedAxes::read(["x", "y", "z"]).ok());
+    let lines = axes.into_iter().flat_map(SignedAxes::turned_over);
+    let lines: Vec<String> = lines.map(|axes| format!("`axes = {axes}`")).collect();
+    format!(
+        "write {}: the line for which a push to the right of the picture raises Fx",
+        lines.join(" or ")
+    )
+}
+
 fn summarise(
     state: &CaptureState,
     header: &Header,
+    spec: &LiveSpec,
     has_force: bool,
     path: &Path,
     context: &Context,
@@ -271,8 +286,9 @@ fn summarise(
     ));
     if state.contacts == 0 && state.least_normal_n < PULLED_N {
         stderr::say(format_args!(
-            "Fz reached {:.2} N and never exceeded 0.1 N: its axis is reversed; change its sign in `axes` under [force] of the rig file",
-            state.least_normal_n
+            "Fz reached {:.2} N and never exceeded 0.1 N: its axis is reversed; under [force] of the rig file {}",
+            state.least_normal_n,
+            righted(spec)
         ));
     } else if state.contacts > 0 {
         context.say(format_args!(

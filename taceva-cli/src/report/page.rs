@@ -146,6 +146,12 @@ impl Page {
         for (name, reason) in form.absent.iter().chain(&figures.absent) {
             context.say(format_args!("{name} of the study is absent: {reason}"));
         }
+        if form.tables.is_empty() && figures.drawn.is_empty() {
+            context.say(format_args!(
+                "nothing is written in the form of the TacEva study, because these results have none of its scores; the scene of `taceva run paper` requests all"
+            ));
+            return Ok(());
+        }
         let folder = folder.join(LIKE_TACEVA);
         fs::create_dir_all(&folder).with_context(|| format!("cannot make {}", shown(&folder)))?;
         for (name, text) in [

@@ -279,6 +279,15 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
         "{}",
         asked.err
     );
+    let next = [
+        "taceva plan stated.toml --rig rig.toml",
+        "taceva run stated.toml --rig rig.toml --air",
+        "taceva rig tap rig.toml",
+        "taceva run stated.toml --rig rig.toml\n",
+    ];
+    for line in next {
+        assert!(asked.out.contains(line), "no `{line}` in {}", asked.out);
+    }
     let stated = read(&bench, "stated.toml");
     let line = "footprint = { shape = \"rect\", half_x_mm = 16.0, half_y_mm = 18.0 }";
     assert!(stated.contains(line), "{stated}");
@@ -305,6 +314,50 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
         2,
         "no default for: driver of the robot, alone or with arguments such as",
     );
+}
+
+#[test]
+fn a_rig_of_addresses_on_this_machine_asks_if_its_devices_are_emulated() {
+    let bench = Bench::new();
+    let devices = "ufactory/xarm:host=127.0.0.1;port=40001\nindenter\nsri/m8128:host=127.0.0.1\ncamera/mjpeg:url=http://127.0.0.1:40003/\n";
+    for (answer, is_stated) in [("yes", true), ("no", false)] {
+        let answers = format!("{devices}\n{answer}\n1\n2\n1\n\n");
+        let ran = bench.answered("init rig --out wire.toml --force", &answers);
+        assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+        let question = "an address is on this machine: are the devices emulated";
+        assert!(ran.err.contains(question), "{}", ran.err);
+        // A robot of this file would move without a typed name.
+        assert!(ran.err.contains("an answer is needed here"), "{}", ran.err);
+        let rig = read(&bench, "wire.toml");
+        let line = "rig_version = 1\nsimulated = true ";
+        assert_eq!(rig.contains(line), is_stated, "{rig}");
+    }
+}
+
+#[test]
+fn a_rig_of_a_hand_has_no_robot_and_no_limits_and_names_the_capture() {
+    let bench = Bench::new();
+    let answers =
+        "none\nnone\nsri/m8128:host=192.168.0.108\ncamera/mjpeg:url=http://192.168.1.20:8080/\n";
+    let ran = bench.answered("init rig --out hand.toml", answers);
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    for words in [
+        "or `none` if a hand presses",
+        // A hand replaces no transducer.
+        "expected one of ",
+    ] {
+        assert!(ran.err.contains(words), "no `{words}` in {}", ran.err);
+    }
+    let rig = read(&bench, "hand.toml");
+    assert!(
+        rig.contains("[force]\ndriver = \"sri/m8128:host=192.168.0.108\""),
+        "{rig}"
+    );
+    for table in ["[robot]", "[limits]", "simulated"] {
+        assert!(!rig.contains(table), "{rig}");
+    }
+    let next = "taceva capture presses --rig hand.toml --for 5min";
+    assert!(ran.out.contains(next), "{}", ran.out);
 }
 
 #[test]

@@ -185,7 +185,7 @@ fn a_cross_validation_is_not_asked_to_score_every_point() {
 }
 
 #[test]
-fn two_models_whose_skill_is_on_different_test_parts_are_compared_with_that_said() {
+fn two_models_on_different_test_parts_stand_side_by_side_and_get_no_verdict() {
     let bench = Bench::new();
     bench.record("data", 32);
     for (seed, name) in [(1, "one"), (1, "same"), (2, "two")] {
@@ -202,10 +202,17 @@ fn two_models_whose_skill_is_on_different_test_parts_are_compared_with_that_said
     assert_eq!(said("compare one.json same.json"), 0);
     assert_eq!(said("compare one.json two.json"), 1);
     let text = bench.ok("compare one.json two.json --metrics mae -q");
-    assert!(
-        text.contains("skill was measured on different test parts"),
-        "{text}"
-    );
+    for words in [
+        "skill was measured on different test parts",
+        "Tested on ",
+        "no winner: the test parts differ: ",
+        " was tested on part test, split by-point 30/10/60, seed 1, and ",
+        "evaluate both with one --split, --seed and --part",
+    ] {
+        assert!(text.contains(words), "{words}: {text}");
+    }
+    let same = bench.ok("compare one.json same.json --metrics mae -q");
+    assert!(!same.contains("the test parts differ"), "{same}");
 }
 
 #[test]

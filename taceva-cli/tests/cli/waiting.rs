@@ -8,6 +8,7 @@ mod plugin_allow;
 mod plugin_carousel;
 mod plugin_dmx;
 mod plugin_line;
+mod practice;
 mod rig_check;
 #[cfg(target_os = "linux")]
 mod rig_weight;

@@ -6,6 +6,7 @@ mod need;
 mod other;
 mod place;
 mod property;
+mod reasons;
 mod render;
 mod samples;
 mod values;
@@ -16,11 +17,12 @@ pub use need::{Bound, Need, NeedError};
 pub use property::Property;
 pub use render::CHOICE_SCHEMA;
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 use taceva_metrics::Standing;
 
 use crate::catalogue::{Kind, Sensor};
-use crate::names::listed;
 
 /// Result of a choice: shortlist, other sensors, and the numbers used.
 #[derive(Clone, Debug, Default)]
@@ -35,7 +37,7 @@ pub struct Choice {
     pub barred: Vec<Dropped>,
     /// Sensors that meet the hard needs but have no rank, because a number for a ranking need is unknown.
     pub unplaced: Vec<Dropped>,
-    /// Sensors that meet the hard needs but have no rank, because their samples, definitions or faults differ from those of other sensors.
+    /// Sensors that meet the hard needs but have no rank, because their samples, test parts, definitions or faults differ from those of other sensors.
     pub apart: Vec<Dropped>,
     /// Numbers of the sensors without a rank, in the order of the sensors.
     pub others: Vec<Candidate>,
@@ -43,6 +45,8 @@ pub struct Choice {
     pub other_definitions: Vec<Dropped>,
     /// Sensors without any number that the needs use, by any definition.
     pub unknown: Vec<String>,
+    /// Number of sensors by currency that no bound on a price compares, because their exact prices have other currencies.
+    pub other_currencies: BTreeMap<String, usize>,
     /// Significant differences between ranked sensors; `None` if nothing was tested, for example with published numbers.
     pub evidence: Option<Vec<Evidence>>,
     /// Remark that ranking errors are not comparable, if the label spreads of the sensors differ.
@@ -83,6 +87,8 @@ pub struct Step {
     pub part: Option<String>,
     /// True for a hard need, which does not affect the rank.
     pub is_bound: bool,
+    /// True if the number does not meet a hard need.
+    pub is_unmet: bool,
     /// True if the number meets a hard need but its interval crosses the bound.
     pub is_unsure: bool,
 }
@@ -92,7 +98,7 @@ pub struct Step {
 pub struct Dropped {
     /// Name of the sensor.
     pub name: String,
-    /// Hard need that the number does not meet, the need and the unknown property, or the reason why verdicts exclude the number.
+    /// Every hard need that a number does not meet, then every need with an unknown number; or the reason why verdicts exclude a number.
     pub reason: String,
 }
 
@@ -118,6 +124,15 @@ impl Dropped {
 /// # Ok::<(), taceva_report::NeedError>(())
 /// ```
 pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
+    choose_together(sensors, needs, |_| Vec::new())
+}
+
+/// Same as [`choose`]. `take_apart` removes sensors that cannot be ranked together from the remaining sensors.
+fn choose_together(
+    sensors: &[Sensor],
+    needs: &[Need],
+    take_apart: impl FnOnce(&mut Vec<&Sensor>) -> Vec<Dropped>,
+) -> Choice {
     let mut choice = Choice::default();
     let mut remaining: Vec<&Sensor> = Vec::new();
     for sensor in sensors.iter().filter(|entry| entry.kind == Kind::Sensor) {
@@ -127,22 +142,29 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
                 Some(reason) => choice.other_definitions.push(Dropped::new(sensor, reason)),
                 None => choice.unknown.push(sensor.name.clone()),
             }
-        } else if let Some(reason) = barred(sensor, needs) {
+            continue;
+        }
+        let unmet = reasons::unmet(sensor, needs);
+        let unproven = reasons::unproven(sensor, needs);
+        if let Some(reason) = reasons::barred(sensor, needs) {
             choice.barred.push(Dropped::new(sensor, reason));
-        } else if let Some(reason) = unmet(sensor, needs) {
-            choice.dropped.push(Dropped::new(sensor, reason));
-        } else if let Some(reason) = unproven(sensor, needs) {
-            choice.open.push(Dropped::new(sensor, reason));
-        } else if let Some(reason) = unplaced(sensor, needs) {
+        } else if !unmet.is_empty() {
+            let all = [unmet, unproven].concat();
+            choice.dropped.push(Dropped::new(sensor, all.join("; ")));
+        } else if !unproven.is_empty() {
+            choice.open.push(Dropped::new(sensor, unproven.join("; ")));
+        } else if let Some(reason) = reasons::unplaced(sensor, needs) {
             choice.unplaced.push(Dropped::new(sensor, reason));
         } else {
             remaining.push(sensor);
         }
     }
+    choice.other_currencies = other_currencies(sensors, needs);
     choice.apart = samples::take_apart(&mut remaining, needs);
     choice
         .apart
         .extend(faults::take_apart(&mut remaining, needs));
+    choice.apart.extend(take_apart(&mut remaining));
     choice.ranked = remaining
         .iter()
         .map(|sensor| candidate(sensor, &remaining, needs))
@@ -156,6 +178,26 @@ pub fn choose(sensors: &[Sensor], needs: &[Need]) -> Choice {
     choice
 }
 
+/// Number of sensors by currency whose exact prices all have other currencies than the needs bound; empty if no need bounds a price.
+fn other_currencies(sensors: &[Sensor], needs: &[Need]) -> BTreeMap<String, usize> {
+    let asked = needs.iter().flat_map(Need::properties);
+    let asked: Vec<&str> = asked.filter_map(Property::currency).collect();
+    let mut counts: BTreeMap<String, usize> = BTreeMap::new();
+    let is_unpriced = |sensor: &&Sensor| {
+        let mut asked = asked.iter();
+        asked.all(|currency| sensor.price_in(currency).is_none())
+    };
+    let sensors = sensors.iter().filter(|entry| entry.kind == Kind::Sensor);
+    let sensors = sensors.filter(|_| !asked.is_empty());
+    for sensor in sensors.filter(is_unpriced) {
+        let prices = sensor.prices.iter().filter(|price| price.is_comparable());
+        for currency in taceva_core::distinct(prices.map(|price| price.currency.clone())) {
+            *counts.entry(currency).or_default() += 1;
+        }
+    }
+    counts
+}
+
 /// Numbers of `sensor` with other definitions than the needs, each property once.
 fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
     let properties = needs.iter().flat_map(Need::properties);
@@ -164,101 +206,6 @@ fn by_other_definition(sensor: &Sensor, needs: &[Need]) -> Option<String> {
         Some(format!("no {property}; known: {other}"))
     }));
     (!found.is_empty()).then(|| found.join("; "))
-}
-
-/// First number of `sensor` that a need uses and that is excluded from verdicts.
-fn barred(sensor: &Sensor, needs: &[Need]) -> Option<String> {
-    let properties = needs
-        .iter()
-        .flat_map(|need| need.properties().map(move |property| (need, property)));
-    let mut barred = properties.filter_map(|(need, property)| {
-        let reason = property.standing(sensor).reason()?;
-        Some(format!("`{}` looks at {property}: {reason}", need.words))
-    });
-    barred.next()
-}
-
-/// Text of a bound on [`Property::Opaque`].
-const CLOSED: &str = "a gel that keeps light out";
-
-/// First hard need that `sensor` does not meet, as text with the number; `None` if `sensor` meets all known needs.
-fn unmet(sensor: &Sensor, needs: &[Need]) -> Option<String> {
-    let bounds = needs
-        .iter()
-        .flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)));
-    let mut failed = bounds.filter_map(|(need, bound)| {
-        let value = bound.property.of(sensor)?;
-        (!bound.property.is_reached() && !bound.holds(value)).then(|| {
-            let ends = bound.property.interval(sensor);
-            let is_unsure = ends.is_some_and(|ends| ends.into_iter().any(|end| bound.holds(end)));
-            let unsure = match is_unsure {
-                true => ", by the value only: its interval crosses the bound",
-                false => "",
-            };
-            match bound.property {
-                Property::Opaque => {
-                    format!(
-                        "`{}` needs {CLOSED}, and the gel of this sensor does not",
-                        need.words
-                    )
-                }
-                property => format!(
-                    "`{}` needs {bound}, and its {property} is {}{unsure}",
-                    need.words,
-                    property.shown(value)
-                ),
-            }
-        })
-    });
-    failed.next()
-}
-
-/// First hard need for which the number of `sensor` is unknown, as text; `None` if all are known.
-fn unproven(sensor: &Sensor, needs: &[Need]) -> Option<String> {
-    let bounds = needs
-        .iter()
-        .flat_map(|need| need.bounds.iter().map(move |bound| (need, bound)));
-    let mut unproven = bounds.filter_map(|(need, bound)| {
-        let property = bound.property;
-        let reason = match property.of(sensor) {
-            None if property == Property::Opaque => {
-                let words = &need.words;
-                return Some(format!(
-                    "`{words}` needs {CLOSED}, which is unknown for this sensor"
-                ));
-            }
-            None if property == Property::Bought => {
-                let words = &need.words;
-                return Some(format!("`{words}` needs a seller, and no seller is known"));
-            }
-            None => match property.other(sensor) {
-                Some(other) => format!("is not known; known: {other}"),
-                None => "is not known".to_owned(),
-            },
-            Some(value) if property.is_reached() && !bound.holds(value) => format!(
-                "that was tested is {}, which need not be its limit",
-                property.shown(value)
-            ),
-            Some(_) => return None,
-        };
-        Some(format!(
-            "`{}` needs {bound}, and its {property} {reason}",
-            need.words
-        ))
-    });
-    unproven.next()
-}
-
-/// Properties in soft needs whose value is unknown for `sensor`, as text; `None` if all values are known.
-fn unplaced(sensor: &Sensor, needs: &[Need]) -> Option<String> {
-    let ranks = needs.iter().flat_map(|need| &need.ranks);
-    let unknown = ranks.filter(|property| property.of(sensor).is_none());
-    let unknown: Vec<&Property> = unknown.collect();
-    let names = unknown.iter().copied().map(Property::to_string);
-    let names: Vec<String> = names.collect();
-    let others = unknown.iter().filter_map(|property| property.other(sensor));
-    let others: String = others.map(|other| format!("; known: {other}")).collect();
-    (!names.is_empty()).then(|| format!("no known {}{others}", listed(&names)))
 }
 
 fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidate {
@@ -274,6 +221,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 share: None,
                 part: bound.property.part(sensor),
                 is_bound: true,
+                is_unmet: reasons::is_unmet(sensor, bound),
                 is_unsure: bound
                     .property
                     .interval(sensor)
@@ -294,6 +242,7 @@ fn candidate(sensor: &Sensor, remaining: &[&Sensor], needs: &[Need]) -> Candidat
                 share,
                 part: property.part(sensor),
                 is_bound: false,
+                is_unmet: false,
                 is_unsure: false,
             });
         }

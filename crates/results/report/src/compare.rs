@@ -17,6 +17,7 @@ pub(crate) use overview::QUESTIONS;
 pub use overview::{Decision, OVERVIEW_LINES, OVERVIEW_WIDTH};
 pub use render::COMPARISON_SCHEMA;
 pub use request::RequestError;
+pub(crate) use splits::barred as barred_by_split;
 pub use ties::ties;
 
 use std::collections::BTreeMap;

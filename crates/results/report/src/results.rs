@@ -5,6 +5,7 @@ mod model_bench;
 mod provenance;
 mod standing_by_r2;
 mod statement;
+mod test_part;
 mod traceability;
 
 pub use fact::Fact;

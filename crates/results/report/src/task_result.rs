@@ -12,8 +12,8 @@ use crate::results::{Made, Study};
 
 /// Beginning of the schema of every version.
 const ANY_VERSION: &str = "taceva.tasks/";
-/// Command that computes a result again.
-const COMMAND: &str = "taceva score --task";
+/// Remedy for a result of another version.
+const AGAIN: &str = "run `taceva score --task …` again with this version";
 /// Roles of the tables with labels. A merged result numbers them.
 const OF_LABELS: [&str; 2] = ["truth", "dataset"];
 /// Name of the score of the best constant as a variant.
@@ -119,7 +119,7 @@ impl TaskResult {
                 found: shown(&head.schema).to_string(),
                 version: shown(version).to_string(),
                 expected: TASKS_SCHEMA,
-                command: COMMAND,
+                remedy: AGAIN,
             });
         }
         let result: TaskResult = serde_json::from_str(text)?;

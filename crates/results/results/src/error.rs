@@ -17,9 +17,7 @@ pub enum ResultsError {
         found: String,
     },
     /// Another version of the program wrote the results.
-    #[error(
-        "schema `{found}`, written by TacEva {version}: expected `{expected}`; run `{command} …` again with this version"
-    )]
+    #[error("schema `{found}`, written by TacEva {version}: expected `{expected}`; {remedy}")]
     Version {
         /// Schema found.
         found: String,
@@ -27,8 +25,8 @@ pub enum ResultsError {
         version: String,
         /// Schema of the running version.
         expected: &'static str,
-        /// Command that computes the results again.
-        command: &'static str,
+        /// Commands that compute the results again.
+        remedy: &'static str,
     },
     /// A value violates the schema.
     #[error("{place}: {problem}")]

@@ -56,10 +56,10 @@ pub fn read(text: &str) -> Result<Vec<EvaluationReport>, ResultsError> {
         EVALUATION_SCHEMA => false,
         RUN_SCHEMA => true,
         other if other.starts_with("taceva.evaluation/") => {
-            return Err(head.refusal(other, EVALUATION_SCHEMA, "taceva evaluate"));
+            return Err(head.refusal(other, EVALUATION_SCHEMA, EVALUATE_AGAIN));
         }
         other if other.starts_with("taceva.run/") => {
-            return Err(head.refusal(other, RUN_SCHEMA, "taceva run"));
+            return Err(head.refusal(other, RUN_SCHEMA, RUN_AGAIN));
         }
         other => {
             return Err(ResultsError::Schema {
@@ -91,6 +91,10 @@ pub fn sealed(report: &impl Serialize) -> Result<String, ResultsError> {
     Ok(taceva_files::seal::json::seal(&text)?)
 }
 
+/// Remedies for results of another version. Presses on a real rig are not repeated for their scores.
+const EVALUATE_AGAIN: &str = "run `taceva evaluate …` again with this version";
+const RUN_AGAIN: &str = "run `taceva run …` again with this version, or without new presses `taceva evaluate` on each of its recordings";
+
 /// Schema of a text, and the version that wrote the text.
 #[derive(Default, Deserialize)]
 struct Head {
@@ -102,7 +106,7 @@ struct Head {
 }
 
 impl Head {
-    fn refusal(&self, found: &str, expected: &'static str, command: &'static str) -> ResultsError {
+    fn refusal(&self, found: &str, expected: &'static str, remedy: &'static str) -> ResultsError {
         let own = &self.provenance["taceva"];
         let of_first = &self.studies[0]["provenance"]["taceva"];
         let version = own.as_str().or_else(|| of_first.as_str());
@@ -110,7 +114,7 @@ impl Head {
             found: shown(found).to_string(),
             version: shown(version.unwrap_or("of an unknown version")).to_string(),
             expected,
-            command,
+            remedy,
         }
     }
 }

@@ -1,5 +1,8 @@
 //! Writes a rig file: devices by their drivers, axes and limits.
 
+use std::net::Ipv4Addr;
+use std::path::Path;
+
 use taceva_core::{DriverKind, DriverSource};
 use taceva_dataset::internal::quoted;
 use taceva_drivers::{Devices, ListedDriver, devices};
@@ -7,6 +10,9 @@ use taceva_protocol::RigFile;
 
 use super::{Context, Interview, Usage, finish, target};
 use crate::args::InitTarget;
+
+/// Answer in place of the driver of a robot.
+const BY_HAND: &str = "none";
 
 pub(super) fn write(
     args: &InitTarget,
@@ -16,6 +22,9 @@ pub(super) fn write(
     let path = target(args, "rig.toml")?;
     let listed = devices(&context.drivers(None)?);
     let robot = device(&listed, DriverKind::Robot, "robot", interview)?;
+    if robot == BY_HAND {
+        return write_by_hand(&path, &listed, interview);
+    }
     let carries = interview.choose(
         "what does the robot carry",
         &["indenter", "sensor"],
@@ -28,7 +37,8 @@ pub(super) fn write(
         "camera of the sensor",
         interview,
     )?;
-    interview.say("limits protect the gel: the robot halts when a limit is exceeded");
+    let simulated = emulation(&[&robot, &force, &sensor], interview)?;
+    interview.say("limits protect the gel: the robot halts when a limit is exceeded; `taceva catalogue show NAME` prints tested depths and forces of a sensor");
     let depth = interview.number("greatest depth, in mm", None, [0.01, 50.0])?;
     let normal = interview.number("greatest normal force, in N", None, [0.01, 1000.0])?;
     let shear_question = "greatest shear force, in N";
@@ -38,7 +48,7 @@ pub(super) fn write(
     let text = format!(
         "# The devices of one rig. taceva is not a safety function: emergency stop and guards must work without it (docs/rig.md).
 rig_version = 1
-# laboratory = \"my laboratory\"    # reports and data sheets name it
+{simulated}# laboratory = \"my laboratory\"    # reports and data sheets name it
 
 [robot]
 driver = {robot:?}
@@ -84,7 +94,79 @@ speed_max_mm_s = {speed:?}
     )
 }
 
-/// Asks for a device and returns its selector: the driver and its required arguments.
+/// Writes the rig file of a hand that presses in place of a robot.
+fn write_by_hand(path: &Path, listed: &Devices, interview: &mut Interview) -> anyhow::Result<u8> {
+    let force = device(listed, DriverKind::Force, "force transducer", interview)?;
+    let sensor = device(
+        listed,
+        DriverKind::Sensor,
+        "camera of the sensor",
+        interview,
+    )?;
+    let simulated = emulation(&[&force, &sensor], interview)?;
+    let text = format!(
+        "# The devices of presses by hand, without a robot (docs/capture.md).
+rig_version = 1
+{simulated}
+[force]
+driver = {force:?}
+axes = [\"x\", \"y\", \"z\"]           # the transducer axis of x, y and z; a press straight down must raise Fz
+# latency_ms = 4.0               # delay from a measurement to its stamp, if known
+
+[sensor]
+driver = {sensor:?}
+# latency_ms = 38.0
+"
+    );
+    RigFile::parse(&path.display().to_string(), &text)?;
+    let rig = quoted(path);
+    finish(
+        path,
+        &text,
+        &[
+            format!(
+                "taceva preview --rig {rig}     press straight down: if Fz falls, change `axes` of [force]"
+            ),
+            format!("taceva capture presses --rig {rig} --for 5min"),
+        ],
+    )
+}
+
+/// Line of the rig file that states an emulation; empty for real devices. Asks if a device has an address of this machine. The question has no default, because
+/// this line lets a robot move without a typed name.
+fn emulation(selectors: &[&String], interview: &mut Interview) -> anyhow::Result<&'static str> {
+    let mut selectors = selectors.iter();
+    if !selectors.any(|selector| is_on_this_machine(selector)) {
+        return Ok("");
+    }
+    let question = "an address is on this machine: are the devices emulated, as by taceva-wire, so that nothing is measured";
+    let answer = interview.choose(question, &["yes", "no"], None)?;
+    Ok(match answer.as_str() {
+        "yes" => {
+            "simulated = true                 # nothing is measured: recordings and reports state this\n"
+        }
+        _ => "",
+    })
+}
+
+/// True if an argument of the device is an address of this machine, such as `host=127.0.0.1` or `url=http://localhost:8080/`, or a pseudo-terminal.
+fn is_on_this_machine(selector: &str) -> bool {
+    let (_, arguments) = selector.split_once(':').unwrap_or_default();
+    let values = arguments.split(';').filter_map(|one| one.split_once('='));
+    let mut values = values.map(|(_, value)| value);
+    values.any(|value| {
+        let address = value.split_once("://").map_or(value, |(_, rest)| rest);
+        let host = address.split(['/', ':']).next().unwrap_or_default();
+        host == "localhost"
+            || host
+                .parse::<Ipv4Addr>()
+                .is_ok_and(|address| address.is_loopback())
+            || address.starts_with("[::1]")
+            || value.starts_with("/dev/pts/")
+    })
+}
+
+/// Asks for a device and returns its selector: the driver and its required arguments; for a robot also [`BY_HAND`].
 fn device(
     listed: &Devices,
     kind: DriverKind,
@@ -111,19 +193,24 @@ fn device(
     for selector in &present {
         interview.say(&format!("  present: {selector}"));
     }
-    let check = |answer: &str| match is_of_kind(answer) {
+    let by_hand = match kind {
+        DriverKind::Robot => ", or `none` if a hand presses",
+        _ => "",
+    };
+    let is_by_hand = |answer: &str| kind == DriverKind::Robot && answer == BY_HAND;
+    let known = format!("{}{by_hand}", keys.join(", "));
+    let check = |answer: &str| match is_of_kind(answer) || is_by_hand(answer) {
         true => Ok(()),
-        false => Err(format!("expected one of {}", keys.join(", "))),
+        false => Err(format!("expected one of {known}")),
     };
     let answer = interview.ask(
         &format!(
-            "driver of the {what}, alone or with arguments such as KEY:host=…;port=… ({})",
-            keys.join(", ")
+            "driver of the {what}, alone or with arguments such as KEY:host=…;port=… ({known})"
         ),
         present.first().copied(),
         check,
     )?;
-    if answer.contains(':') {
+    if answer.contains(':') || is_by_hand(&answer) {
         return Ok(answer);
     }
     let driver = of_kind.into_iter().find(|driver| driver.key == answer);
@@ -142,4 +229,31 @@ fn device(
         true => answer,
         false => format!("{answer}:{}", arguments.join(";")),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_on_this_machine;
+
+    #[test]
+    fn loopback_addresses_and_pseudo_terminals_are_on_this_machine_and_no_others() {
+        for here in [
+            "ufactory/xarm:host=127.0.0.1;port=40001",
+            "sri/m8128:port=4008;host=localhost",
+            "camera/mjpeg:url=http://127.0.0.1:8080/?action=stream",
+            "camera/mjpeg:url=http://[::1]:8080/",
+            "gcode/grbl:port=/dev/pts/3",
+        ] {
+            assert!(is_on_this_machine(here), "{here}");
+        }
+        for elsewhere in [
+            "ufactory/xarm:host=192.168.1.200",
+            "camera/mjpeg:url=http://127.example.org/",
+            "camera/v4l2:device=/dev/video0",
+            "gcode/grbl:port=/dev/ttyUSB0",
+            "sri/m8128",
+        ] {
+            assert!(!is_on_this_machine(elsewhere), "{elsewhere}");
+        }
+    }
 }

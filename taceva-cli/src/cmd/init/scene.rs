@@ -78,9 +78,17 @@ pub(super) fn write(
     let path_word = quoted(&path);
     if sensing_area.is_some() {
         Scene::parse_for_rig(&path.display().to_string(), &text)?;
-        let plan =
-            format!("taceva plan {path_word} --rig rig.toml     the file of taceva init rig");
-        return finish(&path, &text, &[plan]);
+        let run = format!("taceva run {path_word} --rig rig.toml");
+        return finish(
+            &path,
+            &text,
+            &[
+                format!("taceva plan {path_word} --rig rig.toml     the file of taceva init rig"),
+                format!("{run} --air     every contact point in the air"),
+                "taceva rig tap rig.toml     how late each device is".to_owned(),
+                run,
+            ],
+        );
     }
     // Applies the checks of `run`.
     let scene = SceneText {

@@ -140,7 +140,7 @@ fn results_of_another_version_are_refused_in_words() {
         "run/results.json",
         r#"{"schema": "taceva.run/1.4", "studies": [{"provenance": {"taceva": "0.1.0"}}]}"#,
     );
-    let words = "schema `taceva.run/1.4`, written by TacEva 0.1.0: expected `taceva.run/1.0`; run `taceva run …` again";
+    let words = "schema `taceva.run/1.4`, written by TacEva 0.1.0: expected `taceva.run/1.0`; run `taceva run …` again with this version, or without new presses `taceva evaluate` on each of its recordings";
     bench.refused("report run", 3, words);
     bench.refused(
         "report nothing",
@@ -167,6 +167,41 @@ fn results_of_another_version_are_refused_in_words() {
         2,
         "data is a dataset: `taceva evaluate data` computes a result",
     );
+}
+
+#[test]
+fn results_without_a_score_of_the_study_get_no_empty_folder_in_its_form() {
+    let bench = Bench::new();
+    bench.write("t.csv", "id,point_id,Fz\n1,a,0.1\n2,b,0.2\n");
+    bench.write("p.csv", "id,Fz\n1,0.11\n2,0.21\n");
+    for (metrics, is_written) in [("rmse", false), ("mae", true)] {
+        bench.ok(&format!(
+            "score --truth t.csv --pred p.csv --metrics {metrics} --format json --out {metrics}.json -q"
+        ));
+        let ran = bench.run(&format!(
+            "report {metrics}.json --like taceva --out of-{metrics}"
+        ));
+        assert_eq!(ran.code, 0, "{}", ran.err);
+        let folder = bench.path(&format!("of-{metrics}/like-taceva"));
+        assert_eq!(folder.exists(), is_written, "{}", ran.err);
+        let words = "these results have none of its scores; the scene of `taceva run paper`";
+        assert_eq!(ran.err.contains(words), !is_written, "{}", ran.err);
+        assert!(bench.path(&format!("of-{metrics}/report.html")).exists());
+    }
+}
+
+#[test]
+fn a_report_of_one_sample_states_why_it_has_no_interval() {
+    let bench = Bench::new();
+    bench.write("t.csv", "id,point_id,Fz\n1,a,0.1\n");
+    bench.write("p.csv", "id,Fz\n1,0.11\n");
+    bench.ok("score --truth t.csv --pred p.csv --metrics mae --format json --out one.json -q");
+    bench.ok("report one.json --like taceva --out one -q");
+    let tables = read(&bench.path("one/like-taceva/tables.md"));
+    assert!(tables.contains("Table II."), "{tables}");
+    let scores = read(&bench.path("one/scores-main.tex"));
+    assert!(scores.contains("without intervals ("), "{scores}");
+    super::latex::assert_fits_a_column("one sample", &scores);
 }
 
 #[test]

@@ -9,7 +9,7 @@ use std::time::Duration;
 use crate::support::Bench;
 use crate::support::emulated::{Emulated, Running};
 use taceva_dataset::{Dataset, Source};
-use taceva_wire::netft;
+use taceva_wire::{Base, netft};
 
 /// Depths of the presses of a capture, mm.
 const DEPTHS_MM: [f64; 8] = [0.3, 0.5, 0.4, 0.6, 0.35, 0.55, 0.45, 0.5];
@@ -243,6 +243,26 @@ fn frames_that_nobody_took_in_time_are_counted_and_check_says_so() {
     assert!(ran.err.contains(&said), "{said} in {}", ran.err);
     let checked = bench.run("check stopped");
     assert!(checked.out.contains("TAC015"), "{}", checked.out);
+}
+
+#[test]
+fn presses_on_a_reversed_transducer_print_the_axes_to_write() {
+    let emulated = Emulated::new();
+    let bench = Bench::new();
+    let right = format!("axes = {:?}", Base::AXES);
+    let rig = emulated
+        .rig()
+        .replace(&right, "axes = [\"x\", \"y\", \"z\"]");
+    bench.write("hand.toml", &rig);
+    let running = Running::start(&bench, "capture presses --rig hand.toml --for 120s");
+    running.until_it_says("press; Ctrl-C");
+    emulated.press(&mut emulated.robot(), [0.0, 0.0], 0.6, || {
+        std::thread::sleep(Duration::from_millis(350));
+    });
+    running.interrupt();
+    let ran = running.ended();
+    let lines = format!("write `{right}` or `axes = [\"-x\", \"y\", \"-z\"]`: the line for which");
+    assert!(ran.err.contains(&lines), "{}", ran.err);
 }
 
 #[test]

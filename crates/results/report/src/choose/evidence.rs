@@ -1,12 +1,12 @@
 //! Significance of the differences between ranked sensors. The ranking follows values, which may differ by chance.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use taceva_metrics::Better;
+use taceva_metrics::{Better, Sides};
 
-use super::{Choice, Need, Property, choose};
+use super::{Choice, Dropped, Need, Property, choose_together};
 use crate::catalogue::Sensor;
-use crate::compare::{Answer, CompareRequest, compare};
+use crate::compare::{Answer, CompareRequest, barred_by_split, compare};
 use crate::names::{listed, names};
 use crate::number::significant;
 use crate::results::Study;
@@ -25,7 +25,7 @@ pub struct Evidence {
     pub p: f64,
 }
 
-/// Chooses among the sensors of `studies` like [`choose`], and tests the differences of the numbers that rank them.
+/// Chooses among the sensors of `studies` like [`choose`](super::choose), and tests the differences of the numbers that rank them.
 ///
 /// ```
 /// use taceva_report::{Need, catalogue, choose_results};
@@ -43,7 +43,9 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
         sensor
     });
     let sensors: Vec<Sensor> = sensors.collect();
-    let mut choice = choose(&sensors, needs);
+    let mut choice = choose_together(&sensors, needs, |remaining| {
+        take_test_parts_apart(remaining, studies, &names, needs)
+    });
     choice.evidence = Some(evidence(studies, needs, &choice));
     choice.spread = spread(studies, &names, &choice);
     choice.simulated = studies.iter().any(Study::is_simulated);
@@ -54,6 +56,49 @@ pub fn choose_results(studies: &[Study], needs: &[Need]) -> Choice {
         choice.limits_of_catalogue = known.map(|sensor| sensor.name.clone()).collect();
     }
     choice
+}
+
+/// Removes sensors from `remaining` and returns them, if a need ranks by scores of different test parts of one dataset.
+fn take_test_parts_apart(
+    remaining: &mut Vec<&Sensor>,
+    studies: &[Study],
+    names: &[String],
+    needs: &[Need],
+) -> Vec<Dropped> {
+    let ranks = needs.iter().flat_map(|need| &need.ranks);
+    let metrics: Vec<&str> = ranks.filter_map(|of| Some(of.score()?.0)).collect();
+    let left = studies.iter().zip(names);
+    let left = left.filter(|(_, name)| remaining.iter().any(|sensor| sensor.name == **name));
+    let left: Vec<(&Study, &String)> = left.collect();
+    let mut reasons: BTreeMap<&str, String> = BTreeMap::new();
+    for (at, (study, name)) in left.iter().enumerate() {
+        for (other, other_name) in &left[at + 1..] {
+            let of_studies = Sides {
+                a: *study,
+                b: *other,
+            };
+            let of_names = Sides {
+                a: name.as_str(),
+                b: other_name.as_str(),
+            };
+            let mut metrics = metrics.iter();
+            if let Some(reason) =
+                metrics.find_map(|metric| barred_by_split(metric, of_studies, of_names))
+            {
+                reasons.entry(of_names.b).or_insert_with(|| reason.clone());
+                reasons.entry(of_names.a).or_insert(reason);
+            }
+        }
+    }
+    let mut apart = Vec::new();
+    remaining.retain(|sensor| match reasons.remove(sensor.name.as_str()) {
+        Some(reason) => {
+            apart.push(Dropped::new(sensor, reason));
+            false
+        }
+        None => true,
+    });
+    apart
 }
 
 fn evidence(studies: &[Study], needs: &[Need], choice: &Choice) -> Vec<Evidence> {
@@ -190,5 +235,49 @@ impl Choice {
             true => alone,
             false => format!("{alone}; against these places, {}", listed(&against)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::catalogue;
+
+    #[test]
+    fn results_on_different_test_parts_of_one_dataset_have_no_place() {
+        let study = |name: &str, dataset: &str, seed: &str| {
+            let entries = [
+                ("dataset", dataset),
+                ("split", "by-point 70/20/10"),
+                ("seed", seed),
+                ("part", "test"),
+            ];
+            Study {
+                sensor: name.to_owned(),
+                provenance: entries
+                    .map(|(key, text)| (key.to_owned(), text.to_owned()))
+                    .to_vec(),
+                ..catalogue::find("GelSight").expect("there").as_study()
+            }
+        };
+        let needs = Need::parse("normal force").expect("a need");
+        let one = || study("one", "sha256:1", "1");
+        let other = || study("other", "sha256:2", "1");
+        let choice = choose_results(&[one(), study("two", "sha256:1", "2"), other()], &needs);
+        let ranked: Vec<&str> = choice.ranked.iter().map(|of| of.name.as_str()).collect();
+        assert_eq!(ranked, ["other"]);
+        let apart: Vec<&str> = choice.apart.iter().map(|of| of.name.as_str()).collect();
+        assert_eq!(apart, ["one", "two"]);
+        for dropped in &choice.apart {
+            let expected = "the test parts differ: one was tested on part test, ";
+            assert!(dropped.reason.starts_with(expected), "{dropped:?}");
+        }
+        assert_eq!(choice.values().rows[1].plain()[..2], ["one", "not ranked"]);
+        let mut unscored = study("two", "sha256:1", "2");
+        unscored.scores.clear();
+        let alone = choose_results(&[one(), unscored], &needs);
+        assert_eq!((alone.ranked.len(), alone.apart.len()), (1, 0), "{alone:?}");
+        let same = choose_results(&[one(), study("two", "sha256:1", "1"), other()], &needs);
+        assert_eq!((same.ranked.len(), same.apart.len()), (3, 0), "{same:?}");
     }
 }

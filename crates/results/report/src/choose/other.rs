@@ -20,10 +20,13 @@ impl Property {
                 });
                 shown.collect()
             }
-            Property::Size => {
+            // Sources order outer dimensions differently, so that none of them is the thickness.
+            Property::Size | Property::Width | Property::Thickness => {
                 let size = sensor.size.iter();
-                size.map(|of| format!("{} mm ({})", of.shown(), of.conditions))
-                    .collect()
+                let size = size.map(|of| format!("{} mm ({})", of.shown(), of.conditions));
+                let results = sensor.results.iter();
+                let alike = results.filter(|result| self.is_alike(result));
+                size.chain(alike.map(shown)).collect()
             }
             _ => {
                 let results = sensor.results.iter();
@@ -57,6 +60,7 @@ impl Property {
             Property::FrameRate => metric == "measurement_rate",
             Property::Resolution(_) => metric == "spatial_resolution",
             Property::Thickness => metric == "gel_thickness",
+            Property::Size | Property::Width => (metric, channel) == ("intrinsic", "thickness"),
             Property::GelThickness => {
                 metric == "gel_thickness" || (metric, channel) == ("intrinsic", "thickness")
             }

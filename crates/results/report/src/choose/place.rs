@@ -83,23 +83,14 @@ mod tests {
                 share: (!is_bound).then_some(*share),
                 part: None,
                 is_bound,
+                is_unmet: false,
                 is_unsure: false,
             }],
         };
         Choice {
             ranked: shares.iter().map(candidate).collect(),
-            open: Vec::new(),
-            dropped: Vec::new(),
-            barred: Vec::new(),
-            unplaced: Vec::new(),
-            apart: Vec::new(),
-            others: Vec::new(),
-            other_definitions: Vec::new(),
-            unknown: Vec::new(),
             evidence: Some(Vec::new()),
-            spread: None,
-            simulated: false,
-            limits_of_catalogue: Vec::new(),
+            ..Choice::default()
         }
     }
 

@@ -96,6 +96,14 @@ impl Property {
         matches!(self, Property::Error("Pxy" | "Fxy"))
     }
 
+    /// Currency of a price; `None` for other properties.
+    pub(super) fn currency(self) -> Option<&'static str> {
+        match self {
+            Property::Price(currency) => Some(currency),
+            _ => None,
+        }
+    }
+
     /// Metric and channel of the score that the property uses; `None` for properties other than scores.
     pub(super) fn score(self) -> Option<(&'static str, &'static str)> {
         match self {

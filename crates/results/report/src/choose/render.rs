@@ -6,7 +6,7 @@ use maud::html;
 use serde_json::json;
 use taceva_core::{by_count, counted};
 
-use super::{Candidate, Choice, Dropped, Property, Step};
+use super::{Candidate, Choice, Property, Step};
 use crate::html::Document;
 use crate::names::listed;
 use crate::number::{fixed, numeral};
@@ -97,8 +97,12 @@ impl Choice {
             ("not ranked", &self.barred),
             ("not ranked", &self.apart),
         ] {
-            let words = |of: &Dropped| format!("{}: {word}, because {}.", of.name, of.reason);
-            table.note_all(all.iter().map(words));
+            let reasons = taceva_core::distinct(all.iter().map(|of| of.reason.as_str()));
+            for reason in reasons {
+                let alike = all.iter().filter(|of| of.reason == reason);
+                let names: Vec<String> = alike.map(|of| of.name.clone()).collect();
+                table.note(format!("{}: {word}, because {reason}.", first(&names)));
+            }
         }
         let mut reasons: BTreeMap<&str, Vec<String>> = BTreeMap::new();
         for unplaced in &self.unplaced {
@@ -154,6 +158,16 @@ impl Choice {
         let mut steps = all().flat_map(|candidate| &candidate.steps);
         if steps.any(|step| matches!(step.property, Property::Price(_))) {
             table.note("Prices are in the currency of their source and not converted. Only exact prices of ready sensors meet a bound.");
+        }
+        let currencies = self.other_currencies.iter();
+        let currencies: Vec<String> = currencies
+            .map(|(currency, count)| format!("{} in {currency}", counted(*count, "sensor")))
+            .collect();
+        if !currencies.is_empty() {
+            table.note(format!(
+                "Not compared with the bound, because the price has another currency: {}. Choose again with a bound in that currency.",
+                listed(&currencies)
+            ));
         }
         let mut steps = all().flat_map(|candidate| &candidate.steps);
         if steps.any(|step| step.property == Property::Width) {

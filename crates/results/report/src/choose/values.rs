@@ -47,7 +47,10 @@ impl Choice {
                 if let Some(reason) = reason.filter(|_| !mark.is_empty()) {
                     marks.entry(mark).or_default().insert(reason);
                 }
-                cells.push(step.map_or_else(String::new, |step| cell(step, mark)));
+                let mut of_bounds = candidate.steps.iter();
+                let is_unmet = of_bounds.any(|step| step.property == *property && step.is_unmet);
+                let unmet = if is_unmet { " (not met)" } else { "" };
+                cells.push(step.map_or_else(String::new, |step| cell(step, mark) + unmet));
             }
             table.push(cells.into_iter().map(Cell::text));
         }

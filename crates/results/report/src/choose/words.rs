@@ -224,6 +224,8 @@ pub(super) const QUANTITIES: &[Quantity] = &[
     quality("rate", "Hz", Property::FrameRate),
     quality("area", "mm²", Property::FieldOfView),
     quality("thickness", "mm", Property::Thickness),
+    quality("sensor thickness", "mm", Property::Thickness),
+    quality("height", "mm", Property::Thickness),
     quality("gel thickness", "mm", Property::GelThickness),
     quality("width", "mm", Property::Width),
     quality("size", "mm", Property::Size),

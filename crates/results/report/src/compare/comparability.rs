@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use taceva_core::counted;
 use taceva_metrics::Sides;
 
 use crate::names::listed;
@@ -70,8 +69,7 @@ pub(super) fn notes(studies: &[Study], names: &[String]) -> Option<String> {
 /// Description of the samples that demonstrate the skill of a study.
 fn ground(study: &Study) -> String {
     let of = |key: &str| study.stated(key);
-    let n = study.of_metric("skill").map(|skill| skill.n).max();
-    let samples = n.map(|n| counted(n, "sample"));
+    let samples = study.tested_count();
     let data = of("dataset").map(|digest| {
         let short: String = digest.chars().take(SHORT).collect();
         format!("of {short}")

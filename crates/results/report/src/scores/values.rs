@@ -11,6 +11,7 @@ use super::main::is_main;
 use super::mark::{BARRED, UNPROVEN};
 use super::{ScoreCell, ScoreRow, ScoreTable};
 use crate::compare::{CompareRequest, QUESTIONS};
+use crate::names::listed;
 use crate::results::Study;
 use crate::table::{Align, Cell, Column, Estimate, Table, Words};
 
@@ -87,6 +88,7 @@ impl ScoreTable {
         }
         table.note_all(notes.0.iter().map(Note::sentence));
         table.note_all(has_origins.then_some(origins::LEGEND));
+        table.note_all(test_parts(studies, &self.names));
         if studies.iter().any(|study| study.source == "published") {
             table.note(
                 "Source, conditions and date of each published number: taceva catalogue show NAME.",
@@ -242,6 +244,22 @@ fn fact_line(quantity: &str, unit: &str, cells: Vec<Option<Cell>>) -> Line<'stat
     let key = line.key();
     line.name = Words::new(Better::of(metric).map_or(key.clone(), |better| better.beside(&key)));
     line
+}
+
+/// Sentences on the tested samples of each study; studies with one text share a sentence.
+fn test_parts(studies: &[Study], names: &[String]) -> Vec<String> {
+    let text = |study: &Study| {
+        let known = [study.tested_count(), study.tested_part()];
+        known.into_iter().flatten().collect::<Vec<_>>().join(", ")
+    };
+    let texts: Vec<String> = studies.iter().map(text).collect();
+    let known = taceva_core::distinct(texts.iter().filter(|text| !text.is_empty()));
+    let sentences = known.into_iter().map(|text| {
+        let alike = texts.iter().zip(names).filter(|(own, _)| *own == text);
+        let names: Vec<String> = alike.map(|(_, name)| name.clone()).collect();
+        format!("Tested on {text}: {}.", listed(&names))
+    });
+    sentences.collect()
 }
 
 /// Adds the facts of `studies` to the lines. Several facts with one name share a cell.

@@ -110,6 +110,11 @@ impl LiveSpec {
         &self.sensor.selector
     }
 
+    /// Axes of the transducer in the rig file; `None` for a transducer that an option names.
+    pub fn force_axes(&self) -> Option<SignedAxes> {
+        self.axes
+    }
+
     /// Instruments that measure the labels: the transducer, and the sensor if it has a certificate.
     fn traceability(&self) -> Vec<Traceability> {
         let traced_as = |instrument, named: &Named| {

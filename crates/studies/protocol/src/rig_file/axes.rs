@@ -58,10 +58,14 @@ impl SignedAxes {
         let axes = SignedAxes(axes);
         match axes.determinant() {
             determinant if determinant > 0.5 => Ok(axes),
-            determinant if determinant < -0.5 => Err(format!(
-                "`axes` are left-handed ({}), which no rotation produces: change the sign of the wrong axis",
-                written(&words)
-            )),
+            determinant if determinant < -0.5 => {
+                let one_sign = [0, 1, 2].map(|axis| axes.reversed(&[axis]).to_string());
+                Err(format!(
+                    "`axes` are left-handed ({}), which no rotation produces: expected another sign of the wrong axis: {}",
+                    written(&words),
+                    one_sign.join(" or ")
+                ))
+            }
             _ => Err(format!(
                 "`axes` name one axis twice ({}): expected each of x, y and z once",
                 written(&words)
@@ -81,6 +85,28 @@ impl SignedAxes {
             device[along.axis] = along.sign * value;
         }
         device
+    }
+
+    /// Both frames with the opposite z: after half a turn about x, and about y.
+    ///
+    /// ```
+    /// use taceva_protocol::SignedAxes;
+    /// let [about_x, about_y] = SignedAxes::read(["x", "y", "z"])?.turned_over();
+    /// assert_eq!(about_x.to_string(), r#"["x", "-y", "-z"]"#);
+    /// assert_eq!(about_y.to_string(), r#"["-x", "y", "-z"]"#);
+    /// # Ok::<(), String>(())
+    /// ```
+    pub fn turned_over(self) -> [SignedAxes; 2] {
+        [1, 0].map(|beside| self.reversed(&[beside, 2]))
+    }
+
+    /// The same axes, with the opposite sign of the axes of the sensor at `positions`.
+    fn reversed(self, positions: &[usize]) -> SignedAxes {
+        let mut axes = self.0;
+        for at in positions {
+            axes[*at].sign = -axes[*at].sign;
+        }
+        SignedAxes(axes)
     }
 
     /// Components in the sensor frame that a transducer measures, if it measures the components `device` in its own frame.
@@ -168,7 +194,10 @@ mod tests {
     #[test]
     fn what_is_no_frame_is_refused_by_what_is_wrong_with_it() {
         let refused = |words: [&str; 3]| SignedAxes::read(words).expect_err("no frame");
-        assert!(refused(["x", "y", "-z"]).contains("left-handed (x, y, -z)"));
+        let left = refused(["x", "y", "-z"]);
+        assert!(left.contains("left-handed (x, y, -z)"));
+        let right = r#": ["-x", "y", "-z"] or ["x", "-y", "-z"] or ["x", "y", "z"]"#;
+        assert!(left.ends_with(right), "{left}");
         assert!(refused(["x", "x", "z"]).contains("one axis twice"));
         assert!(refused(["x", "north", "z"]).contains("`north` names no axis"));
         assert!(refused(["--x", "y", "z"]).contains("`--x` names no axis"));

@@ -116,10 +116,10 @@ impl fmt::Display for Question {
                 "jog the tip with the robot's own controls until it just touches the middle of the gel, then let go",
             ),
             Question::Jog(Spot::AlongX) => f.write_str(
-                "raise the tip off the gel by less than half a millimetre, then jog it 5 to 10 mm along x of the sensor only",
+                "raise the tip off the gel by less than half a millimetre; then jog it 5 to 10 mm along x of the sensor only, such as to the right of its picture",
             ),
             Question::Jog(Spot::AlongY) => f.write_str(
-                "return to the middle, then jog 5 to 10 mm along y of the sensor; choose the direction for which z points into the gel",
+                "return to the middle; then jog 5 to 10 mm along y of the sensor: a quarter turn clockwise from x, looking at the gel from outside",
             ),
             Question::Resume(ChangedTouch {
                 height_mm,
@@ -197,6 +197,10 @@ mod tests {
             (Question::Light("S1".to_owned()), "`S1`"),
             (Question::Unload, "take every load off the force transducer"),
             (Question::Hang { mass_g: 100.0 }, "hang 100 g on the force"),
+            (
+                Question::Jog(Spot::AlongY),
+                "a quarter turn clockwise from x, looking at the gel from outside",
+            ),
             (Question::GoOn, "keep your hands clear"),
             (Question::Acknowledge(Fault::Collision), "collision"),
             (
