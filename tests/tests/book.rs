@@ -20,11 +20,13 @@ fn links(text: &str) -> Vec<&str> {
     found
 }
 
-/// Names of the pages of `docs/`, without the summary.
+/// Names of the pages of `docs/` and `docs/decisions/`, without the summary.
 fn pages() -> Vec<String> {
-    let entries = fs::read_dir(root().join("docs")).expect("the folder of pages");
-    let names = entries.map(|entry| entry.expect("readable").file_name());
-    let names = names.map(|name| name.to_string_lossy().into_owned());
+    let names = ["", "decisions/"].into_iter().flat_map(|folder| {
+        let entries = fs::read_dir(root().join("docs").join(folder)).expect("a folder of pages");
+        let names = entries.map(|entry| entry.expect("readable").file_name());
+        names.map(move |name| format!("{folder}{}", name.to_string_lossy()))
+    });
     names
         .filter(|name| name.ends_with(".md") && name != "SUMMARY.md")
         .collect()
