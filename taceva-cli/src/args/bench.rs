@@ -84,9 +84,9 @@ pub(crate) struct BenchStudy {
     #[arg(long, value_name = "NAME")]
     pub(crate) study: Option<String>,
     /// Numbers of calibration points, separated by commas
-    #[arg(long, value_name = "N,…", value_delimiter = ',', default_values = ["80", "160", "320"])]
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_values = ["100", "200", "400"])]
     pub(crate) points: Vec<u32>,
-    /// Numbers of folds, separated by commas: none scores a tenth of the points by one model, 5 scores all points by five models
+    /// Numbers of folds, separated by commas: none scores the test part by one model, 5 scores all points by five models
     #[arg(long, value_name = "K,…", value_delimiter = ',', value_parser = Folds::read, default_values = ["none", "3", "5"])]
     pub(crate) folds: Vec<Folds>,
     /// Models, separated by commas. The scene's own model has the settings of the scene, others their defaults

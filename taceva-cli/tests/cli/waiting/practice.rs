@@ -3,7 +3,7 @@
 use std::process::Command;
 use std::time::Duration;
 
-use taceva_core::{Deadline, Rig, Robot as _};
+use taceva_core::{Deadline, Rig};
 use taceva_dataset::{Dataset, Source};
 use taceva_drivers::{Drivers, open};
 use taceva_protocol::{Carried, Jogged, RigFile};
