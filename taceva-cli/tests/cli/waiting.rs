@@ -9,6 +9,7 @@ mod plugin_carousel;
 mod plugin_dmx;
 mod plugin_line;
 mod rig_check;
+mod rig_show;
 #[cfg(target_os = "linux")]
 mod rig_weight;
 mod sweep_slurm;

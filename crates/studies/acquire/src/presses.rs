@@ -262,7 +262,7 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
         .settings
         .extend(rig.map(of_rig_file).unwrap_or_default());
     let instruments = rig.map(instruments::of_rig).unwrap_or_default();
-    facts.traceability = instruments::kept(instruments, source, &facts.settings);
+    facts.traceability = instruments::kept(instruments, &facts.settings);
     facts.recorded_on = instruments::day_of(source);
     RecordingSpec::new(facts, plan.truth_channels())
 }
