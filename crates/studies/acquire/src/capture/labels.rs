@@ -149,3 +149,64 @@ impl Labels {
         sample.truth.get(position)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::sync_channel;
+
+    use taceva_core::{Frame, FrameInfo, PixelFormat, Stamp};
+
+    use super::super::streams::Counts;
+    use super::super::track::Track;
+    use super::*;
+
+    fn taken(valid_s: f64) -> Taken {
+        let info = FrameInfo {
+            width: 1,
+            height: 1,
+            format: PixelFormat::Gray8,
+        };
+        let stamp = Stamp {
+            valid_s,
+            received_s: None,
+        };
+        Taken {
+            frame: Frame::new(info, vec![0]).expect("a byte"),
+            stamp,
+            sent: None,
+        }
+    }
+
+    #[test]
+    fn frames_without_a_force_are_counted_by_cause() {
+        let track = Track::new(0.01, None);
+        for at_s in [1.0, 1.01, 1.2, 1.21] {
+            track.push(at_s, Wrench::default());
+        }
+        let (sender, queue) = sync_channel(ROOM);
+        for valid_s in [0.5, 0.9, 1.005, 1.1, 1.15, 1.18, 1.205, 1.3] {
+            sender.send(taken(valid_s)).expect("there is room");
+        }
+        drop(sender);
+        let counts = Counts::of(true);
+        let streams = Streams {
+            queue,
+            track: Some(&track),
+            counts: &counts,
+        };
+        let mut labels = Labels::new(Channels::new([Channel::FZ]).expect("one"));
+        let mut known = 0;
+        while labels.collect(&streams) {
+            while let Some(labelled) = labels.next(&streams) {
+                known += u32::from(labelled.wrench.is_some());
+            }
+        }
+        assert_eq!(known, 2);
+        let expected = LostForces {
+            before: 2,
+            in_gaps: 3,
+            late: 1,
+        };
+        assert_eq!(labels.lost(), expected);
+    }
+}

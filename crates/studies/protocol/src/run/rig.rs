@@ -49,6 +49,8 @@ pub(super) struct State {
     pub(super) lag_mm: f64,
     /// Number of attempts to clear a halt that will time out.
     pub(super) unheard: u32,
+    /// Number of attempts to clear a halt.
+    pub(super) readied: u32,
     /// Height in mm of an obstacle that a guard thread reports once to this supervisor.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,
     questions: u32,
@@ -71,6 +73,7 @@ impl Rig {
             stuck: false,
             lag_mm: 0.0,
             unheard: 0,
+            readied: 0,
             obstacle: None,
             questions: 0,
             force: Box::new(force),
@@ -163,6 +166,7 @@ impl Robot for Rig {
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
         let mut state = self.state();
+        state.readied += 1;
         if state.unheard > 0 {
             state.unheard -= 1;
             return Err(error(ErrorKind::Timeout, "end the halt"));
