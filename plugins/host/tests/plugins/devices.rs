@@ -93,6 +93,32 @@ fn frames_are_copied_or_lent_and_the_same() {
 }
 
 #[test]
+fn frames_have_the_numbers_that_the_device_gave_them_and_none_where_it_gives_none() {
+    let flagged = "FRAME_FLAGS=(TACEVA_FRAME_NUMBERED|TACEVA_FRAME_DROPPED)";
+    for (macros, expected) in [
+        // Two frames are lost after each.
+        (
+            &["FRAME_FLAGS=TACEVA_FRAME_NUMBERED", "FRAME_STEP=3"][..],
+            [Some(3), Some(6), Some(9)],
+        ),
+        // The device flags a loss before each frame, and its numbers have no gap.
+        (&[flagged, "FRAME_STEP=1"], [Some(1), Some(3), Some(5)]),
+        (&[], [None; 3]),
+    ] {
+        let Some(fixture) = Fixture::built(macros) else {
+            return;
+        };
+        let mut eye = eye(&fixture);
+        eye.start(SECOND).expect("starts");
+        let numbers = [(); 3].map(|()| {
+            capture(&mut eye).expect("a frame");
+            eye.sequence()
+        });
+        assert_eq!(numbers, expected, "{macros:?}");
+    }
+}
+
+#[test]
 fn a_blocked_capture_ends_within_50_ms_of_an_interrupt_and_the_sensor_stays_usable() {
     let Some(fixture) = Fixture::built(&["BLOCK"]) else {
         return;
