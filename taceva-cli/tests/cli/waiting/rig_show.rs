@@ -47,6 +47,7 @@ fn show_of_a_run_names_its_instruments_and_says_that_the_robot_has_no_certificat
         "measured  force: certificate D-K-1 of a laboratory, 2026-05-12, serial 42; read by sri/m8128",
         "measured  robot: no certificate; read by ufactory/xarm",
         "setting   force_latency_ms = 0",
+        "setting   robot_Fz_max_N = 1.8",
         "setting   sensor_driver = camera/mjpeg",
     ] {
         let is_there = shown.lines().any(|shown| shown.starts_with(line));
