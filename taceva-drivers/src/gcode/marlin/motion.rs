@@ -64,8 +64,10 @@ impl Printer {
         for command in ["G21", "G90", &straight(&target.position, speed)] {
             self.order(command)?;
         }
-        self.link.send(WAIT).map_err(refused)?;
+        let lines = self.marked(&format!("{WAIT}\n"));
+        self.link.send(&lines).map_err(refused)?;
         let mut heard = monotonic();
+        let mut is_marked = false;
         loop {
             if self.stop.is_halted() {
                 return Err(self.stop.halted());
@@ -77,7 +79,8 @@ impl Printer {
             }
             let answer = self.link.answer(LOOK_EVERY);
             match answer {
-                Some(Answer::Ok) => break,
+                Some(Answer::Mark(mark)) if mark == self.mark => is_marked = true,
+                Some(Answer::Ok) if is_marked => break,
                 Some(Answer::Fault(why)) => return Err(refused(CommandError::Fault(why))),
                 Some(Answer::Refused(why)) => {
                     let command = WAIT.to_owned();
