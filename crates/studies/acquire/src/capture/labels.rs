@@ -74,8 +74,11 @@ impl Labels {
         if self.has_ended {
             return !self.waiting.is_empty();
         }
-        let mut next = streams.next();
-        for _ in 0..ROOM {
+        for place in 0..ROOM {
+            let next = match place {
+                0 => streams.next(),
+                _ => streams.next_at_once(),
+            };
             match next {
                 Ok(Some(taken)) => self.waiting.push_back(taken),
                 Ok(None) => break,
@@ -84,7 +87,6 @@ impl Labels {
                     break;
                 }
             }
-            next = streams.next_at_once();
         }
         true
     }
@@ -178,13 +180,16 @@ mod tests {
     }
 
     #[test]
-    fn frames_without_a_force_are_counted_by_cause() {
+    fn every_frame_without_a_force_is_counted_by_cause() {
         let track = Track::new(0.01, None);
         for at_s in [1.0, 1.01, 1.2, 1.21] {
             track.push(at_s, Wrench::default());
         }
-        let (sender, queue) = sync_channel(ROOM);
-        for valid_s in [0.5, 0.9, 1.005, 1.1, 1.15, 1.18, 1.205, 1.3] {
+        // One more than are received at once.
+        let times_s = [0.5, 0.9, 1.005, 1.1, 1.15, 1.18, 1.205, 1.3, 1.4];
+        assert_eq!(times_s.len(), ROOM + 1);
+        let (sender, queue) = sync_channel(times_s.len());
+        for valid_s in times_s {
             sender.send(taken(valid_s)).expect("there is room");
         }
         drop(sender);
@@ -205,7 +210,7 @@ mod tests {
         let expected = LostForces {
             before: 2,
             in_gaps: 3,
-            late: 1,
+            late: 2,
         };
         assert_eq!(labels.lost(), expected);
     }
