@@ -178,6 +178,7 @@ mod tests {
         bench.rest(Duration::from_secs(1)).expect("it rests");
         assert_eq!([stamp_ms(), stamp_ms()], [8_040, 8_070]);
     }
+
     #[test]
     fn a_frame_keeps_the_number_and_the_file_that_its_camera_gave_it() {
         let bench = Arc::new(Clock(Mutex::new(Duration::ZERO)));

@@ -140,6 +140,7 @@ mod tests {
         ];
         assert_eq!(all, BTreeMap::from(expected));
     }
+
     #[test]
     fn the_limits_of_the_motions_are_settings_with_their_units() {
         let limits = RigLimits {
