@@ -346,7 +346,8 @@ impl Sensor for Gel {
             _ if state.is_frozen => state.touched,
             // Another depth looks otherwise, as a camera that is not frozen shows it.
             true => {
-                state.touched = [60, 60, 90, z.to_be_bytes()[2]];
+                let [_, coarse, fine, ..] = z.to_be_bytes();
+                state.touched = [60, 90, coarse, fine];
                 state.touched
             }
             false => [60; 4],

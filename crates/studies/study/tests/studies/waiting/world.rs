@@ -93,7 +93,7 @@ impl World {
             is_unplugged: false,
             camera: None,
             pictures: 0,
-            touched: [60, 60, 90, 1],
+            touched: [60, 90, 0, 0],
             is_frozen: false,
             changer: Misfortune::None,
             changes: Vec::new(),
