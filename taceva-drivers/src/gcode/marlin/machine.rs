@@ -95,7 +95,8 @@ impl Printer {
         Ok(printer)
     }
 
-    /// Lines `before`, and a request for the echo of a new mark. The echo follows the end of all earlier commands. Unlike the echo, an `ok` may come twice.
+    /// Lines `before`, and a request for the echo of a new mark, which the printer sends once it has carried these out. Each mark has its own number, so that
+    /// an echo or an `ok` that comes twice ends no later command.
     pub(super) fn marked(&mut self, before: &str) -> String {
         self.mark = self.mark.wrapping_add(1);
         format!("{before}M118 {MARK}{}", self.mark)
