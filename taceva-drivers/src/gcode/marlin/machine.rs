@@ -115,6 +115,7 @@ impl Printer {
         mut other: impl FnMut(Answer),
     ) -> Result<(), CommandError> {
         let lines = self.marked(before);
+        let unknown = format!("\"M118 {MARK}{}\"", self.mark);
         let until = monotonic() + patience;
         self.link.send(&lines)?;
         let mut is_marked = false;
@@ -124,6 +125,11 @@ impl Printer {
                 Some(Answer::Mark(mark)) if mark == self.mark => is_marked = true,
                 Some(Answer::Ok) if is_marked => return Ok(()),
                 Some(Answer::Fault(why)) => return Err(CommandError::Fault(why)),
+                // Firmware without this command.
+                Some(Answer::Refused(why)) if why.contains(&unknown) => {
+                    let command = "M118".to_owned();
+                    return Err(CommandError::Refused { command, why });
+                }
                 Some(answer) => other(answer),
                 None => {
                     let command = lines.replace('\n', "`, `");

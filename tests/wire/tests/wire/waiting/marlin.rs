@@ -135,6 +135,26 @@ fn a_motion_that_is_given_up_is_stopped_and_the_next_one_arrives() {
 }
 
 #[test]
+fn a_motion_whose_wait_is_lost_is_stopped_and_does_not_count_as_ended() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (home, _) = printer.pose(PATIENCE).expect("a pose");
+    setup.emulator.lose("M400");
+    let moved = printer.move_to(lower(home, 15.0), speed(1.0), PATIENCE);
+    let error = moved.expect_err("nothing says when it rests");
+    assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+    let truth = setup.bench.truth();
+    assert!(!truth.is_moving, "{truth:?}");
+}
+
+#[test]
+fn firmware_without_an_echo_is_refused_by_that_command() {
+    let refused = of(Firmware::WithoutEcho).try_open().map(drop);
+    let said = refused.expect_err("refused").to_string();
+    assert!(said.contains("`M118` was refused"), "{said}");
+}
+
+#[test]
 fn firmware_that_stops_in_turn_is_refused() {
     let refused = of(Firmware::StopsInTurn)
         .try_open()
