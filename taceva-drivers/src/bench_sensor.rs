@@ -50,6 +50,14 @@ impl Sensor for OnBench {
         Ok(Stamp::at(now))
     }
 
+    fn sequence(&self) -> Option<u64> {
+        self.sensor.sequence()
+    }
+
+    fn sent(&self) -> Option<&[u8]> {
+        self.sensor.sent()
+    }
+
     fn stop(&mut self) -> Result<(), DriverError> {
         self.sensor.stop()
     }
@@ -92,6 +100,33 @@ mod tests {
         fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
             let time_ms = self.0.remove(0);
             Ok(Stamp::at(Duration::from_millis(time_ms)))
+        }
+    }
+
+    /// Sensor that numbers its frames from 40 and sends each as a file.
+    #[derive(Default)]
+    struct Sending {
+        frames: u64,
+        file: Vec<u8>,
+    }
+
+    impl Sensor for Sending {
+        fn frame_info(&self) -> FrameInfo {
+            FRAME
+        }
+
+        fn capture(&mut self, _: FrameMut<'_>, _: Deadline) -> Result<Stamp, DriverError> {
+            self.frames += 1;
+            self.file = format!("file {}", self.frames).into_bytes();
+            Ok(Stamp::at(Duration::from_millis(10 * self.frames)))
+        }
+
+        fn sequence(&self) -> Option<u64> {
+            Some(40 + self.frames)
+        }
+
+        fn sent(&self) -> Option<&[u8]> {
+            Some(&self.file)
         }
     }
 
@@ -142,5 +177,20 @@ mod tests {
         assert_eq!(stamp_ms(), 7_040);
         bench.rest(Duration::from_secs(1)).expect("it rests");
         assert_eq!([stamp_ms(), stamp_ms()], [8_040, 8_070]);
+    }
+
+    #[test]
+    fn a_frame_keeps_the_number_and_the_file_that_its_camera_gave_it() {
+        let bench = Arc::new(Clock(Mutex::new(Duration::ZERO)));
+        let mut sensor = OnBench::new(Box::new(Sending::default()), bench);
+        let mut byte = [0];
+        for frame in 1..=2 {
+            let into = FrameMut::new(FRAME, &mut byte).expect("a byte");
+            let taken = sensor.capture(into, Deadline::PASSED);
+            taken.expect("a frame");
+            assert_eq!(sensor.sequence(), Some(40 + frame));
+            let file = format!("file {frame}");
+            assert_eq!(sensor.sent(), Some(file.as_bytes()));
+        }
     }
 }

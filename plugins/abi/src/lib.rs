@@ -29,6 +29,6 @@ pub use plugin::{
     LIGHTING_FACTORY, MAGIC, Plugin, ROBOT_FACTORY, SENSOR_FACTORY,
 };
 pub use robot::{Motion, Pose, RobotCalls};
-pub use sensor::{FRAME_DROPPED, Frame, PixelFormat, SensorCalls};
+pub use sensor::{FRAME_DROPPED, FRAME_NUMBERED, Frame, PixelFormat, SensorCalls};
 pub use status::Status;
 pub use text::{TakeText, Text};

@@ -30,6 +30,8 @@ impl PixelFormat {
 
 /// Flag: the device lost frames between the last frame and this frame.
 pub const FRAME_DROPPED: u32 = 1;
+/// Flag: the device assigned `sequence`, so a gap means lost frames. Without the flag, `sequence` only counts captured frames. Since minor 4.
+pub const FRAME_NUMBERED: u32 = 2;
 
 /// `taceva_frame`: a picture, row by row from the top, without padding.
 ///
@@ -67,11 +69,11 @@ pub struct Frame {
     pub width: u32,
     /// Rows of pixels.
     pub height: u32,
-    /// [`FRAME_DROPPED`], or 0.
+    /// [`FRAME_DROPPED`] and [`FRAME_NUMBERED`], or 0.
     pub flags: u32,
     /// Reserved, 0.
     pub reserved: u32,
-    /// Frame number, assigned by the device. A gap means lost frames.
+    /// Frame number, which increases with each frame. With [`FRAME_NUMBERED`], a gap means lost frames.
     pub sequence: u64,
     /// Times of the frame. A frame is valid at the middle of the exposure, if known.
     pub stamp: Stamp,

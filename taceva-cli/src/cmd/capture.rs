@@ -301,3 +301,23 @@ fn summarise(
         ));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frames_without_a_force_are_shown_with_their_causes() {
+        let with = |before, in_gaps, late| {
+            let mut state = CaptureState::default();
+            (state.before_force, state.in_force_gaps, state.late_force) = (before, in_gaps, late);
+            causes(&state)
+        };
+        assert_eq!(with(0, 0, 0), "");
+        assert_eq!(
+            with(2, 3, 1),
+            ": 2 before the first reading, 3 in gaps between readings, 1 after which no reading came in time"
+        );
+        assert_eq!(with(0, 4, 0), ": 4 in gaps between readings");
+    }
+}

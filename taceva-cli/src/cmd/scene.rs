@@ -9,7 +9,8 @@ use taceva_drivers::Drivers;
 use taceva_metrics::LEAST_CLUSTERS;
 use taceva_models::{SplitInput, SplitSpec};
 use taceva_protocol::{
-    BuiltinScene, PhaseKind, Plan, PlanReason, PlannedPress, RigLimits, Subject, calm_threshold_n,
+    BuiltinScene, DepthOrigin, PhaseKind, Plan, PlanReason, PlannedPress, RigLimits, Subject,
+    calm_threshold_n,
 };
 
 use super::{Context, Usage};
@@ -87,6 +88,9 @@ pub(super) fn print_rigs(planned: &PlannedScene, drivers: &Drivers, context: &Co
             limits.overshoot.healthy_mm,
         ));
         context.say(format_args!("rig: {}", threshold(&study.plan, limits)));
+        if let Some(line) = late_zero(&study.plan) {
+            context.say(format_args!("rig: {line}"));
+        }
         if let Some(line) = shifted(&study.plan) {
             context.say(format_args!("rig: {line}"));
         }
@@ -121,6 +125,17 @@ fn threshold(plan: &Plan, limits: &RigLimits) -> String {
             "a force above `threshold_N` = {threshold_n} under [protocol.contact] halts the robot in the air; 5 times the noise that taceva rig check prints must be below it"
         ),
     }
+}
+
+/// Text on depths that count from the first contact, which lies below the surface; `None` for depths from the surface.
+fn late_zero(plan: &Plan) -> Option<String> {
+    let contact = &plan.contact;
+    (contact.depth_from.value == DepthOrigin::Contact).then(|| {
+        format!(
+            "depths and the limit of depth count from the first force above {} N, up to a step of {} mm below the surface, or more: write depth_from = \"surface\" under [protocol.contact] of the scene",
+            contact.threshold_n.value, contact.step_mm.value
+        )
+    })
 }
 
 /// Text on the presses of `plan` with a lateral motion in contact; `None` without such presses.

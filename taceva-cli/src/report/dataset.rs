@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use taceva_core::{Traceability, counted, shown};
+use taceva_core::{Instrument, Traceability, counted, shown};
 use taceva_dataset::{Dataset, Header, RecordedSessions, Source, Task};
 
 pub(crate) fn write(dataset: &Dataset, out: &mut dyn Write) -> io::Result<()> {
@@ -32,6 +32,11 @@ pub(crate) fn write(dataset: &Dataset, out: &mut dyn Write) -> io::Result<()> {
     }
     if header.traceability.is_empty() {
         line("measured", "by instruments that the dataset does not state")?;
+    } else {
+        for instrument in not_stated(header) {
+            let words = format!("{instrument}: no certificate; the dataset does not state it");
+            line("measured", &words)?;
+        }
     }
     for (name, value) in &header.settings {
         match name.as_str() {
@@ -91,6 +96,16 @@ fn origin(dataset: &Dataset) -> String {
         }
     });
     format!("{made}{}", days.unwrap_or_default())
+}
+
+/// Instruments of labels that the dataset does not name.
+fn not_stated(header: &Header) -> impl Iterator<Item = Instrument> {
+    let of_labels = [Instrument::Force, Instrument::Robot].into_iter();
+    of_labels.filter(move |instrument| {
+        let mut labels = header.channels.iter();
+        let is_stated = (header.traceability.iter()).any(|of| of.instrument == *instrument);
+        !is_stated && labels.any(|label| instrument.unit_of(label.name()).is_some())
+    })
 }
 
 /// Instrument with its certificate, driver and serial number.

@@ -291,6 +291,11 @@ fn a_rig_asks_for_devices_their_addresses_and_limits() {
     let stated = read(&bench, "stated.toml");
     let line = "footprint = { shape = \"rect\", half_x_mm = 16.0, half_y_mm = 18.0 }";
     assert!(stated.contains(line), "{stated}");
+    let zero = "[protocol.contact]\ndepth_from = \"surface\"";
+    assert!(
+        stated.contains(zero),
+        "a rig has no bench to match: {stated}"
+    );
     assert!(
         !stated.contains("sim/"),
         "the rig file names the devices: {stated}"

@@ -83,10 +83,8 @@ fn what_cannot_be_done_is_refused_with_the_line_and_what_is_known() {
     bench.refused("preview --rig lab.toml", 3, no_rig);
 }
 
-#[test]
-fn a_rig_without_a_sensing_area_keeps_no_metric_and_names_the_line_that_states_it() {
-    let bench = Bench::new();
-    let rig = r#"rig_version = 1
+/// Rig file of devices that a plan does not open.
+const RIG: &str = r#"rig_version = 1
 [robot]
 driver = "ufactory/xarm:host=127.0.0.1"
 carries = "indenter"
@@ -101,11 +99,32 @@ driver = "camera/mjpeg:url=http://127.0.0.1:9/"
 Pz_max_mm = 1.0
 Fz_max_N = 2.0
 "#;
-    bench.write("lab.toml", rig);
-    bench.write(
-        "s.toml",
-        "scene_version = 1\nname = \"gel\"\n[model]\nname = \"ridge\"\n[protocol.calibration]\npoints = 60\n",
-    );
+
+/// Scene for this rig file.
+const GEL: &str = "scene_version = 1\nname = \"gel\"\n[model]\nname = \"ridge\"\n[protocol.calibration]\npoints = 60\n";
+
+#[test]
+fn a_plan_for_a_rig_states_where_depths_count_from_unless_it_is_the_surface() {
+    let bench = Bench::new();
+    let area = "footprint = { shape = \"disc\", radius_mm = 8.0 }\n[limits]";
+    bench.write("lab.toml", &RIG.replace("[limits]", area));
+    bench.write("s.toml", GEL);
+    let line = "rig: depths and the limit of depth count from the first force above 0.02 N, up to a step of 0.1 mm below the surface";
+    let ran = bench.run("plan s.toml --rig lab.toml");
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    assert!(ran.err.contains(line), "{}", ran.err);
+    let surface = format!("{GEL}[protocol.contact]\ndepth_from = \"surface\"\n");
+    bench.write("s.toml", &surface);
+    let ran = bench.run("plan s.toml --rig lab.toml");
+    assert_eq!(ran.code, 0, "{}{}", ran.out, ran.err);
+    assert!(!ran.err.contains("depths and the limit"), "{}", ran.err);
+}
+
+#[test]
+fn a_rig_without_a_sensing_area_keeps_no_metric_and_names_the_line_that_states_it() {
+    let bench = Bench::new();
+    bench.write("lab.toml", RIG);
+    bench.write("s.toml", GEL);
     let plan = "plan s.toml --rig lab.toml";
     let ran = bench.run(plan);
     assert_eq!(ran.code, 2, "{}{}", ran.out, ran.err);
@@ -117,7 +136,7 @@ Fz_max_N = 2.0
         "{}",
         ran.err
     );
-    let stated = rig.replace(
+    let stated = RIG.replace(
         "[limits]",
         "footprint = { shape = \"disc\", radius_mm = 8.0 }\n[limits]",
     );

@@ -10,6 +10,7 @@ mod plugin_dmx;
 mod plugin_line;
 mod practice;
 mod rig_check;
+mod rig_show;
 #[cfg(target_os = "linux")]
 mod rig_weight;
 mod sweep_slurm;

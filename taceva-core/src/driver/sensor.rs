@@ -60,7 +60,7 @@ pub trait Sensor: Send {
     fn capture(&mut self, into: FrameMut<'_>, deadline: Deadline) -> Result<Stamp, DriverError>;
 
     /// Sequence number of the last frame; `None` if neither device nor link counts frames. The first number is arbitrary. A gap between two
-    /// numbers means that frames were not read in time.
+    /// numbers means that frames were lost, or not read in time.
     fn sequence(&self) -> Option<u64> {
         None
     }

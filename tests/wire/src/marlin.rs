@@ -34,6 +34,8 @@ pub enum Firmware {
     StopsAtOnce,
     /// Executes a stop after earlier commands.
     StopsInTurn,
+    /// Does not know `M118`.
+    WithoutEcho,
 }
 
 #[derive(Debug)]
@@ -54,6 +56,8 @@ struct Inside {
     last_line: i64,
     /// Number of numbered lines that will arrive damaged.
     damaged: u32,
+    /// Line that will be lost.
+    lost: Option<String>,
     /// Commands received while another one waits for the motions.
     lines: VecDeque<String>,
 }
@@ -88,6 +92,11 @@ impl Emulator {
     /// Damages the next numbered lines.
     pub fn damage(&self, lines: u32) {
         self.printer.inside().damaged = lines;
+    }
+
+    /// Loses the next line that is `line`.
+    pub fn lose(&self, line: &str) {
+        self.printer.inside().lost = Some(line.to_owned());
     }
 
     /// Restarts the count of lines, as a restart of the printer does.
@@ -181,6 +190,9 @@ impl Printer {
         if inside.is_killed || line.is_empty() {
             return String::new();
         }
+        if inside.lost.take_if(|lost| lost.as_str() == line).is_some() {
+            return String::new();
+        }
         let is_damaged = inside.damaged > 0 && line.starts_with('N');
         inside.damaged -= u32::from(is_damaged);
         let read = match is_damaged {
@@ -236,7 +248,9 @@ impl Printer {
                     "FIRMWARE_NAME:Marlin 2.1 emulated\nCap:EMERGENCY_PARSER:{is}\nCap:TACEVA_SIM:1\n{OK}"
                 )
             }
-            "M118" => format!("{}\n{OK}", line[4..].trim_start()),
+            "M118" if self.firmware != Firmware::WithoutEcho => {
+                format!("{}\n{OK}", line[4..].trim_start())
+            }
             _ => match Words::read(line)
                 .filter(|words| [0, 1].iter().any(|code| words.has('G', *code)))
             {

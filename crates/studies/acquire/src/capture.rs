@@ -164,7 +164,7 @@ pub fn capture(
     settings.extend(request.rig.as_ref().map(of_rig_file).unwrap_or_default());
     settings.extend(request.stated.clone());
     let facts = RecordingFacts::new(source, Clock::Monotonic, request.sensor.clone())
-        .with_traceability(kept(live.traceability(), source, &settings))
+        .with_traceability(kept(live.traceability(), &settings))
         .with_settings(settings)
         .with_recorded_on(day_of(source));
     let mut recorder =

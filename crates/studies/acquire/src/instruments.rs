@@ -28,15 +28,12 @@ pub(crate) fn of_rig(rig: &RigFile) -> Vec<Traceability> {
     [force, robot, sensor].into_iter().flatten().collect()
 }
 
-/// Instruments to store in a recording of `source`. Serial numbers are those that drivers reported in `settings`. Labels that are not measured need no
-/// certificate.
+/// Instruments to store in a recording. Serial numbers are those that drivers reported in `settings`.
 pub(crate) fn kept(
     instruments: Vec<Traceability>,
-    source: Source,
     settings: &BTreeMap<String, String>,
 ) -> Vec<Traceability> {
     let mut kept = instruments;
-    kept.retain(|of| source == Source::Recorded || of.certificate.is_some());
     for of in &mut kept {
         let read = match of.instrument {
             Instrument::Sensor => settings.get("serial"),
@@ -71,7 +68,7 @@ pub(crate) fn warnings_today(
     instruments: Vec<Traceability>,
     settings: &BTreeMap<String, String>,
 ) -> Vec<String> {
-    let instruments = kept(instruments, Source::Recorded, settings);
+    let instruments = kept(instruments, settings);
     faults_today(&instruments).iter().map(remedy).collect()
 }
 
@@ -146,10 +143,7 @@ driver = "lab/camera"
         assert_eq!(robot.driver.as_deref(), Some("lab/arm"));
         assert_eq!((&robot.serial, &robot.certificate), (&None, &None));
         let none = BTreeMap::new();
-        let recorded = kept(instruments.clone(), Source::Recorded, &none);
-        assert_eq!(recorded, instruments);
-        let drawn = kept(instruments.clone(), Source::Simulated, &none);
-        assert_eq!(drawn, std::slice::from_ref(force));
+        assert_eq!(kept(instruments.clone(), &none), instruments);
         assert_eq!(day_of(Source::Simulated), None);
         assert!(day_of(Source::Recorded).is_some());
     }
@@ -191,7 +185,7 @@ driver = "lab/camera"
     fn a_serial_number_that_a_driver_reads_is_compared_with_the_certificate() {
         let rig = RigFile::parse("lab.toml", &RIG.replace(";serial=B2", "")).expect("a rig");
         let read = |name: &str| BTreeMap::from([(name.to_owned(), "B4".to_owned())]);
-        let with = |name: &str| kept(of_rig(&rig), Source::Recorded, &read(name));
+        let with = |name: &str| kept(of_rig(&rig), &read(name));
         let of_force = with("force_serial");
         let other = of_force[0].other_serial();
         assert!(other.is_some_and(|(_, read)| read == "B4"));

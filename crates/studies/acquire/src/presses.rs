@@ -49,6 +49,7 @@ pub(crate) use registration::Turned;
 pub use rehearsal::{AIR_MM, rehearse_scene};
 pub use rig_locks::HeldRigs;
 use schedule::Schedule;
+use settings::of_limits;
 pub(crate) use settings::{add_settings, of_rig_file, sensor_driver};
 pub(crate) use tap::{TappedRig, tap_study};
 pub use workshop::{Surroundings, SurroundingsOf, Upcoming, Workshop};
@@ -261,8 +262,12 @@ fn recording_spec(study: &PlannedStudy, open: &OpenRig, source: Source) -> Recor
     facts
         .settings
         .extend(rig.map(of_rig_file).unwrap_or_default());
+    let limits = plan.limits.as_ref().filter(|_| rig.is_some());
+    facts
+        .settings
+        .extend(limits.map(of_limits).unwrap_or_default());
     let instruments = rig.map(instruments::of_rig).unwrap_or_default();
-    facts.traceability = instruments::kept(instruments, source, &facts.settings);
+    facts.traceability = instruments::kept(instruments, &facts.settings);
     facts.recorded_on = instruments::day_of(source);
     RecordingSpec::new(facts, plan.truth_channels())
 }

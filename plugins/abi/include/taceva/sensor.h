@@ -13,7 +13,8 @@ extern "C" {
 #define TACEVA_RGB8 3u   /* three bytes per pixel */
 #define TACEVA_RGB16 4u  /* three numbers of two bytes per pixel, little-endian */
 
-#define TACEVA_FRAME_DROPPED 1u /* flag: frames were lost since the last one */
+#define TACEVA_FRAME_DROPPED 1u  /* flag: frames were lost since the last one */
+#define TACEVA_FRAME_NUMBERED 2u /* flag, since minor 4: the device assigned `sequence`, so a gap means lost frames */
 
 /* A picture, row by row from the top, without padding.
  *
@@ -26,7 +27,7 @@ typedef struct taceva_frame {
   uint32_t height;
   uint32_t flags;
   uint32_t reserved;
-  uint64_t sequence; /* frame number of the device; a gap means lost frames */
+  uint64_t sequence; /* frame number, which increases with each frame; see TACEVA_FRAME_NUMBERED */
   taceva_stamp stamp; /* valid: middle of the exposure, if known */
 
   uint8_t *buffer;         /* in: buffer of the caller, or NULL */

@@ -19,9 +19,10 @@ use taceva_abi::ext::{
 use taceva_abi::{
     ABI_MAJOR, ABI_MINOR, Arg, Args, CHANGER_FACTORY, ChangerCalls, Device, DeviceCalls,
     ENTRY_SYMBOL, ESTIMATOR_FACTORY, Error, EstimatorFactory, FORCE_FACTORY, FRAME_DROPPED,
-    Factory, FaultNumber, ForceCalls, Frame, Host, LIGHTING_FACTORY, Level, LightingCalls, MAGIC,
-    MESSAGE_SIZE, Motion, PixelFormat, Plugin, Pose, ROBOT_FACTORY, Regressor, RegressorCalls,
-    RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp, Status, Text, TrainingSet, Wrench,
+    FRAME_NUMBERED, Factory, FaultNumber, ForceCalls, Frame, Host, LIGHTING_FACTORY, Level,
+    LightingCalls, MAGIC, MESSAGE_SIZE, Motion, PixelFormat, Plugin, Pose, ROBOT_FACTORY,
+    Regressor, RegressorCalls, RobotCalls, SENSOR_FACTORY, SensorCalls, Stamp, Status, Text,
+    TrainingSet, Wrench,
 };
 
 /// A C expression, and its value in Rust.
@@ -107,6 +108,7 @@ fn constants() -> Vec<Line> {
         ("TACEVA_RGB8", PixelFormat::RGB8.0),
         ("TACEVA_RGB16", PixelFormat::RGB16.0),
         ("TACEVA_FRAME_DROPPED", FRAME_DROPPED),
+        ("TACEVA_FRAME_NUMBERED", FRAME_NUMBERED),
         ("TACEVA_SPECIMEN_SPHERE", Specimen::SPHERE),
         ("TACEVA_SPECIMEN_LINE", Specimen::LINE),
         ("TACEVA_SPECIMEN_DOT", Specimen::DOT),

@@ -25,6 +25,13 @@ pub(super) struct Reading {
     pub(super) lost: Option<u64>,
 }
 
+/// Time stamp of a frame with its sequence number.
+#[derive(Clone, Copy)]
+pub(super) struct Captured {
+    pub(super) stamp: Stamp,
+    pub(super) sequence: Option<u64>,
+}
+
 /// Name of the item that a changer has in place.
 pub(super) struct InPlace(pub(super) String);
 
@@ -58,6 +65,7 @@ replies! {
     (Pose, Stamp): (pose, stamp) = (pose, stamp) => At { pose, stamp }, |(pose, stamp)| is_pose(pose, stamp);
     Reading: Reading { wrench, stamp, sequence, lost } = Reading { wrench, stamp, sequence, lost } => Load { wrench, stamp, sequence, lost }, is_load;
     InPlace: InPlace(name) = InPlace(name) => InPlace { name }, is_name;
+    Captured: Captured { stamp, sequence } = Captured { stamp, sequence } => Framed { stamp, sequence }, |captured| is_time(&captured.stamp);
     GuardedStop: stop = stop => Stopped { stop }, is_stop;
 }
 

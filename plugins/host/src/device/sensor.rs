@@ -28,6 +28,10 @@ pub struct PluginSensor {
     length: usize,
     lighting: Option<LightingAbility>,
     timing: SampleTiming,
+    /// Sequence number of the last frame; `None` if the device does not number frames.
+    sequence: Option<u64>,
+    /// Number of losses that the device flagged without a gap in its numbers.
+    flagged: u64,
 }
 
 type Capture = unsafe extern "C" fn(
@@ -46,7 +50,7 @@ pub struct LentFrame<'a> {
     pub bytes: &'a [u8],
     /// Times of exposure and reception.
     pub stamp: Stamp,
-    /// Frame number of the device. A gap means lost frames.
+    /// Frame number. A gap in the numbers of a device means lost frames.
     pub sequence: u64,
     /// True if frames were lost since the last frame.
     pub dropped: bool,
@@ -101,6 +105,8 @@ impl PluginDevice for PluginSensor {
             info,
             length,
             lighting,
+            sequence: None,
+            flagged: 0,
         })
     }
 }
@@ -161,12 +167,23 @@ impl PluginSensor {
         });
         self.timing.wait(asked.elapsed());
         captured?;
+        self.number(taken.frame.flags, taken.frame.sequence);
         let kept = (self.timing).sample(Instant::now(), stamp(taken.frame.stamp));
         kept.map_err(|error| {
             let why = error.to_string();
             self.handle.failed(ErrorKind::DeviceFault, CAPTURING, why)
         })?;
         Ok(taken)
+    }
+
+    /// Sets the sequence number of the last frame, which has `flags`. A flagged loss without a gap in the numbers of the device adds a gap.
+    fn number(&mut self, flags: u32, number: u64) {
+        let is_numbered = flags & abi::FRAME_NUMBERED != 0;
+        let follows = self
+            .sequence
+            .is_some_and(|last| last.checked_add(1) == Some(number.saturating_add(self.flagged)));
+        self.flagged += u64::from(follows && flags & abi::FRAME_DROPPED != 0);
+        self.sequence = is_numbered.then(|| number.saturating_add(self.flagged));
     }
 
     /// Checks format, size and address of a frame and returns its pixels. A frame outside `buffer` must be lent.
@@ -262,6 +279,10 @@ impl Sensor for PluginSensor {
             unsafe { std::ptr::copy(pixels, buffer, self.length) };
         }
         Ok(stamp)
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.sequence
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

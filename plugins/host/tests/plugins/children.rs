@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
 
-use taceva_core::{Args, Deadline, Factory, Fault, ForceTransducer, Robot, Sensor};
+use taceva_core::{Args, Deadline, Factory, Fault, ForceTransducer, FrameMut, Robot, Sensor};
 use taceva_host::{Children, Keeping, PluginConfig, PluginHost, Trust};
 
 use crate::fixture::Fixture;
@@ -61,6 +61,27 @@ fn what_a_plugin_logs_comes_while_it_runs_with_control_characters_written_out() 
     ];
     assert_eq!(told(&lines, 2), expected);
     drop(open);
+}
+
+#[test]
+fn numbers_of_frames_cross_to_the_host_with_the_gaps_of_lost_frames() {
+    const SECOND: Deadline = Deadline::after(Duration::from_secs(1));
+    let macros = ["FRAME_FLAGS=TACEVA_FRAME_NUMBERED", "FRAME_STEP=3"];
+    let Some(fixture) = Fixture::built(&macros) else {
+        return;
+    };
+    let (host, _) = host(&fixture);
+    let mut rig = taceva_core::Rig::new();
+    let mut eye = eye(&host).open(&Args::default(), &mut rig).expect("opens");
+    assert_eq!(eye.sequence(), None);
+    eye.start(SECOND).expect("starts");
+    let info = eye.frame_info();
+    let mut pixels = vec![0; info.byte_len().expect("small")];
+    for number in 1..4 {
+        let into = FrameMut::new(info, &mut pixels).expect("fits");
+        eye.capture(into, SECOND).expect("a frame");
+        assert_eq!(eye.sequence(), Some(3 * number));
+    }
 }
 
 #[test]

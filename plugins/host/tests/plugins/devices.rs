@@ -13,7 +13,7 @@ use taceva_host::{PluginSensor, Session};
 
 use crate::fixture::{ARM, EYE, Fixture, LAMP, WRIST};
 
-const SECOND: Deadline = Deadline::after(Duration::from_secs(1));
+pub(crate) const SECOND: Deadline = Deadline::after(Duration::from_secs(1));
 
 fn args(fixture: &Fixture, text: &str) -> Args {
     let plugin = fixture.plugin();
@@ -21,13 +21,13 @@ fn args(fixture: &Fixture, text: &str) -> Args {
     descriptor.args(text).expect("its own arguments")
 }
 
-fn eye(fixture: &Fixture) -> PluginSensor {
+pub(crate) fn eye(fixture: &Fixture) -> PluginSensor {
     let session = fixture.session();
     let eye = session.open_sensor(&EYE, &args(fixture, "level=5"));
     eye.unwrap_or_else(|error| panic!("{error}"))
 }
 
-fn capture(sensor: &mut dyn Sensor) -> Result<Vec<u8>, DriverError> {
+pub(crate) fn capture(sensor: &mut dyn Sensor) -> Result<Vec<u8>, DriverError> {
     let info = sensor.frame_info();
     let mut pixels = vec![0; info.byte_len().expect("small")];
     sensor.capture(FrameMut::new(info, &mut pixels).expect("fits"), SECOND)?;
@@ -61,35 +61,6 @@ fn every_device_keeps_the_contract_of_its_kind() {
         [expected],
         "loaded once, however often it is opened"
     );
-}
-
-#[test]
-fn frames_are_copied_or_lent_and_the_same() {
-    for lends in [None, Some("LEND")] {
-        let macros: Vec<&str> = lends.into_iter().collect();
-        let Some(fixture) = Fixture::built(&macros) else {
-            return;
-        };
-        let mut eye = eye(&fixture);
-        eye.start(SECOND).expect("starts");
-        assert_eq!(capture(&mut eye).expect("a frame"), vec![5; 8 * 6 * 3]);
-        let (sum, sequence) = eye
-            .lend(SECOND, |frame| {
-                let sum: u32 = frame.bytes.iter().copied().map(u32::from).sum();
-                (sum, frame.sequence)
-            })
-            .expect("a frame");
-        assert_eq!(
-            (sequence, lends.is_none() || sum == 5 * 8 * 6 * 3),
-            (2, true)
-        );
-        let lighting = eye.lighting().expect("it can set the light");
-        assert_eq!(lighting.scenes(), ["dark", "room"]);
-        lighting.set("room", SECOND).expect("a scene");
-        let error = lighting.set("beach", SECOND).expect_err("none");
-        assert_eq!(error.kind(), ErrorKind::InvalidArgument);
-        assert_eq!(capture(&mut eye).expect("a frame")[0], 9);
-    }
 }
 
 #[test]

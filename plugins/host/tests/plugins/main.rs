@@ -9,6 +9,7 @@ mod estimator;
 #[cfg(target_os = "linux")]
 mod expiring;
 mod fixture;
+mod frames;
 #[cfg(target_os = "linux")]
 mod reach;
 mod rejects;

@@ -5,7 +5,9 @@
 use std::ffi::c_void;
 
 use taceva_abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
-use taceva_abi::{Error, Frame, PixelFormat as AbiFormat, SensorCalls, Status, Text};
+use taceva_abi::{
+    Error, FRAME_NUMBERED, Frame, PixelFormat as AbiFormat, SensorCalls, Status, Text,
+};
 use taceva_core::{ErrorKind, Facts, FrameMut, PixelFormat, Sensor};
 
 use super::{Kind, call, device_calls, extended};
@@ -105,9 +107,11 @@ unsafe extern "C" fn capture(
         frame.format = format(info.format)?;
         (frame.data, frame.release) = (frame.buffer.cast_const(), None);
         frame.length = length as u64;
-        // Drivers of core do not report lost frames, so the captured frames are numbered.
         opened.frames += 1;
-        (frame.sequence, frame.flags) = (opened.frames, 0);
+        (frame.sequence, frame.flags) = match opened.sensor.sequence() {
+            Some(number) => (number, FRAME_NUMBERED),
+            None => (opened.frames, 0),
+        };
         Ok(())
     };
     // SAFETY: the host guarantees that `error` is valid.

@@ -54,7 +54,15 @@ fn descriptor(
 }
 
 fn way() -> Vec<ArgSpec> {
-    let ways = ["well", "panic", "nan", "refuse", "block", "panic-at-drop"];
+    let ways = [
+        "well",
+        "panic",
+        "nan",
+        "refuse",
+        "block",
+        "panic-at-drop",
+        "numbered",
+    ];
     vec![ArgSpec::choice("way", ways).default(ArgValue::Text("well".to_owned()))]
 }
 

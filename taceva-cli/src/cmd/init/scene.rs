@@ -68,6 +68,9 @@ pub(super) fn write(
     text += &format!(
         "\n[model]\nname = {model:?}                  # ridge, fast, default, best, auto …: taceva fit --help\n\n[metrics]\nwant = [{wanted:?}]\n\n[protocol.calibration]\npoints = {points}\nindentations = {presses}\n"
     );
+    if sensing_area.is_some() {
+        text += "\n[protocol.contact]\ndepth_from = \"surface\"      # fitted for each press; \"contact\" counts from the first reading above threshold_N\n";
+    }
     if sensors.len() > 1 {
         for sensor in sensors {
             let short = sensor.rsplit('/').next().unwrap_or(sensor);

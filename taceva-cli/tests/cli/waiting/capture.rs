@@ -298,6 +298,8 @@ fn what_a_transducer_says_of_itself_is_recorded_and_what_delays_it_is_a_warning(
         ("force_frame", "own"),
         ("force_rate_hz", "500"),
         ("force_bias", "none"),
+        ("force_unit", "N"),
+        ("force_torque_unit", "N-m, converted at 1000 N·mm"),
     ] {
         let found = settings.get(name).map(String::as_str);
         assert_eq!(found, Some(expected), "{name} of {settings:?}");

@@ -1,5 +1,7 @@
 //! Force and torque per count, from the units and counts of a box.
 
+use std::collections::BTreeMap;
+
 use super::page::{Page, PageError, number};
 
 /// Force per count, N, and torque per count, N·mm.
@@ -9,10 +11,16 @@ pub(super) struct Calibration {
     pub(super) torque_nmm: f64,
     /// Value of the force unit of the page, N.
     pub(super) force_unit_n: f64,
+    /// Units of the page.
+    force_unit: Unit,
+    torque_unit: Unit,
 }
 
+/// Name of a unit, and its value in N or N·mm.
+type Unit = (&'static str, f64);
+
 /// Force units of the box, each with its value in N.
-const FORCES: [(&str, f64); 6] = [
+const FORCES: [Unit; 6] = [
     ("N", 1.0),
     ("kN", 1_000.0),
     ("lbf", 4.448_221_615_260_5),
@@ -21,13 +29,13 @@ const FORCES: [(&str, f64); 6] = [
     ("gf", 0.009_806_65),
 ];
 /// Torque units of the box, each with its value in N·mm.
-const TORQUES: [(&str, f64); 6] = [
-    ("Nm", 1_000.0),
-    ("Nmm", 1.0),
-    ("kNm", 1_000_000.0),
-    ("lbfin", 112.984_829_027_616_7),
-    ("lbfft", 1_355.817_948_331_4),
-    ("kgfcm", 98.066_5),
+const TORQUES: [Unit; 6] = [
+    ("N-m", 1_000.0),
+    ("N-mm", 1.0),
+    ("kN-m", 1_000_000.0),
+    ("lbf-in", 112.984_829_027_616_7),
+    ("lbf-ft", 1_355.817_948_331_4),
+    ("kgf-cm", 98.066_5),
 ];
 /// Signs that may separate the two parts of a torque unit.
 const BETWEEN: [char; 7] = ['-', '.', '·', '⋅', '•', '*', ' '];
@@ -35,23 +43,39 @@ const BETWEEN: [char; 7] = ['-', '.', '·', '⋅', '•', '*', ' '];
 impl Calibration {
     /// Reads the calibration from `page`.
     pub(super) fn read(page: &Page) -> Result<Calibration, PageError> {
-        let force_unit_n = unit(
+        let force_unit = unit(
             page,
             "scfgfu",
             &FORCES,
             "one of N, kN, lbf, klbf, kgf, gf: select it on the Configurations page of the box",
         )?;
-        let torque_unit_nmm = unit(
+        let torque_unit = unit(
             page,
             "scfgtu",
             &TORQUES,
             "one of N-m, N-mm, kN-m, lbf-in, lbf-ft, kgf-cm: select it on the Configurations page of the box",
         )?;
+        let (_, force_unit_n) = force_unit;
+        let (_, torque_unit_nmm) = torque_unit;
         Ok(Calibration {
             force_n: force_unit_n / counts(page, "cfgcpf")?,
             torque_nmm: torque_unit_nmm / counts(page, "cfgcpt")?,
             force_unit_n,
+            force_unit,
+            torque_unit,
         })
+    }
+
+    /// Units of the box as settings of a recording, each with the value by which the driver converted it.
+    pub(super) fn settings(&self) -> BTreeMap<String, String> {
+        let stated = |(name, worth): Unit, stored: &str| match name == stored.replace('·', "-") {
+            true => name.to_owned(),
+            false => format!("{name}, converted at {worth} {stored}"),
+        };
+        BTreeMap::from([
+            ("unit".to_owned(), stated(self.force_unit, "N")),
+            ("torque_unit".to_owned(), stated(self.torque_unit, "N·mm")),
+        ])
     }
 }
 
@@ -62,20 +86,20 @@ fn counts(page: &Page, key: &'static str) -> Result<f64, PageError> {
     count.ok_or_else(|| PageError::entry(key, "a number of counts above 0", &found))
 }
 
-/// Value of the unit in the entry `key`. Ignores case and signs between the parts, because no two of `units` differ only by these.
+/// Unit in the entry `key`. Ignores case and signs between the parts, because no two of `units` differ only by these.
 fn unit(
     page: &Page,
     key: &'static str,
-    units: &[(&str, f64)],
+    units: &[Unit],
     expected: &'static str,
-) -> Result<f64, PageError> {
+) -> Result<Unit, PageError> {
     let found = page.entry(key);
     let name = found.replacen(BETWEEN, "", 1);
     let known = units
         .iter()
-        .find(|(unit, _)| unit.eq_ignore_ascii_case(&name));
-    let (_, worth) = known.ok_or_else(|| PageError::entry(key, expected, &found))?;
-    Ok(*worth)
+        .find(|(unit, _)| unit.replace('-', "").eq_ignore_ascii_case(&name));
+    let known = known.copied();
+    known.ok_or_else(|| PageError::entry(key, expected, &found))
 }
 
 #[cfg(test)]
@@ -97,6 +121,33 @@ mod tests {
         let calibration = read(&pounds).expect("a page");
         assert!((calibration.force_n - 4.448_221_6e-6).abs() < 1e-12);
         assert!((calibration.torque_nmm - 112.984_829e-6).abs() < 1e-11);
+    }
+
+    #[test]
+    fn units_of_a_box_and_their_conversion_are_kept_by_name() {
+        let kept = |force: &str, torque: &str| {
+            let page = SOME.replace(">N<", &format!(">{force}<"));
+            let page = page.replace(" Nm ", torque);
+            let settings = read(&page).expect("a page").settings();
+            [settings["unit"].clone(), settings["torque_unit"].clone()]
+        };
+        assert_eq!(
+            kept("N", "Nm"),
+            ["N", "N-m, converted at 1000 N·mm"].map(str::to_owned)
+        );
+        for (force, torque, expected) in [
+            ("gf", "N-mm", ["gf, converted at 0.00980665 N", "N-mm"]),
+            (
+                "LBF",
+                "kgf-cm",
+                [
+                    "lbf, converted at 4.4482216152605 N",
+                    "kgf-cm, converted at 98.0665 N·mm",
+                ],
+            ),
+        ] {
+            assert_eq!(kept(force, torque), expected.map(str::to_owned));
+        }
     }
 
     #[test]

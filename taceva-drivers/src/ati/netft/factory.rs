@@ -21,8 +21,8 @@ submit_builtin!(dyn ForceTransducer, || Ok(Box::new(NetftFactory::new()?)));
 ///   box.
 /// - A box with a tool frame is refused unless `frame=tool` selects readings in that frame. A box is also refused if its rate differs from a stated
 ///   `rate`, or its range is below a stated `force_max_n`. Without `force_max_n` the range of each force on the page applies.
-/// - Frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low pass is a warning, and so is a page
-///   that states no low pass.
+/// - Units with their conversion, frame, low pass, rate, range, bias and serial number are settings that a recording keeps. The delay of a low
+///   pass is a warning, and so is a page that states no low pass.
 /// - A reading is the newest record received. Datagrams of other senders are ignored. Torn, duplicate and overtaken records are dropped.
 /// - A saturated gage is `OutOfRange`; every other status except a latched threshold is `DeviceFault`, with its bits by name. A latched threshold is
 ///   a warning, since readings stay valid.

@@ -190,7 +190,9 @@ impl ForceTransducer for Transducer {
     }
 
     fn settings(&self) -> BTreeMap<String, String> {
-        self.setup.settings()
+        let mut settings = self.setup.settings();
+        settings.extend(self.calibration.settings());
+        settings
     }
 
     fn warnings(&self) -> Vec<String> {

@@ -23,7 +23,7 @@ pub(super) struct Printer {
     pub(super) stop: Arc<Stop>,
     options: SerialOptions,
     /// Last number sent to the printer for an echo.
-    mark: u32,
+    pub(super) mark: u32,
     /// Number of the last line with a checksum; `None` if the firmware does not count lines.
     line: Option<u32>,
     is_emulated: bool,
@@ -71,7 +71,7 @@ impl Printer {
         }
         let (mut stops_at_once, mut is_emulated) = (None, false);
         let mut facts = BTreeMap::new();
-        let listed = printer.link.command("M115", ANSWER, |answer| match answer {
+        let listed = printer.ask("M115\n", ANSWER, |answer| match answer {
             Answer::Can(name, is) if name == STOPS_AT_ONCE => stops_at_once = Some(is),
             Answer::Can(name, is) if name == EMULATED => is_emulated = is,
             Answer::Facts(stated) => facts = stated,
@@ -95,12 +95,29 @@ impl Printer {
         Ok(printer)
     }
 
+    /// Lines `before`, and a request for the echo of a new mark, which the printer sends once it has carried these out. Each mark has its own number, so that
+    /// an echo or an `ok` that comes twice ends no later command.
+    pub(super) fn marked(&mut self, before: &str) -> String {
+        self.mark = self.mark.wrapping_add(1);
+        format!("{before}M118 {MARK}{}", self.mark)
+    }
+
     /// Synchronises commands and answers: skips the answers to earlier commands.
     pub(super) fn agree(&mut self, patience: Duration) -> Result<(), CommandError> {
-        self.mark = self.mark.wrapping_add(1);
-        let command = format!("M118 {MARK}{}", self.mark);
+        self.ask("", patience, drop)
+    }
+
+    /// Sends the lines `before` and waits until they are carried out. Passes their answers to `other`.
+    fn ask(
+        &mut self,
+        before: &str,
+        patience: Duration,
+        mut other: impl FnMut(Answer),
+    ) -> Result<(), CommandError> {
+        let lines = self.marked(before);
+        let unknown = format!("\"M118 {MARK}{}\"", self.mark);
         let until = monotonic() + patience;
-        self.link.send(&command)?;
+        self.link.send(&lines)?;
         let mut is_marked = false;
         loop {
             let left = until.saturating_sub(monotonic());
@@ -108,8 +125,16 @@ impl Printer {
                 Some(Answer::Mark(mark)) if mark == self.mark => is_marked = true,
                 Some(Answer::Ok) if is_marked => return Ok(()),
                 Some(Answer::Fault(why)) => return Err(CommandError::Fault(why)),
-                Some(_) => {}
-                None => return Err(CommandError::Silent { command, patience }),
+                // Firmware without this command.
+                Some(Answer::Refused(why)) if why.contains(&unknown) => {
+                    let command = "M118".to_owned();
+                    return Err(CommandError::Refused { command, why });
+                }
+                Some(answer) => other(answer),
+                None => {
+                    let command = lines.replace('\n', "`, `");
+                    return Err(CommandError::Silent { command, patience });
+                }
             }
         }
     }

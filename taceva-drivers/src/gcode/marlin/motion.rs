@@ -64,8 +64,11 @@ impl Printer {
         for command in ["G21", "G90", &straight(&target.position, speed)] {
             self.order(command)?;
         }
-        self.link.send(WAIT).map_err(refused)?;
+        let lines = self.marked(&format!("{WAIT}\n"));
+        self.link.send(&lines).map_err(refused)?;
         let mut heard = monotonic();
+        // A wait that is lost on the cable has no `ok` before the echo.
+        let (mut is_answered, mut is_marked) = (false, false);
         loop {
             if self.stop.is_halted() {
                 return Err(self.stop.halted());
@@ -77,7 +80,9 @@ impl Printer {
             }
             let answer = self.link.answer(LOOK_EVERY);
             match answer {
-                Some(Answer::Ok) => break,
+                Some(Answer::Mark(mark)) if mark == self.mark && is_answered => is_marked = true,
+                Some(Answer::Ok) if is_marked => break,
+                Some(Answer::Ok) => (is_answered, heard) = (true, now),
                 Some(Answer::Fault(why)) => return Err(refused(CommandError::Fault(why))),
                 Some(Answer::Refused(why)) => {
                     let command = WAIT.to_owned();

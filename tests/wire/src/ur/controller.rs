@@ -126,6 +126,9 @@ impl Controller {
         if !recipe.write(values, &mut inside.inputs) {
             return;
         }
+        if let Some(slider) = inside.inputs.take_slider() {
+            inside.slider = slider;
+        }
         let first = inside.script.as_ref().map_or(0, RegisterScript::first);
         let command = Command::read(&inside.inputs, first);
         let is_moving = self.bench.is_moving();

@@ -5,11 +5,28 @@ use super::outputs::NOT_FOUND;
 /// Number of registers of each type.
 const COUNT: usize = 48;
 
-/// General-purpose registers that clients write.
+/// Analog and digital outputs that clients set, with their types. The emulator ignores them.
+const OUTPUTS: [(&str, &str); 10] = [
+    ("standard_digital_output_mask", "UINT8"),
+    ("standard_digital_output", "UINT8"),
+    ("configurable_digital_output_mask", "UINT8"),
+    ("configurable_digital_output", "UINT8"),
+    ("tool_digital_output_mask", "UINT8"),
+    ("tool_digital_output", "UINT8"),
+    ("standard_analog_output_mask", "UINT8"),
+    ("standard_analog_output_type", "UINT8"),
+    ("standard_analog_output_0", "DOUBLE"),
+    ("standard_analog_output_1", "DOUBLE"),
+];
+
+/// General-purpose registers that clients write, and their request for the speed slider.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Inputs {
     pub(super) integers: [i32; COUNT],
     pub(super) doubles: [f64; COUNT],
+    /// 1 if the slider is to be moved to the fraction, 0 to 1.
+    slider_mask: u32,
+    slider_fraction: f64,
 }
 
 impl Default for Inputs {
@@ -17,7 +34,17 @@ impl Default for Inputs {
         Inputs {
             integers: [0; COUNT],
             doubles: [0.0; COUNT],
+            slider_mask: 0,
+            slider_fraction: 1.0,
         }
+    }
+}
+
+impl Inputs {
+    /// Requested position of the speed slider, once; `None` without a request.
+    pub(super) fn take_slider(&mut self) -> Option<f64> {
+        let is_asked = std::mem::take(&mut self.slider_mask) == 1;
+        is_asked.then(|| self.slider_fraction.clamp(0.0, 1.0))
     }
 }
 
@@ -28,6 +55,10 @@ enum Input {
     Double(usize),
     /// Force of an external sensor, which the emulator ignores.
     Wrench,
+    SliderMask,
+    SliderFraction,
+    /// Input of this type, which the emulator ignores.
+    Ignored(&'static str),
 }
 
 /// Inputs of a message, in their order.
@@ -64,7 +95,13 @@ impl Recipe {
                 Input::Double(number) => {
                     inputs.doubles[number] = value.try_into().map_or(0.0, f64::from_be_bytes);
                 }
-                Input::Wrench => {}
+                Input::SliderMask => {
+                    inputs.slider_mask = value.try_into().map_or(0, u32::from_be_bytes);
+                }
+                Input::SliderFraction => {
+                    inputs.slider_fraction = value.try_into().map_or(1.0, f64::from_be_bytes);
+                }
+                Input::Wrench | Input::Ignored(_) => {}
             }
             rest = after;
         }
@@ -74,8 +111,14 @@ impl Recipe {
 
 impl Input {
     fn of(name: &str) -> Option<Input> {
-        if name == "external_force_torque" {
-            return Some(Input::Wrench);
+        match name {
+            "external_force_torque" => return Some(Input::Wrench),
+            "speed_slider_mask" => return Some(Input::SliderMask),
+            "speed_slider_fraction" => return Some(Input::SliderFraction),
+            _ => {}
+        }
+        if let Some(&(_, of)) = OUTPUTS.iter().find(|(output, _)| *output == name) {
+            return Some(Input::Ignored(of));
         }
         let number = |begin: &str| {
             let number: usize = name.strip_prefix(begin)?.parse().ok()?;
@@ -89,15 +132,18 @@ impl Input {
     fn type_name(self) -> &'static str {
         match self {
             Input::Integer(_) => "INT32",
-            Input::Double(_) => "DOUBLE",
+            Input::Double(_) | Input::SliderFraction => "DOUBLE",
             Input::Wrench => "VECTOR6D",
+            Input::SliderMask => "UINT32",
+            Input::Ignored(of) => of,
         }
     }
 
     fn bytes(self) -> usize {
         match self {
-            Input::Integer(_) => 4,
-            Input::Double(_) => 8,
+            Input::Ignored("UINT8") => 1,
+            Input::Integer(_) | Input::SliderMask => 4,
+            Input::Double(_) | Input::SliderFraction | Input::Ignored(_) => 8,
             Input::Wrench => 48,
         }
     }
@@ -119,6 +165,25 @@ mod tests {
         assert!(recipe.write(&values, &mut inputs));
         assert_eq!(inputs.integers[1], 3);
         assert_eq!(inputs.doubles[7].to_bits(), 0.25_f64.to_bits());
+    }
+
+    #[test]
+    fn a_slider_is_moved_once_where_its_mask_says_so_and_outputs_change_nothing() {
+        let mut inputs = Inputs::default();
+        // As `ur-rtde` 1.6.5 writes them.
+        let names = "input_int_register_23,speed_slider_mask,speed_slider_fraction,";
+        let (recipe, types) = Recipe::read(names);
+        assert_eq!(types, "INT32,UINT32,DOUBLE");
+        let values = b"\x00\x00\x00\x16\x00\x00\x00\x01\x3f\xe0\x00\x00\x00\x00\x00\x00";
+        assert!(recipe.expect("all are known").write(values, &mut inputs));
+        assert_eq!(inputs.take_slider(), Some(0.5));
+        assert_eq!(inputs.take_slider(), None);
+        let names = "input_int_register_23,standard_digital_output_mask,standard_digital_output,";
+        let (recipe, types) = Recipe::read(names);
+        assert_eq!(types, "INT32,UINT8,UINT8");
+        let values = b"\x00\x00\x00\x0d\x02\x02";
+        assert!(recipe.expect("all are known").write(values, &mut inputs));
+        assert_eq!((inputs.integers[23], inputs.take_slider()), (13, None));
     }
 
     #[test]

@@ -19,7 +19,7 @@ pub(super) fn entries(provenance: &Provenance) -> Vec<(String, String)> {
     let predicted_once = provenance.predicted_once();
     let part = provenance.part.as_ref();
     let part = part.filter(|_| predicted_once.is_none()).cloned();
-    // Results of drawn labels and of tables name no instrument at all.
+    // Results of a bench in the program and of tables name no instrument at all.
     let traceability = match provenance.traceability.is_empty() {
         true => String::new(),
         false => traceability_line(provenance),

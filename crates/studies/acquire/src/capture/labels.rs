@@ -74,8 +74,11 @@ impl Labels {
         if self.has_ended {
             return !self.waiting.is_empty();
         }
-        let mut next = streams.next();
-        for _ in 0..ROOM {
+        for place in 0..ROOM {
+            let next = match place {
+                0 => streams.next(),
+                _ => streams.next_at_once(),
+            };
             match next {
                 Ok(Some(taken)) => self.waiting.push_back(taken),
                 Ok(None) => break,
@@ -84,7 +87,6 @@ impl Labels {
                     break;
                 }
             }
-            next = streams.next_at_once();
         }
         true
     }
@@ -147,5 +149,69 @@ impl Labels {
     pub(super) fn normal_n(&self, sample: &Sample) -> Option<f64> {
         let position = self.channels.position(Channel::FZ.name())?;
         sample.truth.get(position)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::mpsc::sync_channel;
+
+    use taceva_core::{Frame, FrameInfo, PixelFormat, Stamp};
+
+    use super::super::streams::Counts;
+    use super::super::track::Track;
+    use super::*;
+
+    fn taken(valid_s: f64) -> Taken {
+        let info = FrameInfo {
+            width: 1,
+            height: 1,
+            format: PixelFormat::Gray8,
+        };
+        let stamp = Stamp {
+            valid_s,
+            received_s: None,
+        };
+        Taken {
+            frame: Frame::new(info, vec![0]).expect("a byte"),
+            stamp,
+            sent: None,
+        }
+    }
+
+    #[test]
+    fn every_frame_without_a_force_is_counted_by_cause() {
+        let track = Track::new(0.01, None);
+        for at_s in [1.0, 1.01, 1.2, 1.21] {
+            track.push(at_s, Wrench::default());
+        }
+        // One more than are received at once.
+        let times_s = [0.5, 0.9, 1.005, 1.1, 1.15, 1.18, 1.205, 1.3, 1.4];
+        assert_eq!(times_s.len(), ROOM + 1);
+        let (sender, queue) = sync_channel(times_s.len());
+        for valid_s in times_s {
+            sender.send(taken(valid_s)).expect("there is room");
+        }
+        drop(sender);
+        let counts = Counts::of(true);
+        let streams = Streams {
+            queue,
+            track: Some(&track),
+            counts: &counts,
+        };
+        let mut labels = Labels::new(Channels::new([Channel::FZ]).expect("one"));
+        let mut known = 0;
+        while labels.collect(&streams) {
+            while let Some(labelled) = labels.next(&streams) {
+                known += u32::from(labelled.wrench.is_some());
+            }
+        }
+        assert_eq!(known, 2);
+        let expected = LostForces {
+            before: 2,
+            in_gaps: 3,
+            late: 2,
+        };
+        assert_eq!(labels.lost(), expected);
     }
 }

@@ -40,9 +40,10 @@ impl Counts {
         self.is_over.store(true, Ordering::Release);
     }
 
-    /// Counts the sequence numbers missing between `last` and `number` as dropped frames. Damaged frames are already counted.
+    /// Counts the sequence numbers missing between `last` and `number` of a numbered camera as dropped frames. Damaged frames are already counted.
     pub(super) fn missed(&self, last: u64, number: u64) {
         let between = number.saturating_sub(last).saturating_sub(1);
+        self.is_numbered.store(true, Ordering::Release);
         self.dropped.fetch_add(between, Ordering::AcqRel);
     }
 

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::PoisonError;
 
-use taceva_protocol::RigFile;
+use taceva_protocol::{RigFile, RigLimits};
 
 use super::devices::{OpenRig, key_of};
 use super::latency::written_latencies_ms;
@@ -90,6 +90,19 @@ pub(crate) fn of_rig_file(rig: &RigFile) -> BTreeMap<String, String> {
     settings
 }
 
+/// Limits of the motions on a rig as settings of a recording.
+pub(crate) fn of_limits(limits: &RigLimits) -> BTreeMap<String, String> {
+    let named = [
+        ("robot_Pz_max_mm", limits.depth_max.0),
+        ("robot_Fz_max_N", limits.normal_max.0),
+        ("robot_Fxy_max_N", limits.shear_max.0),
+        ("robot_speed_max_mm_s", limits.speed_max_mm_s),
+    ];
+    let named = named.into_iter();
+    let settings = named.map(|(name, limit)| (name.to_owned(), limit.to_string()));
+    settings.collect()
+}
+
 /// Adds the settings of a device to the settings of its rig, with names that begin with `kind`, such as `force_serial`.
 pub(crate) fn add_settings(
     all: &mut BTreeMap<String, String>,
@@ -102,6 +115,8 @@ pub(crate) fn add_settings(
 
 #[cfg(test)]
 mod tests {
+    use taceva_core::{Millimetre, Newton};
+
     use super::*;
 
     #[test]
@@ -141,5 +156,31 @@ mod tests {
             pair("serial", "D20042"),
         ];
         assert_eq!(all, BTreeMap::from(expected));
+    }
+
+    #[test]
+    fn the_limits_of_the_motions_are_settings_with_their_units() {
+        let limits = RigLimits {
+            depth_max: Millimetre(1.5),
+            normal_max: Newton(5.0),
+            shear_max: Newton(2.0),
+            saturation: None,
+            speed_max_mm_s: 20.0,
+            overshoot: taceva_protocol::Overshoot {
+                segment_mm: 0.015,
+                healthy_mm: 0.0155,
+                frozen_mm: 0.1205,
+            },
+            simulated: false,
+            signals: taceva_protocol::Signals::default(),
+        };
+        let expected = [
+            ("robot_Fxy_max_N", "2"),
+            ("robot_Fz_max_N", "5"),
+            ("robot_Pz_max_mm", "1.5"),
+            ("robot_speed_max_mm_s", "20"),
+        ];
+        let expected = expected.map(|(name, value)| (name.to_owned(), value.to_owned()));
+        assert_eq!(of_limits(&limits), BTreeMap::from(expected));
     }
 }

@@ -5,7 +5,7 @@ use std::io::{self, ErrorKind};
 use std::path::Path;
 
 use taceva_core::{Certificate, Instrument, shown};
-use taceva_dataset::{Digest, Source};
+use taceva_dataset::Digest;
 use taceva_protocol::RigFile;
 
 use super::check::RigCheck;
@@ -15,7 +15,7 @@ use crate::instruments::{faults_today, kept, of_rig, remedy};
 impl RigCheck {
     /// Compares the certificates of `rig` with the serial numbers in the settings and with today's date. Also searches for the files of the certificates.
     pub(super) fn look_at_certificates(&mut self, rig: &RigFile) {
-        let instruments = kept(of_rig(rig), Source::Recorded, &self.settings);
+        let instruments = kept(of_rig(rig), &self.settings);
         for fault in faults_today(&instruments) {
             let why = remedy(&fault);
             match fault.is_error() {

@@ -169,4 +169,26 @@ mod tests {
             assert!(rig.motions().is_empty());
         }
     }
+
+    #[test]
+    fn after_a_stop_at_a_question_the_robot_is_halted_and_never_made_ready() {
+        for (height_mm, expected) in [(-3.0, Left::Clear), (CONTACT_MM + 0.5, Left::InPlace)] {
+            let rig = Rig::new(height_mm, nothing);
+            rig.state().halted = false;
+            let error = with_tip(&rig, |tip| {
+                tip.stands_clear = true;
+                let attendant = Attendant {
+                    operator: None,
+                    events: &mut |_| {},
+                    patience_s: 0.0,
+                };
+                tip.abandoned(StopCause::Cancelled, attendant)
+            });
+            assert_eq!(error.left, expected, "{height_mm} mm");
+            assert!(rig.motions().is_empty());
+            let state = rig.state();
+            assert!(state.halted, "{height_mm} mm");
+            assert_eq!(state.readied, 0, "{height_mm} mm");
+        }
+    }
 }

@@ -90,7 +90,7 @@ impl ReferenceTouch {
 pub struct SessionRecord {
     /// Reference touch.
     pub touch: ReferenceTouch,
-    /// Force reported without contact.
+    /// Force reported without contact, before the transducer set its own zero.
     pub zero: Wrench,
     /// True for each push, to +x and to +y, whose force had the sign stated by the rig file.
     pub pushes_felt: [bool; 2],

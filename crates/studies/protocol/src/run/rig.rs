@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use taceva_core::{
     Axes, Deadline, DriverError, DriverKey, ErrorKind, ForceTransducer, Halt, Millimetre, Newton,
-    Point, Pose, Robot, Speed, Stamp, Wrench,
+    Point, Pose, Robot, Speed, Stamp, Tare, Wrench,
 };
 
 use super::bounds::Bounds;
@@ -49,6 +49,10 @@ pub(super) struct State {
     pub(super) lag_mm: f64,
     /// Number of attempts to clear a halt that will time out.
     pub(super) unheard: u32,
+    /// Number of attempts to clear a halt.
+    pub(super) readied: u32,
+    /// Zero that the transducer set itself, in N; `None` for a transducer that sets none.
+    pub(super) box_zero_n: Option<f64>,
     /// Height in mm of an obstacle that a guard thread reports once to this supervisor.
     pub(super) obstacle: Option<(f64, SharedSupervisor)>,
     questions: u32,
@@ -71,6 +75,8 @@ impl Rig {
             stuck: false,
             lag_mm: 0.0,
             unheard: 0,
+            readied: 0,
+            box_zero_n: None,
             obstacle: None,
             questions: 0,
             force: Box::new(force),
@@ -163,6 +169,7 @@ impl Robot for Rig {
 
     fn clear_halt(&mut self, _: Deadline) -> Result<(), DriverError> {
         let mut state = self.state();
+        state.readied += 1;
         if state.unheard > 0 {
             state.unheard -= 1;
             return Err(error(ErrorKind::Timeout, "end the halt"));
@@ -184,6 +191,7 @@ impl ForceTransducer for Rig {
         match (state.force)(question, height_mm) {
             Some(force_n) => {
                 state.now_s += 0.001;
+                let force_n = force_n - state.box_zero_n.unwrap_or(0.0);
                 Ok((pressing(force_n), now(&state)))
             }
             None => {
@@ -191,6 +199,21 @@ impl ForceTransducer for Rig {
                 Err(error(ErrorKind::Timeout, "read"))
             }
         }
+    }
+
+    fn tare(&mut self) -> Option<&mut dyn Tare> {
+        let has_tare = self.state().box_zero_n.is_some();
+        if has_tare { Some(self) } else { None }
+    }
+}
+
+impl Tare for Rig {
+    fn zero(&mut self, _: Deadline) -> Result<(), DriverError> {
+        let mut state = self.state();
+        state.questions += 1;
+        let (question, height_mm) = (state.questions, state.height_mm);
+        state.box_zero_n = (state.force)(question, height_mm);
+        Ok(())
     }
 }
 

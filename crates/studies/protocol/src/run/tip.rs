@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use taceva_core::{
     Deadline, Degree, DriverError, ErrorKind, ForceTransducer, Millimetre, Nanometre, Point, Pose,
-    Robot, Rotation, Speed,
+    Robot, Rotation, Speed, Wrench,
 };
 
 use super::align::Look;
@@ -65,8 +65,8 @@ pub(super) struct Tip<'a> {
     pub(super) robot_failed: bool,
     /// True while a retreat ignores cancellation.
     pub(super) ignores_cancel: bool,
-    /// True if the transducer has set its own zero, which happens only once if the host zeroes the force.
-    pub(super) is_box_zeroed: bool,
+    /// Zero that the transducer set itself, which happens only once if the host zeroes the force; 0 for a transducer that sets none.
+    pub(super) box_zero: Option<Wrench>,
     /// True if the zero is valid for the present load of the robot.
     pub(super) is_zero_known: bool,
     /// True if a motion has been sent.
@@ -159,7 +159,7 @@ impl<'a> Tip<'a> {
             readings: None,
             robot_failed: false,
             ignores_cancel: false,
-            is_box_zeroed: false,
+            box_zero: None,
             is_zero_known: false,
             has_moved: false,
             stands_clear: false,

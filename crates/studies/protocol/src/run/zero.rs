@@ -27,12 +27,17 @@ impl Tip<'_> {
     }
 
     fn call_zero_by_host(&mut self) -> Step<()> {
-        if !self.is_box_zeroed {
+        if self.box_zero.is_none() {
+            let mut box_zero = Wrench::default();
+            if self.force.tare().is_some() {
+                self.watch(ANY_FORCE);
+                box_zero = self.mean_force(LISTEN_S)?;
+            }
             self.watch(MotionStage::Zeroing);
             if let Some(tare) = self.force.tare() {
                 tare.zero(DEADLINE)?;
             }
-            self.is_box_zeroed = true;
+            self.box_zero = Some(box_zero);
             self.supervisor.lock().call_zero(Wrench::default());
         }
         self.watch(ANY_FORCE);
@@ -40,6 +45,16 @@ impl Tip<'_> {
         self.supervisor.lock().call_zero(zero);
         self.is_zero_known = true;
         Ok(())
+    }
+
+    /// Force of the transducer at rest, as it was before the transducer set its own zero.
+    pub(super) fn raw_zero(&self) -> Wrench {
+        let own = self.box_zero.unwrap_or_default();
+        let by_host = self.supervisor.lock().zero();
+        let mut both = Sum::default();
+        both.add(&own);
+        both.add(&by_host);
+        both.mean(1)
     }
 
     /// Compares the zero of the host after a press with the zero before. The tip rests in the air. `None` if the transducer sets its own zero.
@@ -130,6 +145,24 @@ mod tests {
         // One reading takes a millisecond.
         let listened_s = rig.state().now_s - before_s;
         assert!((0.25..0.26).contains(&listened_s), "{listened_s} s");
+    }
+
+    #[test]
+    fn the_zero_of_a_session_is_the_force_before_the_transducer_set_its_own_zero() {
+        let rig = Rig::new(-3.0, |question, _| Some(1.2 + f64::from(question) * 1e-9));
+        rig.state().box_zero_n = Some(0.0);
+        let zeroed = with_tip(&rig, |tip| {
+            tip.pace.host_zero = true;
+            tip.find_pose()?;
+            tip.call_zero()?;
+            let raw_n = tip.raw_zero().force[2].0;
+            Ok::<_, crate::StopCause>((raw_n, tip.look()?.wrench.force[2].0))
+        });
+        let (raw_n, force_n) = zeroed.expect("it rests");
+        assert!((raw_n - 1.2).abs() < 1e-5, "{raw_n} N");
+        assert!(force_n.abs() < 1e-5, "{force_n} N");
+        let box_zero_n = rig.state().box_zero_n.expect("it sets its own zero");
+        assert!((box_zero_n - 1.2).abs() < 1e-5, "{box_zero_n} N");
     }
 
     #[test]

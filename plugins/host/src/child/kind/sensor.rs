@@ -11,7 +11,7 @@ use taceva_core::{
 use super::{Kind, Server, answered, answered_if_able, unsupported};
 use crate::child::link::Link;
 use crate::child::memory::SharedMemory;
-use crate::child::reply::Reply;
+use crate::child::reply::{Captured, Reply};
 use crate::child::wire::{Answer, Call, Failure, OpenedDevice};
 
 /// Maximum size of a child's frame, bytes: a hundred million pixels.
@@ -26,6 +26,8 @@ struct SensorProxy {
     memory: SharedMemory,
     interrupts: bool,
     scenes: Option<Vec<String>>,
+    /// Sequence number of the last frame.
+    sequence: Option<u64>,
 }
 
 /// Sensor in the child, with the shared memory for its frames.
@@ -63,6 +65,7 @@ impl Kind for dyn Sensor {
             memory,
             interrupts,
             scenes,
+            sequence: None,
         }))
     }
 }
@@ -102,7 +105,9 @@ impl SensorServer {
             .ok_or_else(|| refused("no memory was sent"))?;
         let into = FrameMut::new(self.frame, memory.bytes_mut())
             .map_err(|error| refused(&error.to_string()))?;
-        answered(self.sensor.capture(into, deadline))
+        let captured = self.sensor.capture(into, deadline);
+        let sequence = self.sensor.sequence();
+        answered(captured.map(|stamp| Captured { stamp, sequence }))
     }
 }
 
@@ -155,9 +160,14 @@ impl Sensor for SensorProxy {
             return Err(refused.because(why));
         }
         let call = Call::Capture { deadline };
-        let stamp = self.link.ask(&call, CAPTURE, deadline)?;
+        let captured: Captured = self.link.ask(&call, CAPTURE, deadline)?;
+        self.sequence = captured.sequence;
         self.memory.copy_to(into.bytes_mut());
-        Ok(stamp)
+        Ok(captured.stamp)
+    }
+
+    fn sequence(&self) -> Option<u64> {
+        self.sequence
     }
 
     fn stop(&mut self) -> Result<(), DriverError> {

@@ -47,6 +47,7 @@ messages! {
         4 => Stopped { stop: GuardedStop },
         5 => Failed { failure: Failure },
         6 => InPlace { name: String },
+        7 => Framed { stamp: Stamp, sequence: Option<u64> },
     }
 
     /// Urgent message for a device. It bypasses the call queue.

@@ -275,6 +275,10 @@ fn calls(into: &mut String) {
         },
         Answer::Failed { failure: failure() },
         Answer::InPlace { name },
+        Answer::Framed {
+            stamp: stamp(),
+            sequence: Some(12),
+        },
     ];
     list(&answers, into);
     list(&[Urgent::Interrupt {}, Urgent::Halt {}], into);

@@ -80,6 +80,9 @@ impl Sensor for Palm {
             received_s: None,
         })
     }
+    fn sequence(&self) -> Option<u64> {
+        (self.way == "numbered").then_some(40 + 2 * self.captured)
+    }
     fn interrupt_handle(&self) -> Option<Arc<dyn Interrupt>> {
         self.interruption.handle()
     }

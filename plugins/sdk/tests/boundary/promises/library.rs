@@ -46,7 +46,7 @@ tare = true
 [[args]]
 key = "way"
 type = "choice"
-choices = ["well", "panic", "nan", "refuse", "block", "panic-at-drop"]
+choices = ["well", "panic", "nan", "refuse", "block", "panic-at-drop", "numbered"]
 default = "well"
 "#
     );

@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use taceva_plugin::abi::ext::{SENSOR_LIGHTING, SensorLightingCalls};
 use taceva_plugin::abi::{
-    LIGHTING_FACTORY, PixelFormat, SENSOR_FACTORY, SensorCalls, Status, Text,
+    FRAME_NUMBERED, LIGHTING_FACTORY, PixelFormat, SENSOR_FACTORY, SensorCalls, Status, Text,
 };
 
 use super::{AT_ONCE, SECOND};
@@ -34,13 +34,30 @@ fn a_frame_is_written_into_the_buffer_of_the_host() {
         (frame.length, frame.stamp.valid_ns, frame.stamp.received_ns),
         (36, 1_500_000_000, 0)
     );
-    assert_eq!(frame.sequence, 1, "frames are counted");
+    assert_eq!((frame.sequence, frame.flags), (1, 0), "frames are counted");
     assert!(frame.release.is_none() && std::ptr::eq(frame.data, frame.buffer));
     assert_eq!(
         (bytes[35], bytes[36]),
         (1, 0),
         "no byte beyond the frame is touched"
     );
+}
+
+#[test]
+fn a_frame_has_the_number_that_its_device_gave_it() {
+    let sensor = Open::new(SENSOR_FACTORY, "numbered");
+    let calls = sensor.calls::<SensorCalls>();
+    for number in [42, 44] {
+        let mut bytes = [0; 36];
+        let mut frame = frame(&mut bytes);
+        // SAFETY: the frame and its buffer live for the call.
+        let (status, _) = ended(|error| unsafe {
+            calls.start.expect("a function")(sensor.handle(), SECOND, error);
+            calls.capture.expect("a function")(sensor.handle(), &raw mut frame, SECOND, error)
+        });
+        assert_eq!(status, Status::OK);
+        assert_eq!((frame.sequence, frame.flags), (number, FRAME_NUMBERED));
+    }
 }
 
 #[test]

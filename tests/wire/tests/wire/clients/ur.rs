@@ -97,6 +97,15 @@ fn control(last: u8, version: [u32; 2], registers: &str) {
 }
 
 #[test]
+fn the_public_client_moves_the_speed_slider_and_sets_outputs_of_an_arm() {
+    let script = include_str!("ur_io.py");
+    let Some(said) = said("rtde_io", script, 24, [5, 11], 1.0, "lower") else {
+        return;
+    };
+    assert_eq!(said, ["True True True", "0.25", "True", "1.0"]);
+}
+
+#[test]
 fn the_public_client_sees_an_e_series_arm_and_its_dashboard() {
     read(5, [5, 11], "5.11.0.108249");
 }

@@ -1,7 +1,7 @@
 //! Controllers whose answers come byte by byte, twice or late, or in another version of the protocol.
 
 use std::io::{Read, Write};
-use std::net::{SocketAddr, TcpListener, TcpStream};
+use std::net::{Shutdown, SocketAddr, TcpListener, TcpStream};
 use std::time::Duration;
 
 use taceva_core::{ErrorKind, Factory, Rig};
@@ -12,6 +12,8 @@ use taceva_wire::xarm::Port;
 use crate::waiting::links::{TYPED, ur_setup, xarm_setup};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, lower, speed};
+#[cfg(unix)]
+use crate::waiting::{grbl, marlin};
 
 /// Arrival of what a controller says.
 #[derive(Clone, Copy, Debug)]
@@ -37,15 +39,55 @@ fn before(address: SocketAddr, arrival: Arrival) -> u16 {
             let controller = TcpStream::connect(address).expect("it listens");
             driver.set_nodelay(true).expect("a socket");
             let back = [&controller, &driver].map(|side| side.try_clone().expect("a socket"));
-            std::thread::spawn(move || pass(driver, controller, None));
+            std::thread::spawn(move || {
+                pass(&driver, &controller, None);
+                // The other side may have closed already.
+                let _ = controller.shutdown(Shutdown::Both);
+            });
             let [controller, driver] = back;
-            std::thread::spawn(move || pass(controller, driver, Some(arrival)));
+            std::thread::spawn(move || {
+                pass(&controller, &driver, Some(arrival));
+                let _ = driver.shutdown(Shutdown::Both);
+            });
         }
     });
     port
 }
 
-fn pass(mut from: TcpStream, mut to: TcpStream, arrival: Option<Arrival>) {
+/// Path of a proxy before the serial line at `path`, from which everything arrives like `arrival`.
+#[cfg(unix)]
+fn before_line(path: &str, arrival: Arrival) -> String {
+    use std::fs::File;
+
+    use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+    use rustix::termios::{OptionalActions, tcgetattr, tcsetattr};
+
+    let end = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).expect("a pseudo-terminal");
+    grantpt(&end).expect("granted");
+    unlockpt(&end).expect("unlocked");
+    let name = ptsname(&end, Vec::new()).expect("named");
+    let name = name.to_string_lossy().into_owned();
+    let mut settings = tcgetattr(&end).expect("a terminal");
+    settings.make_raw();
+    tcsetattr(&end, OptionalActions::Now, &settings).expect("raw");
+    let open = |path: &str| {
+        let line = File::options().read(true).write(true).open(path);
+        line.expect("a line")
+    };
+    let (driver, machine) = (File::from(end), open(path));
+    // The line exists while no driver has it open.
+    let held = open(&name);
+    let back = [&machine, &driver].map(|side| side.try_clone().expect("a file"));
+    std::thread::spawn(move || pass(&driver, &machine, None));
+    let [machine, driver] = back;
+    std::thread::spawn(move || {
+        pass(&machine, &driver, Some(arrival));
+        drop(held);
+    });
+    name
+}
+
+fn pass(mut from: impl Read, mut to: impl Write, arrival: Option<Arrival>) {
     let mut bytes = vec![0; 1 << 16];
     while let Ok(count @ 1..) = from.read(&mut bytes) {
         let came = &bytes[..count];
@@ -62,8 +104,6 @@ fn pass(mut from: TcpStream, mut to: TcpStream, arrival: Option<Arrival>) {
             break;
         }
     }
-    // The other side may have closed already.
-    let _ = to.shutdown(std::net::Shutdown::Both);
 }
 
 impl<E: Arm> Setup<E> {
@@ -74,7 +114,19 @@ impl<E: Arm> Setup<E> {
         let direct = format!(";port={};", address.port());
         let proxied = self.arguments().replace(&direct, &format!(";port={port};"));
         assert_ne!(proxied, self.arguments());
-        let moved = self.opened(&proxied).and_then(|mut arm| {
+        self.moves(&proxied, arrival)
+    }
+
+    /// As [`arrives`](Setup::arrives), for a machine on a serial line.
+    #[cfg(unix)]
+    fn arrives_by_line(&self, arrival: Arrival) -> bool {
+        let (_, path) = self.arguments().split_once("port=").expect("a line");
+        let proxied = format!("port={}", before_line(path, arrival));
+        self.moves(&proxied, arrival)
+    }
+
+    fn moves(&self, proxied: &str, arrival: Arrival) -> bool {
+        let moved = self.opened(proxied).and_then(|mut arm| {
             let (home, _) = arm.pose(PATIENCE)?;
             arm.move_to(lower(home, 4.0), speed(5.0), PATIENCE)
         });
@@ -138,4 +190,25 @@ fn a_controller_of_another_version_of_the_exchange_is_refused_by_that_version() 
     };
     assert_eq!(error.kind(), ErrorKind::Unsupported, "{error}");
     assert!(error.to_string().contains("version 2"), "{error}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_machine_with_g_code_that_answers_in_one_byte_pieces_arrives() {
+    assert!(grbl::setup().arrives_by_line(Arrival::Bytewise));
+    assert!(marlin::setup().arrives_by_line(Arrival::Bytewise));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_machine_with_g_code_that_answers_twice_arrives_or_stands_with_a_typed_error() {
+    grbl::setup().arrives_by_line(Arrival::Twice);
+    marlin::setup().arrives_by_line(Arrival::Twice);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_machine_with_g_code_that_answers_late_arrives_or_stands_with_a_typed_error() {
+    grbl::setup().arrives_by_line(Arrival::Late);
+    marlin::setup().arrives_by_line(Arrival::Late);
 }

@@ -10,7 +10,7 @@ use taceva_wire::{Arm, ArmFault};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, lower, speed};
 
-fn setup() -> Setup<Emulator> {
+pub(crate) fn setup() -> Setup<Emulator> {
     let factory = GrblFactory::new().expect("a factory");
     Setup::new(factory, Emulator::start)
 }

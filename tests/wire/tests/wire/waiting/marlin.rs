@@ -10,7 +10,7 @@ use taceva_wire::{Arm, ArmFault};
 use crate::waiting::setup::Setup;
 use crate::waiting::support::{PATIENCE, lower, moved, speed};
 
-fn setup() -> Setup<Emulator> {
+pub(crate) fn setup() -> Setup<Emulator> {
     of(Firmware::StopsAtOnce)
 }
 
@@ -132,6 +132,26 @@ fn a_motion_that_is_given_up_is_stopped_and_the_next_one_arrives() {
         let (back, _) = printer.pose(PATIENCE).expect("a pose");
         assert!((back.position.z.0 - home.position.z.0).abs() < 0.02);
     }
+}
+
+#[test]
+fn a_motion_whose_wait_is_lost_is_stopped_and_does_not_count_as_ended() {
+    let setup = setup();
+    let mut printer = setup.open();
+    let (home, _) = printer.pose(PATIENCE).expect("a pose");
+    setup.emulator.lose("M400");
+    let moved = printer.move_to(lower(home, 15.0), speed(1.0), PATIENCE);
+    let error = moved.expect_err("nothing says when it rests");
+    assert_eq!(error.kind(), ErrorKind::Timeout, "{error}");
+    let truth = setup.bench.truth();
+    assert!(!truth.is_moving, "{truth:?}");
+}
+
+#[test]
+fn firmware_without_an_echo_is_refused_by_that_command() {
+    let refused = of(Firmware::WithoutEcho).try_open().map(drop);
+    let said = refused.expect_err("refused").to_string();
+    assert!(said.contains("`M118` was refused"), "{said}");
 }
 
 #[test]

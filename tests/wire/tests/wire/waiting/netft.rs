@@ -284,7 +284,7 @@ fn an_error_of_the_box_is_a_fault_of_that_reading_alone() {
 }
 
 #[test]
-fn datagrams_of_others_and_torn_ones_are_no_readings() {
+fn datagrams_of_others_torn_ones_and_those_that_come_twice_or_late_are_no_readings() {
     let setup = setup();
     // A box that accepts a start and then sends invalid records; the emulated one serves the page.
     let false_box = UdpSocket::bind("127.0.0.1:0").expect("a port");

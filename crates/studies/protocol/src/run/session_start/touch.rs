@@ -45,7 +45,7 @@ impl Run<'_> {
     ) -> Step<SessionRecord> {
         let pace = self.tip.pace;
         self.tip.travel([0.0; 2], Degree(0.0), -pace.clearance_mm)?;
-        let zero = self.tip.supervisor.lock().zero();
+        let zero = self.tip.raw_zero();
         let in_air = [self.picture()?, self.picture()?];
         let unit = &first.press.unit;
         let specimen = first.press.specimen;

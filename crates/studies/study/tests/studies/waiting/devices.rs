@@ -342,12 +342,17 @@ impl Sensor for Gel {
         }
         state.pictures += 1;
         let [_, _, z] = state.tip(now.as_secs_f64());
-        // Another depth looks otherwise, as a camera that is not frozen shows it.
-        let [touched, shade] = match z > 0.0 {
-            true => [90, z.to_be_bytes()[1]],
-            false => [60, 60],
+        let seen = match z > 0.0 {
+            _ if state.is_frozen => state.touched,
+            // Another depth looks otherwise, as a camera that is not frozen shows it.
+            true => {
+                let [_, coarse, fine, ..] = z.to_be_bytes();
+                state.touched = [60, 90, coarse, fine];
+                state.touched
+            }
+            false => [60; 4],
         };
-        into.bytes_mut().copy_from_slice(&[60, 60, touched, shade]);
+        into.bytes_mut().copy_from_slice(&seen);
         Ok(Stamp::at(now))
     }
 }

@@ -49,6 +49,9 @@ pub(crate) struct State {
     /// Error that the camera returns instead of a frame, and number of frames returned.
     pub(crate) camera: Option<ErrorKind>,
     pub(crate) pictures: u32,
+    /// Last frame in contact, which a frozen camera repeats.
+    pub(crate) touched: [u8; 4],
+    pub(crate) is_frozen: bool,
     /// Fault of a changer. For every change, also the requested item, the height of the tip, whether it was halted, and whether it stood still.
     pub(crate) changer: Misfortune,
     pub(crate) changes: Vec<(String, f64, bool, bool)>,
@@ -90,6 +93,8 @@ impl World {
             is_unplugged: false,
             camera: None,
             pictures: 0,
+            touched: [60, 90, 0, 0],
+            is_frozen: false,
             changer: Misfortune::None,
             changes: Vec::new(),
             lights: Vec::new(),
