@@ -17,7 +17,7 @@ use taceva_results::{Provenance, Subject, not_measured};
 use crate::notes::of_scores;
 use crate::pass::predictions;
 use crate::report::ByChannel;
-use crate::samples::Unseen;
+use crate::samples::{Unseen, require_model_of_pictures};
 use crate::scale::{Scale, difference};
 use crate::score::{Scored, Scorer};
 use order::{Order, Placed};
@@ -51,7 +51,8 @@ pub fn wear(
     let order = Order::of(recordings, request.by)?;
     check_limits(model, &request.limits)?;
     let unseen = recordings.iter().map(|dataset| {
-        let samples = Unseen::of(dataset, model, None);
+        let samples = require_model_of_pictures(model);
+        let samples = samples.and_then(|()| Unseen::of(dataset, model, None));
         samples.map_err(|error| named(dataset, error))
     });
     let unseen: Vec<Unseen> = unseen.collect::<Result<_, EvaluateError>>()?;
