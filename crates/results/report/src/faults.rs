@@ -9,7 +9,7 @@ use taceva_results::{ResultsError, Subject};
 
 /// Severity in results for a fault that ends the skill at no severity.
 pub(crate) const NEVER: u8 = 6;
-/// Schema of the results; a minor version may follow: `taceva.stress/1.1`.
+/// Schema of the results; a minor version may follow: `taceva.stress/1.2`.
 const SCHEMA: &str = "taceva.stress/1";
 
 /// Errors of a model on pictures with faults, as read from JSON of the schema `taceva.stress/1`.
@@ -128,7 +128,10 @@ impl FaultResult {
 
     /// Mean over the faults of the least severity without shown skill; `None` if it is unknown for a fault.
     pub(crate) fn skill_end(&self, channel: &str) -> Option<f64> {
-        let ends = self.faults.iter().map(|fault| {
+        // A fault of times alone has no errors.
+        let scored = self.faults.iter();
+        let scored = scored.filter(|fault| !fault.breaks_at.is_empty());
+        let ends = scored.map(|fault| {
             let end = fault.breaks_at.get(channel).copied().flatten();
             end.map(f64::from)
         });

@@ -15,7 +15,7 @@ use taceva_results::EvaluationReport;
 use taceva_sim::GelFault;
 use taceva_stress::{
     OtherFaults, PictureFault, SkippedFault, StressReport, StressRequest, WornFault, WornGel,
-    select, stress_unseen,
+    select, stress_unseen, usual_list,
 };
 use taceva_study::{FinishedStudy, FittedStudy, RunFolder};
 
@@ -77,7 +77,7 @@ fn gel_fault(name: &str) -> Option<GelFault> {
 /// # Errors
 /// If a fault is unknown.
 pub(in crate::cmd) fn print_cost(planned: &PlannedScene, context: &Context) -> anyhow::Result<()> {
-    let Some(Wanted { request, gels }) = Wanted::of(planned) else {
+    let Some(Wanted { request, gels, .. }) = Wanted::of(planned) else {
         return Ok(());
     };
     let pictured = match request.faults.is_empty() {
@@ -140,6 +140,8 @@ fn tested(study: &PlannedStudy) -> Vec<&PlannedPress> {
 struct Wanted {
     /// Request for faults of pictures; it names no fault if only gels are tested.
     request: StressRequest,
+    /// True if the scene names no fault.
+    is_usual: bool,
     gels: Vec<GelFault>,
 }
 
@@ -167,6 +169,7 @@ impl Wanted {
                 part: None,
                 stops_at_no_skill: usual.stops_at_no_skill,
             },
+            is_usual: stress.faults.is_none(),
             gels,
         })
     }
@@ -265,7 +268,11 @@ fn of_study(
         worn: &worn,
         foreign: &foreign,
     };
-    match stress_unseen(dataset, &model, unseen, &wanted.request, others, work) {
+    let mut request = wanted.request.clone();
+    if wanted.is_usual {
+        request.faults = vec![usual_list(&model).to_owned()];
+    }
+    match stress_unseen(dataset, &model, unseen, &request, others, work) {
         Ok(found) => Ok(Ok(found)),
         Err(error) if error.is_usage() => Ok(Err(error.to_string())),
         Err(error) => Err(error.into()),
