@@ -1,6 +1,7 @@
 //! Faults of pictures, scored with a fitted model.
 
 mod options;
+mod taxels;
 
 use std::fs;
 #[cfg(target_os = "linux")]
@@ -148,7 +149,9 @@ fn explain_names_faults_and_pictures_and_the_origin() {
 fn the_help_lists_all_faults_and_only_parts_that_are_accepted() {
     let said = Bench::new().ok("stress --help");
     let faults = taceva_stress::FAULTS.into_iter();
-    for fault in faults.chain(taceva_stress::RECORDING_FAULTS) {
+    let others = faults.chain(taceva_stress::RECORDING_FAULTS);
+    let others = others.chain(taceva_stress::TAXEL_FAULTS);
+    for fault in others.chain(taceva_stress::TIME_FAULTS) {
         let named = format!("  {} ", fault.id);
         assert!(said.contains(&named), "{named}: {said}");
     }

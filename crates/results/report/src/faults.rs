@@ -126,12 +126,15 @@ impl FaultResult {
         Some((of.value?, of.ci95))
     }
 
+    /// Faults with errors. A fault that leaves rows out has none, because it changes times alone.
+    pub(crate) fn scored(&self) -> impl Iterator<Item = &FaultScores> {
+        let faults = self.faults.iter();
+        faults.filter(|fault| !fault.breaks_at.is_empty())
+    }
+
     /// Mean over the faults of the least severity without shown skill; `None` if it is unknown for a fault.
     pub(crate) fn skill_end(&self, channel: &str) -> Option<f64> {
-        // A fault of times alone has no errors.
-        let scored = self.faults.iter();
-        let scored = scored.filter(|fault| !fault.breaks_at.is_empty());
-        let ends = scored.map(|fault| {
+        let ends = self.scored().map(|fault| {
             let end = fault.breaks_at.get(channel).copied().flatten();
             end.map(f64::from)
         });

@@ -48,11 +48,11 @@ pub fn wear(
     request: &WearRequest,
     work: Work<'_>,
 ) -> Result<WearReport, EvaluateError> {
+    require_model_of_pictures(model)?;
     let order = Order::of(recordings, request.by)?;
     check_limits(model, &request.limits)?;
     let unseen = recordings.iter().map(|dataset| {
-        let samples = require_model_of_pictures(model);
-        let samples = samples.and_then(|()| Unseen::of(dataset, model, None));
+        let samples = Unseen::of(dataset, model, None);
         samples.map_err(|error| named(dataset, error))
     });
     let unseen: Vec<Unseen> = unseen.collect::<Result<_, EvaluateError>>()?;

@@ -108,3 +108,24 @@ fn a_minor_version_of_the_schema_is_read() {
     newer["schema"] = json!("taceva.stress/10");
     assert!(!FaultResult::is_in(&newer.to_string()));
 }
+
+#[test]
+fn a_fault_of_times_alone_has_no_row_and_hides_no_end_of_skill() {
+    let mut timed = written("gel", "tear,dropped_frames", 4.0);
+    let faults = timed["faults"].as_array_mut().expect("a list");
+    faults.push(json!({
+        "id": "dropped_frames", "note": "times alone", "severities": [{"severity": 1, "stale": {}}],
+        "unreached": [], "breaks_at": {}
+    }));
+    let timed = FaultResult::read(&timed.to_string()).expect("a result");
+    assert_eq!(timed.skill_end("Fz"), Some(3.0));
+    let studies = [Study::of_faults(timed)];
+    let page = report(&ReportPage {
+        title: "worn",
+        studies: &studies,
+        pictures: &[],
+        triples: &[],
+    });
+    assert!(!page.contains("<li>dropped_frames"), "{page}");
+    assert!(page.contains("dropped_frames: times alone."), "{page}");
+}

@@ -28,15 +28,13 @@ fn entry(result: &FaultResult, name: &str, number: usize) -> Markup {
     figure.id = format!("faults-{number}");
     let own = result.faults.iter();
     let own = own.filter_map(|fault| Some(format!("{}: {}", fault.id, fault.note.as_ref()?)));
-    let scored = result.faults.iter();
-    let scored = scored.filter(|fault| !fault.breaks_at.is_empty());
     let skipped = result.skipped.iter();
     let skipped = skipped.map(|of| format!("Skipped: {}: {}", of.fault, of.reason));
     html! {
         (drawn(&figure))
         p { strong { (name) } ": mean degradation over all faults: " (means(result)) "." } "\n"
         @if let Some(words) = unnoticed(result) { p { (words) } "\n" }
-        ul { @for fault in scored { li { (fault.id) ": " (skill_end(fault, result)) "." } "\n" } }
+        ul { @for fault in result.scored() { li { (fault.id) ": " (skill_end(fault, result)) "." } "\n" } }
         @for of in &result.failed { p.note { "Failed: " (of.fault) ": " (of.reason) "." } "\n" }
         @for words in own.chain(skipped) { p.note { (words) "." } "\n" }
         @for words in &result.notes { p.note { (words) } "\n" }
