@@ -51,11 +51,14 @@ pub(crate) struct Drawn {
     pub(crate) step_s: Option<f64>,
     /// True if the untouched rows are declared.
     pub(crate) has_rest: bool,
+    /// True if the force is labelled, and not the place alone.
+    pub(crate) has_force: bool,
 }
 
 pub(crate) const WHOLE: Drawn = Drawn {
     step_s: Some(0.01),
     has_rest: true,
+    has_force: true,
 };
 
 /// A recording of taxels: untouched rows, then twelve points with five forces each.
@@ -71,7 +74,9 @@ pub(crate) fn record(path: &Path, noise: u32, of: &Drawn) -> Dataset {
         .with_serial("1")
         .with_gel("1");
     let facts = RecordingFacts::new(Source::Synthetic, clock, sensor);
-    let channels = Channels::new([Channel::PX, Channel::FZ]).expect("two");
+    let count = if of.has_force { 2 } else { 1 };
+    let channels = [Channel::PX, Channel::FZ].into_iter().take(count);
+    let channels = Channels::new(channels).expect("distinct");
     let spec = RecordingSpec::new(facts, channels).with_signals(taxels.with_rest(rest));
     let mut recorder = Recorder::create(path, &spec).expect("new");
     for number in 0..REST + PRESSES {
@@ -88,7 +93,9 @@ pub(crate) fn record(path: &Path, noise: u32, of: &Drawn) -> Dataset {
             .with_point_id(format!("p{point}"))
             .with_stamp(stamp)
             .with_signals(pressed(force, place, number * 10 + noise))
-            .with_truth(Readings::from_values([place / 2.0, force]));
+            .with_truth(Readings::from_values(
+                [place / 2.0, force].into_iter().take(count),
+            ));
         recorder.append(&sample).expect("recorded");
     }
     recorder.close().expect("closed");

@@ -107,6 +107,7 @@ fn without_times_or_a_known_change_by_contact_faults_are_skipped_by_name() {
     let untimed = Drawn {
         step_s: None,
         has_rest: false,
+        ..WHOLE
     };
     let dataset = record(&folder.path().join("untimed"), 3, &untimed);
     let wanted = request(&["taxel-3", "dropped_frames"]);
@@ -132,12 +133,26 @@ fn without_times_or_a_known_change_by_contact_faults_are_skipped_by_name() {
     );
     let slow = Drawn {
         step_s: Some(2.0),
-        has_rest: true,
+        ..WHOLE
     };
     let slow = record(&folder.path().join("slow"), 4, &slow);
     let report = stress(&slow, &model, &wanted, WORK).expect("tested");
     assert_eq!(report.skipped.len(), 1, "{:?}", report.skipped);
     assert_eq!(report.skipped[0].fault, "dropped_frames");
+    // Nothing tells untouched rows from those of contact.
+    let unknown = Drawn {
+        has_rest: false,
+        has_force: false,
+        ..WHOLE
+    };
+    let unknown = record(&folder.path().join("unknown"), 5, &unknown);
+    let report = stress(&unknown, &model, &request(&["taxel-3"]), WORK).expect("tested");
+    assert_eq!((report.untouched, report.contact), ("none", None));
+    assert_eq!(report.skipped[0].fault, "taxel_drift");
+    let expected = "the change by contact is unknown: expected rows without contact";
+    assert!(report.skipped[0].reason.starts_with(expected));
+    let stimulus = of(&report, "taxel_gain").severities[0].stimulus;
+    assert_eq!(stimulus, None);
 }
 
 #[test]
