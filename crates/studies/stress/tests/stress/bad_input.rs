@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample};
+use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample, Stamp};
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::DataPart;
 use taceva_models::Model;
@@ -270,4 +270,52 @@ fn without_an_untouched_picture_and_a_load_the_stimulus_is_undefined() {
     assert!(errors.all(|error| error.is_some_and(f64::is_finite)));
     let said = refused(&dataset, &model, &StressRequest::default());
     assert!(said.contains("use --by parameter"), "{said}");
+}
+
+#[test]
+fn presses_that_are_seconds_apart_skip_a_lag_and_a_single_picture_skips_the_one_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, model) = unseen(folder.path());
+    let drawn = |name: &str, count: u32| {
+        let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
+        let facts = RecordingFacts::new(Source::Synthetic, Clock::Monotonic, sensor);
+        let channels = Channels::new([Channel::PX, Channel::FZ]).expect("two");
+        let spec = RecordingSpec::new(facts, channels);
+        let path = folder.path().join(name);
+        let mut recorder = Recorder::create(&path, &spec).expect("new");
+        let reference = press(0.0, 0.0, 903);
+        recorder.append_reference(&reference).expect("recorded");
+        for number in 0..count {
+            let force = 0.4 + 0.2 * f64::from(number);
+            let sample = Sample::new(format!("s{number}"))
+                .with_point_id("p".to_owned())
+                .with_stamp(Stamp {
+                    valid_s: 2.0 * f64::from(number),
+                    received_s: None,
+                })
+                .with_frame(press(force, 9.0, 10 * number + 3))
+                .with_truth(Readings::from_values([4.5, force]));
+            recorder.append(&sample).expect("recorded");
+        }
+        recorder.close().expect("closed");
+        Dataset::open(&path).expect("a dataset")
+    };
+    let request = by_parameter(&["dust", "stale_frames", "label_lag"]);
+    for (name, count, expected) in [
+        ("presses", 6, vec!["label_lag"]),
+        ("one", 1, vec!["stale_frames", "label_lag"]),
+    ] {
+        let report = stress(&drawn(name, count), &model, &request, WORK).expect("tested");
+        let skipped: Vec<&str> = report.skipped.iter().map(|of| of.fault.as_str()).collect();
+        assert_eq!(skipped, expected, "{name}");
+        let lag = report.skipped.last().map(|of| of.reason.as_str());
+        assert!(
+            lag.is_some_and(|reason| reason.contains("within 1 s")),
+            "{lag:?}"
+        );
+        assert!(
+            report.faults.iter().any(|fault| fault.id == "dust"),
+            "{name}"
+        );
+    }
 }
