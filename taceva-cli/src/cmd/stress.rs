@@ -83,9 +83,10 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
         let mut plan = stress_plan(&dataset, &model, &request, &foreign)?;
         if let Some(path) = &args.reference {
             let model = shown(path);
+            let input = if reads_signals { "sample" } else { "frame" };
             plan.step(
                 "predict",
-                format!("the same with the model {model}, each frame once more"),
+                format!("the same with the model {model}, each {input} once more"),
             );
         }
         if let Some(folder) = &args.keep_frames {

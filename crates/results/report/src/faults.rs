@@ -12,7 +12,7 @@ pub(crate) const NEVER: u8 = 6;
 /// Schema of the results; a minor version may follow: `taceva.stress/1.2`.
 const SCHEMA: &str = "taceva.stress/1";
 
-/// Errors of a model on pictures with faults, as read from JSON of the schema `taceva.stress/1`.
+/// Errors of a model on pictures or signals with faults, as read from JSON of the schema `taceva.stress/1`.
 ///
 /// ```
 /// use taceva_report::FaultResult;
@@ -28,6 +28,9 @@ pub struct FaultResult {
     pub(crate) list: FaultList,
     pub(crate) seed: u64,
     pub(crate) samples: u64,
+    /// Input of the model: `frame` or `signals`; empty before version 1.2.
+    #[serde(default)]
+    pub(crate) input: String,
     pub(crate) clean: BTreeMap<String, CleanScore>,
     pub(crate) faults: Vec<FaultScores>,
     #[serde(rename = "mD")]
@@ -118,6 +121,14 @@ impl FaultResult {
             });
         }
         Ok(result)
+    }
+
+    /// Noun for the inputs of the model.
+    pub(crate) fn inputs(&self) -> &'static str {
+        match self.input.as_str() {
+            "signals" => "signals",
+            _ => "pictures",
+        }
     }
 
     /// Mean degradation of a channel or plane over all faults, with its 95 % interval; `None` if unknown.

@@ -1,6 +1,13 @@
 //! Faults of taxels and of times.
 
 use std::fmt::Write as _;
+use std::fs;
+
+use taceva_core::{
+    Channel, Channels, Clock, Frame, FrameInfo, PixelFormat, Readings, Sample, SignalInfo, Signals,
+    Unit, single,
+};
+use taceva_dataset::{Recorder, RecordingFacts, RecordingSpec, SensorFacts, SignalsSpec, Source};
 
 use crate::support::Bench;
 
@@ -138,4 +145,65 @@ fn requests_that_suit_no_recording_of_taxels_are_refused_by_name() {
         2,
         "the recording has no signals, which the model reads",
     );
+}
+
+/// A recording `both` of presses with pictures and signals.
+fn record_both(bench: &Bench) {
+    let taxels = SignalInfo::new(2, 2, 1, Unit::Microtesla).expect("a grid");
+    let pixels = FrameInfo {
+        width: 16,
+        height: 16,
+        format: PixelFormat::Gray8,
+    };
+    let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let channels = Channels::new([Channel::FZ]).expect("one");
+    let spec = SignalsSpec::new(taxels, ["p"]).expect("one name");
+    let spec = RecordingSpec::new(facts, channels).with_signals(spec);
+    let mut recorder = Recorder::create(&bench.path("both"), &spec).expect("new");
+    for number in 0..60_u8 {
+        let force = 0.4 + 0.4 * f64::from(number % 5);
+        let numbers = [100.0, 60.0, 30.0, 10.0].map(|gain| {
+            let flicker = f64::from(number % 7);
+            single(500.0 + gain * force + flicker)
+        });
+        let sample = Sample::new(format!("s{number:02}"))
+            .with_point_id(format!("p{}", number / 5))
+            .with_frame(Frame::new(pixels, vec![number; 256]).expect("whole"))
+            .with_signals(Signals::new(taxels, numbers.to_vec()).expect("whole"))
+            .with_truth(Readings::from_values([force]));
+        recorder.append(&sample).expect("recorded");
+    }
+    recorder.close().expect("closed");
+}
+
+#[test]
+fn a_scene_whose_model_reads_signals_is_planned_tested_and_shown_with_faults_of_taxels() {
+    let bench = Bench::new();
+    record_both(&bench);
+    bench.write(
+        "both.toml",
+        r#"scene_version = 1
+name = "both"
+sensor = { dataset = "both" }
+metrics = { want = ["mae"] }
+model = { name = "ridge", set = { input = "signals" } }
+stress = { severities = [5] }
+"#,
+    );
+    let planned = bench.run("plan both.toml");
+    assert_eq!(planned.code, 0, "{}", planned.err);
+    let expected =
+        "3 faults of 1 severity on the samples of the test part, each read once more; nothing is";
+    assert!(planned.err.contains(expected), "{}", planned.err);
+    bench.ok("run both.toml --out r -q");
+    let text = fs::read_to_string(bench.path("r/stress/1-both.json")).expect("written");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    crate::schema::check("stress", &report);
+    assert_eq!(report["input"], "signals");
+    assert_eq!(report["list"]["name"], "taxel_dead,taxel_gain");
+    assert_eq!(report["skipped"][0]["fault"], "taxel_drift");
+    let page = fs::read_to_string(bench.path("r/report.html")).expect("a page");
+    assert!(page.contains("faults of their signals."), "{page}");
+    assert!(page.contains("found by a check of signals"), "{page}");
 }

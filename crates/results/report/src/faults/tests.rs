@@ -129,3 +129,26 @@ fn a_fault_of_times_alone_has_no_row_and_hides_no_end_of_skill() {
     assert!(!page.contains("<li>dropped_frames"), "{page}");
     assert!(page.contains("dropped_frames: times alone."), "{page}");
 }
+
+#[test]
+fn a_page_names_the_inputs_of_its_models() {
+    let mut signals = written("skin", "taxel_gain", 4.0);
+    signals["input"] = json!("signals");
+    let signals = FaultResult::read(&signals.to_string()).expect("a result");
+    let page = |results: Vec<FaultResult>| {
+        let studies: Vec<Study> = results.into_iter().map(Study::of_faults).collect();
+        report(&ReportPage {
+            title: "worn",
+            studies: &studies,
+            pictures: &[],
+            triples: &[],
+        })
+    };
+    let alone = page(vec![signals.clone()]);
+    assert!(alone.contains("faults of their signals."), "{alone}");
+    assert!(alone.contains("not found by a check of signals"), "{alone}");
+    let both = page(vec![signals, drawn("gel", "tear", 4.0)]);
+    let expected = "faults of their pictures or signals.";
+    assert!(both.contains(expected), "{both}");
+    assert!(both.contains("not found by a check of pictures"), "{both}");
+}

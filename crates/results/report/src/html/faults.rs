@@ -1,5 +1,7 @@
 //! Section of a page on faults.
 
+use std::collections::BTreeSet;
+
 use maud::{Markup, html};
 
 use super::drawn;
@@ -16,8 +18,11 @@ pub(super) fn section(studies: &[Study]) -> Option<Markup> {
         Some(entry(result, &name, number))
     });
     let entries: Vec<Markup> = entries.collect();
+    let results = studies.iter().filter_map(|study| study.faults.as_ref());
+    let inputs: BTreeSet<&str> = results.map(FaultResult::inputs).collect();
+    let inputs: Vec<&str> = inputs.into_iter().collect();
     let body = html! {
-        p { "Errors of the same presses with faults of their pictures. The model was not fitted again." } "\n"
+        p { "Errors of the same presses with faults of their " (inputs.join(" or ")) ". The model was not fitted again." } "\n"
         @for entry in &entries { (entry) }
     };
     (!entries.is_empty()).then_some(body)
@@ -58,12 +63,13 @@ fn unnoticed(result: &FaultResult) -> Option<String> {
     let hidden = hidden.filter(|of| main.contains(&of.channel.as_str()));
     let hidden = hidden.map(|of| format!("{} {} {}", of.fault, of.severity, of.channel));
     let hidden: Vec<String> = hidden.collect();
+    let inputs = result.inputs();
     Some(match hidden.is_empty() {
         true => {
-            "Every fault that at least doubles an error is found by a check of pictures.".to_owned()
+            format!("Every fault that at least doubles an error is found by a check of {inputs}.")
         }
         false => format!(
-            "At least doubled, and not found by a check of pictures, by fault, severity and channel: {}.",
+            "At least doubled, and not found by a check of {inputs}, by fault, severity and channel: {}.",
             listed(&hidden)
         ),
     })
