@@ -165,7 +165,7 @@ impl FaultReport {
 pub struct TimeScore {
     /// The value; `None` if it is not defined.
     pub value: Option<f64>,
-    /// Its unit.
+    /// Unit of the value.
     pub unit: &'static str,
 }
 
