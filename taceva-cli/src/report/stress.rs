@@ -194,13 +194,13 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
             "; added error relative to the reference model: {relative}"
         ));
     }
+    let renewed = match report.input {
+        "signals" => "new untouched signals remove",
+        _ => "a new untouched picture removes",
+    };
     line.push_str(&match common_reason(fault) {
-        Some(reason) => {
-            format!("; the error that a new untouched picture removes is unknown: {reason}")
-        }
-        None => {
-            format!("; share of the excess error that a new untouched picture removes: {recovers}")
-        }
+        Some(reason) => format!("; the error that {renewed} is unknown: {reason}"),
+        None => format!("; share of the excess error that {renewed}: {recovers}"),
     });
     for of in &fault.unreached {
         line.push_str(&format!(
@@ -258,7 +258,7 @@ fn spread(fault: &FaultReport, channels: &[&str]) -> String {
     }
 }
 
-/// Reason for the absence of every share that a new untouched picture removes, if it is the same.
+/// Reason for the absence of every share that new untouched inputs remove, if it is the same.
 fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     let reason = fault.recovers.values().next()?.reason?;
     let mut shares = fault.recovers.values();

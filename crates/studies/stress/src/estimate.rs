@@ -52,7 +52,7 @@ impl fmt::Display for Undefined {
             Undefined::ZeroBaseline => "no error without the fault",
             Undefined::ConstantTruth => "all labels are equal",
             Undefined::NoExcess => "the fault adds no error",
-            Undefined::NoFreshReference => "no untouched picture from after the fault",
+            Undefined::NoFreshReference => "no untouched picture or signals from after the fault",
             Undefined::NoClusters => "no contact points",
             Undefined::TooFewClusters => "fewer than five contact points",
             Undefined::NoInterval => "no interval",

@@ -86,6 +86,7 @@ fn a_model_of_signals_is_tested_with_faults_of_taxels_unless_others_are_named() 
     assert!(gain["fresh"]["Fz"].is_object(), "the model subtracts rest");
     let said = bench.ok("stress unseen --model skin.taceva -q");
     assert!(said.contains("taxel_drift"), "{said}");
+    assert!(said.contains("new untouched signals remove"), "{said}");
     assert!(
         said.contains("by a fault of signals without a finding"),
         "{said}"
