@@ -5,7 +5,8 @@
 
 Each seed acquires the default study, fits `ridge` and `cnn` on the training part of each sensor and scores the test part by `taceva stress`.
 A cell has the degradation of Fz at severities 1, 3 and 5: the geometric mean over seeds. `–` is a severity that no parameter of the fault reaches.
-Nothing but the standard library is needed. The last lines count ordered stimuli and degradations, and the processor time of a sensor.
+Nothing but the standard library is needed. The last lines count ordered stimuli and degradations, name faults that `check` does not notice, each with the
+recordings and the greatest stimulus of these, and state the processor time of a sensor.
 """
 
 import json
@@ -71,7 +72,7 @@ def short(value):
 def main():
     seeds = range(1, (int(sys.argv[1]) if len(sys.argv) > 1 else 5) + 1)
     cells, recovered, sensors, faults, seconds = {}, {}, [], {}, []
-    stimuli, ordered, degradations, growing, unnoticed = 0, 0, 0, 0, {model: set() for model in MODELS}
+    stimuli, ordered, degradations, growing, unnoticed = 0, 0, 0, 0, {model: {} for model in MODELS}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for seed in seeds:
@@ -105,9 +106,15 @@ def main():
                         share = (fault["recovers"] or {}).get(CHANNEL, {}).get("value")
                         if share is not None:
                             recovered.setdefault(key, []).append(share)
+                    tested = {
+                        (fault["id"], severity["severity"]): severity["stimulus"]
+                        for fault in result["faults"]
+                        for severity in fault["severities"]
+                    }
                     for one in result["unnoticed"]:
                         if one["channel"] == CHANNEL:
-                            unnoticed[model].add(one["fault"])
+                            stimulus = tested[one["fault"], one["severity"]]
+                            unnoticed[model].setdefault(one["fault"], []).append((stimulus, recording))
     for model in MODELS:
         print(f"| {model}: fault | {' | '.join(sensors)} |")
         print("|---|" + "---|" * len(sensors))
@@ -124,8 +131,12 @@ def main():
         print()
     above = f"Stimulus greater than at the next lower severity: {ordered} of {stimuli}."
     print(f"{above} Degradation not smaller than there, within intervals: {growing} of {degradations}.")
+    count = len(seconds) // len(MODELS)
+    print(f"Faults that double the error of {CHANNEL} while check finds nothing, with the number of recordings of {count} and the greatest stimulus:")
     for model in MODELS:
-        print(f"Faults that check does not notice for at least one sensor and seed, {model}: {', '.join(sorted(unnoticed[model])) or 'none'}.")
+        found = sorted(unnoticed[model].items())
+        words = [f"{fault} ({len({at for _, at in of})}, {max(of)[0]:.2g})" for fault, of in found]
+        print(f"{model}: {', '.join(words) or 'none'}.")
     print(f"Processor time of all faults and severities, a sensor: {statistics.median(seconds):.1f} s, at most {max(seconds):.1f} s.", file=sys.stderr)
 
 

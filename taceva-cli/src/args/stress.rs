@@ -3,14 +3,14 @@
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use taceva_stress::{FAULTS, Fault, RECORDING_FAULTS};
+use taceva_stress::{FAULTS, Fault, RECORDING_FAULTS, TAXEL_FAULTS, TIME_FAULTS};
 
 use super::{ExplainArgs, Output, SeedArgs, ViewArgs};
 
-/// Score a fitted model on pictures with faults: blur, dead pixels, lost light, wear, dust
+/// Score a fitted model on pictures or signals with faults: blur, dead pixels, lost light, wear, dust, dead taxels
 ///
-/// Faults are applied to the pictures of the recording, and the model predicts them without being fitted again. Severities 1 to 5 change the
-/// untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. If the model reads an untouched picture, a fault that is alike in
+/// Faults are applied to the pictures or signals of the recording, and the model predicts them without being fitted again. Severities 1 to 5
+/// change the untouched picture by 0.03, 0.1, 0.3, 1 and 3 of the mean change by contact. If the model reads an untouched picture, a fault that is alike in
 /// all pictures has a second score: with an untouched picture that has the fault. A fitted model is scored on samples that it has not seen.
 #[derive(Debug, Args)]
 #[command(after_help = faults_help())]
@@ -23,14 +23,9 @@ pub(crate) struct Stress {
     pub(crate) model: PathBuf,
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Faults, separated by commas; gel-12 or all means those of pictures, recording-5 those of files, markers, clocks and labels, ORG/NAME a fault of a
-    /// plugin
-    #[arg(
-        long,
-        value_name = "FAULTS",
-        value_delimiter = ',',
-        default_value = "gel-12"
-    )]
+    /// Faults, separated by commas; gel-12 or all means those of pictures, recording-5 those of files, markers, clocks and labels, taxel-3 those of taxels,
+    /// time-1 that of times, ORG/NAME a fault of a plugin [default: gel-12, or taxel-3 if the model reads signals]
+    #[arg(long, value_name = "FAULTS", value_delimiter = ',')]
     pub(crate) faults: Vec<String>,
     /// A second fitted model: states the error that each fault adds, divided by the error that it adds to this model
     #[arg(long, value_name = "MODEL")]
@@ -43,7 +38,7 @@ pub(crate) struct Stress {
     pub(crate) by: StressBy,
     #[command(flatten)]
     pub(crate) seed: SeedArgs,
-    /// Random draws of the places of dead pixels, scratches, tears and dust; every draw is predicted, so that no single draw decides
+    /// Random draws of the places of dead pixels, scratches, tears, dust and taxels; every draw is predicted, so that no single draw decides
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=100))]
     pub(crate) draws: u32,
     /// The samples on which the model is scored [default: test, or all if the model was fitted on another recording]
@@ -73,9 +68,11 @@ fn faults_help() -> String {
             .collect()
     };
     format!(
-        "Faults of gel-12:{}\n\nFaults of recording-5:{}",
+        "Faults of gel-12:{}\n\nFaults of recording-5:{}\n\nFaults of taxel-3:{}\n\nFaults of time-1:{}",
         lines(&FAULTS),
-        lines(&RECORDING_FAULTS)
+        lines(&RECORDING_FAULTS),
+        lines(&TAXEL_FAULTS),
+        lines(&TIME_FAULTS)
     )
 }
 

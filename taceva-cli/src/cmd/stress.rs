@@ -3,12 +3,12 @@
 use std::path::Path;
 
 use anyhow::Context as _;
-use taceva_core::shown;
+use taceva_core::{InputInfo, shown};
 use taceva_evaluate::{DataPart, EvaluateError, Plan};
 use taceva_report::FaultResult;
 use taceva_stress::{
     By, Examples, OtherFaults, PictureFault, StressReport, StressRequest, add_reference,
-    severities, stress_beside, stress_plan,
+    severities, stress_beside, stress_plan, usual_list,
 };
 
 use super::plugin_fault::{PluginFault, find, is_taken};
@@ -48,7 +48,7 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     let plugins = plugin_faults(&keys, args.seed.value, context)?;
     let foreign = plugins.iter().map(|fault| fault as &dyn PictureFault);
     let foreign: Vec<&dyn PictureFault> = foreign.collect();
-    let request = StressRequest {
+    let mut request = StressRequest {
         faults: names,
         severities: severities(&args.severity)?,
         by: match args.by {
@@ -65,6 +65,16 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
     };
     let models = context.models()?;
     let model = models.open(&args.model)?;
+    if args.faults.is_empty() {
+        request.faults.push(usual_list(&model).to_owned());
+    }
+    let reads_signals = matches!(model.card().input, InputInfo::Signals(_));
+    if let Some(folder) = args.keep_frames.as_deref().filter(|_| reads_signals) {
+        return Err(Usage::error(format!(
+            "--keep-frames {}: the model reads signals, so there is no picture to keep; leave the option out",
+            shown(folder)
+        )));
+    }
     let reference = reference.map(|path| models.open(path)).transpose()?;
     let recordings = [args.dataset.clone()];
     let dataset = open_seen(&recordings, &args.view, Some(&model))?;
@@ -73,9 +83,10 @@ pub(crate) fn run(args: &Stress, context: &Context) -> anyhow::Result<u8> {
         let mut plan = stress_plan(&dataset, &model, &request, &foreign)?;
         if let Some(path) = &args.reference {
             let model = shown(path);
+            let input = if reads_signals { "sample" } else { "frame" };
             plan.step(
                 "predict",
-                format!("the same with the model {model}, each frame once more"),
+                format!("the same with the model {model}, each {input} once more"),
             );
         }
         if let Some(folder) = &args.keep_frames {

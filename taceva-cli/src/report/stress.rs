@@ -33,7 +33,7 @@ pub(crate) fn table(report: &StressReport) -> Table {
                 score.map_or_else(|| Cell::text("–"), |score| cell(&score.degradation))
             });
             cells.extend(ratios);
-            let is_checked = report.unnoticed.is_some() && !fault.is_of_labels();
+            let is_checked = report.unnoticed.is_some() && !fault.keeps_inputs();
             cells.push(Cell::text(match is_checked || !of.check.is_empty() {
                 true => of.check.join(" "),
                 false => "–".to_owned(),
@@ -72,6 +72,10 @@ fn caption(report: &StressReport) -> String {
 /// Remarks below the table, as complete sentences.
 fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     let mut notes = Vec::new();
+    let inputs = match report.input {
+        "signals" => "signals",
+        _ => "pictures",
+    };
     let clean = channels.iter().filter_map(|name| {
         let mae = phrase(&report.clean.get(*name)?.mae, report.units.get(*name)?);
         Some(format!("{name} {mae}"))
@@ -96,7 +100,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
             false => names.join(", "),
         };
         notes.push(format!(
-            "Errors at least doubled by a fault that no check of pictures finds (fault, severity, channel): {names}."
+            "Errors at least doubled by a fault that no check of {inputs} finds (fault, severity, channel): {names}."
         ));
     }
     notes.extend(missed_targets(report));
@@ -106,7 +110,7 @@ fn notes(report: &StressReport, channels: &[&str]) -> Vec<String> {
     }));
     if report.untouched != "reference" {
         notes.push(format!(
-            "The recording has no untouched picture; changes by faults and contact are measured from: {}.",
+            "The recording has no untouched {inputs}; changes by faults and contact are measured from: {}.",
             report.untouched
         ));
     }
@@ -147,6 +151,9 @@ fn missed_targets(report: &StressReport) -> Option<String> {
 
 /// Summary of a fault on one line.
 fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> String {
+    if !fault.times.is_empty() {
+        return of_times(fault);
+    }
     let breaks = by_channel(channels, |name| {
         match report.clean.get(name)?.skill.is_above_zero() {
             Some(false) => Some("no skill even without the fault".to_owned()),
@@ -187,13 +194,13 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
             "; added error relative to the reference model: {relative}"
         ));
     }
+    let renewed = match report.input {
+        "signals" => "new untouched signals remove",
+        _ => "a new untouched picture removes",
+    };
     line.push_str(&match common_reason(fault) {
-        Some(reason) => {
-            format!("; the error that a new untouched picture removes is unknown: {reason}")
-        }
-        None => {
-            format!("; share of the excess error that a new untouched picture removes: {recovers}")
-        }
+        Some(reason) => format!("; the error that {renewed} is unknown: {reason}"),
+        None => format!("; share of the excess error that {renewed}: {recovers}"),
     });
     for of in &fault.unreached {
         line.push_str(&format!(
@@ -206,6 +213,29 @@ fn of_fault(report: &StressReport, fault: &FaultReport, channels: &[&str]) -> St
     }
     line.push('.');
     line
+}
+
+/// Metrics of time without a fault and at each severity, on one line.
+fn of_times(fault: &FaultReport) -> String {
+    let metrics = fault.times.iter().map(|(metric, clean)| {
+        let value = |of: Option<f64>| of.map_or_else(|| "–".to_owned(), short);
+        let severities = fault.severities.iter().map(|of| {
+            let known = of.times.get(metric).and_then(|of| of.value);
+            format!("{} at severity {}", value(known), of.severity)
+        });
+        let severities: Vec<String> = severities.collect();
+        let unit = match clean.unit {
+            "1" => String::new(),
+            unit => format!(" {unit}"),
+        };
+        format!(
+            "{metric} {}{unit} without the fault, {}",
+            value(clean.value),
+            severities.join(", ")
+        )
+    });
+    let metrics: Vec<String> = metrics.collect();
+    format!("{}: {}.", fault.id, metrics.join("; "))
 }
 
 /// Spread of the degradation between draws, at the highest tested severity; empty for one draw.
@@ -228,7 +258,7 @@ fn spread(fault: &FaultReport, channels: &[&str]) -> String {
     }
 }
 
-/// Reason for the absence of every share that a new untouched picture removes, if it is the same.
+/// Reason for the absence of every share that new untouched inputs remove, if it is the same.
 fn common_reason(fault: &FaultReport) -> Option<Undefined> {
     let reason = fault.recovers.values().next()?.reason?;
     let mut shares = fault.recovers.values();

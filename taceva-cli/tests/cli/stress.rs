@@ -1,6 +1,7 @@
 //! Faults of pictures, scored with a fitted model.
 
 mod options;
+mod taxels;
 
 use std::fs;
 #[cfg(target_os = "linux")]
@@ -148,7 +149,9 @@ fn explain_names_faults_and_pictures_and_the_origin() {
 fn the_help_lists_all_faults_and_only_parts_that_are_accepted() {
     let said = Bench::new().ok("stress --help");
     let faults = taceva_stress::FAULTS.into_iter();
-    for fault in faults.chain(taceva_stress::RECORDING_FAULTS) {
+    let others = faults.chain(taceva_stress::RECORDING_FAULTS);
+    let others = others.chain(taceva_stress::TAXEL_FAULTS);
+    for fault in others.chain(taceva_stress::TIME_FAULTS) {
         let named = format!("  {} ", fault.id);
         assert!(said.contains(&named), "{named}: {said}");
     }
@@ -239,23 +242,33 @@ fn a_fault_of_a_plugin_is_tested_by_its_key_beside_the_others() {
     assert_eq!(alone["list"]["name"], "fog");
 }
 
-#[test]
+/// Builds the example in C in the folder `fog` as its page says, with the words `from` of its source replaced by `to`. False without a C compiler.
 #[cfg(target_os = "linux")]
-fn a_fault_of_a_plugin_in_c_is_built_and_tested_as_its_page_says() {
+fn builds_in_c(bench: &Bench, from: &str, to: &str) -> bool {
     if let Err(error) = Command::new("cc").arg("--version").output() {
         skip(Need::CCompiler, format!("`cc`: {error}"));
-        return;
+        return false;
     }
-    let bench = bench();
     let example = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/plugins/fogged-lens-c");
     let read = |file: &str| fs::read_to_string(example.join(file)).expect(file);
-    for file in ["fog.c", "plugin.toml"] {
-        bench.write(&format!("fog/{file}"), &read(file));
-    }
+    let source = read("fog.c");
+    assert!(source.contains(from), "{source}");
+    bench.write("fog/fog.c", &source.replace(from, to));
+    bench.write("fog/plugin.toml", &read("plugin.toml"));
     let page = read("README.md");
     let commands = page.split("```").nth(1).expect("commands").trim();
     let built = bench.shell(&format!("cd fog && {}", commands.replace('\n', " && ")));
     assert_eq!(built.code, 0, "{}{}", built.out, built.err);
+    true
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_fault_of_a_plugin_in_c_is_built_and_tested_as_its_page_says() {
+    let bench = bench();
+    if !builds_in_c(&bench, "", "") {
+        return;
+    }
     let report = bench.json(
         "stress unseen --model m.taceva --faults org.example.fogged-lens-c/fog --severity 1,4 --by parameter --plugin-dir fog",
     );
@@ -263,6 +276,27 @@ fn a_fault_of_a_plugin_in_c_is_built_and_tested_as_its_page_says() {
     let severities = &report["faults"][0]["severities"];
     let stimulus = |at: usize| severities[at]["stimulus"].as_f64().expect("a number");
     assert!(0.0 < stimulus(0) && stimulus(0) < stimulus(1), "{report}");
+}
+
+#[test]
+#[cfg(target_os = "linux")]
+fn a_plugin_that_returns_nan_fails_by_name_the_other_faults_go_on_and_the_exit_code_is_4() {
+    let bench = bench();
+    let of_pixel = "mean + it->left * (features[at] - mean)";
+    if !builds_in_c(&bench, of_pixel, "it->left * (mean - mean) / (mean - mean)") {
+        return;
+    }
+    let ran = bench.run(
+        "stress unseen --model m.taceva --faults dust,org.example.fogged-lens-c/fog --severity 1,4 --by parameter --plugin-dir fog --format json --out s.json",
+    );
+    assert_eq!(ran.code, 4, "{}", ran.err);
+    assert!(ran.err.contains("fault fog failed: "), "{}", ran.err);
+    let text = fs::read_to_string(bench.path("s.json")).expect("complete");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    crate::schema::check("stress", &report);
+    assert_eq!(report["faults"].as_array().map(Vec::len), Some(1));
+    assert_eq!(report["faults"][0]["id"], "dust");
+    assert_eq!(report["failed"][0]["fault"], "fog");
 }
 
 #[test]

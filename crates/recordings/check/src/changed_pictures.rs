@@ -1,9 +1,11 @@
-//! Checks of a recording whose pictures were changed in memory.
+//! Checks of a recording whose pictures or signals were changed in memory.
 
 use taceva_dataset::Dataset;
 
-use crate::checks::{OF_PICTURES, duplicate_frames};
+use crate::checks::{OF_PICTURES, OF_SIGNALS, duplicate_frames};
 use crate::evidence::{Evidence, FrameFacts};
+use crate::finding::Check;
+use crate::signal_facts::SignalFacts;
 
 /// Codes of the checks that find something in changed pictures of `dataset`, ascending. `frames` has the statistics of each row, and may lack tiles.
 /// `has_repeats` is true if a picture equals an earlier one.
@@ -16,6 +18,29 @@ pub fn codes_of_pictures(
     has_repeats: bool,
 ) -> Vec<&'static str> {
     let evidence = Evidence {
+        frames,
+        reference,
+        ..of_labels(dataset)
+    };
+    let repeats = has_repeats.then_some(duplicate_frames::CHECK.code);
+    let found = codes(&OF_PICTURES, &evidence);
+    repeats.into_iter().chain(found).collect()
+}
+
+/// Codes of the checks that find something in changed signals of `dataset`, ascending. `facts` has the statistics of the changed signals.
+///
+/// Runs the checks that need signals alone: stuck, clipped and equal taxels.
+pub fn codes_of_signals(dataset: &Dataset, facts: &SignalFacts) -> Vec<&'static str> {
+    let evidence = Evidence {
+        signals: Some(facts),
+        ..of_labels(dataset)
+    };
+    codes(&OF_SIGNALS, &evidence).collect()
+}
+
+/// Evidence of the labels alone.
+fn of_labels(dataset: &Dataset) -> Evidence<'_> {
+    Evidence {
         header: dataset.header(),
         table: dataset.table(),
         clusters: &[],
@@ -23,17 +48,19 @@ pub fn codes_of_pictures(
         is_split_named: false,
         scored: None,
         of_tasks: &[],
-        frames,
-        reference,
+        frames: &[],
+        reference: None,
         signals: None,
         maps: &[],
         damaged: &[],
         sessions: None,
-    };
-    let repeats = has_repeats.then_some(duplicate_frames::CHECK.code);
-    let found = OF_PICTURES
+    }
+}
+
+/// Codes of the `checks` that find something.
+fn codes(checks: &[&Check], evidence: &Evidence<'_>) -> impl Iterator<Item = &'static str> {
+    let found = checks
         .iter()
-        .filter(|check| !(check.find)(&evidence).is_empty());
-    let found = found.map(|check| check.code);
-    repeats.into_iter().chain(found).collect()
+        .filter(move |check| !(check.find)(evidence).is_empty());
+    found.map(|check| check.code)
 }

@@ -57,6 +57,13 @@ pub(crate) static OF_PICTURES: [&Check; 5] = [
     &dead_zone::CHECK,
 ];
 
+/// Checks that need the statistics of taxels alone.
+pub(crate) static OF_SIGNALS: [&Check; 3] = [
+    &stuck_taxel::CHECK,
+    &clipped_taxel::CHECK,
+    &equal_taxels::CHECK,
+];
+
 /// All checks, in the order of their codes.
 pub static ALL: [&Check; 45] = [
     &units::CHECK,

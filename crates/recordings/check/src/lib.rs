@@ -15,7 +15,7 @@ mod tiles;
 mod untouched;
 mod views;
 
-pub use changed_pictures::codes_of_pictures;
+pub use changed_pictures::{codes_of_pictures, codes_of_signals};
 pub use check::check;
 pub use checks::ALL;
 pub use depth_facts::{DepthFacts, OneMap};

@@ -67,24 +67,33 @@ pub struct TaxelFacts {
 }
 
 impl SignalFacts {
-    /// Computes the statistics of `dataset`; `None` without signals.
-    pub(crate) fn of(
-        dataset: &Dataset,
-        progress: &dyn Progress,
-    ) -> Result<Option<SignalFacts>, EvaluateError> {
+    /// Statistics of no sample of `dataset`; `None` without signals.
+    ///
+    /// # Errors
+    /// [`EvaluateError`] if the signals without contact cannot be read.
+    pub fn empty(dataset: &Dataset) -> Result<Option<SignalFacts>, EvaluateError> {
         let Some(header) = &dataset.header().signals else {
             return Ok(None);
         };
-        let rest = dataset.rest()?;
-        let mut facts = SignalFacts {
+        Ok(Some(SignalFacts {
             info: header.spec.info,
             names: header.spec.column_names().collect(),
             taxels: Vec::new(),
             samples: 0,
             zero_rows: Vec::new(),
             rest_rows: dataset.rest_rows().collect(),
-            rest,
+            rest: dataset.rest()?,
             distance: Vec::new(),
+        }))
+    }
+
+    /// Computes the statistics of `dataset`; `None` without signals.
+    pub(crate) fn of(
+        dataset: &Dataset,
+        progress: &dyn Progress,
+    ) -> Result<Option<SignalFacts>, EvaluateError> {
+        let Some(mut facts) = SignalFacts::empty(dataset)? else {
+            return Ok(None);
         };
         let rows = dataset.all_rows();
         let pass = Pass::new(&rows, NonZeroUsize::MIN, progress);
@@ -105,7 +114,8 @@ impl SignalFacts {
         Ok(Some(facts))
     }
 
-    fn add(&mut self, values: &[f32]) {
+    /// Adds the `values` of the next sample.
+    pub fn add(&mut self, values: &[f32]) {
         if self.taxels.is_empty() {
             let first = values.iter().map(|value| TaxelFacts::first(*value));
             self.taxels = first.collect();

@@ -9,10 +9,10 @@ use taceva_results::{ResultsError, Subject};
 
 /// Severity in results for a fault that ends the skill at no severity.
 pub(crate) const NEVER: u8 = 6;
-/// Schema of the results; a minor version may follow: `taceva.stress/1.1`.
+/// Schema of the results; a minor version may follow: `taceva.stress/1.2`.
 const SCHEMA: &str = "taceva.stress/1";
 
-/// Errors of a model on pictures with faults, as read from JSON of the schema `taceva.stress/1`.
+/// Errors of a model on pictures or signals with faults, as read from JSON of the schema `taceva.stress/1`.
 ///
 /// ```
 /// use taceva_report::FaultResult;
@@ -28,6 +28,9 @@ pub struct FaultResult {
     pub(crate) list: FaultList,
     pub(crate) seed: u64,
     pub(crate) samples: u64,
+    /// Input of the model: `frame` or `signals`; empty before version 1.2.
+    #[serde(default)]
+    pub(crate) input: String,
     pub(crate) clean: BTreeMap<String, CleanScore>,
     pub(crate) faults: Vec<FaultScores>,
     #[serde(rename = "mD")]
@@ -120,15 +123,29 @@ impl FaultResult {
         Ok(result)
     }
 
+    /// Noun for the inputs of the model.
+    pub(crate) fn inputs(&self) -> &'static str {
+        match self.input.as_str() {
+            "signals" => "signals",
+            _ => "pictures",
+        }
+    }
+
     /// Mean degradation of a channel or plane over all faults, with its 95 % interval; `None` if unknown.
     pub(crate) fn degradation(&self, channel: &str) -> Option<(f64, Option<[f64; 2]>)> {
         let of = self.mean.get(channel)?;
         Some((of.value?, of.ci95))
     }
 
+    /// Faults with errors. A fault that leaves rows out has none, because it changes times alone.
+    pub(crate) fn scored(&self) -> impl Iterator<Item = &FaultScores> {
+        let faults = self.faults.iter();
+        faults.filter(|fault| !fault.breaks_at.is_empty())
+    }
+
     /// Mean over the faults of the least severity without shown skill; `None` if it is unknown for a fault.
     pub(crate) fn skill_end(&self, channel: &str) -> Option<f64> {
-        let ends = self.faults.iter().map(|fault| {
+        let ends = self.scored().map(|fault| {
             let end = fault.breaks_at.get(channel).copied().flatten();
             end.map(f64::from)
         });

@@ -69,7 +69,7 @@ pub struct Study {
     pub tasks: Vec<StudyTask>,
     /// Samples of the result; `None` if unavailable, and figures of samples are then omitted.
     pub samples: Option<Samples>,
-    /// Errors with faults of the pictures; `None` if no fault was tested.
+    /// Errors with faults of the pictures or signals; `None` if no fault was tested.
     pub faults: Option<FaultResult>,
 }
 

@@ -2,6 +2,7 @@
 
 use crate::canvas::{Canvas, Realisation};
 use crate::labels::LabelChange;
+use crate::taxels::TaxelChange;
 
 /// Random numbers of a fault.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,7 +15,7 @@ pub enum Scope {
     Each,
 }
 
-/// A fault of pictures or of labels, a pure function of picture or label, parameter, seed and sample name.
+/// A fault of pictures, signals, labels or rows: a pure function of their values, the parameter, the seed and the name of the sample.
 #[derive(Debug)]
 pub struct Fault {
     /// Name of the fault, such as `defocus`.
@@ -47,6 +48,10 @@ pub(crate) enum Effect {
     Before,
     /// Changes the labels, and no picture.
     Labels(LabelChange),
+    /// Changes the signals of taxels.
+    Taxels(TaxelChange),
+    /// Leaves rows out.
+    Rows,
 }
 
 /// Markers of one picture.
@@ -63,6 +68,21 @@ impl Fault {
         self.label_change().is_some()
     }
 
+    /// True if the fault changes signals of taxels, and no picture. Its severity is then set by its parameter.
+    pub fn is_of_taxels(&self) -> bool {
+        matches!(self.effect, Effect::Taxels(_))
+    }
+
+    /// True if the fault leaves rows out, which changes times alone. Its severity is then set by its parameter.
+    pub fn is_of_rows(&self) -> bool {
+        matches!(self.effect, Effect::Rows)
+    }
+
+    /// True if the fault changes pictures.
+    pub(crate) fn is_of_pictures(&self) -> bool {
+        !self.is_of_labels() && !self.is_of_taxels() && !self.is_of_rows()
+    }
+
     /// Change of labels; `None` for a fault of pictures.
     pub(crate) fn label_change(&self) -> Option<LabelChange> {
         match self.effect {
@@ -71,9 +91,18 @@ impl Fault {
         }
     }
 
-    /// True if the fault grows with the time of the samples.
+    /// True if the fault of pictures grows with the time of the samples.
     pub(crate) fn grows(&self) -> bool {
         matches!(self.effect, Effect::Growing(_))
+    }
+
+    /// True if the fault grows with the time of the samples, and changes pictures or signals.
+    pub(crate) fn needs_times(&self) -> bool {
+        match self.effect {
+            Effect::Growing(_) => true,
+            Effect::Taxels(change) => change.grows,
+            _ => false,
+        }
     }
 
     /// True if the fault is one of markers.

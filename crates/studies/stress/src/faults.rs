@@ -4,6 +4,7 @@ mod cable_noise;
 mod camera_shift;
 mod dead_pixels;
 mod defocus;
+mod dropped_frames;
 mod dust;
 mod exposure_drift;
 mod exposure_high;
@@ -16,6 +17,9 @@ mod marker_loss;
 mod scratches;
 mod sensor_noise;
 mod stale_frames;
+mod taxel_dead;
+mod taxel_drift;
+mod taxel_gain;
 mod tear;
 
 use taceva_core::{shown, suggestion};
@@ -27,6 +31,10 @@ use crate::fault::Fault;
 pub const LIST: &str = "gel-12";
 /// Name of the list of faults of camera files, markers, clocks and labels.
 pub const RECORDING_LIST: &str = "recording-5";
+/// Name of the list of faults of taxels.
+pub const TAXEL_LIST: &str = "taxel-3";
+/// Name of the list of faults of times.
+pub const TIME_LIST: &str = "time-1";
 /// Another name of the list of faults of pictures.
 const ALL: &str = "all";
 /// Faults of a gel. Changed pictures alone cannot simulate them, because force and picture change together.
@@ -70,16 +78,50 @@ pub static RECORDING_FAULTS: [&Fault; 5] = [
     &force_noise::FAULT,
 ];
 
-/// Faults called `names`, in the order of both lists; those of a list for its name, those of [`LIST`] for `all`. Spaces around a name do not count.
+/// Faults of taxels, in the order of the list [`TAXEL_LIST`].
+pub static TAXEL_FAULTS: [&Fault; 3] =
+    [&taxel_dead::FAULT, &taxel_gain::FAULT, &taxel_drift::FAULT];
+
+/// Faults of times, in the order of the list [`TIME_LIST`].
+pub static TIME_FAULTS: [&Fault; 1] = [&dropped_frames::FAULT];
+
+/// A list of faults.
+pub(crate) struct KnownList {
+    pub(crate) name: &'static str,
+    pub(crate) faults: &'static [&'static Fault],
+}
+
+/// All lists.
+pub(crate) static LISTS: [KnownList; 4] = [
+    KnownList {
+        name: LIST,
+        faults: &FAULTS,
+    },
+    KnownList {
+        name: RECORDING_LIST,
+        faults: &RECORDING_FAULTS,
+    },
+    KnownList {
+        name: TAXEL_LIST,
+        faults: &TAXEL_FAULTS,
+    },
+    KnownList {
+        name: TIME_LIST,
+        faults: &TIME_FAULTS,
+    },
+];
+
+/// Faults called `names`, in the order of all lists; those of a list for its name, those of [`LIST`] for `all`. Spaces around a name do not count.
 ///
 /// # Errors
 /// [`EvaluateError::Request`] for an unknown name, or without a name.
 pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
     let names: Vec<&str> = names.iter().map(|name| name.trim()).collect();
-    let ids = FAULTS.iter().map(|fault| fault.id);
-    let others = RECORDING_FAULTS.iter().map(|fault| fault.id);
-    let known = [LIST].into_iter().chain(ids);
-    let known: Vec<&str> = known.chain([RECORDING_LIST]).chain(others).collect();
+    let known = LISTS.iter().flat_map(|list| {
+        let ids = list.faults.iter().map(|fault| fault.id);
+        [list.name].into_iter().chain(ids)
+    });
+    let known: Vec<&str> = known.collect();
     let is_known = |name: &str| name == ALL || known.contains(&name);
     if let Some(gel) = names.iter().find(|name| GEL_FAULTS.contains(name)) {
         return Err(EvaluateError::Request(format!(
@@ -93,16 +135,14 @@ pub fn select(names: &[String]) -> Result<Vec<&'static Fault>, EvaluateError> {
             suggestion(unknown, &known)
         )));
     }
-    let has_pictures = names.contains(&ALL) || names.contains(&LIST);
-    let has_others = names.contains(&RECORDING_LIST);
-    let pictures = FAULTS.into_iter().map(|fault| (fault, has_pictures));
-    let others = RECORDING_FAULTS
-        .into_iter()
-        .map(|fault| (fault, has_others));
-    let wanted = pictures
-        .chain(others)
-        .filter(|(fault, is_in_list)| *is_in_list || names.contains(&fault.id));
-    let chosen: Vec<&'static Fault> = wanted.map(|(fault, _)| fault).collect();
+    let names = &names;
+    let wanted = LISTS.iter().flat_map(|list| {
+        let is_all = list.name == LIST && names.contains(&ALL);
+        let is_whole = is_all || names.contains(&list.name);
+        let faults = list.faults.iter().copied();
+        faults.filter(move |fault| is_whole || names.contains(&fault.id))
+    });
+    let chosen: Vec<&'static Fault> = wanted.collect();
     match chosen.is_empty() {
         true => Err(EvaluateError::Request(format!(
             "no fault is named, expected {LIST} or some of `{}`",

@@ -52,10 +52,10 @@ pub(crate) fn recovers(severities: &[SeverityReport], channel: &str, mean: &Esti
     }
 }
 
-/// Errors that a fault of pictures at least doubles without a finding in the checks of pictures.
+/// Errors that a fault of pictures or signals at least doubles without a finding in the checks of these.
 pub(crate) fn unnoticed(faults: &[FaultReport]) -> Vec<Unnoticed> {
-    let of_pictures = faults.iter().filter(|fault| !fault.is_of_labels());
-    let hidden = of_pictures.flat_map(|fault| {
+    let of_inputs = faults.iter().filter(|fault| !fault.keeps_inputs());
+    let hidden = of_inputs.flat_map(|fault| {
         let severities = fault.severities.iter().filter(|of| of.check.is_empty());
         severities.flat_map(move |of| {
             let is_doubled = |score: &CellScore| {

@@ -7,7 +7,7 @@ use taceva_models::Extractor;
 
 use crate::findings::{CHANGED_REST, LOW};
 use crate::pass::{Predictor, UNTOUCHED, compares};
-use crate::report::SeverityReport;
+use crate::report::{ByChannel, SeverityReport};
 use crate::scale::difference;
 use crate::worn::{NewGel, ScoredFault};
 
@@ -104,6 +104,7 @@ impl NewGel<'_> {
                     .collect(),
                 stale: stale.beside(self.baseline, self.clean),
                 fresh: fresh.map(|fresh| fresh.beside(self.baseline, self.clean)),
+                times: ByChannel::new(),
             });
             scored.push(stale);
         }

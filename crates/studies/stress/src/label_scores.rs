@@ -6,7 +6,7 @@ use taceva_evaluate::EvaluateError;
 
 use crate::fault::Fault;
 use crate::labels::Labels;
-use crate::report::SeverityReport;
+use crate::report::{ByChannel, SeverityReport};
 use crate::setup::StressRequest;
 use crate::severity::Levels;
 use crate::stress::Stress;
@@ -46,6 +46,7 @@ impl NewGel<'_> {
                 check: Vec::new(),
                 stale: stale.beside(self.baseline, self.clean),
                 fresh: None,
+                times: ByChannel::new(),
             });
             cells.push(stale);
         }

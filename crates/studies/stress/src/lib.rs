@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod canvas;
+mod cells;
 mod estimate;
 mod example;
 mod fault;
@@ -26,22 +27,30 @@ mod severity;
 mod stages;
 mod stress;
 mod study;
+mod taxel_scale;
+mod taxel_scores;
+mod taxels;
+mod time_scores;
+mod times;
 mod wear;
 mod worn;
 
 pub use estimate::{Estimate, Undefined};
 pub use example::Examples;
 pub use fault::{Fault, Scope};
-pub use faults::{FAULTS, GEL_FAULTS, LIST, RECORDING_FAULTS, RECORDING_LIST, select};
+pub use faults::{
+    FAULTS, GEL_FAULTS, LIST, RECORDING_FAULTS, RECORDING_LIST, TAXEL_FAULTS, TAXEL_LIST,
+    TIME_FAULTS, TIME_LIST, select,
+};
 pub use foreign::PictureFault;
 pub use monitor::{Alarm, Change, Monitor, watch};
 pub use others::OtherFaults;
 pub use relative::add_reference;
 pub use report::{
     ByChannel, CellScore, CleanScore, FaultList, FaultReport, STRESS_SCHEMA, SeverityReport,
-    SkippedFault, StressReport, Unnoticed,
+    SkippedFault, StressReport, TimeScore, Unnoticed,
 };
-pub use setup::{StressRequest, stress_plan};
+pub use setup::{StressRequest, stress_plan, usual_list};
 pub use severity::{By, NEVER, TARGETS, Unreached, severities};
 pub use stress::Stress;
 pub use study::{stress, stress_beside, stress_unseen};

@@ -3,7 +3,7 @@
 use taceva_dataset::Digest;
 
 use crate::fault::Fault;
-use crate::faults::{FAULTS, LIST, LIST_VERSION, RECORDING_FAULTS, RECORDING_LIST};
+use crate::faults::{LIST_VERSION, LISTS};
 use crate::others::OtherFaults;
 use crate::report::FaultList;
 use crate::setup::StressRequest;
@@ -11,11 +11,10 @@ use crate::setup::StressRequest;
 /// Name and digest of the faults with their severities.
 pub(crate) fn list(
     faults: &[&'static Fault],
-    of_labels: &[&'static Fault],
     request: &StressRequest,
     others: OtherFaults<'_>,
 ) -> FaultList {
-    let known = faults.iter().chain(of_labels).map(|fault| fault.id);
+    let known = faults.iter().map(|fault| fault.id);
     let own: Vec<&str> = known.clone().collect();
     let worn = others.worn.iter().map(|fault| fault.id.as_str());
     let foreign = others.foreign.iter().map(|fault| fault.name());
@@ -23,10 +22,10 @@ pub(crate) fn list(
     let ids: Vec<&str> = ids.collect();
     let severities: Vec<String> = request.severities.iter().map(u8::to_string).collect();
     let is_alone = ids.len() == own.len() && request.severities.len() == 5;
-    let lists = [(LIST, &FAULTS[..]), (RECORDING_LIST, &RECORDING_FAULTS[..])];
-    let mut whole = lists
-        .into_iter()
-        .filter(|(_, all)| is_alone && own.iter().copied().eq(all.iter().map(|fault| fault.id)));
+    let mut whole = LISTS.iter().filter(|list| {
+        let all = list.faults.iter().map(|fault| fault.id);
+        is_alone && own.iter().copied().eq(all)
+    });
     let mut text = format!(
         "{LIST_VERSION}\n{:?}\n{}\n{}\n",
         request.by,
@@ -41,7 +40,7 @@ pub(crate) fn list(
     }
     FaultList {
         name: match whole.next() {
-            Some((name, _)) => format!("{name}/{LIST_VERSION}"),
+            Some(list) => format!("{}/{LIST_VERSION}", list.name),
             None => ids.join(","),
         },
         digest: Digest::of(text.as_bytes()).to_string(),

@@ -121,14 +121,14 @@ pub(crate) struct Predictor<'a> {
 }
 
 impl Predictor<'_> {
-    /// Unclamped predictions of one picture, computed without other pictures, so that these have no influence.
-    pub(crate) fn of(
+    /// Unclamped predictions of one picture, or of the signals of one sample, computed without other samples, so that these have no influence.
+    pub(crate) fn of<'i>(
         &self,
-        frame: &Frame,
+        input: impl Into<Input<'i>>,
         extractor: Option<&Extractor>,
     ) -> Result<Vec<f64>, EvaluateError> {
         let features = match extractor {
-            Some(extractor) => extractor.extract_all([frame])?,
+            Some(extractor) => extractor.extract_all([input])?,
             None => blank(self.model.card().features.shape(), 1)?,
         };
         Ok(self.model.predict_unbounded(&features)?)

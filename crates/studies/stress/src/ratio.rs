@@ -206,6 +206,22 @@ mod tests {
     }
 
     #[test]
+    fn the_mean_of_equal_cells_is_one_cell_and_opposite_cells_have_a_narrower_interval() {
+        let clean = errors(|_| 2.0);
+        let rising = errors(|row| 2.0 + f64::from(row / 5));
+        let falling = errors(|row| 7.0 - f64::from(row / 5));
+        let mean = |cells: [&Errors; 2]| {
+            let shares = cells.map(|errors| Share { errors, share: 0.5 });
+            mean_ratio(shares, &clean)
+        };
+        assert_eq!(mean([&rising, &rising]), ratio(&rising, &clean));
+        // A contact point with a large error in one cell has a small error in the other, and is left out of both.
+        let width = |of: Estimate| of.ci95.map(|[low, high]| high - low).expect("six clusters");
+        let both = width(mean([&rising, &falling]));
+        assert!(both < 0.1 * width(ratio(&rising, &clean)), "{both}");
+    }
+
+    #[test]
     fn a_perfect_model_has_no_ratio_and_few_clusters_no_interval() {
         let found = ratio(&errors(|_| 1.0), &errors(|_| 0.0));
         assert_eq!(found, Estimate::undefined(Undefined::ZeroBaseline));

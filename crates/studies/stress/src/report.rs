@@ -7,17 +7,17 @@ use serde::Serialize;
 use taceva_results::{ModelProvenance, Provenance, Subject};
 
 use crate::estimate::Estimate;
-use crate::faults::RECORDING_FAULTS;
+use crate::faults::LISTS;
 use crate::ratio::Errors;
 use crate::severity::{By, Unreached};
 
 /// Schema of the result.
-pub const STRESS_SCHEMA: &str = "taceva.stress/1.1";
+pub const STRESS_SCHEMA: &str = "taceva.stress/1.2";
 
 /// Numbers by the name of a channel or plane.
 pub type ByChannel<T> = BTreeMap<String, T>;
 
-/// Errors of a model on pictures with faults.
+/// Errors of a model on pictures or signals with faults.
 #[derive(Clone, Debug, Serialize)]
 pub struct StressReport {
     /// Schema of the result.
@@ -32,16 +32,20 @@ pub struct StressReport {
     pub list: FaultList,
     /// Seed of all faults.
     pub seed: u64,
-    /// Draws of the places of dead pixels, scratches, tears and dust.
+    /// Draws of the places of dead pixels, scratches, tears, dust and taxels.
     pub draws: u32,
     /// Number of predicted samples.
     pub samples: usize,
+    /// Input of the model: `frame` or `signals`.
+    pub input: &'static str,
     /// Number of samples of the part that have no picture.
     pub left_out: usize,
-    /// Untouched picture: `reference`, `least load`, or `none`.
+    /// Untouched picture or signals: `reference`, `least load`, or `none`.
     pub untouched: &'static str,
-    /// Mean change of a picture by contact, a share of full scale.
+    /// Mean change by contact: of a picture a share of full scale, of signals in their unit.
     pub contact: Option<f64>,
+    /// Unit of `contact`.
+    pub contact_unit: &'static str,
     /// Unit of each channel.
     pub units: ByChannel<&'static str>,
     /// Errors without a fault.
@@ -51,7 +55,7 @@ pub struct StressReport {
     /// Mean degradation over all faults.
     #[serde(rename = "mD")]
     pub mean: ByChannel<Estimate>,
-    /// Errors that a fault of pictures at least doubles without a finding in the checks of pictures. `None` without a reference.
+    /// Errors that a fault of pictures or signals at least doubles without a finding in the checks of these. `None` for pictures without a reference.
     pub unnoticed: Option<Vec<Unnoticed>>,
     /// Skipped faults, with reasons.
     pub skipped: Vec<SkippedFault>,
@@ -140,17 +144,29 @@ pub struct FaultReport {
     /// Added error over all severities, divided by that of the reference model; `None` without a reference model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative_error: Option<ByChannel<Estimate>>,
+    /// Metrics of time without the fault; empty for a fault that leaves no rows out.
+    #[serde(skip_serializing_if = "ByChannel::is_empty")]
+    pub times: ByChannel<TimeScore>,
     /// Errors by contact point of each of `severities`.
     #[serde(skip)]
     pub(crate) errors: Vec<ByChannel<Errors>>,
 }
 
 impl FaultReport {
-    /// True if the fault changes labels, and no picture, so that no check of pictures can find it.
-    pub fn is_of_labels(&self) -> bool {
-        let mut known = RECORDING_FAULTS.into_iter();
-        known.any(|fault| fault.id == self.id && fault.is_of_labels())
+    /// True if the fault changes labels or times, and no picture or signal, so that no check of these can find it.
+    pub fn keeps_inputs(&self) -> bool {
+        let mut known = LISTS.iter().flat_map(|list| list.faults);
+        known.any(|fault| fault.id == self.id && (fault.is_of_labels() || fault.is_of_rows()))
     }
+}
+
+/// Value of a metric of time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct TimeScore {
+    /// The value; `None` if it is not defined.
+    pub value: Option<f64>,
+    /// Unit of the value.
+    pub unit: &'static str,
 }
 
 /// Results of one fault at one severity.
@@ -160,19 +176,22 @@ pub struct SeverityReport {
     pub severity: u8,
     /// Parameter of the fault.
     pub parameter: f64,
-    /// Mean change of the scored pictures, as a share of the change by contact.
+    /// Mean change of the scored pictures or signals, as a share of the change by contact.
     pub stimulus: Option<f64>,
-    /// True if the stimulus is below 0.05, so that the fault hardly changes the pictures.
+    /// True if the stimulus is below 0.05, so that the fault hardly changes the pictures or signals.
     pub low_stimulus: bool,
-    /// Codes of the checks of pictures that find the fault, in every draw, and find nothing without it.
+    /// Codes of the checks of pictures or taxels that find the fault, in every draw, and find nothing without it.
     pub check: Vec<&'static str>,
     /// Scores with an untouched picture from before the fault.
     pub stale: ByChannel<CellScore>,
     /// Scores with an untouched picture from after the fault; `None` without such a picture.
     pub fresh: Option<ByChannel<CellScore>>,
+    /// Metrics of time with the fault; empty for a fault that leaves no rows out.
+    #[serde(skip_serializing_if = "ByChannel::is_empty")]
+    pub times: ByChannel<TimeScore>,
 }
 
-/// Error that a fault at least doubles without a finding in the checks of pictures.
+/// Error that a fault at least doubles without a finding in the checks of pictures or taxels.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Unnoticed {
     /// Name of the fault.

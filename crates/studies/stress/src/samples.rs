@@ -1,5 +1,6 @@
-//! Samples with pictures that a model has not seen.
+//! Samples with pictures or signals that a model has not seen.
 
+use taceva_core::InputInfo;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{
     DataPart, EvaluateError, Need, Target, model_provenance, provenance_of, usable,
@@ -10,18 +11,18 @@ use taceva_results::Provenance;
 /// Samples of a recording that a model has not seen.
 pub(crate) struct Unseen {
     pub(crate) target: Target,
-    /// Samples with a picture, ascending.
+    /// Samples with a picture, or with signals if the model reads those, ascending.
     pub(crate) rows: Vec<usize>,
 }
 
 impl Unseen {
-    /// Samples of `part`, or of the part that the model has not seen. Reads no picture.
+    /// Samples of `part`, or of the part that the model has not seen. Reads no picture and no signal.
     pub(crate) fn of(
         dataset: &Dataset,
         model: &Model,
         part: Option<DataPart>,
     ) -> Result<Unseen, EvaluateError> {
-        require_pictures(dataset, model)?;
+        require_input(dataset, model)?;
         let target = Target::new(dataset, model, part)?;
         let is_fitted = target
             .divided
@@ -34,7 +35,7 @@ impl Unseen {
                 target.part.name()
             )));
         }
-        Unseen::with_pictures(dataset, target)
+        Unseen::with_input(dataset, model, target)
     }
 
     /// Samples of `target`, which the caller knows to be unseen.
@@ -43,13 +44,17 @@ impl Unseen {
         model: &Model,
         target: Target,
     ) -> Result<Unseen, EvaluateError> {
-        require_pictures(dataset, model)?;
-        Unseen::with_pictures(dataset, target)
+        require_input(dataset, model)?;
+        Unseen::with_input(dataset, model, target)
     }
 
-    fn with_pictures(dataset: &Dataset, target: Target) -> Result<Unseen, EvaluateError> {
+    fn with_input(
+        dataset: &Dataset,
+        model: &Model,
+        target: Target,
+    ) -> Result<Unseen, EvaluateError> {
         let need = Need {
-            frame: true,
+            frame: !reads_signals(model),
             labels: None,
         };
         let rows = usable(dataset, &target.rows, need);
@@ -75,13 +80,17 @@ impl Unseen {
         decoded: u64,
     ) -> Result<Provenance, EvaluateError> {
         let divided = self.target.divided.as_ref();
+        let own = match reads_signals(model) {
+            true => 0,
+            false => self.rows.len() as u64,
+        };
         Ok(Provenance {
             model: Some(model_provenance(model)?),
             split: divided.map(|divided| divided.spec.to_string()),
             seed: divided.map(|divided| divided.seed),
             part: Some(self.target.part.name().to_owned()),
             samples: divided.map(|of| of.counts()).unwrap_or_default(),
-            frames_decoded: decoded + self.rows.len() as u64,
+            frames_decoded: decoded + own,
             ..provenance_of(dataset)
         })
     }
@@ -89,27 +98,53 @@ impl Unseen {
 
 /// Time of each row of `dataset`, a share of the time from its first row to its last. `None` if one of `rows` has no time, or all times are equal.
 pub(crate) fn shares(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
+    let elapsed = elapsed_s(dataset, rows)?;
+    let whole = elapsed.iter().copied().fold(0.0, f64::max);
+    Some(elapsed.iter().map(|time| time / whole).collect())
+}
+
+/// Time of each row of `dataset` since its first row, s; that of the last for a row without a time. `None` as for [`shares`].
+pub(crate) fn elapsed_s(dataset: &Dataset, rows: &[usize]) -> Option<Vec<f64>> {
     let times = dataset.table().t_s();
     let known = || times.iter().copied().flatten();
     let first = known().fold(f64::INFINITY, f64::min);
     let last = known().fold(f64::NEG_INFINITY, f64::max);
     let is_timed = rows.iter().all(|row| times[*row].is_some());
-    let share = |time: &Option<f64>| time.map_or(1.0, |time| (time - first) / (last - first));
-    (is_timed && last > first).then(|| times.iter().map(share).collect())
+    let elapsed = |time: &Option<f64>| time.unwrap_or(last) - first;
+    (is_timed && last > first).then(|| times.iter().map(elapsed).collect())
 }
 
-/// Refuses recordings without pictures of one sensor, and models that read no pictures.
-fn require_pictures(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
+/// True for a model of the signals of taxels.
+pub(crate) fn reads_signals(model: &Model) -> bool {
+    matches!(model.card().input, InputInfo::Signals(_))
+}
+
+/// Refuses models of signals.
+pub(crate) fn require_model_of_pictures(model: &Model) -> Result<(), EvaluateError> {
+    match reads_signals(model) {
+        true => Err(EvaluateError::Request(
+            "the model reads signals, expected a model that reads pictures: fit such a model by `taceva fit --set input=frame`"
+                .to_owned(),
+        )),
+        false => Ok(()),
+    }
+}
+
+/// Refuses several recordings, and a recording without the input of the model.
+fn require_input(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let refused = |words: &str| Err(EvaluateError::Request(words.to_owned()));
     if !dataset.recordings().is_empty() {
         return refused(
             "several recordings, expected one, because each has its own untouched picture; test them one by one",
         );
     }
-    if model.reads_features() && !model.reads_frames() {
-        return refused(
-            "the model reads signals, expected a model that reads pictures: fit one by `taceva fit --set input=frame`",
-        );
+    if reads_signals(model) {
+        return match dataset.header().signals {
+            Some(_) => Ok(()),
+            None => refused(
+                "the recording has no signals, which the model reads: expected a recording of taxels, or a model that reads pictures",
+            ),
+        };
     }
     dataset.require_view()?;
     match dataset.header().frames {

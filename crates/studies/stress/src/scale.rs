@@ -13,6 +13,7 @@ const PRESSED: f64 = 0.5;
 ///
 /// # Units
 /// A change is a mean over all pixel values of a picture, as a share of full scale.
+#[derive(Default)]
 pub(crate) struct Scale {
     /// The untouched picture; without a reference, the picture with the least load.
     pub(crate) untouched: Option<Frame>,
@@ -66,7 +67,7 @@ impl Scale {
     pub(crate) fn untouched(dataset: &Dataset, rows: &[usize]) -> Result<Scale, EvaluateError> {
         let reference = dataset.reference()?;
         let is_reference = reference.is_some();
-        let (untouched, decoded) = match (reference, Loads::of(dataset, rows).least()) {
+        let (untouched, decoded) = match (reference, least_loaded(dataset, rows)) {
             (Some(reference), _) => (Some(reference), 0),
             (None, Some(row)) => (dataset.frame(row)?, 1),
             (None, None) => (None, 0),
@@ -111,7 +112,7 @@ pub(crate) fn difference(one: &Frame, other: &Frame) -> f64 {
 }
 
 /// Mean; `None` for no numbers.
-fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
+pub(crate) fn mean(numbers: impl Iterator<Item = f64>) -> Option<f64> {
     let (sum, count) = numbers.fold((0.0, 0.0), |(sum, count), number| {
         (sum + number, count + 1.0)
     });
@@ -134,6 +135,17 @@ pub(crate) fn most_loaded(dataset: &Dataset, rows: &[usize]) -> Option<usize> {
     let loads = Loads::of(dataset, rows).rows.into_iter();
     let most = loads.max_by(|one, other| one.load.total_cmp(&other.load));
     most.map(|load| load.row)
+}
+
+/// At most [`PICTURES`] rows of contact among `rows`, at evenly spaced positions.
+pub(crate) fn contact_rows(dataset: &Dataset, rows: &[usize]) -> Vec<usize> {
+    let loads = Loads::of(dataset, rows);
+    loads.picked().iter().map(|load| load.row).collect()
+}
+
+/// Row of the least load among `rows`, if loads are known.
+pub(crate) fn least_loaded(dataset: &Dataset, rows: &[usize]) -> Option<usize> {
+    Loads::of(dataset, rows).least()
 }
 
 /// A row with its load.

@@ -7,15 +7,21 @@ use taceva_models::{MarkerTracker, Model};
 use taceva_results::not_measured;
 
 use crate::fault::{Fault, Scope};
-use crate::faults::{LIST, select};
+use crate::faults::{LIST, TAXEL_LIST, select};
 use crate::foreign::PictureFault;
 use crate::pass::compares;
 use crate::report::SkippedFault;
-use crate::samples::{Unseen, shares};
+use crate::samples::{Unseen, reads_signals, shares};
 use crate::scale::PICTURES;
 use crate::severity::By;
 use crate::stress::{Stress, draw_seeds};
+use crate::taxel_scale::TaxelScale;
+use crate::times::is_stream;
 
+/// Reason to skip a fault of pictures for a model of signals.
+const OF_PICTURES: &str = "the model reads signals, and the fault changes pictures";
+/// Reason to skip a fault that is a share of the change of signals by contact.
+const NO_CONTACT: &str = "the change by contact is unknown: expected rows without contact or labels of Fz or Pz, and samples of contact whose signals differ";
 /// Minimum number of markers for their loss. Fewer spots would fit into any grid.
 const LEAST_MARKERS: usize = 9;
 
@@ -26,15 +32,16 @@ pub struct StressRequest {
     pub faults: Vec<String>,
     /// Severities from 1 to 5, ascending.
     pub severities: Vec<u8>,
-    /// Quantity that sets severity.
+    /// Quantity that sets the severity of faults of pictures.
     pub by: By,
     /// Seed of all faults.
     pub seed: u64,
-    /// Draws of the places of dead pixels, scratches, tears and dust, at least 1.
+    /// Draws of the places of dead pixels, scratches, tears, dust and taxels, at least 1.
     pub draws: u32,
     /// Part to score; `None` for the samples that the model has not seen.
     pub part: Option<DataPart>,
-    /// True to leave out the severities of a fault of pictures above the first at which no channel has skill. Each severity then decodes the scored pictures.
+    /// True to leave out the severities of a fault of pictures or signals above the first at which no channel has skill. Each severity then decodes the scored
+    /// pictures.
     pub stops_at_no_skill: bool,
 }
 
@@ -49,6 +56,14 @@ impl Default for StressRequest {
             part: None,
             stops_at_no_skill: false,
         }
+    }
+}
+
+/// Name of the list of the faults that `model` is tested with if none is named.
+pub fn usual_list(model: &Model) -> &'static str {
+    match reads_signals(model) {
+        true => TAXEL_LIST,
+        false => LIST,
     }
 }
 
@@ -81,6 +96,10 @@ pub(crate) struct Setup {
     pub(crate) faults: Vec<&'static Fault>,
     /// Faults of labels.
     pub(crate) of_labels: Vec<&'static Fault>,
+    /// Faults of taxels.
+    pub(crate) of_taxels: Vec<&'static Fault>,
+    /// Faults that leave rows out.
+    pub(crate) of_rows: Vec<&'static Fault>,
     pub(crate) skipped: Vec<SkippedFault>,
 }
 
@@ -94,7 +113,7 @@ impl Setup {
         require_testable(dataset, model)?;
         let chosen = request.checked(has_others)?;
         let samples = Unseen::of(dataset, model, request.part)?;
-        Ok(Setup::with(dataset, model, samples, chosen))
+        Setup::with(dataset, model, samples, chosen)
     }
 
     /// Setup for the samples of `target`, which the caller knows to be unseen.
@@ -107,7 +126,7 @@ impl Setup {
     ) -> Result<Setup, EvaluateError> {
         let chosen = request.checked(has_others)?;
         let samples = Unseen::of_target(dataset, model, target)?;
-        Ok(Setup::with(dataset, model, samples, chosen))
+        Setup::with(dataset, model, samples, chosen)
     }
 
     fn with(
@@ -115,14 +134,29 @@ impl Setup {
         model: &Model,
         samples: Unseen,
         chosen: Vec<&'static Fault>,
-    ) -> Setup {
+    ) -> Result<Setup, EvaluateError> {
         let is_timed = shares(dataset, &samples.rows).is_some();
+        let is_stream = chosen.iter().any(|fault| fault.is_of_rows()) && is_stream(dataset)?;
         let lacks = |fault: &'static Fault| -> Option<&'static str> {
+            if fault.is_of_pictures() && reads_signals(model) {
+                return Some(OF_PICTURES);
+            }
+            if fault.is_of_taxels() && !reads_signals(model) {
+                return Some(match dataset.header().signals {
+                    Some(_) => "the model reads pictures, and the fault changes signals",
+                    None => "the recording has no signals of taxels",
+                });
+            }
+            if fault.is_of_rows() && !is_stream {
+                return Some(
+                    "no metric of time: expected the times `t_s` of a stream, at most 1 s apart",
+                );
+            }
             let is_alone = samples.rows.len() == 1;
             if is_alone && Stress::new(fault, 0.0, 0).repeats() {
                 return Some("the only scored picture has no previous picture");
             }
-            if fault.grows() && !is_timed {
+            if fault.needs_times() && !is_timed {
                 return Some(
                     "expected the times `t_s` of all samples, with a first and a last one",
                 );
@@ -136,13 +170,51 @@ impl Setup {
                 Some(reason) => skipped.push(SkippedFault::new(fault, reason)),
             }
         }
-        let (of_labels, faults) = faults.into_iter().partition(|fault| fault.is_of_labels());
-        Setup {
+        let of_kind = |is_wanted: fn(&Fault) -> bool| -> Vec<&'static Fault> {
+            let own = faults.iter().copied();
+            own.filter(|fault| is_wanted(fault)).collect()
+        };
+        Ok(Setup {
+            of_labels: of_kind(Fault::is_of_labels),
+            of_taxels: of_kind(Fault::is_of_taxels),
+            of_rows: of_kind(Fault::is_of_rows),
+            faults: of_kind(Fault::is_of_pictures),
             samples,
-            faults,
-            of_labels,
             skipped,
+        })
+    }
+
+    /// All faults that are tested: those of pictures, labels, taxels and rows.
+    pub(crate) fn all(&self) -> Vec<&'static Fault> {
+        let kinds = [
+            &self.faults,
+            &self.of_labels,
+            &self.of_taxels,
+            &self.of_rows,
+        ];
+        kinds.into_iter().flatten().copied().collect()
+    }
+
+    /// Change of signals by contact; `None` for a model of pictures. Without a change, a fault that is a share of it is skipped.
+    pub(crate) fn taxels(
+        &mut self,
+        dataset: &Dataset,
+        model: &Model,
+    ) -> Result<Option<TaxelScale>, EvaluateError> {
+        if !reads_signals(model) {
+            return Ok(None);
         }
+        let scale = TaxelScale::of(dataset, &self.samples.rows)?;
+        if scale.as_ref().is_none_or(|scale| scale.contact.is_none()) {
+            let all = std::mem::take(&mut self.of_taxels).into_iter();
+            let (unknown, others): (Vec<&'static Fault>, Vec<&'static Fault>) =
+                all.partition(|fault| fault.needs_times());
+            self.of_taxels = others;
+            let skipped = unknown.into_iter();
+            self.skipped
+                .extend(skipped.map(|fault| SkippedFault::new(fault, NO_CONTACT)));
+        }
+        Ok(scale)
     }
 
     /// Markers of the untouched picture, if a fault needs them. Without markers, that fault is skipped.
@@ -166,9 +238,17 @@ impl SkippedFault {
             reason: reason.to_owned(),
         }
     }
+
+    /// A fault of a plugin, which a model of signals cannot see.
+    pub(crate) fn unseen(fault: &dyn PictureFault) -> SkippedFault {
+        SkippedFault {
+            fault: fault.name().to_owned(),
+            reason: OF_PICTURES.to_owned(),
+        }
+    }
 }
 
-/// Rejects a recording without pictures, and one whose samples the model has all seen: no request can test them.
+/// Rejects a recording without pictures for a model that reads them, and one whose samples the model has all seen: no request can test them.
 fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateError> {
     let refused = |words: &str| {
         let path = shown(dataset.path());
@@ -177,7 +257,8 @@ fn require_testable(dataset: &Dataset, model: &Model) -> Result<(), EvaluateErro
     if !dataset.recordings().is_empty() {
         return Ok(());
     }
-    if dataset.views().is_empty() && dataset.header().frames.is_none() {
+    let has_pictures = !dataset.views().is_empty() || dataset.header().frames.is_some();
+    if !has_pictures && !reads_signals(model) {
         return refused("the recording has no pictures, expected a recording with pictures");
     }
     match taceva_evaluate::Divided::by_model(dataset, model)? {
@@ -203,39 +284,50 @@ pub fn stress_plan(
     let rows = counted(dataset.table().rows(), "row");
     plan.step("read", format!("{rows} of {}", shown(dataset.path())));
     let scored = setup.samples.rows.len();
-    plan.step(
-        "decode",
-        format!(
-            "{} of the part `{}`, each once {}; before that, at most {} for the change by contact",
-            counted(scored, "frame"),
-            setup.samples.target.part.name(),
-            match request.stops_at_no_skill {
-                true => "for each severity until no skill is left",
-                false => "for all faults",
-            },
-            counted(PICTURES.min(scored) + 1, "frame")
+    let is_of_signals = reads_signals(model);
+    let part = setup.samples.target.part.name();
+    match is_of_signals {
+        true => plan.step(
+            "read",
+            format!("the signals of {} of the part `{part}`", counted(scored, "sample")),
         ),
-    );
+        false => plan.step(
+            "decode",
+            format!(
+                "{} of the part `{part}`, each once {}; before that, at most {} for the change by contact",
+                counted(scored, "frame"),
+                match request.stops_at_no_skill {
+                    true => "for each severity until no skill is left",
+                    false => "for all faults",
+                },
+                counted(PICTURES.min(scored) + 1, "frame")
+            ),
+        ),
+    }
+    let seen = foreign.iter().filter(|_| !is_of_signals);
+    let seen: Vec<&&dyn PictureFault> = seen.collect();
+    let inputs = || setup.faults.iter().chain(&setup.of_taxels);
     let draws = |fault: &Fault| draw_seeds(fault, request.seed, request.draws).len();
-    let cells: usize = setup.faults.iter().map(|fault| draws(fault)).sum();
-    let cells = (cells + foreign.len() + setup.of_labels.len()) * request.severities.len();
-    for fault in setup.faults.iter().chain(&setup.of_labels) {
+    let cells: usize = inputs().map(|fault| draws(fault)).sum();
+    let cells = (cells + seen.len() + setup.of_labels.len()) * request.severities.len();
+    for fault in setup.all() {
         plan.step("fault", format!("{}: {}", fault.id, fault.title));
     }
-    for fault in foreign {
+    for fault in &seen {
         let (name, key) = (fault.name(), fault.key());
         plan.step(
             "fault",
             format!("{name}: a fault of the plugin {key}; each frame is decoded once more"),
         );
     }
-    for skipped in &setup.skipped {
+    let unseen = foreign.iter().filter(|_| is_of_signals);
+    let unseen = unseen.map(|fault| SkippedFault::unseen(*fault));
+    for skipped in setup.skipped.iter().cloned().chain(unseen) {
         plan.step("skip", format!("{}: {}", skipped.fault, skipped.reason));
     }
-    let fresh = setup.faults.iter();
-    let fresh = fresh.filter(|fault| compares(model) && fault.scope != Scope::Each);
+    let fresh = inputs().filter(|fault| compares(model) && fault.scope != Scope::Each);
     let fresh: usize = fresh.map(|fault| draws(fault)).sum();
-    let of_plugins = if compares(model) { foreign.len() } else { 0 };
+    let of_plugins = if compares(model) { seen.len() } else { 0 };
     let fresh = (fresh + of_plugins) * request.severities.len();
     plan.step(
         "predict",
@@ -243,7 +335,13 @@ pub fn stress_plan(
             "{} without a fault and in {}; also with {} taken after the fault as reference",
             counted(scored, "sample"),
             counted(cells, "cell"),
-            counted(fresh, "untouched picture")
+            counted(
+                fresh,
+                match is_of_signals {
+                    true => "untouched sample",
+                    false => "untouched picture",
+                }
+            )
         ),
     );
     plan.step("score", "mae, skill");

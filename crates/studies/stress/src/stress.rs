@@ -1,11 +1,12 @@
 //! A fault of one strength, applied to pictures.
 
 use taceva_core::random::{Draws, fnv_1a, mix};
-use taceva_core::{Frame, single};
+use taceva_core::{Frame, Signals, single};
 use taceva_models::MarkerTracker;
 
 use crate::canvas::{Canvas, Realisation};
 use crate::fault::{Effect, Fault, Markers, Scope};
+use crate::taxels::TaxelDraw;
 
 /// Seeds of the draws of `fault`: `count` seeds for a fault with drawn places, otherwise one seed. The first is `seed`.
 pub(crate) fn draw_seeds(fault: &Fault, seed: u64, count: u32) -> Vec<u64> {
@@ -104,12 +105,36 @@ impl<'m> Stress<'m> {
                 }
                 None => frame.clone(),
             },
-            Effect::Labels(_) => frame.clone(),
+            Effect::Labels(_) | Effect::Taxels(_) | Effect::Rows => frame.clone(),
             Effect::Before => match before.filter(|_| self.is_repeated(sample)) {
                 Some(before) => before.clone(),
                 None => frame.clone(),
             },
         }
+    }
+
+    /// The numbers `signals` with the fault, `hours` after the first sample. `full_scale` has the greatest change by contact of each number of a taxel.
+    /// A fault that is not one of taxels changes none.
+    pub fn apply_to_signals(&self, signals: &Signals, full_scale: &[f64], hours: f64) -> Signals {
+        let change = match self.fault.effect {
+            Effect::Taxels(of) if self.parameter > 0.0 => of.change,
+            _ => return signals.clone(),
+        };
+        let mut values = signals.values().to_vec();
+        let drawn = TaxelDraw {
+            parameter: self.parameter,
+            channels: signals.info().channels as usize,
+            full_scale,
+            hours,
+            draws: self.of_fault(),
+        };
+        change(&mut values, &drawn);
+        Signals::new(signals.info(), values).expect("as many numbers as before, all finite")
+    }
+
+    /// True if the fault leaves out the row of `sample`.
+    pub fn leaves_out(&self, sample: &str) -> bool {
+        self.fault.is_of_rows() && self.draws(sample).unit(0) < self.parameter
     }
 
     /// True if the previous picture replaces the picture of `sample`.

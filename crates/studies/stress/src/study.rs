@@ -1,20 +1,21 @@
-//! A stress test: faults of the pictures of a recording, scored with a fitted model.
+//! A stress test: faults of the pictures or signals of a recording, scored with a fitted model.
 
 use taceva_check::{FrameFacts, RestChange, Tiles};
 use taceva_core::Frame;
 use taceva_dataset::Dataset;
 use taceva_evaluate::{EvaluateError, Target, Work, subject_of};
-use taceva_models::{MarkerTracker, Model};
+use taceva_models::Model;
 use taceva_results::not_measured;
 
+use crate::cells::{cells, levels};
 use crate::estimate::{Estimate, Undefined};
-use crate::fault::{Fault, Scope};
+use crate::fault::Fault;
 use crate::findings::{CHANGED_REST, LOW, breaks_at, recovers, unnoticed};
 use crate::list::list;
 use crate::looks::codes;
 use crate::notes::notes;
 use crate::others::OtherFaults;
-use crate::pass::{Cell, UNTOUCHED, compares};
+use crate::pass::UNTOUCHED;
 use crate::report::{
     Basis, ByChannel, CleanScore, FaultReport, STRESS_SCHEMA, SeverityReport, SkippedFault,
     StressReport,
@@ -23,12 +24,13 @@ use crate::samples::shares;
 use crate::scale::Scale;
 use crate::score::{Scored, Scorer, degradation, mean_degradation};
 use crate::setup::{Setup, StressRequest};
-use crate::severity::{By, Levels, Reference};
+use crate::severity::{By, Levels};
 use crate::stages::{Pictures, ScoredCell, Tested};
-use crate::stress::{Stress, draw_seeds};
+use crate::stress::Stress;
+use crate::taxel_scores::TaxelTest;
 use crate::worn::{NewGel, ScoredFault};
 
-/// Errors of `model` on the pictures of `dataset` with faults. Nothing is fitted.
+/// Errors of `model` on the pictures or signals of `dataset` with faults. Nothing is fitted.
 ///
 /// # Errors
 /// [`EvaluateError`] if the request is not valid, the model does not suit the recording, or a picture cannot be read.
@@ -77,10 +79,26 @@ fn measure(
     model: &Model,
     mut setup: Setup,
     request: &StressRequest,
-    others: OtherFaults<'_>,
+    mut others: OtherFaults<'_>,
     work: Work<'_>,
 ) -> Result<StressReport, EvaluateError> {
-    let scale = Scale::of(dataset, &setup.samples.rows)?;
+    let taxels = setup.taxels(dataset, model)?;
+    let mut request = request.clone();
+    let scale = match &taxels {
+        Some(taxels) => {
+            // Only faults of pictures have a severity by stimulus.
+            request.by = By::Parameter;
+            let unseen = std::mem::take(&mut others.foreign).iter();
+            let unseen = unseen.map(|fault| SkippedFault::unseen(*fault));
+            setup.skipped.extend(unseen);
+            Scale {
+                contact: taxels.contact,
+                ..Scale::default()
+            }
+        }
+        None => Scale::of(dataset, &setup.samples.rows)?,
+    };
+    let request = &request;
     let markers = setup.markers(scale.untouched.as_ref());
     let levels = levels(&setup, &scale, markers.as_ref(), request)?;
     let cells = cells(&setup, &scale, markers.as_ref(), &levels, model, request);
@@ -97,10 +115,20 @@ fn measure(
         scorer: &scorer,
         work,
     };
-    let found = match request.stops_at_no_skill {
-        true => pictures.until_no_skill(cells),
-        false => pictures.at_once(cells),
-    }?;
+    let of_taxels = &setup.of_taxels;
+    let test = taxels
+        .as_ref()
+        .map(|taxels| TaxelTest::of(dataset, model, rows, of_taxels, taxels, request, work));
+    let test = test.transpose()?;
+    let found = match (&test, request.stops_at_no_skill) {
+        (Some(test), _) => Tested {
+            clean: test.clean.clone(),
+            passes: 1,
+            ..Tested::default()
+        },
+        (None, true) => pictures.until_no_skill(cells)?,
+        (None, false) => pictures.at_once(cells)?,
+    };
     let baseline = scorer.score(&found.clean)?;
     let clean = scorer.clean(&baseline);
     let results = Results {
@@ -117,7 +145,7 @@ fn measure(
             scale.reference(),
         ),
     };
-    let new = NewGel {
+    let new = &NewGel {
         dataset,
         model,
         rows: &setup.samples.rows,
@@ -128,8 +156,14 @@ fn measure(
     };
     let of_labels = setup.of_labels.iter();
     let of_labels = of_labels.map(|&fault| new.by_labels(fault, &found.clean, request));
+    let of_taxels = test.iter().flat_map(|test| {
+        let faults = of_taxels.iter();
+        faults.map(move |&fault| new.by_taxels(fault, test, request))
+    });
+    let of_rows = setup.of_rows.iter();
+    let of_rows = of_rows.map(|&fault| new.by_rows(fault, request));
     let worn = others.worn.iter().map(|fault| new.beside(fault, work));
-    let other_scores = of_labels.chain(worn);
+    let other_scores = of_labels.chain(of_taxels).chain(of_rows).chain(worn);
     let mut other_scores: Vec<ScoredFault> = other_scores.collect::<Result<_, EvaluateError>>()?;
     let mut failed = Vec::new();
     for fault in others.foreign {
@@ -149,6 +183,7 @@ fn measure(
     let again = (found.passes - 1) * setup.samples.rows.len() as u64;
     let decoded = other_scores.iter().map(|of| of.decoded).sum::<u64>() + scale.decoded + again;
     let provenance = setup.samples.provenance(dataset, model, decoded)?;
+    let tested = setup.all();
     let mut skipped = setup.skipped;
     for of in other_scores {
         faults.push(of.report);
@@ -159,18 +194,22 @@ fn measure(
         not_measured: not_measured([subject.source.as_str()]),
         subject,
         by: request.by,
-        list: list(&setup.faults, &setup.of_labels, request, others),
+        list: list(&tested, request, others),
         seed: request.seed,
         draws: request.draws,
         samples: setup.samples.rows.len(),
+        input: model.card().input.field().name(),
         left_out: setup.samples.left_out(),
-        untouched: scale.source(),
+        untouched: taxels.as_ref().map_or(scale.source(), |of| of.source),
         contact: scale.contact,
+        contact_unit: taxels
+            .as_ref()
+            .map_or("1", |of| of.facts.info.unit.symbol()),
         units: scorer.units(&baseline),
         clean,
         mean,
-        unnoticed: scale.is_reference.then(|| unnoticed(&faults)),
-        notes: notes(&setup.faults, request, &baseline, setup.samples.rows.len()),
+        unnoticed: (scale.is_reference || taxels.is_some()).then(|| unnoticed(&faults)),
+        notes: notes(&tested, request, &baseline, setup.samples.rows.len()),
         faults,
         skipped,
         failed,
@@ -181,62 +220,6 @@ fn measure(
             rows: setup.samples.rows,
         },
     })
-}
-
-/// Severities of each fault.
-fn levels(
-    setup: &Setup,
-    scale: &Scale,
-    markers: Option<&MarkerTracker>,
-    request: &StressRequest,
-) -> Result<Vec<Levels>, EvaluateError> {
-    let faults = setup.faults.iter();
-    if request.by == By::Parameter || setup.faults.is_empty() {
-        let levels = faults.map(|fault| Levels::by_parameter(fault, &request.severities));
-        return Ok(levels.collect());
-    }
-    let (Some(untouched), Some(contact)) = (&scale.untouched, scale.contact) else {
-        return Err(EvaluateError::Request(
-            "severity by stimulus: expected an untouched picture or labels of Fz or Pz, and pictures of contact that differ from the untouched \
-             picture; use --by parameter"
-                .to_owned(),
-        ));
-    };
-    let reference = Reference {
-        scale,
-        untouched,
-        contact,
-        markers,
-        seed: request.seed,
-        draws: request.draws,
-    };
-    let levels = faults.map(|&fault| Levels::by_stimulus(fault, &request.severities, &reference));
-    Ok(levels.collect())
-}
-
-/// Every fault at every severity.
-fn cells<'m>(
-    setup: &Setup,
-    scale: &Scale,
-    markers: Option<&'m MarkerTracker>,
-    levels: &[Levels],
-    model: &Model,
-    request: &StressRequest,
-) -> Vec<Cell<'m>> {
-    let reference = scale.reference().filter(|_| compares(model));
-    let mut cells = Vec::new();
-    for (position, &fault) in setup.faults.iter().enumerate() {
-        let untouched = reference.filter(|_| fault.scope != Scope::Each);
-        for level in &levels[position].reached {
-            let seeds = draw_seeds(fault, request.seed, request.draws);
-            let stresses = seeds.into_iter();
-            let stresses = stresses
-                .map(|seed| Stress::new(fault, level.parameter, seed).with_markers(markers));
-            let stresses = stresses.collect();
-            cells.push(Cell::new(position, *level, stresses, model, untouched));
-        }
-    }
-    cells
 }
 
 /// Scores of all cells.
@@ -293,6 +276,7 @@ impl Results<'_> {
                 last.filter(|_| severities.len() < levels.reached.len())
             },
             relative_error: None,
+            times: ByChannel::new(),
             errors: scored.iter().map(|of| of.stale.errors.clone()).collect(),
             severities,
             unreached: levels.unreached.clone(),
@@ -314,6 +298,7 @@ impl Results<'_> {
                 .fresh
                 .as_ref()
                 .map(|fresh| fresh.beside(self.baseline, self.clean)),
+            times: ByChannel::new(),
         }
     }
 

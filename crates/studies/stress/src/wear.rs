@@ -17,7 +17,7 @@ use taceva_results::{Provenance, Subject, not_measured};
 use crate::notes::of_scores;
 use crate::pass::predictions;
 use crate::report::ByChannel;
-use crate::samples::Unseen;
+use crate::samples::{Unseen, require_model_of_pictures};
 use crate::scale::{Scale, difference};
 use crate::score::{Scored, Scorer};
 use order::{Order, Placed};
@@ -48,6 +48,7 @@ pub fn wear(
     request: &WearRequest,
     work: Work<'_>,
 ) -> Result<WearReport, EvaluateError> {
+    require_model_of_pictures(model)?;
     let order = Order::of(recordings, request.by)?;
     check_limits(model, &request.limits)?;
     let unseen = recordings.iter().map(|dataset| {

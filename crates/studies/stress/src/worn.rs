@@ -112,6 +112,7 @@ impl NewGel<'_> {
                 check: is_noticed.then_some(CHANGED_REST).into_iter().collect(),
                 stale: stale.beside(self.baseline, self.clean),
                 fresh: fresh.map(|fresh| fresh.beside(self.baseline, self.clean)),
+                times: ByChannel::new(),
             });
             cells.push(stale);
         }
@@ -160,6 +161,7 @@ impl NewGel<'_> {
             unreached: Vec::new(),
             stopped_at: None,
             relative_error: None,
+            times: ByChannel::new(),
             errors: cells.iter().map(|cell| cell.errors.clone()).collect(),
             severities,
         }

@@ -1,4 +1,4 @@
-//! Faults of the pictures of a run, tested after its studies with their own models.
+//! Faults of the pictures or signals of a run, tested after its studies with their own models.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,8 +14,8 @@ use taceva_report::FaultResult;
 use taceva_results::EvaluationReport;
 use taceva_sim::GelFault;
 use taceva_stress::{
-    OtherFaults, PictureFault, SkippedFault, StressReport, StressRequest, WornFault, WornGel,
-    select, stress_unseen,
+    FAULTS, OtherFaults, PictureFault, SkippedFault, StressReport, StressRequest, TAXEL_FAULTS,
+    WornFault, WornGel, select, stress_unseen, usual_list,
 };
 use taceva_study::{FinishedStudy, FittedStudy, RunFolder};
 
@@ -72,25 +72,33 @@ fn gel_fault(name: &str) -> Option<GelFault> {
     GelFault::from_name(name.trim())
 }
 
-/// Prints the cost of the faults of a scene: pictures that are decoded once more.
+/// Prints the cost of the faults of a scene: pictures or signals that are read once more.
 ///
 /// # Errors
 /// If a fault is unknown.
 pub(in crate::cmd) fn print_cost(planned: &PlannedScene, context: &Context) -> anyhow::Result<()> {
-    let Some(Wanted { request, gels }) = Wanted::of(planned) else {
+    let Some(Wanted {
+        request,
+        is_usual,
+        gels,
+    }) = Wanted::of(planned)
+    else {
         return Ok(());
     };
-    let pictured = match request.faults.is_empty() {
+    let named = match request.faults.is_empty() {
         true => 0,
         false => select(&request.faults)?.len(),
     };
-    let faults = counted(pictured, "fault");
     let severities = by_severity(request.severities.len());
     for study in &planned.studies {
         let name = shown(&study.plan.name);
-        let words = match pictures(study) {
+        let words = match samples(study) {
             None => format!("not tested: {NO_PREDICTIONS}"),
-            Some(pictures) => {
+            Some(samples) => {
+                let faults = match is_usual {
+                    true => usual_faults(study),
+                    false => counted(named, "fault"),
+                };
                 let again = gels.len() * request.severities.len() * tested(study).len();
                 let again = match again {
                     0 => "no press and no fit is needed".to_owned(),
@@ -100,7 +108,7 @@ pub(in crate::cmd) fn print_cost(planned: &PlannedScene, context: &Context) -> a
                         counted(gels.len(), "fault")
                     ),
                 };
-                format!("{faults} of {severities} on {pictures}, each decoded once more; {again}")
+                format!("{faults} of {severities} on {samples} once more; {again}")
             }
         };
         context.say(format_args!("faults: {name}: {words}"));
@@ -115,8 +123,29 @@ fn by_severity(count: usize) -> String {
     }
 }
 
-/// Pictures of `study` for the faults, as text; `None` if no metric reads predictions.
-fn pictures(study: &PlannedStudy) -> Option<String> {
+/// Number of faults that `study` is tested with if the scene names none, as text. The input of a model file is unknown before the run.
+fn usual_faults(study: &PlannedStudy) -> String {
+    let (pictures, taxels) = (FAULTS.len(), TAXEL_FAULTS.len());
+    let model = study.study.model.as_ref();
+    let is_file = model.is_some_and(|model| model.file.is_some());
+    let input = model.and_then(|model| model.set.get("input")?.as_str());
+    match (input, is_recorded(study) && is_file) {
+        (_, true) => format!(
+            "{} of pictures or {taxels} of taxels",
+            counted(pictures, "fault")
+        ),
+        (Some("signals"), false) => counted(taxels, "fault"),
+        _ => counted(pictures, "fault"),
+    }
+}
+
+/// True if the samples of `study` are those of a recording, which may have signals.
+fn is_recorded(study: &PlannedStudy) -> bool {
+    study.study.sensor.dataset.is_some()
+}
+
+/// Samples of `study` for the faults, and their reading, as text; `None` if no metric reads predictions.
+fn samples(study: &PlannedStudy) -> Option<String> {
     let plan = &study.plan;
     let is_predicted = plan.fits.iter().any(|fit| fit.field == Field::Prediction);
     if !is_predicted {
@@ -126,8 +155,12 @@ fn pictures(study: &PlannedStudy) -> Option<String> {
     let pictures = presses.iter().filter(|planned| planned.frames);
     let pictures: usize = pictures.map(|planned| planned.press.samples()).sum();
     Some(match pictures {
-        0 => "the pictures of the test part".to_owned(),
-        _ => format!("about {} of the test part", counted(pictures, "picture")),
+        _ if is_recorded(study) => "the samples of the test part, each read".to_owned(),
+        0 => "the pictures of the test part, each decoded".to_owned(),
+        _ => format!(
+            "about {} of the test part, each decoded",
+            counted(pictures, "picture")
+        ),
     })
 }
 
@@ -138,8 +171,10 @@ fn tested(study: &PlannedStudy) -> Vec<&PlannedPress> {
 
 /// Faults of a scene.
 struct Wanted {
-    /// Request for faults of pictures; it names no fault if only gels are tested.
+    /// Request for faults that are no faults of a gel; it names no fault if only gels are tested.
     request: StressRequest,
+    /// True if the scene names no fault.
+    is_usual: bool,
     gels: Vec<GelFault>,
 }
 
@@ -167,6 +202,7 @@ impl Wanted {
                 part: None,
                 stops_at_no_skill: usual.stops_at_no_skill,
             },
+            is_usual: stress.faults.is_none(),
             gels,
         })
     }
@@ -265,7 +301,11 @@ fn of_study(
         worn: &worn,
         foreign: &foreign,
     };
-    match stress_unseen(dataset, &model, unseen, &wanted.request, others, work) {
+    let mut request = wanted.request.clone();
+    if wanted.is_usual {
+        request.faults = vec![usual_list(&model).to_owned()];
+    }
+    match stress_unseen(dataset, &model, unseen, &request, others, work) {
         Ok(found) => Ok(Ok(found)),
         Err(error) if error.is_usage() => Ok(Err(error.to_string())),
         Err(error) => Err(error.into()),

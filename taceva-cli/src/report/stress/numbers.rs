@@ -2,7 +2,8 @@
 
 use taceva_report::{Cell, Table};
 use taceva_stress::{
-    CellScore, Estimate, FaultReport, SeverityReport, StressReport, Unnoticed, Unreached,
+    ByChannel, CellScore, Estimate, FaultReport, SeverityReport, StressReport, TimeScore,
+    Unnoticed, Unreached,
 };
 
 /// Remark on a fault whose higher severities are not tested.
@@ -58,8 +59,14 @@ pub(crate) fn numbers(report: &StressReport) -> Table {
             let severity = Estimate::of_known(severity.map(f64::from));
             rows.push(&whole, channel, "breaks_at", &severity, "1");
         }
+        rows.push_times(&whole, &fault.times);
         for of in &fault.severities {
             rows.push_check(fault, of);
+            let place = Place {
+                strength: Some(Strength::of(of)),
+                ..whole
+            };
+            rows.push_times(&place, &of.times);
             let sides = [("stale", Some(&of.stale)), ("fresh", of.fresh.as_ref())];
             for (untouched, scores) in sides {
                 for (channel, score) in scores.into_iter().flatten() {
@@ -146,8 +153,8 @@ impl<'a> Rows<'a> {
             untouched: "",
         };
         let report = self.report;
-        let reason = match (fault.is_of_labels(), &report.unnoticed) {
-            (true, _) => Some("no picture changes"),
+        let reason = match (fault.keeps_inputs(), &report.unnoticed) {
+            (true, _) => Some("no picture or signal changes"),
             (false, None) if of.check.is_empty() => Some("no untouched picture"),
             _ => None,
         };
@@ -160,6 +167,13 @@ impl<'a> Rows<'a> {
             |hidden: &&Unnoticed| hidden.fault == fault.id && hidden.severity == of.severity;
         for hidden in report.unnoticed.iter().flatten().filter(is_own) {
             self.push_words(&place, &hidden.channel, "unnoticed", Some(1.0), "");
+        }
+    }
+
+    fn push_times(&mut self, place: &Place<'_>, times: &ByChannel<TimeScore>) {
+        for (metric, of) in times {
+            let value = Estimate::of_known(of.value);
+            self.push(place, "", metric, &value, of.unit);
         }
     }
 

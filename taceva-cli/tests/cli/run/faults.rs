@@ -114,7 +114,8 @@ fn a_worn_gel_is_pressed_again_and_its_force_and_pictures_change_together() {
     let bench = Bench::new();
     let gels =
         "stress = { faults = [\"gel_softening\", \"gel_dust\", \"tear\"], severities = [1, 5] }\n";
-    bench.write("worn.toml", &scene(gels));
+    let scene = scene(gels).replace("size = \"8x8\"", "size = \"8x8\", difference = true");
+    bench.write("worn.toml", &scene);
     let ran = bench.run("run worn.toml --out worn");
     assert_eq!(ran.code, 0, "{}", ran.err);
     assert!(
@@ -135,6 +136,11 @@ fn a_worn_gel_is_pressed_again_and_its_force_and_pictures_change_together() {
             severities[1]["stale"]["Fz"]["mae"]["value"].is_number(),
             "{faults}"
         );
+        // The worn gel has an untouched picture of its own.
+        let fresh = &severities[1]["fresh"]["Fz"]["mae"]["value"];
+        assert!(fresh.is_number(), "{faults}");
+        let recovers = &faults["faults"][fault]["recovers"]["Fz"];
+        assert_ne!(recovers["reason"], "no_fresh_reference", "{faults}");
     }
     let softest = &faults["faults"][1]["severities"][1];
     assert_eq!(softest["parameter"], 0.4);

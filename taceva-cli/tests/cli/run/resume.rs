@@ -47,10 +47,16 @@ impl Started {
 
 /// Kills a run at each of these recorded sizes, resumes it, and compares it with an uninterrupted run.
 pub(super) fn survives(bench: &Bench, moments: &[u64]) {
+    survives_in(bench, "1-small", moments);
+}
+
+/// The same at sizes of the recording in the folder `recording` of the run.
+fn survives_in(bench: &Bench, recording: &str, moments: &[u64]) {
     bench.ok("run small.toml --out whole -q");
     let whole = reports(&bench.path("whole"));
     for bytes in moments {
         let mut killed = Started::new(bench, "killed");
+        killed.journal = bench.path(&format!("killed/recordings/{recording}/journal"));
         killed.reaches(*bytes);
         killed.child.kill().expect("killed");
         killed.child.wait().expect("ended");
@@ -89,6 +95,27 @@ fn a_gel_that_is_softened_by_use_is_brought_back_to_where_it_was() {
     let softened = format!("'''sim/vitactip:reduction=16;table={table}'''");
     bench.write("small.toml", &SMALL.replace(driver, &softened));
     survives(&bench, &[30_000, 45_000]);
+}
+
+#[test]
+fn a_run_that_is_killed_between_cycles_of_a_load_goes_on_to_the_same_bytes() {
+    let bench = Bench::new();
+    bench.write(
+        "small.toml",
+        r#"scene_version = 1
+name = "small"
+seed = 7
+sensor = { driver = "sim/vitactip:reduction=16" }
+robot = { driver = "sim/robot" }
+force = { driver = "sim/force-transducer" }
+metrics = { want = ["sensitivity"] }
+[protocol]
+calibration = { points = 6, indentations = 1 }
+wear = { load = "compression", cycles = [0, 200], force_N = 0.2 }
+"#,
+    );
+    // The second stage has begun, and its 200 cycles are not all stored.
+    survives_in(&bench, "2-small-after-200-cycles", &[2_500, 10_000]);
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! Options of a test with faults: a reference model, other lists.
 
 use std::fs;
+use std::process::Stdio;
 
 use super::bench;
 
@@ -128,6 +129,38 @@ fn pictures_that_cannot_be_written_leave_the_results_and_nothing_half_written() 
 }
 
 #[test]
+fn a_killed_test_leaves_a_whole_result_and_a_whole_folder_of_pictures_or_none() {
+    let bench = bench();
+    let words = "stress unseen --model m.taceva --by parameter -q --format json --out s.json --keep-frames kept";
+    let mut command = bench.command(words);
+    let child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn();
+    let mut child = child.expect("starts");
+    // The pictures of sixty cells follow the result.
+    while !bench.path("s.json").exists() && child.try_wait().expect("asked").is_none() {
+        std::thread::yield_now();
+    }
+    child.kill().expect("killed");
+    child.wait().expect("ended");
+    let text = fs::read_to_string(bench.path("s.json")).expect("whole");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    crate::schema::check("stress", &report);
+    if bench.path("kept").exists() {
+        let table = fs::read_to_string(bench.path("kept/digests.csv")).expect("whole");
+        let names = table
+            .lines()
+            .skip(1)
+            .filter_map(|line| line.split(',').next());
+        let names: Vec<&str> = names.collect();
+        assert_eq!(names.len(), 61, "{table}");
+        assert!(
+            names
+                .iter()
+                .all(|name| bench.path("kept").join(name).is_file())
+        );
+    }
+}
+
+#[test]
 fn recording_faults_have_their_own_list_and_name_what_they_lack() {
     let bench = bench();
     let report = bench.json("stress unseen --model m.taceva --faults recording-5 --by parameter");
@@ -151,5 +184,5 @@ fn recording_faults_have_their_own_list_and_name_what_they_lack() {
         .expect("one");
     assert!(noise["severities"][0]["stimulus"].is_null(), "{noise}");
     let csv = bench.ok("stress unseen --model m.taceva --faults force_noise --format csv -q");
-    assert!(csv.contains("no picture changes"), "{csv}");
+    assert!(csv.contains("no picture or signal changes"), "{csv}");
 }

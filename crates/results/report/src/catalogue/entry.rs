@@ -62,7 +62,7 @@ pub struct Sensor {
     /// Digest of the samples behind the results of a measured candidate; `None` for published numbers.
     #[serde(skip)]
     pub samples: Option<String>,
-    /// Prediction errors on pictures with faults; `None` if no fault was tested.
+    /// Prediction errors on pictures or signals with faults; `None` if no fault was tested.
     #[serde(skip)]
     pub faults: Option<FaultResult>,
     /// Unpublished numbers, each with the reason.

@@ -108,3 +108,47 @@ fn a_minor_version_of_the_schema_is_read() {
     newer["schema"] = json!("taceva.stress/10");
     assert!(!FaultResult::is_in(&newer.to_string()));
 }
+
+#[test]
+fn a_fault_of_times_alone_has_no_row_and_hides_no_end_of_skill() {
+    let mut timed = written("gel", "tear,dropped_frames", 4.0);
+    let faults = timed["faults"].as_array_mut().expect("a list");
+    faults.push(json!({
+        "id": "dropped_frames", "note": "times alone", "severities": [{"severity": 1, "stale": {}}],
+        "unreached": [], "breaks_at": {}
+    }));
+    let timed = FaultResult::read(&timed.to_string()).expect("a result");
+    assert_eq!(timed.skill_end("Fz"), Some(3.0));
+    let studies = [Study::of_faults(timed)];
+    let page = report(&ReportPage {
+        title: "worn",
+        studies: &studies,
+        pictures: &[],
+        triples: &[],
+    });
+    assert!(!page.contains("<li>dropped_frames"), "{page}");
+    assert!(page.contains("dropped_frames: times alone."), "{page}");
+}
+
+#[test]
+fn a_page_names_the_inputs_of_its_models() {
+    let mut signals = written("skin", "taxel_gain", 4.0);
+    signals["input"] = json!("signals");
+    let signals = FaultResult::read(&signals.to_string()).expect("a result");
+    let page = |results: Vec<FaultResult>| {
+        let studies: Vec<Study> = results.into_iter().map(Study::of_faults).collect();
+        report(&ReportPage {
+            title: "worn",
+            studies: &studies,
+            pictures: &[],
+            triples: &[],
+        })
+    };
+    let alone = page(vec![signals.clone()]);
+    assert!(alone.contains("faults of their signals."), "{alone}");
+    assert!(alone.contains("not found by a check of signals"), "{alone}");
+    let both = page(vec![signals, drawn("gel", "tear", 4.0)]);
+    let expected = "faults of their pictures or signals.";
+    assert!(both.contains(expected), "{both}");
+    assert!(both.contains("not found by a check of pictures"), "{both}");
+}

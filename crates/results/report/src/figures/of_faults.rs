@@ -8,7 +8,7 @@ impl FaultResult {
     /// Figure with a panel for each main channel: growth of the error by fault and severity.
     pub fn figure(&self) -> Figure {
         let panels = self.main_channels().into_iter().map(|channel| {
-            let tested = self.faults.iter().map(|fault| row(fault, channel));
+            let tested = self.scored().map(|fault| row(fault, channel));
             let skipped = self.skipped.iter().map(|skipped| FaultRow {
                 fault: skipped.fault.clone(),
                 degradation: [None; 5],

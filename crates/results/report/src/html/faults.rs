@@ -1,5 +1,7 @@
 //! Section of a page on faults.
 
+use std::collections::BTreeSet;
+
 use maud::{Markup, html};
 
 use super::drawn;
@@ -16,8 +18,11 @@ pub(super) fn section(studies: &[Study]) -> Option<Markup> {
         Some(entry(result, &name, number))
     });
     let entries: Vec<Markup> = entries.collect();
+    let results = studies.iter().filter_map(|study| study.faults.as_ref());
+    let inputs: BTreeSet<&str> = results.map(FaultResult::inputs).collect();
+    let inputs: Vec<&str> = inputs.into_iter().collect();
     let body = html! {
-        p { "Errors of the same presses with faults of their pictures. The model was not fitted again." } "\n"
+        p { "Errors of the same presses with faults of their " (inputs.join(" or ")) ". The model was not fitted again." } "\n"
         @for entry in &entries { (entry) }
     };
     (!entries.is_empty()).then_some(body)
@@ -34,7 +39,7 @@ fn entry(result: &FaultResult, name: &str, number: usize) -> Markup {
         (drawn(&figure))
         p { strong { (name) } ": mean degradation over all faults: " (means(result)) "." } "\n"
         @if let Some(words) = unnoticed(result) { p { (words) } "\n" }
-        ul { @for fault in &result.faults { li { (fault.id) ": " (skill_end(fault, result)) "." } "\n" } }
+        ul { @for fault in result.scored() { li { (fault.id) ": " (skill_end(fault, result)) "." } "\n" } }
         @for of in &result.failed { p.note { "Failed: " (of.fault) ": " (of.reason) "." } "\n" }
         @for words in own.chain(skipped) { p.note { (words) "." } "\n" }
         @for words in &result.notes { p.note { (words) } "\n" }
@@ -58,12 +63,13 @@ fn unnoticed(result: &FaultResult) -> Option<String> {
     let hidden = hidden.filter(|of| main.contains(&of.channel.as_str()));
     let hidden = hidden.map(|of| format!("{} {} {}", of.fault, of.severity, of.channel));
     let hidden: Vec<String> = hidden.collect();
+    let inputs = result.inputs();
     Some(match hidden.is_empty() {
         true => {
-            "Every fault that at least doubles an error is found by a check of pictures.".to_owned()
+            format!("Every fault that at least doubles an error is found by a check of {inputs}.")
         }
         false => format!(
-            "Errors at least doubled by a fault that no check of pictures finds (fault, severity, channel): {}.",
+            "Errors at least doubled by a fault that no check of {inputs} finds (fault, severity, channel): {}.",
             listed(&hidden)
         ),
     })

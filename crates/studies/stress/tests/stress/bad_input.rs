@@ -1,12 +1,40 @@
-//! Requests that are refused by name.
+//! Requests that are refused by name, and recordings without what a fault or a score needs.
 
-use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample};
+use std::path::Path;
+
+use taceva_core::{Channel, Channels, Clock, PixelFormat, Readings, Sample, Stamp};
 use taceva_dataset::{Dataset, Recorder, RecordingFacts, RecordingSpec, SensorFacts, Source};
 use taceva_evaluate::DataPart;
 use taceva_models::Model;
-use taceva_stress::{FAULTS, StressRequest, select, stress};
+use taceva_stress::{By, FAULTS, StressRequest, Undefined, select, stress};
 
-use crate::drawing::{WORK, fitted, picture, record, record_with, unseen};
+use crate::drawing::{PRESSES, WORK, fitted, picture, press, record, record_with, unseen};
+
+fn by_parameter(faults: &[&str]) -> StressRequest {
+    StressRequest {
+        faults: faults.iter().map(|name| (*name).to_owned()).collect(),
+        by: By::Parameter,
+        ..StressRequest::default()
+    }
+}
+
+/// A recording without an untouched picture, whose only label is `label` of the force. Recordings of different `noise` share no picture.
+fn labelled(path: &Path, channel: Channel, noise: u32, label: fn(f64) -> f64) -> Dataset {
+    let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
+    let facts = RecordingFacts::new(Source::Synthetic, Clock::Unknown, sensor);
+    let channels = Channels::new([channel]).expect("one");
+    let mut recorder = Recorder::create(path, &RecordingSpec::new(facts, channels)).expect("new");
+    for number in 0..PRESSES {
+        let force = 0.4 + 0.4 * f64::from(number % 5);
+        let sample = Sample::new(format!("s{number:02}"))
+            .with_point_id(format!("p{}", number / 5))
+            .with_frame(press(force, 9.0, 10 * number + noise))
+            .with_truth(Readings::from_values([label(force)]));
+        recorder.append(&sample).expect("recorded");
+    }
+    recorder.close().expect("closed");
+    Dataset::open(path).expect("a dataset")
+}
 
 /// Words of the refusal, which is a wrong request.
 fn refused(dataset: &Dataset, model: &Model, request: &StressRequest) -> String {
@@ -148,4 +176,146 @@ fn several_recordings_are_refused() {
     let both = Dataset::joined(vec![one, other]).expect("joined");
     let said = refused(&both, &model, &StressRequest::default());
     assert!(said.contains("several recordings, expected one"), "{said}");
+}
+
+#[test]
+fn recordings_of_one_pixel_and_of_sixteen_bits_have_finite_errors_with_every_fault() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (name, size, format) in [
+        ("pixel", [1, 1], PixelFormat::Gray16),
+        ("gray", [3, 2], PixelFormat::Gray16),
+        ("colour", [3, 2], PixelFormat::Rgb16),
+    ] {
+        let drawn = |name: &str, noise: u32| {
+            let draw = |force: f64, _: f64, number: u32| {
+                picture(size, format, |x, y| {
+                    let bits = (x * 7919 + y * 104_729 + (10 * number + noise) * 1_299_709) % 97;
+                    0.3 + 0.1 * force + f64::from(bits) / 5000.0
+                })
+            };
+            let rest = draw(0.0, 0.0, 90);
+            record_with(&folder.path().join(name), Some(rest), draw)
+        };
+        let model = fitted(&drawn(&format!("{name} seen"), 1), "ridge", &["size=1x1"]);
+        let dataset = drawn(name, 2);
+        let report = stress(&dataset, &model, &by_parameter(&["gel-12"]), WORK).expect("tested");
+        assert!(report.skipped.is_empty(), "{name}: no fault needs colour");
+        assert_eq!(report.faults.len(), FAULTS.len());
+        for fault in &report.faults {
+            assert_eq!(fault.severities.len(), 5, "{name}: {}", fault.id);
+            for score in fault.severities.iter().flat_map(|of| of.stale.values()) {
+                let error = score.mae.value.expect("an error");
+                assert!(error.is_finite(), "{name}: {}", fault.id);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_model_without_an_error_keeps_its_errors_with_faults_and_has_no_degradation() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn =
+        |name: &str, noise| labelled(&folder.path().join(name), Channel::FZ, noise, |_| 1.0);
+    let model = fitted(&drawn("seen", 1), "baseline", &["size=8x8"]);
+    let dataset = drawn("unseen", 2);
+    let report = stress(&dataset, &model, &by_parameter(&["force_noise"]), WORK).expect("tested");
+    assert_eq!(report.clean["Fz"].mae.value, Some(0.0));
+    let noise = &report.faults[0];
+    assert_eq!(noise.severities.len(), 5);
+    for of in &noise.severities {
+        let score = &of.stale["Fz"];
+        assert!(score.mae.value.expect("an error") > 0.0, "{of:?}");
+        assert_eq!(score.degradation.value, None);
+        assert_eq!(score.degradation.reason, Some(Undefined::ZeroBaseline));
+    }
+    assert_eq!(noise.mean["Fz"].reason, Some(Undefined::ZeroBaseline));
+    assert_eq!(report.mean["Fz"].reason, Some(Undefined::ZeroBaseline));
+}
+
+#[test]
+fn without_an_untouched_picture_that_of_the_least_load_takes_its_place_and_is_named() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn =
+        |name: &str, noise| labelled(&folder.path().join(name), Channel::FZ, noise, |force| force);
+    let model = fitted(&drawn("seen", 1), "ridge", &["size=8x8"]);
+    let request = StressRequest {
+        faults: vec!["exposure_low".to_owned()],
+        ..StressRequest::default()
+    };
+    let report = stress(&drawn("unseen", 2), &model, &request, WORK).expect("tested");
+    assert_eq!(report.untouched, "least load");
+    assert!(report.contact.is_some_and(|contact| contact > 0.0));
+    let tested = &report.faults[0].severities;
+    assert!(!tested.is_empty());
+    for of in tested {
+        assert!(of.stimulus.is_some_and(|stimulus| stimulus > 0.0), "{of:?}");
+        assert!(!of.check.contains(&"TAC034"), "{of:?}");
+    }
+    // Nobody knows what a check of untouched pictures would find.
+    assert_eq!(report.unnoticed, None);
+}
+
+#[test]
+fn without_an_untouched_picture_and_a_load_the_stimulus_is_undefined() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawn =
+        |name: &str, noise| labelled(&folder.path().join(name), Channel::PX, noise, |force| force);
+    let model = fitted(&drawn("seen", 1), "ridge", &["size=8x8"]);
+    let dataset = drawn("unseen", 2);
+    let report = stress(&dataset, &model, &by_parameter(&["exposure_low"]), WORK).expect("tested");
+    assert_eq!((report.untouched, report.contact), ("none", None));
+    let severities = report.faults[0].severities.iter();
+    assert!(severities.clone().all(|of| of.stimulus.is_none()));
+    let mut errors = severities.map(|of| of.stale["Px"].mae.value);
+    assert!(errors.all(|error| error.is_some_and(f64::is_finite)));
+    let said = refused(&dataset, &model, &StressRequest::default());
+    assert!(said.contains("use --by parameter"), "{said}");
+}
+
+#[test]
+fn presses_that_are_seconds_apart_skip_a_lag_and_a_single_picture_skips_the_one_before() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (_, model) = unseen(folder.path());
+    let drawn = |name: &str, count: u32| {
+        let sensor = SensorFacts::new("drawn").with_serial("1").with_gel("1");
+        let facts = RecordingFacts::new(Source::Synthetic, Clock::Monotonic, sensor);
+        let channels = Channels::new([Channel::PX, Channel::FZ]).expect("two");
+        let spec = RecordingSpec::new(facts, channels);
+        let path = folder.path().join(name);
+        let mut recorder = Recorder::create(&path, &spec).expect("new");
+        let reference = press(0.0, 0.0, 903);
+        recorder.append_reference(&reference).expect("recorded");
+        for number in 0..count {
+            let force = 0.4 + 0.2 * f64::from(number);
+            let sample = Sample::new(format!("s{number}"))
+                .with_point_id("p".to_owned())
+                .with_stamp(Stamp {
+                    valid_s: 2.0 * f64::from(number),
+                    received_s: None,
+                })
+                .with_frame(press(force, 9.0, 10 * number + 3))
+                .with_truth(Readings::from_values([4.5, force]));
+            recorder.append(&sample).expect("recorded");
+        }
+        recorder.close().expect("closed");
+        Dataset::open(&path).expect("a dataset")
+    };
+    let request = by_parameter(&["dust", "stale_frames", "label_lag"]);
+    for (name, count, expected) in [
+        ("presses", 6, vec!["label_lag"]),
+        ("one", 1, vec!["stale_frames", "label_lag"]),
+    ] {
+        let report = stress(&drawn(name, count), &model, &request, WORK).expect("tested");
+        let skipped: Vec<&str> = report.skipped.iter().map(|of| of.fault.as_str()).collect();
+        assert_eq!(skipped, expected, "{name}");
+        let lag = report.skipped.last().map(|of| of.reason.as_str());
+        assert!(
+            lag.is_some_and(|reason| reason.contains("within 1 s")),
+            "{lag:?}"
+        );
+        assert!(
+            report.faults.iter().any(|fault| fault.id == "dust"),
+            "{name}"
+        );
+    }
 }

@@ -155,3 +155,28 @@ fn a_new_untouched_picture_corrects_nine_tenths_of_faults_that_lie_still_in_the_
     let mut others = shares.filter(|share| share.value.is_none());
     assert!(others.all(|share| share.reason == Some(Undefined::NoExcess)));
 }
+
+#[test]
+fn on_the_bench_a_higher_severity_changes_pictures_more_and_nine_of_ten_errors_do_not_fall() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let seen = Drawn::new(0.7).record(&folder.path().join("seen"), None);
+    let model = fitted(&seen, "ridge", &["size=16x16", "difference=true"]);
+    let dataset = Drawn::new(0.0).record(&folder.path().join("unseen"), None);
+    let report = stress(&dataset, &model, &StressRequest::default(), WORK).expect("tested");
+    assert_eq!(report.faults.len(), FAULTS.len());
+    let (mut pairs, mut falling) = (0, Vec::new());
+    for fault in &report.faults {
+        for pair in fault.severities.windows(2) {
+            let stimuli = [&pair[0], &pair[1]].map(|of| of.stimulus.expect("a contact"));
+            assert!(stimuli[0] < stimuli[1], "{}: {stimuli:?}", fault.id);
+            let [lower, higher] = [&pair[0], &pair[1]].map(|of| of.stale["Fz"].degradation);
+            let [_, end] = higher.ci95.expect("sixteen points");
+            pairs += 1;
+            if end < lower.value.expect("a ratio") {
+                falling.push(format!("{} {}", fault.id, pair[1].severity));
+            }
+        }
+    }
+    // Within intervals: an error falls if the upper end of its interval is below the error of the lower severity.
+    assert!(10 * falling.len() <= pairs, "of {pairs}: {falling:?}");
+}

@@ -16,4 +16,7 @@ mod relative;
 mod scores;
 mod severities;
 mod stages;
+mod taxel_drawing;
+mod taxel_recordings;
+mod taxels;
 mod wear;

@@ -165,3 +165,35 @@ fn a_stale_picture_is_the_one_before() {
     assert!((65..=135).contains(&stale), "{stale}");
     assert_eq!(stress.apply(&frame, "s1", None), frame);
 }
+
+#[test]
+fn a_picture_of_twice_the_size_has_the_same_fault_in_shares_of_its_width() {
+    let sized = |width: u32| {
+        let share = |place: u32| (f64::from(place) + 0.5) / f64::from(width);
+        picture([width, width / 3 * 2], PixelFormat::Gray8, |x, y| {
+            0.5 + 0.3 * (25.0 * share(x)).sin() * (20.0 * share(y)).cos()
+        })
+    };
+    let frames = [96, 192].map(sized);
+    for id in ["defocus", "camera_shift", "led_loss", "tear"] {
+        let fault = fault(id);
+        let stress = Stress::new(fault, fault.table[4], 5);
+        let changes = frames.each_ref().map(|frame| -> Vec<f64> {
+            let changed = stress.apply(frame, "a", None);
+            let pairs = changed.samples().zip(frame.samples());
+            pairs
+                .map(|(after, before)| f64::from(after) - f64::from(before))
+                .collect()
+        });
+        let [small, large] = changes;
+        let reduced = |at: usize| {
+            let first = 2 * (at / 96) * 192 + 2 * (at % 96);
+            let four = [first, first + 1, first + 192, first + 193];
+            four.map(|place| large[place]).iter().sum::<f64>() / 4.0
+        };
+        let places = small.iter().enumerate();
+        let off: f64 = places.map(|(at, own)| (own - reduced(at)).abs()).sum();
+        let all: f64 = small.iter().map(|own| own.abs()).sum();
+        assert!(off < 0.2 * all, "{id}: {off} of {all}");
+    }
+}

@@ -1,6 +1,9 @@
 //! Severities by stimulus and by parameter.
 
-use taceva_stress::{By, FAULTS, RECORDING_FAULTS, StressRequest, TARGETS, severities, stress};
+use taceva_stress::{
+    By, FAULTS, RECORDING_FAULTS, StressRequest, TARGETS, TAXEL_FAULTS, TIME_FAULTS, severities,
+    stress,
+};
 
 use crate::drawing::{WORK, unseen};
 
@@ -120,7 +123,8 @@ fn each_table_of_the_page_names_each_fault_and_one_states_its_parameters() {
         assert_eq!(rows_of_page(&name).len(), 5, "{name}");
         assert_eq!(numbers(&name), [fault.table.to_vec()], "{name}");
     }
-    for fault in RECORDING_FAULTS {
+    let others = RECORDING_FAULTS.into_iter().chain(TAXEL_FAULTS);
+    for fault in others.chain(TIME_FAULTS) {
         let rows = rows_of_page(&format!("`{}`", fault.id));
         let stated = rows.iter().map(|cells| {
             let numbers = cells.iter().filter_map(|cell| number(cell));
