@@ -507,7 +507,7 @@ def test_an_estimator_that_calls_itself_without_end_fails_with_its_line_whatever
     code = made / "__init__.py"
     code.write_text(code.read_text().replace("return np.einsum(", f"{before}return self.predict(features) or np.einsum("))
     why = "\n".join(program.check("org.example.my-plane", made, "--only", "estimator/fits")["failed"])
-    assert "RecursionError: " in why and "it recurses too deeply" in why and "__init__.py, line" in why, why
+    assert "RecursionError: " in why and "the plugin recurses too deeply" in why and "__init__.py, line" in why, why
 
 
 def test_an_estimator_that_asks_for_plugins_fails_in_words_and_starts_none(tmp_path: Path, program: Program) -> None:

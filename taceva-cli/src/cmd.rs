@@ -166,7 +166,7 @@ pub(crate) fn table_scores(args: &TableArgs, format: Format) -> anyhow::Result<T
     }
 }
 
-/// Model file and recordings as text: `m.taceva on monday, tuesday`.
+/// Model file and recordings as text: `model m.taceva on monday, tuesday`.
 fn applied(model: &Path, datasets: &[PathBuf]) -> String {
     let datasets: Vec<String> = datasets
         .iter()

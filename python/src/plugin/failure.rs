@@ -126,7 +126,7 @@ fn words_within(py: Python<'_>, error: &PyErr, room: usize) -> String {
         behind.push_str("; install it in the environment of the plugin");
     }
     if error.is_instance_of::<PyRecursionError>(py) {
-        behind.push_str("; it recurses too deeply");
+        behind.push_str("; the plugin recurses too deeply");
     }
     let place = unread.map(|(_, place)| place);
     if let Some(place) = place.or_else(|| self::place(py, error)) {

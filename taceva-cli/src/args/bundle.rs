@@ -11,7 +11,7 @@ use super::{ListFormat, Output, PageArgs};
 ///
 /// A bundle holds results, the states and tables from which they were computed, and texts for readers; `taceva bundle verify` computes the
 /// numbers again. States come from `--state-out`. Tables are the inputs of `score`, or the samples beside a result (`--samples-out
-/// NAME.samples.csv`), which are found by their digest. A seal is a digest and no signature: it shows damage and careless edits, not fraud.
+/// NAME.samples.csv`), which are found by their digest. A seal is a digest, not a signature: it shows damage and careless edits, not fraud.
 #[derive(Debug, Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
 pub(crate) struct Bundle {

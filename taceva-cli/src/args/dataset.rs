@@ -76,9 +76,9 @@ pub(crate) struct Export {
     pub(crate) format: Form,
 }
 
-/// Show the content of a dataset and the devices that measured it, with certificates and latencies
+/// Show the content of a dataset and its devices, with certificates and latencies
 ///
-/// Prints one fact per line: content, origin and days, the instruments that measured the labels with their certificates, settings and latencies of the devices,
+/// Prints one fact per line: content, origin, days of recording, instruments of the labels, their certificates, settings and latencies of the devices,
 /// sessions, warnings. No frame is decoded.
 #[derive(Debug, Args)]
 pub(crate) struct Show {

@@ -102,7 +102,7 @@ fn every_claim_of_scored_tables_is_computed_again_from_folder_and_file() {
     let text = bench.ok("bundle verify b");
     assert!(text.contains("origin of the samples: unknown"), "{text}");
     assert!(
-        text.contains("A seal is a digest and no signature"),
+        text.contains("A seal is a digest, not a signature"),
         "{text}"
     );
 }

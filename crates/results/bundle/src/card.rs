@@ -10,7 +10,7 @@ use crate::yaml;
 /// Sentence on a bundle without a licence.
 pub(crate) const NO_LICENCE: &str = "No licence is stated, so nobody may copy these files.";
 /// Sentence on the meaning of a seal.
-pub(crate) const SEAL_REMARK: &str = "A seal is a digest and no signature: it shows damage and careless edits, not fraud. If predictions, states and results were all changed alike, only the model, or the truth from elsewhere, shows it.";
+pub(crate) const SEAL_REMARK: &str = "A seal is a digest, not a signature: it shows damage and careless edits, not fraud. If predictions, states and results were changed consistently, only the model, or a copy of the truth from another source, shows the change.";
 
 /// Sentences on the columns of the claims.
 const COLUMNS: &str = "`bias` is the mean of truth − prediction. The last column names the files from which `taceva bundle` computed the number \

@@ -109,7 +109,7 @@ fn list<'a>(sensors: impl Iterator<Item = &'a Sensor>) -> Markup {
         (scroll("Sensors", &table))
         p.note {
             "A dash: no number of that metric and unit is known here. The page of a sensor lists every known number. " (MECHANISMS)
-            " The column `reported` counts which of ten properties the work itself reports. Prices are in the currency of their source and not converted."
+            " The column `reported` counts how many of ten properties the work itself reports. Prices are in the currency of their source and not converted."
         }
     }
 }

@@ -12,7 +12,7 @@ use thiserror::Error;
 /// assert!(matches!(refused, TaskError::UnknownClass { row: 1, .. }));
 /// assert_eq!(
 ///     refused.to_string(),
-///     "row 1: the truth is \"slpi\", expected a name of the task; did you mean \"slip\"?"
+///     "row 1: the truth is \"slpi\", expected a class of the task; did you mean \"slip\"?"
 /// );
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -20,7 +20,7 @@ use thiserror::Error;
 #[non_exhaustive]
 pub enum TaskError {
     /// A class that the task does not name.
-    #[error("row {row}: the {column} is \"{}\", expected a name of the task{}", shown(.name), did_you_mean(.nearest))]
+    #[error("row {row}: the {column} is \"{}\", expected a class of the task{}", shown(.name), did_you_mean(.nearest))]
     UnknownClass {
         /// Number of the sample, from 1.
         row: u64,
@@ -28,10 +28,10 @@ pub enum TaskError {
         column: &'static str,
         /// Name found.
         name: String,
-        /// Nearest name of the task.
+        /// Nearest name of a class of the task.
         nearest: Option<String>,
     },
-    /// A position beyond the names of the task.
+    /// A position beyond the classes of the task.
     #[error("row {row}: the {column} is position {position}, expected less than {classes}")]
     UnknownPosition {
         /// Number of the sample, from 1.
@@ -56,11 +56,11 @@ pub enum TaskError {
         name: String,
     },
     /// A positive class that the task does not name.
-    #[error("positive is \"{}\", expected a name of the task{}", shown(.name), did_you_mean(.nearest))]
+    #[error("positive is \"{}\", expected a class of the task{}", shown(.name), did_you_mean(.nearest))]
     UnknownPositive {
         /// Name found.
         name: String,
-        /// Nearest name of the task.
+        /// Nearest name of a class of the task.
         nearest: Option<String>,
     },
     /// A number that is not finite.

@@ -213,7 +213,7 @@ impl Ranking {
         flags
     }
 
-    /// `value` of all samples, and `of_rest` of the samples without each cluster.
+    /// Applies `value` to all samples, and `of_rest` to the samples without each cluster.
     ///
     /// Each cluster is subtracted from a single list of levels and added again, to save memory.
     pub(crate) fn value_and_parts(

@@ -13,9 +13,9 @@ const EARLIER: f64 = 0.1;
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Candidate {
     pub(super) info: &'static ModelInfo,
-    /// Work of one fold, in s of the budget. For a network, the work of its whole training.
+    /// Work of one fold, in seconds of the budget. For a network, the work of its whole training.
     pub(super) fold_s: f64,
-    /// Work of the final fit, in s of the budget.
+    /// Work of the final fit, in seconds of the budget.
     pub(super) fit_s: f64,
 }
 
@@ -29,7 +29,7 @@ impl Candidate {
         DEEPER.contains(&self.info.name)
     }
 
-    /// Work of the first fold, in s of the budget.
+    /// Work of the first fold, in seconds of the budget.
     pub(super) fn first_s(&self) -> f64 {
         match self.is_network() {
             true => LOOK * self.fold_s,

@@ -11,7 +11,7 @@ pub(super) struct Entrant {
     pub(super) estimator: Box<dyn ModelEstimator>,
     /// Losses of each unit (inner) on each fold (outer).
     pub(super) losses: Vec<Vec<f64>>,
-    /// Work spent on trials of the model, in s of the budget.
+    /// Work spent on trials of the model, in seconds of the budget.
     pub(super) spent_s: f64,
     /// Completed share of the training; `None` for a complete training.
     pub(super) share: Option<f64>,

@@ -32,7 +32,7 @@ pub struct AutoTrial {
     /// Root mean square error over the completed folds, relative to the standard deviation of labels, over the varying channels. For a classifier, the share of
     /// wrong samples, averaged over labels.
     pub error: f64,
-    /// Work of the trial, in s of the budget.
+    /// Work of the trial, in seconds of the budget.
     pub cost_s: f64,
     /// Number of completed folds, counted from the first fold.
     pub folds: usize,
@@ -49,7 +49,7 @@ pub struct AutoTrial {
 pub struct Untried {
     /// Name of the model.
     pub model: String,
-    /// Work of a trial on one fold, in s of the budget.
+    /// Work of a trial on one fold, in seconds of the budget.
     pub cost_s: f64,
     /// Reason why the model was not tried.
     pub reason: String,

@@ -136,7 +136,7 @@ fn imported(lab: &Path, map: Option<String>, target: &Path) -> Result<String, Bo
     Ok(format!("{}, {by}{open}", parts.join(", ")))
 }
 
-/// Channels for whose columns a draft has gaps.
+/// Channels whose column is open in the draft.
 fn left_open(draft: &str) -> Vec<String> {
     let open = draft
         .lines()
@@ -145,7 +145,7 @@ fn left_open(draft: &str) -> Vec<String> {
         .collect()
 }
 
-/// Draft with units and sensor model filled in, and without channels that have gaps.
+/// Draft with units and sensor model filled in, without the channels whose column is open.
 fn filled(draft: &str) -> String {
     let line = |line: &str| {
         let unit = match line.as_bytes().first() {

@@ -108,7 +108,7 @@ impl EntryPlace {
     }
 }
 
-/// True for a name that is valid for a separate page and fits into tables.
+/// True if `name` gives a valid page address and fits into tables.
 pub(super) fn is_name(name: &str) -> bool {
     let slug = Sensor::slug_of(name);
     let has_letter = slug.chars().any(|letter| letter.is_ascii_alphanumeric());

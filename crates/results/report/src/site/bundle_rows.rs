@@ -14,7 +14,7 @@ use crate::number::numeral;
 pub(super) const FILE: &str = "measured.html";
 /// Remarks on the numbers.
 const NOTE: &str = "Numbers of different samples or definitions are not comparable, and none is ranked. A grey number has no interval. A seal is a \
-                    digest and no signature.";
+                    digest, not a signature.";
 
 /// Number of a bundle, with its sensor.
 struct Entry<'a> {

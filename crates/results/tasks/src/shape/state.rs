@@ -16,9 +16,9 @@ use crate::vector::GREATEST_MM;
 const HALF_SUM: usize = 0;
 /// Index of the sum of squared distances, mm².
 const SQUARED: usize = 1;
-/// Index of the sum of F scores below τ.
+/// Index of the sum of F scores of distances below τ.
 const F_STRICT: usize = 2;
-/// Index of the sum of F scores up to τ.
+/// Index of the sum of F scores of distances up to τ.
 const F_INCLUSIVE: usize = 3;
 /// Index of the number of pairs of clouds.
 const CLOUDS: usize = 0;

@@ -23,12 +23,12 @@ fn a_class_that_is_not_among_the_names_is_refused_with_row_and_nearest_name() {
     let text = refusal(slip.push("stroke", "no_silp", "slip"));
     assert_eq!(
         text,
-        "row 2: the truth is \"no_silp\", expected a name of the task; did you mean \"no_slip\"?"
+        "row 2: the truth is \"no_silp\", expected a class of the task; did you mean \"no_slip\"?"
     );
     let text = refusal(slip.push("stroke", "slip", "gripping"));
     assert_eq!(
         text,
-        "row 2: the prediction is \"gripping\", expected a name of the task"
+        "row 2: the prediction is \"gripping\", expected a class of the task"
     );
     let mut top_k = TopK::new(["a", "b"]).expect("names");
     let text = refusal(top_k.push("clip", "c", &[0.5, 0.5]));
@@ -70,7 +70,7 @@ fn the_same_name_twice_is_refused() {
 
 #[test]
 fn a_positive_class_that_is_not_among_the_names_is_refused_with_the_nearest_name() {
-    let expected = "positive is \"Slipp\", expected a name of the task; did you mean \"slip\"?";
+    let expected = "positive is \"Slipp\", expected a class of the task; did you mean \"slip\"?";
     assert_eq!(
         refusal(Classes::new(["no_slip", "slip"], Some("Slipp"))),
         expected

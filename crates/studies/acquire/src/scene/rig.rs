@@ -272,8 +272,8 @@ fn check_places(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     Ok(())
 }
 
-/// Rejects an invalid or empty changer of `rig`, with the line of the rig file. Rejects every changer if the robot is simulated, because its bench makes all
-/// changes. Opens no device.
+/// Rejects an invalid or empty changer of `rig`, with the line of the rig file. Rejects every changer if the robot is simulated, because the
+/// simulated bench changes specimens and units itself. Opens no device.
 pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), SceneError> {
     let folder = Path::new(rig.name()).parent().unwrap_or(Path::new(""));
     let spec = RigSpec::of_file(rig, folder);
@@ -297,7 +297,7 @@ pub(crate) fn check_changers(rig: &RigFile, drivers: &Drivers) -> Result<(), Sce
         }
         if is_simulated_here(rig, drivers) {
             return Err(contradiction(format!(
-                "`{key}`: the robot is simulated, and its bench makes all changes itself: remove `{key}`"
+                "`{key}`: the robot is simulated, and the simulated bench changes specimens and units itself: remove `{key}`"
             )));
         }
     }

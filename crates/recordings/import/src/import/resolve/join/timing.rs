@@ -48,7 +48,7 @@ pub(super) struct Timing {
     pub(super) greatest_gap_s: Option<f64>,
     /// Number of rows with a match across a pause of the joined table.
     far: u64,
-    /// Maximum usual step of the joined tables of these rows, s.
+    /// Longest usual step among the joined tables of the rows counted in `far`, s.
     usual_s: f64,
     lagged: Lagged,
     /// The last two rows added.
