@@ -46,7 +46,7 @@ enum Request {
 #[derive(Clone, Debug, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields)]
 struct Specimen {
-    /// Radius of a ball.
+    /// Radius of a ball, mm; `None` for a board.
     ball_mm: Option<f64>,
     grating: Option<String>,
     spacing_mm: Option<f64>,
