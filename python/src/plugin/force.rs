@@ -27,9 +27,9 @@ pub(super) struct PythonForce {
 struct Reading {
     wrench: Wrench,
     stamp: Stamp,
-    /// Sequence number of the device.
+    /// Sequence number of the device; `None` if it numbers no readings.
     sequence: Option<u64>,
-    /// Number of lost readings.
+    /// Number of lost readings; `None` if not counted.
     lost: Option<u64>,
 }
 
