@@ -160,7 +160,7 @@ impl Printer {
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Ends a completed motion, begins the next, and executes commands that waited for them.
+    /// Ends a completed motion, begins the next, and executes commands that waited for the motions.
     fn turn(&self) -> String {
         let mut inside = self.inside();
         if inside.is_killed {

@@ -186,7 +186,7 @@ impl World {
         }
     }
 
-    /// Advances time by one way of a call.
+    /// Advances time by the delay of a request or of an answer.
     pub(super) fn link(&mut self) {
         let slow = self.faults.strike(FaultKind::SlowLink, self.now_s);
         self.pass(if slow { SLOW_LINK_S } else { LINK_S });
