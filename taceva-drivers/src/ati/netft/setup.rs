@@ -20,7 +20,7 @@ pub(super) struct Setup {
     /// Configured rate of records, Hz; `None` if the page lacks it. `internal_hz` is the rate of the measurement.
     rate_hz: Option<f64>,
     internal_hz: Option<f64>,
-    /// Measuring ranges of the forces, N; `None` if the page lacks them.
+    /// Measuring ranges of the forces, N; `None` if unknown.
     ranges_n: Option<[f64; 3]>,
     /// True if the box subtracts a bias; `None` if the page does not state it.
     is_biased: Option<bool>,

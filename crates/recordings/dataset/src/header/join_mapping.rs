@@ -34,7 +34,7 @@ pub struct MappedJoin {
     /// Maximum time difference, ms; `None` for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance_ms: Option<f64>,
-    /// Offset of the clock of this table from the clock of the main table, ms; positive if the clock of this table is ahead.
+    /// Lead of this table's clock over the clock of the main table, ms. `None` if it differs by row, or for other joins.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub lag_ms: Option<f64>,
     /// Source of an offset that differs by row: the column that contains the offset, or `file = ms` for each file.
